@@ -1,0 +1,34 @@
+//! What is done, but should be looked at.
+
+use serde::Serialize;
+
+/// How much a [`Finding`] matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Worth knowing.
+    Note,
+    /// Look at it before the file is downloaded.
+    Warning,
+    /// The answer is no: no program is written (exit status 1).
+    Error,
+}
+
+/// Something in a program that a person should look at.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    /// Stable name in kebab-case.
+    pub id: &'static str,
+    /// How much it matters.
+    pub severity: Severity,
+    /// The file as the user named it.
+    pub file: String,
+    /// Line, from 1; 0 where the finding concerns the whole file.
+    pub line: usize,
+    /// Column in bytes, from 1; 0 where the finding concerns the whole file.
+    pub column: usize,
+    /// What was found, with the value and the limit.
+    pub message: String,
+    /// The way out; empty where there is none.
+    pub hint: String,
+}

@@ -1,0 +1,66 @@
+//! Poses, rotations and the scalars they are computed with; knows no robots.
+//!
+//! A transform `a_from_b` maps coordinates in frame b to coordinates in frame a, so adjacent words match in a product:
+//! `world_from_tool = world_from_base * base_from_flange * flange_from_tool`. Lengths are metres, angles radians.
+
+mod dual;
+mod lanes;
+mod pose;
+mod rotation;
+mod scalar;
+pub mod units;
+
+pub use dual::Dual;
+pub use lanes::Lanes;
+pub use pose::{Pose, Separation};
+pub use rotation::{Quaternion, Rotation};
+pub use scalar::Scalar;
+
+/// A vector or point of three coordinates.
+pub type Vector<S = f64> = [S; 3];
+
+/// `a + b`.
+#[inline(always)]
+pub fn add<S: Scalar>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// `a - b`.
+#[inline(always)]
+pub fn sub<S: Scalar>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `k a`.
+#[inline(always)]
+pub fn scale<S: Scalar>(k: S, a: Vector<S>) -> Vector<S> {
+    [k * a[0], k * a[1], k * a[2]]
+}
+
+/// Scalar product.
+#[inline(always)]
+pub fn dot<S: Scalar>(a: Vector<S>, b: Vector<S>) -> S {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Vector product.
+#[inline(always)]
+pub fn cross<S: Scalar>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// Euclidean length.
+#[inline(always)]
+pub fn norm<S: Scalar>(a: Vector<S>) -> S {
+    dot(a, a).sqrt()
+}
+
+/// A vector of plain numbers as a vector of `S`.
+#[inline(always)]
+pub fn constant<S: Scalar>(a: Vector<f64>) -> Vector<S> {
+    a.map(S::constant)
+}

@@ -1,0 +1,5 @@
+//! Makes an offline-programmed robot path land where the simulation wanted it.
+#![allow(missing_docs)]
+pub mod finding;
+pub mod geometry;
+pub mod program;

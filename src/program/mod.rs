@@ -1,0 +1,274 @@
+//! Robot programs as bytes, and the targets in them.
+//!
+//! A [`Language`] reads program files into a [`Program`]: which numbers at which bytes make a target, and which moves drive
+//! to it with which tool in which work frame. It never evaluates kinematics. Writing is the reverse: the new numbers of a
+//! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
+//! stays as it was ([`edit`]).
+
+mod edit;
+mod error;
+mod marker;
+pub mod number;
+mod source;
+
+pub use edit::Edits;
+pub use error::ReadError;
+pub use marker::Marker;
+pub use source::Source;
+
+use crate::finding::Finding;
+use crate::geometry::{Pose, Vector};
+use std::ops::Range;
+
+/// What a language is called and does; the text of `poseshift languages`.
+#[derive(Debug)]
+pub struct About {
+    /// Name in profiles and on the command line.
+    pub id: &'static str,
+    /// Name for people.
+    pub name: &'static str,
+    /// File name endings, lower case, without the dot.
+    pub extensions: &'static [&'static str],
+    /// What is rewritten.
+    pub rewrites: &'static [&'static str],
+    /// What is seen and left as it is.
+    pub leaves: &'static [&'static str],
+    /// What is reported and blocks the file.
+    pub refuses: &'static [&'static str],
+}
+
+/// One programming language of robots.
+pub trait Language: Sync {
+    /// Its names and what it handles.
+    fn about(&self) -> &'static About;
+
+    /// Whether the content looks like a program of this language (for files whose ending does not tell).
+    fn recognises(&self, source: &Source) -> bool;
+
+    /// Reads program files that belong together: data in one may be used in another.
+    ///
+    /// # Errors
+    /// Where the text is not a program of this language or is broken.
+    fn read(&self, sources: &[Source]) -> Result<Program, ReadError>;
+
+    /// What each number of a target is, in the order of [`Target::numbers`].
+    fn roles(&self, shape: Shape) -> &'static [Role];
+
+    /// The meaning of a target's numbers, as many as it has roles.
+    fn decode(&self, shape: Shape, numbers: &[f64]) -> Decoded;
+
+    /// Writes the numbers of `value` into `numbers`, which hold the target's present ones. Configuration data change only
+    /// where `before` and `after` (the controller's joints for the old and the new pose) truly differ in them; signs and
+    /// turns that the pose leaves open stay as near to the present numbers as they can.
+    fn encode(
+        &self,
+        shape: Shape,
+        value: &Value,
+        before: &Posture,
+        after: &Posture,
+        numbers: &mut [f64],
+    );
+
+    /// Where the marker goes and its text in the file's own line ends.
+    fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>);
+}
+
+/// Which kind of target the numbers are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shape {
+    /// A tool pose in a work frame, with or without configuration data.
+    Pose,
+    /// Six joint angles.
+    Joints,
+}
+
+/// What one number of a target is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Coordinate of the position.
+    Position,
+    /// Part of the orientation.
+    Orientation,
+    /// Joint angle.
+    Joint,
+    /// Integer that tells which inverse solution is meant.
+    Configuration,
+}
+
+/// What a target asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// `frame_from_tool`, metres.
+    Pose(Pose),
+    /// Controller's joint angles, radians.
+    Joints([f64; 6]),
+}
+
+/// A target's numbers, understood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decoded {
+    /// The pose or the joints.
+    pub value: Value,
+    /// What the configuration data say about the joints.
+    pub configuration: Configuration,
+}
+
+/// Which inverse solutions a target's configuration data allow. `None` is: they do not say.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Configuration {
+    /// The wrist centre lies behind axis 1.
+    pub behind_axis_1: Option<bool>,
+    /// The wrist centre lies behind the lower arm.
+    pub behind_lower_arm: Option<bool>,
+    /// Joint 5 is negative.
+    pub joint_5_negative: Option<bool>,
+    /// The range `[low, high)` of each of the controller's joint angles, radians.
+    pub joints: [Option<(f64, f64)>; 6],
+}
+
+/// What configuration data are computed from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posture {
+    /// Controller's joint angles, radians.
+    pub joints_rad: [f64; 6],
+    /// The wrist centre lies behind axis 1: its x is negative in the frame that turns with axis 1.
+    pub behind_axis_1: bool,
+    /// The wrist centre lies behind the lower arm.
+    pub behind_lower_arm: bool,
+}
+
+/// A number at its place in a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number {
+    /// First byte of its field: the sign or first digit, or the blanks before it where the column is kept.
+    pub start: u32,
+    /// Bytes of the field.
+    pub length: u16,
+    /// Its value in the file's unit.
+    pub value: f64,
+}
+
+/// Index of a target in [`Program::targets`].
+pub type TargetId = usize;
+/// Index of a tool in [`Program::tools`].
+pub type ToolId = usize;
+/// Index of a work frame in [`Program::frames`].
+pub type FrameId = usize;
+
+/// One target and where its numbers stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its name in the program, such as `p10` or `P[3]`; none where it stands inside a move.
+    pub name: Option<Box<str>>,
+    /// Index of its file in the sources.
+    pub file: u32,
+    /// First byte of the whole target.
+    pub offset: u32,
+    /// Pose or joints.
+    pub shape: Shape,
+    /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`].
+    pub numbers: Range<u32>,
+    /// It must stay as it is; a finding says why.
+    pub blocked: bool,
+}
+
+/// How the controller goes to a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Motion {
+    /// Joints interpolated.
+    Joint,
+    /// Straight line of the tool.
+    Linear,
+    /// The point an arc passes through.
+    ArcVia,
+    /// The end of an arc.
+    ArcEnd,
+}
+
+/// What is added to a target before the robot goes there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Displacement {
+    /// Nothing: the robot goes to the target.
+    None,
+    /// A translation in the work frame, metres (RAPID `Offs`).
+    Frame(Vector),
+    /// A motion in the tool frame (RAPID `RelTool`).
+    Tool(Pose),
+    /// Something that only the running program knows.
+    Unknown,
+}
+
+/// One use of a target by a move instruction, in the order of the text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// Index of the file in the sources.
+    pub file: u32,
+    /// First byte of the instruction.
+    pub offset: u32,
+    /// How the robot gets there.
+    pub motion: Motion,
+    /// Where to.
+    pub target: TargetId,
+    /// With which tool.
+    pub tool: ToolId,
+    /// In which work frame.
+    pub frame: FrameId,
+    /// Added to the target.
+    pub displacement: Displacement,
+    /// The controller honours the target's configuration data in this move.
+    pub configured: bool,
+}
+
+/// A tool that moves name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// Its name in the program.
+    pub name: String,
+    /// Where its tip is; `None` where the files do not tell.
+    pub flange_from_tool: Option<Pose>,
+    /// Its load where the files give one.
+    pub load: Option<Load>,
+}
+
+/// The mass a flange carries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Centre of gravity in the flange frame, metres.
+    pub cog_m: Vector,
+}
+
+/// A work frame that moves name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Its name in the program.
+    pub name: String,
+    /// Where it is; `None` where the files do not tell.
+    pub world_from_frame: Option<Pose>,
+}
+
+/// What program files hold.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Program {
+    /// All targets with numbers in the files, by file and place.
+    pub targets: Vec<Target>,
+    /// The numbers of all targets.
+    pub numbers: Vec<Number>,
+    /// The moves to them, by file and place.
+    pub moves: Vec<Move>,
+    /// Tools as moves use them; one name may stand for several values.
+    pub tools: Vec<Tool>,
+    /// Work frames as moves use them.
+    pub frames: Vec<Frame>,
+    /// What the reader saw that a person should look at.
+    pub findings: Vec<Finding>,
+}
+
+impl Program {
+    /// The numbers of one target.
+    #[must_use]
+    pub fn numbers_of(&self, target: &Target) -> &[Number] {
+        &self.numbers[target.numbers.start as usize..target.numbers.end as usize]
+    }
+}

@@ -1,0 +1,258 @@
+//! Numbers in program text: read, and written again in the style of what stood there.
+
+use std::io::Write;
+
+/// Digits after the point that a number may get at most: what a 64-bit number holds.
+pub const MOST_DECIMALS: usize = 17;
+/// Decimals of a number whose group has no number in fixed notation: controllers print six digits.
+const CONTROLLER_DECIMALS: usize = 6;
+/// Below this a number whose old text had an exponent is written with one again.
+const EXPONENT_BELOW: f64 = 1e-4;
+
+/// The value of a decimal number: `12`, `-.5`, `3.`, `+1.5E-04`. `None` where the text is anything else or not finite.
+#[must_use]
+pub fn parse(text: &[u8]) -> Option<f64> {
+    let digits = text
+        .iter()
+        .all(|b| matches!(b, b'0'..=b'9' | b'.' | b'+' | b'-' | b'e' | b'E'));
+    let text = std::str::from_utf8(text).ok().filter(|_| digits)?;
+    text.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// How the numbers of one file write magnitudes below one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fraction {
+    /// `0.5`
+    Zero,
+    /// `.5`
+    Bare,
+}
+
+impl Fraction {
+    /// The habit this text shows; `None` where its magnitude is not below one or it has no point.
+    #[must_use]
+    pub fn shown_by(text: &[u8]) -> Option<Self> {
+        match unsigned(text) {
+            [b'.', ..] => Some(Self::Bare),
+            [b'0', b'.', rest @ ..] if rest.iter().any(|b| matches!(b, b'1'..=b'9')) => {
+                Some(Self::Zero)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// How the numbers of one group (the coordinates of one position, the parts of one orientation) are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Style {
+    /// Digits after the point.
+    pub decimals: usize,
+    /// Magnitudes below one.
+    pub fraction: Fraction,
+}
+
+impl Style {
+    /// The style of a group: as many decimals as its most precise number in fixed notation has, so that a `0` or `500`
+    /// among numbers with decimals is not taken for one that may not have any. `at_least` raises them.
+    pub fn of_group<'a>(
+        texts: impl Iterator<Item = &'a [u8]>,
+        at_least: usize,
+        fraction: Fraction,
+    ) -> Self {
+        let fixed = texts
+            .map(trimmed)
+            .filter(|text| exponent_at(text).is_none())
+            .map(decimals);
+        let decimals = fixed
+            .max()
+            .unwrap_or(CONTROLLER_DECIMALS)
+            .max(at_least)
+            .min(MOST_DECIMALS);
+        Self { decimals, fraction }
+    }
+
+    /// Appends `value` in this style, with the sign habit, exponent letter and column width of the text it replaces.
+    ///
+    /// A field that starts with blanks keeps its last column where the new number fits. Zero never gets a minus sign, and
+    /// an exponent is written only where the old text had one and the number is below 1e-4.
+    pub fn write(self, old: &[u8], value: f64, out: &mut Vec<u8>) {
+        let mut digits = Vec::with_capacity(24);
+        let text = trimmed(old);
+        match exponent_at(text) {
+            Some(at) if value != 0.0 && value.abs() < EXPONENT_BELOW => {
+                write_exponent(&text[..at], &text[at..], value, &mut digits)
+            }
+            _ => write_fixed(value, self.decimals, &mut digits),
+        }
+        if text.first() == Some(&b'+') && value >= 0.0 {
+            digits.insert(0, b'+');
+        }
+        if self.fraction == Fraction::Bare && value != 0.0 && exponent_at(&digits).is_none() {
+            drop_leading_zero(&mut digits);
+        }
+        if self.decimals == 0 && text.last() == Some(&b'.') {
+            digits.push(b'.');
+        }
+        let blanks = old.len() - text.len();
+        if blanks > 0 {
+            let padding = old.len().saturating_sub(digits.len()).max(1);
+            out.extend(std::iter::repeat_n(b' ', padding));
+        }
+        out.extend_from_slice(&digits);
+    }
+}
+
+fn trimmed(text: &[u8]) -> &[u8] {
+    text.trim_ascii_start()
+}
+
+fn unsigned(text: &[u8]) -> &[u8] {
+    match trimmed(text) {
+        [b'+' | b'-', rest @ ..] => rest,
+        rest => rest,
+    }
+}
+
+fn exponent_at(text: &[u8]) -> Option<usize> {
+    text.iter().position(|b| matches!(b, b'e' | b'E'))
+}
+
+fn decimals(text: &[u8]) -> usize {
+    text.iter()
+        .position(|&b| b == b'.')
+        .map_or(0, |point| text.len() - point - 1)
+}
+
+/// Removes the `0` of `0.5` and `-0.5`; leaves an exact zero alone.
+fn drop_leading_zero(digits: &mut Vec<u8>) {
+    let at = usize::from(matches!(digits.first(), Some(b'+' | b'-')));
+    if digits.get(at) == Some(&b'0')
+        && digits.get(at + 1) == Some(&b'.')
+        && digits.iter().any(|b| matches!(b, b'1'..=b'9'))
+    {
+        digits.remove(at);
+    }
+}
+
+fn write_fixed(value: f64, decimals: usize, out: &mut Vec<u8>) {
+    const POWERS: [f64; 16] = [
+        1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+    ];
+    const EXACT: f64 = 9_007_199_254_740_992.0;
+    let scaled = POWERS
+        .get(decimals)
+        .map_or(f64::INFINITY, |power| (value.abs() * power).round());
+    if scaled >= EXACT {
+        let text = format!("{value:.decimals$}");
+        let zero = !text.bytes().any(|b| matches!(b, b'1'..=b'9'));
+        out.extend_from_slice(
+            if zero {
+                text.trim_start_matches('-')
+            } else {
+                &text
+            }
+            .as_bytes(),
+        );
+        return;
+    }
+    // below 2^53 the product is a whole number without loss
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let (whole, unit) = (scaled as u64, POWERS[decimals] as u64);
+    let sign = if value < 0.0 && whole != 0 { "-" } else { "" };
+    let written = match decimals {
+        0 => write!(out, "{sign}{whole}"),
+        _ => write!(out, "{sign}{}.{:0decimals$}", whole / unit, whole % unit),
+    };
+    written.expect("a vector takes all bytes");
+}
+
+/// Mantissa digits as in the old text, exponent letter, sign and width too: `7.16612E-05`, `-9E-9`.
+fn write_exponent(old_mantissa: &[u8], old_exponent: &[u8], value: f64, out: &mut Vec<u8>) {
+    let text = format!(
+        "{value:.*e}",
+        decimals(old_mantissa).max(CONTROLLER_DECIMALS - 1)
+    );
+    let (mantissa, exponent) = text.split_once('e').expect("the format has an exponent");
+    let power = exponent.trim_start_matches('-');
+    let width = old_exponent[1..]
+        .iter()
+        .filter(|b| b.is_ascii_digit())
+        .count();
+    out.extend_from_slice(mantissa.as_bytes());
+    out.push(old_exponent[0]);
+    out.push(b'-');
+    out.extend(std::iter::repeat_n(b'0', width.saturating_sub(power.len())));
+    out.extend_from_slice(power.as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(old: &str, siblings: &[&str], value: f64) -> String {
+        let texts = siblings.iter().chain([&old]).map(|t| t.as_bytes());
+        let fraction = Fraction::shown_by(old.as_bytes()).unwrap_or(Fraction::Zero);
+        let mut out = Vec::new();
+        Style::of_group(texts, 0, fraction).write(old.as_bytes(), value, &mut out);
+        String::from_utf8(out).expect("digits")
+    }
+
+    #[test]
+    fn decimals_signs_and_zeros_follow_the_old_text() {
+        for (old, value, new) in [
+            ("583.66", 583.7049, "583.70"),
+            ("583.66", -0.001, "0.00"),
+            ("500", 499.6, "500"),
+            ("500.", 499.6, "500."),
+            ("0.000", -12.3456, "-12.346"),
+            ("-.287", -0.2864, "-.286"),
+            (".193", 0.0, "0.000"),
+            (".193", 1.5, "1.500"),
+            ("+12.50", 12.625, "+12.63"),
+            ("0.70710678118654757", 0.707_106_78, "0.70710678000000005"),
+            ("1.0", 99_999_999.96, "100000000.0"),
+        ] {
+            assert_eq!(written(old, &[], value), new, "{old} becomes {value}");
+        }
+    }
+
+    #[test]
+    fn a_short_number_gets_the_decimals_of_its_siblings() {
+        assert_eq!(written("0", &["583.66", "-1.2"], 0.127), "0.13");
+        assert_eq!(written("1", &["0", "0"], 0.99), "1");
+    }
+
+    #[test]
+    fn exponents_stay_small_numbers_and_become_fixed_when_large() {
+        assert_eq!(
+            written("7.16612E-05", &["0.707107"], 1.234_567e-5),
+            "1.23457E-05"
+        );
+        assert_eq!(written("-9E-9", &["0.707107"], -3.1e-8), "-3.10000E-8");
+        assert_eq!(written("7.16612E-05", &["0.707107"], 0.0012), "0.001200");
+        assert_eq!(written("2.204e-14", &[], 0.25), "0.250000");
+        assert_eq!(written("0.000012", &[], 0.000_001_2), "0.000001");
+    }
+
+    #[test]
+    fn a_field_keeps_its_last_column() {
+        assert_eq!(written("  1922.978", &[], -54.3281), "   -54.328");
+        assert_eq!(written(" 9.999", &[], 12_345.678), " 12345.678");
+    }
+
+    #[test]
+    fn only_finite_plain_numbers_are_read() {
+        for (text, value) in [
+            ("12", 12.0),
+            ("-.5", -0.5),
+            ("3.", 3.0),
+            ("+1.5E-04", 1.5e-4),
+            ("9E9", 9e9),
+        ] {
+            assert_eq!(parse(text.as_bytes()), Some(value));
+        }
+        for text in ["", "1e400", "nan", "inf", "1,5", "0x10", "--1", "1_000"] {
+            assert_eq!(parse(text.as_bytes()), None, "{text}");
+        }
+    }
+}
