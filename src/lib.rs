@@ -2,4 +2,5 @@
 #![allow(missing_docs)]
 pub mod finding;
 pub mod geometry;
+pub mod model;
 pub mod program;

@@ -1,0 +1,16 @@
+//! What, beside the joint angles, decides where the tool is.
+
+use crate::geometry::Vector;
+
+/// The circumstances of one posture. Unknown ones stay at their default and switch off the effects that need them.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Conditions {
+    /// Direction in which each joint last moved: −1, +1, or 0 where it is unknown.
+    pub direction: [f64; 6],
+    /// External force on the tool's origin along the world's axes, newton.
+    pub force_n: Vector,
+    /// Temperature of the arm, °C.
+    pub temperature_c: Option<f64>,
+    /// Time since the session began, seconds.
+    pub time_s: Option<f64>,
+}

@@ -1,0 +1,27 @@
+//! Where the base really stands.
+
+use super::definition::{Definition, frame_parameters};
+use super::{Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Pose, Scalar};
+use crate::model::{Conditions, Geometry};
+
+/// `world_from_base · Trans(x, y, z) · Rx · Ry · Rz`: the deviation is given in the base's own frame.
+pub(super) struct BaseFrame;
+
+impl Equation for BaseFrame {
+    const DEFINITION: Definition = Definition {
+        id: "base_frame",
+        summary: "the base stands elsewhere than the profile says",
+        equation: "real world_from_base = world_from_base · Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz)",
+        source: "A. Nubiola, thesis, eq. I.2",
+        site: &[],
+        parameters: &frame_parameters(2.0, 0.2),
+        needs: &[],
+        deflects: false,
+        bends: false,
+    };
+
+    fn change_geometry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
+        geometry.world_from_base = geometry.world_from_base * Pose::from_xyz_rxryrz(*p);
+    }
+}

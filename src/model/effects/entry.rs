@@ -1,0 +1,231 @@
+//! An effect as an entry of a profile: `{effect: ID, joint: 2, rad_per_n_m: 3.2e-5}`.
+
+use super::definition::{Definition, Parameter, Place};
+use super::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
+use serde_json::{Map, Value, json};
+
+/// What is wrong with an entry, and which of its keys is to blame.
+#[derive(Debug, thiserror::Error, Clone, PartialEq)]
+pub enum EntryError {
+    /// There is no `effect` key.
+    #[error("an entry of effects has no key `effect`")]
+    NoEffect,
+    /// No effect has this name.
+    #[error("no effect is called `{id}`")]
+    UnknownEffect {
+        /// The name.
+        id: String,
+    },
+    /// The effect has no such key.
+    #[error("`{id}` has no key `{key}`")]
+    UnknownKey {
+        /// The effect.
+        id: &'static str,
+        /// The key.
+        key: String,
+    },
+    /// A key the effect cannot do without.
+    #[error("`{id}` needs the key `{key}`")]
+    MissingKey {
+        /// The effect.
+        id: &'static str,
+        /// The key.
+        key: &'static str,
+    },
+    /// A value of the wrong kind.
+    #[error("`{key}` of `{id}` is {found}; it must be {expected}")]
+    BadValue {
+        /// The effect.
+        id: &'static str,
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// What belongs there.
+        expected: String,
+    },
+    /// A joint on which its own motion leaks.
+    #[error("`{id}` couples joint {joint} on itself")]
+    SameJoint {
+        /// The effect.
+        id: &'static str,
+        /// The joint, from 1.
+        joint: usize,
+    },
+}
+
+impl EntryError {
+    /// The key to point at; `None` is the whole entry.
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::NoEffect | Self::MissingKey { .. } => None,
+            Self::UnknownEffect { .. } => Some("effect"),
+            Self::UnknownKey { key, .. } | Self::BadValue { key, .. } => Some(key),
+            Self::SameJoint { .. } => Some(Place::On.key()),
+        }
+    }
+
+    /// The way out.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::NoEffect | Self::UnknownEffect { .. } => {
+                let ids: Vec<_> = REGISTRY.iter().map(|kind| kind.definition().id).collect();
+                format!("effects are: {}", ids.join(", "))
+            }
+            Self::UnknownKey { id, .. } | Self::MissingKey { id, .. } => {
+                let kind = Kind::by_id(id).expect("the name came from the registry");
+                format!("keys of `{id}`: {}", keys(kind.definition()).collect::<Vec<_>>().join(", "))
+            }
+            Self::BadValue { .. } | Self::SameJoint { .. } => "`poseshift effects` lists every key with its unit".into(),
+        }
+    }
+}
+
+fn keys(definition: &Definition) -> impl Iterator<Item = &'static str> {
+    let places = definition.site.iter().map(|place| place.key());
+    places.chain(definition.parameters.iter().map(|parameter| parameter.key))
+}
+
+/// Whether an entry may leave out this parameter (it is then zero): an effect's only parameter may not be left out.
+fn optional(definition: &Definition) -> bool {
+    definition.parameters.len() > 1
+}
+
+impl Effect {
+    /// Reads an entry's keys and values.
+    ///
+    /// # Errors
+    /// An unknown effect, an unknown or missing key, a value of the wrong kind, out of range or not finite.
+    pub fn from_entry(entry: &Map<String, Value>) -> Result<Self, EntryError> {
+        let id = entry.get("effect").ok_or(EntryError::NoEffect)?;
+        let kind = id.as_str().and_then(Kind::by_id).ok_or_else(|| EntryError::UnknownEffect { id: plain(id) })?;
+        let definition = kind.definition();
+        let known = |key: &String| key == "effect" || keys(definition).any(|k| k == key);
+        if let Some(key) = entry.keys().find(|key| !known(key)) {
+            return Err(EntryError::UnknownKey { id: definition.id, key: key.clone() });
+        }
+        let mut site = Site::default();
+        for place in definition.site {
+            let value = entry.get(place.key());
+            match (place, value) {
+                (Place::Tool, None) => {}
+                (_, None) => return Err(EntryError::MissingKey { id: definition.id, key: place.key() }),
+                (Place::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
+                (Place::Link | Place::Joint, Some(value)) => site.index = whole(definition, *place, value)? as usize - 1,
+                (Place::On, Some(value)) => site.on = whole(definition, *place, value)? as usize - 1,
+                (Place::Order, Some(value)) => site.order = whole(definition, *place, value)?,
+            }
+        }
+        if definition.site.contains(&Place::On) && site.index == site.on {
+            return Err(EntryError::SameJoint { id: definition.id, joint: site.index + 1 });
+        }
+        let mut parameters = [0.0; MOST_PARAMETERS];
+        for (slot, parameter) in parameters.iter_mut().zip(definition.parameters) {
+            match entry.get(parameter.key) {
+                Some(value) => *slot = number(definition, parameter, value)? * parameter.unit.in_si(),
+                None if optional(definition) => {}
+                None => return Err(EntryError::MissingKey { id: definition.id, key: parameter.key }),
+            }
+        }
+        Ok(Self { kind, site, parameters })
+    }
+
+    /// The entry's keys and values in the order of the definition; parameters that are zero and may be left out are.
+    #[must_use]
+    pub fn to_entry(&self) -> Vec<(&'static str, Value)> {
+        let definition = self.definition();
+        let mut entry = vec![("effect", json!(definition.id))];
+        for place in definition.site {
+            match place {
+                Place::Link | Place::Joint => entry.push((place.key(), json!(self.site.index + 1))),
+                Place::On => entry.push((place.key(), json!(self.site.on + 1))),
+                Place::Order => entry.push((place.key(), json!(self.site.order))),
+                Place::Tool => entry.extend(self.site.tool.as_ref().map(|tool| (place.key(), json!(tool)))),
+            }
+        }
+        for (value, parameter) in self.parameters.iter().zip(definition.parameters) {
+            if *value != 0.0 || !optional(definition) {
+                entry.push((parameter.key, json!(value / parameter.unit.in_si())));
+            }
+        }
+        entry
+    }
+
+    /// What it is and belongs to, in words: `joint_harmonic joint 6 order 2`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let definition = self.definition();
+        let count = 1 + definition.site.len();
+        let words = self.to_entry().into_iter().take(count).filter(|(key, _)| keys(definition).all(|k| k != *key) || definition.site.iter().any(|p| p.key() == *key));
+        words
+            .map(|(key, value)| if key == "effect" { plain(&value) } else { format!("{key} {}", plain(&value)) })
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+
+    /// Whether two entries are the same effect of the same place.
+    #[must_use]
+    pub fn same_place(&self, other: &Self) -> bool {
+        self.kind == other.kind && self.site == other.site
+    }
+}
+
+fn plain(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+fn bad(definition: &Definition, key: &str, found: &Value, expected: String) -> EntryError {
+    EntryError::BadValue { id: definition.id, key: key.into(), found: plain(found), expected }
+}
+
+fn name(definition: &Definition, place: Place, value: &Value) -> Result<String, EntryError> {
+    let text = value.as_str().filter(|text| !text.is_empty());
+    text.map(str::to_owned).ok_or_else(|| bad(definition, place.key(), value, "a name".into()))
+}
+
+fn whole(definition: &Definition, place: Place, value: &Value) -> Result<u32, EntryError> {
+    let (low, high) = place.range().expect("a place that is counted");
+    let number = value.as_u64().and_then(|n| u32::try_from(n).ok()).filter(|n| (low..=high).contains(n));
+    number.ok_or_else(|| bad(definition, place.key(), value, format!("a whole number from {low} to {high}")))
+}
+
+fn number(definition: &Definition, parameter: &Parameter, value: &Value) -> Result<f64, EntryError> {
+    let number = value.as_f64().filter(|n| n.is_finite());
+    number.ok_or_else(|| bad(definition, parameter.key, value, format!("a finite number in {}", parameter.unit.symbol())))
+}
+
+/// The JSON Schema of one entry, from the registry.
+#[must_use]
+pub fn entry_schema() -> Value {
+    let one = |definition: &Definition| {
+        let mut properties = Map::from_iter([("effect".to_owned(), json!({"const": definition.id}))]);
+        let mut required = vec!["effect"];
+        for place in definition.site {
+            let schema = match place.range() {
+                Some((low, high)) => json!({"type": "integer", "minimum": low, "maximum": high}),
+                None => json!({"type": "string"}),
+            };
+            properties.insert(place.key().into(), schema);
+            if *place != Place::Tool {
+                required.push(place.key());
+            }
+        }
+        for parameter in definition.parameters {
+            properties.insert(parameter.key.into(), json!({"type": "number"}));
+            if !optional(definition) {
+                required.push(parameter.key);
+            }
+        }
+        json!({
+            "title": definition.id,
+            "description": definition.summary,
+            "type": "object",
+            "properties": properties,
+            "required": required,
+            "additionalProperties": false,
+        })
+    };
+    json!({"oneOf": REGISTRY.iter().map(|kind| one(kind.definition())).collect::<Vec<_>>()})
+}

@@ -1,0 +1,27 @@
+//! A gearbox that is not stiff.
+
+use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::Scalar;
+
+/// a gearbox twists under the torque of gravity and external force.
+pub(super) struct JointCompliance;
+
+impl Equation for JointCompliance {
+    const DEFINITION: Definition = Definition {
+        id: "joint_compliance",
+        summary: "a gearbox twists under the torque of gravity and external force",
+        equation: "δq = rad_per_n_m · τ",
+        source: "A. Nubiola, thesis, eqs. I.5–I.10",
+        site: &[Place::Joint],
+        parameters: &[Parameter { key: "rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 1e-4 }],
+        needs: &[Need::Masses],
+        deflects: true,
+        bends: false,
+    };
+
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        deflection.joints[site.index] += p[0] * state.torques[site.index];
+    }
+}

@@ -1,0 +1,27 @@
+//! A joint that another one turns along.
+
+use super::definition::{Definition, Parameter, Place, Unit};
+use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::Scalar;
+
+/// motion of one joint leaks into another.
+pub(super) struct JointCoupling;
+
+impl Equation for JointCoupling {
+    const DEFINITION: Definition = Definition {
+        id: "joint_coupling",
+        summary: "motion of one joint leaks into another",
+        equation: "δq(joint) = ratio · q(on)",
+        source: "A. Nubiola, thesis, ch. 1 (wrist gearing)",
+        site: &[Place::Joint, Place::On],
+        parameters: &[Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 5e-4 }],
+        needs: &[],
+        deflects: true,
+        bends: false,
+    };
+
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        deflection.joints[site.index] += p[0] * state.commanded[site.on];
+    }
+}

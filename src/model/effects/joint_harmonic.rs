@@ -1,0 +1,30 @@
+//! A joint whose error repeats with its angle.
+
+use super::definition::{Definition, Parameter, Place, Unit};
+use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::Scalar;
+
+/// an eccentric gear or encoder adds a wave of whole periods in one turn.
+pub(super) struct JointHarmonic;
+
+impl Equation for JointHarmonic {
+    const DEFINITION: Definition = Definition {
+        id: "joint_harmonic",
+        summary: "an eccentric gear or encoder adds a wave of whole periods in one turn",
+        equation: "δq = cos · cos(order · q) + sin · sin(order · q)",
+        source: "A. Nubiola, thesis, sec. 1.8",
+        site: &[Place::Joint, Place::Order],
+        parameters: &[
+            Parameter { key: "cos_deg", unit: Unit::Degree, prior_sigma: 0.02 },
+            Parameter { key: "sin_deg", unit: Unit::Degree, prior_sigma: 0.02 },],
+        needs: &[],
+        deflects: true,
+        bends: false,
+    };
+
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        let (sine, cosine) = (S::constant(f64::from(site.order)) * state.commanded[site.index]).sin_cos();
+        deflection.joints[site.index] += p[0] * cosine + p[1] * sine;
+    }
+}

@@ -1,0 +1,27 @@
+//! A joint that turns in proportion to its command, but not one to one.
+
+use super::definition::{Definition, Parameter, Place, Unit};
+use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::Scalar;
+
+/// a joint turns more or less than commanded, in proportion.
+pub(super) struct JointScale;
+
+impl Equation for JointScale {
+    const DEFINITION: Definition = Definition {
+        id: "joint_scale",
+        summary: "a joint turns more or less than commanded, in proportion",
+        equation: "δq = ratio · q",
+        source: "A. Nubiola, thesis, level-1 models",
+        site: &[Place::Joint],
+        parameters: &[Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 5e-4 }],
+        needs: &[],
+        deflects: true,
+        bends: false,
+    };
+
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        deflection.joints[site.index] += p[0] * state.commanded[site.index];
+    }
+}

@@ -1,0 +1,179 @@
+//! The registry of effects: each physical cause of error is one file that states its equation once.
+//!
+//! An effect's file has a type that implements [`Equation`]: its [`Definition`] (name, equation, source, parameters with
+//! units and priors, what it needs) and one or both of its two functions. Profile keys, JSON Schema, help, identification,
+//! diagnosis and the law tests follow from the list in [`registry!`](self); nothing else names an effect.
+//!
+//! To add one: write the file, add its line to the list.
+
+mod definition;
+mod entry;
+
+pub use definition::{Definition, Need, Parameter, Place, Unit};
+pub use entry::{EntryError, entry_schema};
+
+use super::chain::Frames;
+use super::conditions::Conditions;
+use super::geometry::Geometry;
+use crate::geometry::{Scalar, Vector};
+
+/// Most parameters an effect has.
+pub const MOST_PARAMETERS: usize = 6;
+
+/// One effect's equation. Both functions take the parameters in SI units, in the order of the definition.
+trait Equation {
+    /// Everything about the effect but its equation.
+    const DEFINITION: Definition;
+
+    /// Changes the arm's geometry, before any posture is known.
+    fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], conditions: &Conditions, geometry: &mut Geometry<S>) {
+        let _ = (site, p, conditions, geometry);
+    }
+
+    /// Adds what the posture does to `deflection`.
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        let _ = (site, p, state, deflection);
+    }
+}
+
+macro_rules! registry {
+    ($($file:ident :: $name:ident),+ $(,)?) => {
+        $(mod $file;)+
+
+        /// Which effect.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Kind {
+            $(#[doc = concat!("The effect of the file `", stringify!($file), ".rs`.")] $name,)+
+        }
+
+        /// Every effect there is.
+        pub const REGISTRY: &[Kind] = &[$(Kind::$name),+];
+
+        impl Kind {
+            /// Everything about the effect but its equation.
+            #[must_use]
+            pub const fn definition(self) -> &'static Definition {
+                match self { $(Kind::$name => const { &$file::$name::DEFINITION },)+ }
+            }
+        }
+
+        impl<S: Scalar> Effect<S> {
+            /// Changes the arm's geometry where this effect does.
+            pub fn change_geometry(&self, conditions: &Conditions, geometry: &mut Geometry<S>) {
+                match self.kind {
+                    $(Kind::$name => $file::$name::change_geometry(&self.site, &self.parameters, conditions, geometry),)+
+                }
+            }
+
+            /// Adds what the posture does where this effect depends on it.
+            #[inline(always)]
+            pub fn deflect(&self, state: &State<S>, deflection: &mut Deflection<S>) {
+                match self.kind {
+                    $(Kind::$name => $file::$name::deflect(&self.site, &self.parameters, state, deflection),)+
+                }
+            }
+        }
+    };
+}
+
+registry! {
+    base_frame::BaseFrame,
+    link_geometry::LinkGeometry,
+    tool_frame::ToolFrame,
+    joint_scale::JointScale,
+    joint_compliance::JointCompliance,
+    joint_harmonic::JointHarmonic,
+    joint_coupling::JointCoupling,
+    backlash::Backlash,
+}
+
+impl Kind {
+    /// The effect of this name.
+    #[must_use]
+    pub fn by_id(id: &str) -> Option<Self> {
+        REGISTRY.iter().copied().find(|kind| kind.definition().id == id)
+    }
+}
+
+/// What an effect belongs to. Only what its [`Definition::site`] lists is used.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub struct Site {
+    /// Index of the joint or link, 0 to 5.
+    pub index: usize,
+    /// Index of the joint it leaks from.
+    pub on: usize,
+    /// Periods in one turn.
+    pub order: u32,
+    /// Name of the tool; `None` is every tool.
+    pub tool: Option<String>,
+}
+
+/// One effect with its parameters in SI units, in the order of its definition; unused ones are zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect<S = f64> {
+    /// Which effect.
+    pub kind: Kind,
+    /// What it belongs to.
+    pub site: Site,
+    /// Its parameters.
+    pub parameters: [S; MOST_PARAMETERS],
+}
+
+impl<S> Effect<S> {
+    /// Everything about the effect but its equation.
+    #[must_use]
+    pub fn definition(&self) -> &'static Definition {
+        self.kind.definition()
+    }
+}
+
+impl Effect {
+    /// The same effect with constants of another scalar.
+    #[must_use]
+    pub fn cast<S: Scalar>(&self) -> Effect<S> {
+        Effect { kind: self.kind, site: self.site.clone(), parameters: self.parameters.map(S::constant) }
+    }
+
+    /// Whether every parameter is zero, so that it does nothing.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.parameters.iter().all(|&p| p == 0.0)
+    }
+}
+
+/// The posture that effects are evaluated at.
+#[derive(Clone, Debug)]
+pub struct State<S> {
+    /// Commanded angle of each mechanical joint in the controller's sense, radians.
+    pub commanded: [S; 6],
+    /// Torque about each joint in the controller's sense, N·m; zero unless an effect needs masses.
+    pub torques: [S; 6],
+    /// Frames and moments of the links; present where an effect bends links or moves the base or the tool.
+    pub frames: Option<Frames<S>>,
+    /// Direction, force, temperature, time.
+    pub conditions: Conditions,
+}
+
+/// What a posture does to the arm, small.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deflection<S = f64> {
+    /// Added to each commanded joint angle in the controller's sense, radians.
+    pub joints: [S; 6],
+    /// Rotation of each link about its frame's origin and axes, radians.
+    pub links: [Vector<S>; 6],
+    /// Motion of the whole arm in the world: metres and radians as [`crate::geometry::Pose::from_xyz_rxryrz`].
+    pub world: [S; 6],
+    /// Motion of the tool in its own frame, likewise.
+    pub tool: [S; 6],
+}
+
+impl<S: Scalar> Deflection<S> {
+    /// Nothing moves.
+    #[inline(always)]
+    #[must_use]
+    pub fn none() -> Self {
+        let zero = S::zero();
+        Self { joints: [zero; 6], links: [[zero; 3]; 6], world: [zero; 6], tool: [zero; 6] }
+    }
+}

@@ -1,0 +1,29 @@
+//! What the tool really is.
+
+use super::definition::{Definition, Place, frame_parameters};
+use super::{Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Pose, Scalar};
+use crate::model::{Conditions, Geometry};
+
+/// `flange_from_tool · Trans(x, y, z) · Rx · Ry · Rz`: the deviation is given in the tool's own frame.
+pub(super) struct ToolFrame;
+
+impl Equation for ToolFrame {
+    const DEFINITION: Definition = Definition {
+        id: "tool_frame",
+        summary: "the tool's tip is elsewhere on the flange than the program or profile says",
+        equation: "real flange_from_tool = flange_from_tool · Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz)",
+        source: "A. Nubiola, thesis, eq. I.2",
+        site: &[Place::Tool],
+        parameters: &frame_parameters(1.0, 0.2),
+        needs: &[],
+        deflects: false,
+        bends: false,
+    };
+
+    fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
+        if site.tool.as_ref().is_none_or(|tool| *tool == geometry.tool_name) {
+            geometry.flange_from_tool = geometry.flange_from_tool * Pose::from_xyz_rxryrz(*p);
+        }
+    }
+}

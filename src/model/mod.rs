@@ -1,0 +1,20 @@
+//! Where a robot's tool is: the nominal chain, and every physical cause that makes the real one differ.
+//!
+//! The data flow: a [`profile::Profile`] gives the nominal [`Geometry`] and a list of [`effects`]; [`Model::build`] applies
+//! the effects that change the geometry once, and [`Model::forward`] evaluates the ones that depend on the posture for
+//! each set of commanded joint angles.
+
+mod chain;
+mod conditions;
+pub mod effects;
+mod geometry;
+pub mod profile;
+mod real;
+
+pub use chain::{Chain, Frames};
+pub use conditions::Conditions;
+pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};
+pub use real::Model;
+
+/// Number of joints of every robot here.
+pub const JOINTS: usize = 6;

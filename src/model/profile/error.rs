@@ -1,0 +1,143 @@
+//! What can be wrong with a profile, and where.
+
+use crate::model::effects::EntryError;
+use serde_yaml::Location;
+
+/// A fault at its place in the file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{line}:{column}: {fault}")]
+pub struct ProfileError {
+    /// Line, from 1; 0 where the parser cannot tell.
+    pub line: usize,
+    /// Column, from 1; 0 where the parser cannot tell.
+    pub column: usize,
+    /// Bytes of the text that is to blame, where they are known.
+    pub span: Option<(usize, usize)>,
+    /// What is wrong.
+    pub fault: Fault,
+}
+
+/// What is wrong with a profile.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// No YAML, an unknown or missing key, or a value of the wrong type.
+    #[error("{message}")]
+    Yaml {
+        /// What the parser says.
+        message: String,
+    },
+    /// Not a profile, or of another version.
+    #[error("format is `{found}`; this program reads `profile/1`")]
+    Format {
+        /// What the file says.
+        found: String,
+    },
+    /// A list of joints that are not six.
+    #[error("{found} joints; a profile has 6")]
+    NotSix {
+        /// How many there are.
+        found: usize,
+    },
+    /// A sign that is neither 1 nor −1.
+    #[error("sign is {found}; it must be 1 or -1")]
+    Sign {
+        /// What the file says.
+        found: i8,
+    },
+    /// Limits the wrong way round.
+    #[error("min_deg {min} is not below max_deg {max}")]
+    Limits {
+        /// Lower limit, degrees.
+        min: f64,
+        /// Upper limit, degrees.
+        max: f64,
+    },
+    /// A number outside its range.
+    #[error("{key} is {found}; it must be from {low} to {high}")]
+    OutOfRange {
+        /// The key.
+        key: &'static str,
+        /// What the file says.
+        found: f64,
+        /// Smallest.
+        low: f64,
+        /// Largest.
+        high: f64,
+    },
+    /// Couplings that refer to each other.
+    #[error("joint {joint} is coupled on joint {on}, which in the end is coupled on joint {joint}")]
+    CircularCoupling {
+        /// The joint.
+        joint: usize,
+        /// The joint counted in.
+        on: usize,
+    },
+    /// Neither three angles nor a quaternion, or both.
+    #[error("a pose has either rx_deg, ry_deg and rz_deg, or quaternion: [w, x, y, z]")]
+    Orientation,
+    /// A quaternion that is no rotation.
+    #[error("the quaternion's length is {norm:.6}; it may differ from 1 by {tolerance}")]
+    NotUnit {
+        /// Its length.
+        norm: f64,
+        /// How far it may be from 1.
+        tolerance: f64,
+    },
+    /// A centre of gravity of nothing.
+    #[error("tool `{tool}` has cog_mm but no mass_kg")]
+    CogWithoutMass {
+        /// The tool.
+        tool: String,
+    },
+    /// A wrong entry in the list of effects.
+    #[error(transparent)]
+    Effect(EntryError),
+    /// An effect that stands there twice.
+    #[error("`{label}` stands twice in the list of effects")]
+    DuplicateEffect {
+        /// Which.
+        label: String,
+    },
+}
+
+impl Fault {
+    pub(super) fn at(self, location: Location) -> ProfileError {
+        let span = location.span();
+        let bytes = span.byte_offset().zip(span.byte_len());
+        #[allow(clippy::cast_possible_truncation)]
+        ProfileError {
+            line: location.line() as usize,
+            column: location.column() as usize,
+            span: bytes.map(|(start, length)| (start as usize, (start + length) as usize)),
+            fault: self,
+        }
+    }
+}
+
+impl ProfileError {
+    /// The way out; empty where the message says it all.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match &self.fault {
+            Fault::Effect(error) => error.hint(),
+            Fault::DuplicateEffect { .. } => "add the two up into one entry".into(),
+            Fault::Format { .. } | Fault::Yaml { .. } => "`poseshift profile schema` prints the format".into(),
+            Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),
+            _ => String::new(),
+        }
+    }
+}
+
+impl From<serde_yaml::Error> for ProfileError {
+    fn from(error: serde_yaml::Error) -> Self {
+        let location = error.location();
+        let message = error.without_snippet().to_string();
+        // the parser repeats the place at the end of its message
+        let message = message.split(" at line ").next().unwrap_or(&message).to_owned();
+        let fault = Fault::Yaml { message };
+        match location {
+            Some(location) => fault.at(location),
+            None => Self { line: 0, column: 0, span: None, fault },
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! The profile file as it is written: one type a block, keys with units.
+
+use schemars::JsonSchema;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_yaml::Spanned;
+use std::collections::BTreeMap;
+
+/// The format name that stands first in a profile.
+pub const FORMAT: &str = "profile/1";
+
+/// A finite number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Number(pub f64);
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = f64::deserialize(deserializer)?;
+        if value.is_finite() {
+            Ok(Self(value))
+        } else {
+            Err(D::Error::custom(format!("{value} is not a finite number")))
+        }
+    }
+}
+
+/// Robot profile: nominal kinematics, masses, tools and the calibration of one robot.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProfileFile {
+    /// Format and version: `profile/1`.
+    #[schemars(with = "String")]
+    pub poseshift: Spanned<String>,
+    /// Which robot.
+    pub robot: RobotFile,
+    /// How its controller is programmed and what it computes with.
+    pub controller: ControllerFile,
+    /// The nominal chain.
+    pub kinematics: KinematicsFile,
+    /// Masses of the links.
+    #[serde(default)]
+    #[schemars(with = "Vec<BodyFile>")]
+    pub bodies: Vec<Spanned<BodyFile>>,
+    /// Gravity in the world.
+    #[serde(default = "earth")]
+    pub gravity_m_s2: [Number; 3],
+    /// Tools by name.
+    #[serde(default)]
+    pub tools: BTreeMap<String, ToolFile>,
+    /// Measured points in the tool frame by name.
+    #[serde(default)]
+    pub points: BTreeMap<String, [Number; 3]>,
+    /// What was identified.
+    #[serde(default)]
+    pub calibration: CalibrationFile,
+}
+
+fn earth() -> [Number; 3] {
+    [Number(0.0), Number(0.0), Number(-9.81)]
+}
+
+/// Which robot.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RobotFile {
+    /// Maker.
+    pub manufacturer: String,
+    /// Type.
+    pub model: String,
+    /// Serial number.
+    #[serde(default)]
+    pub serial: Option<String>,
+}
+
+/// How the controller is programmed and what it computes with.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerFile {
+    /// Its programming language, as `poseshift languages` names it.
+    #[serde(default)]
+    #[schemars(with = "Option<String>")]
+    pub language: Option<Spanned<String>>,
+    /// Whether it computes with the nominal chain or with a calibrated one of its own.
+    pub model: ControllerModel,
+}
+
+/// What the controller computes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ControllerModel {
+    /// The nominal chain.
+    Nominal,
+    /// A calibrated chain: it already applies the link geometry of the calibration.
+    Calibrated,
+}
+
+/// The nominal chain.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct KinematicsFile {
+    /// `world_from_base`.
+    #[serde(default)]
+    #[schemars(with = "Option<PoseFile>")]
+    pub base: Option<Spanned<PoseFile>>,
+    /// Six rows of modified Denavit–Hartenberg parameters.
+    #[schemars(with = "[JointFile; 6]")]
+    pub joints: Spanned<Vec<Spanned<JointFile>>>,
+    /// Controller joints that count another joint in.
+    #[serde(default)]
+    #[schemars(with = "Vec<CouplingFile>")]
+    pub coupling: Vec<Spanned<CouplingFile>>,
+    /// `link6_from_flange`.
+    #[serde(default)]
+    #[schemars(with = "Option<PoseFile>")]
+    pub flange: Option<Spanned<PoseFile>>,
+}
+
+/// One row of the chain.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointFile {
+    /// Angle between the axes.
+    pub alpha_deg: Number,
+    /// Distance of the axes.
+    pub a_mm: Number,
+    /// Angle where the joint stands at zero.
+    pub theta_deg: Number,
+    /// Distance along the axis.
+    pub d_mm: Number,
+    /// Smallest controller's angle.
+    pub min_deg: Number,
+    /// Largest controller's angle.
+    pub max_deg: Number,
+    /// −1 where the controller counts the other way.
+    #[serde(default = "plus")]
+    pub sign: i8,
+    /// Chain angle where the controller shows zero.
+    #[serde(default)]
+    pub offset_deg: Number,
+}
+
+fn plus() -> i8 {
+    1
+}
+
+/// A controller's joint that counts another joint in.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CouplingFile {
+    /// The joint, from 1.
+    pub joint: u8,
+    /// The joint counted in, from 1.
+    pub on: u8,
+    /// How much of it.
+    pub ratio: Number,
+}
+
+/// A pose: `Trans(x, y, z) · Rx · Ry · Rz`, or a position with a quaternion `[w, x, y, z]`.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PoseFile {
+    /// Position.
+    pub x_mm: Number,
+    /// Position.
+    pub y_mm: Number,
+    /// Position.
+    pub z_mm: Number,
+    /// Angle about x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rx_deg: Option<Number>,
+    /// Angle about the turned y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ry_deg: Option<Number>,
+    /// Angle about the turned z.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rz_deg: Option<Number>,
+    /// Orientation instead of the three angles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quaternion: Option<[Number; 4]>,
+}
+
+/// A mass on a link.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodyFile {
+    /// The link, from 1.
+    pub link: u8,
+    /// Mass.
+    pub mass_kg: Number,
+    /// Centre of gravity in the link's frame.
+    pub cog_mm: [Number; 3],
+}
+
+/// A tool.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToolFile {
+    /// `flange_from_tool`.
+    #[schemars(with = "PoseFile")]
+    pub frame: Spanned<PoseFile>,
+    /// Mass on the flange.
+    #[serde(default)]
+    #[schemars(with = "Number")]
+    pub mass_kg: Option<Spanned<Number>>,
+    /// Its centre of gravity in the flange frame.
+    #[serde(default)]
+    pub cog_mm: Option<[Number; 3]>,
+}
+
+/// What was identified.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CalibrationFile {
+    /// Effects with their parameters.
+    #[serde(default)]
+    #[schemars(schema_with = "effects_schema")]
+    pub effects: Vec<Spanned<BTreeMap<String, Spanned<serde_json::Value>>>>,
+    /// Statistics of the fit.
+    #[serde(default)]
+    pub quality: Option<serde_json::Value>,
+    /// Where the calibration comes from.
+    #[serde(default)]
+    pub provenance: Option<serde_json::Value>,
+}
+
+fn effects_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let schema = serde_json::json!({"type": "array", "items": crate::model::effects::entry_schema()});
+    schema.try_into().expect("an object is a schema")
+}

@@ -1,0 +1,297 @@
+//! A robot's profile: read strictly, and made into models.
+
+mod error;
+mod file;
+
+pub use error::{Fault, ProfileError};
+pub use file::{ControllerModel, FORMAT, ProfileFile};
+
+use super::effects::{Effect, Kind};
+use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::{Pose, Quaternion, Vector};
+use file::{Number, PoseFile};
+use serde_yaml::{Location, Spanned};
+use std::collections::BTreeMap;
+
+/// How far a quaternion's length may be from 1.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// One robot: its nominal arm, tools, and what was identified of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// Maker.
+    pub manufacturer: String,
+    /// Type.
+    pub model: String,
+    /// Serial number.
+    pub serial: Option<String>,
+    /// Programming language of the controller.
+    pub language: Option<String>,
+    /// What the controller computes with.
+    pub controller: ControllerModel,
+    /// Where the base stands.
+    pub world_from_base: Pose,
+    /// The nominal rows of the chain.
+    pub links: [Link; 6],
+    /// How the controller counts joint angles.
+    pub mechanism: Mechanism,
+    /// The flange on the last link.
+    pub link6_from_flange: Pose,
+    /// Masses of the links.
+    pub bodies: Vec<Body>,
+    /// Gravity in the world, m/s².
+    pub gravity_m_s2: Vector,
+    /// Tools by name.
+    pub tools: BTreeMap<String, ToolOfProfile>,
+    /// Measured points in the tool frame by name, metres.
+    pub points: BTreeMap<String, Vector>,
+    /// The identified effects.
+    pub effects: Vec<Effect>,
+    /// Statistics of the calibration, as the file has them.
+    pub quality: Option<serde_json::Value>,
+    /// Where the calibration comes from, as the file has it.
+    pub provenance: Option<serde_json::Value>,
+}
+
+/// A tool of the profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToolOfProfile {
+    /// Where its tip is.
+    pub flange_from_tool: Pose,
+    /// Mass in kg and centre of gravity in the flange frame in metres.
+    pub load: Option<(f64, Vector)>,
+}
+
+/// A tool to build a model with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mounted {
+    /// Name, for effects that belong to one tool.
+    pub name: String,
+    /// Where its tip is.
+    pub flange_from_tool: Pose,
+    /// Mass in kg and centre of gravity in the flange frame in metres.
+    pub load: Option<(f64, Vector)>,
+}
+
+impl Mounted {
+    /// No tool: the flange itself.
+    #[must_use]
+    pub fn flange() -> Self {
+        Self { name: "flange".into(), flange_from_tool: Pose::identity(), load: None }
+    }
+}
+
+impl Profile {
+    /// Reads a profile file's text.
+    ///
+    /// # Errors
+    /// Anything the format does not allow, with line and column.
+    pub fn from_yaml(text: &str) -> Result<Self, ProfileError> {
+        let file: ProfileFile = serde_yaml::from_str(text).map_err(ProfileError::from)?;
+        Self::from_file(file)
+    }
+
+    fn from_file(file: ProfileFile) -> Result<Self, ProfileError> {
+        if file.poseshift.value != FORMAT {
+            return Err(Fault::Format { found: file.poseshift.value }.at(file.poseshift.defined));
+        }
+        let kinematics = file.kinematics;
+        let mut bodies = Vec::new();
+        for body in &file.bodies {
+            let at = body.defined;
+            let body = &body.value;
+            let mass_kg = mass(body.mass_kg, at)?;
+            bodies.push(Body { link: index("link", body.link, at)?, mass_kg, cog_m: metres(body.cog_mm) });
+        }
+        let mut tools = BTreeMap::new();
+        for (name, tool) in file.tools {
+            let load = match (tool.mass_kg, tool.cog_mm) {
+                (Some(kg), cog) => Some((mass(kg.value, kg.defined)?, cog.map_or([0.0; 3], metres))),
+                (None, Some(_)) => return Err(Fault::CogWithoutMass { tool: name }.at(tool.frame.defined)),
+                (None, None) => None,
+            };
+            tools.insert(name, ToolOfProfile { flange_from_tool: pose(&tool.frame)?, load });
+        }
+        let (links, joints) = rows(&kinematics.joints)?;
+        let profile = Self {
+            manufacturer: file.robot.manufacturer,
+            model: file.robot.model,
+            serial: file.robot.serial,
+            language: file.controller.language.map(|language| language.value),
+            controller: file.controller.model,
+            world_from_base: kinematics.base.as_ref().map_or(Ok(Pose::identity()), pose)?,
+            links,
+            mechanism: Mechanism { joints, coupling: couplings(&kinematics.coupling)? },
+            link6_from_flange: kinematics.flange.as_ref().map_or(Ok(Pose::identity()), pose)?,
+            bodies,
+            gravity_m_s2: file.gravity_m_s2.map(|n| n.0),
+            tools,
+            points: file.points.into_iter().map(|(name, point)| (name, metres(point))).collect(),
+            effects: effects(file.calibration.effects)?,
+            quality: file.calibration.quality,
+            provenance: file.calibration.provenance,
+        };
+        Ok(profile)
+    }
+
+    /// The JSON Schema of the format.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        let mut schema = schemars::schema_for!(ProfileFile).to_value();
+        schema["title"] = format!("poseshift {FORMAT}").into();
+        schema["properties"]["poseshift"] = serde_json::json!({"const": FORMAT});
+        schema
+    }
+
+    /// The tool of this name ready to be mounted.
+    #[must_use]
+    pub fn tool(&self, name: &str) -> Option<Mounted> {
+        let tool = self.tools.get(name)?;
+        Some(Mounted { name: name.into(), flange_from_tool: tool.flange_from_tool, load: tool.load })
+    }
+
+    /// The nominal arm with a tool.
+    #[must_use]
+    pub fn geometry(&self, tool: &Mounted) -> Geometry {
+        Geometry {
+            world_from_base: self.world_from_base,
+            links: self.links,
+            link6_from_flange: self.link6_from_flange,
+            flange_from_tool: tool.flange_from_tool,
+            flange_from_nominal_tool: tool.flange_from_tool,
+            bodies: self.bodies.clone(),
+            load: tool.load,
+            gravity_m_s2: self.gravity_m_s2,
+            tool_name: tool.name.clone(),
+        }
+    }
+
+    /// The effects that the controller already applies itself.
+    #[must_use]
+    pub fn controller_effects(&self) -> Vec<Effect> {
+        match self.controller {
+            ControllerModel::Nominal => Vec::new(),
+            ControllerModel::Calibrated => {
+                self.effects.iter().filter(|effect| effect.kind == Kind::LinkGeometry).cloned().collect()
+            }
+        }
+    }
+
+    /// The arm as the controller computes with it.
+    #[must_use]
+    pub fn controller_model(&self, tool: &Mounted) -> Model {
+        Model::build(&self.geometry(tool), &self.mechanism, &self.controller_effects(), &Conditions::default())
+    }
+
+    /// The arm as it really is.
+    #[must_use]
+    pub fn real_model(&self, tool: &Mounted, conditions: &Conditions) -> Model {
+        Model::build(&self.geometry(tool), &self.mechanism, &self.effects, conditions)
+    }
+}
+
+fn metres(mm: [Number; 3]) -> Vector {
+    mm.map(|n| m_from_mm(n.0))
+}
+
+fn index(key: &'static str, number: u8, at: Location) -> Result<usize, ProfileError> {
+    match number {
+        1..=6 => Ok(usize::from(number) - 1),
+        _ => Err(Fault::OutOfRange { key, found: f64::from(number), low: 1.0, high: 6.0 }.at(at)),
+    }
+}
+
+fn mass(kg: Number, at: Location) -> Result<f64, ProfileError> {
+    if kg.0 < 0.0 {
+        return Err(Fault::OutOfRange { key: "mass_kg", found: kg.0, low: 0.0, high: f64::INFINITY }.at(at));
+    }
+    Ok(kg.0)
+}
+
+fn rows(joints: &Spanned<Vec<Spanned<file::JointFile>>>) -> Result<([Link; 6], [JointSense; 6]), ProfileError> {
+    let mut rows = Vec::new();
+    for joint in &joints.value {
+        let (at, joint) = (joint.defined, &joint.value);
+        if joint.sign.abs() != 1 {
+            return Err(Fault::Sign { found: joint.sign }.at(at));
+        }
+        if joint.min_deg.0 >= joint.max_deg.0 {
+            return Err(Fault::Limits { min: joint.min_deg.0, max: joint.max_deg.0 }.at(at));
+        }
+        let link = Link {
+            alpha_rad: joint.alpha_deg.0 * DEG,
+            a_m: m_from_mm(joint.a_mm.0),
+            beta_rad: 0.0,
+            theta_rad: joint.theta_deg.0 * DEG,
+            d_m: m_from_mm(joint.d_mm.0),
+        };
+        let sense = JointSense {
+            sign: f64::from(joint.sign),
+            offset_rad: joint.offset_deg.0 * DEG,
+            min_rad: joint.min_deg.0 * DEG,
+            max_rad: joint.max_deg.0 * DEG,
+        };
+        rows.push((link, sense));
+    }
+    let six: [_; 6] = rows.try_into().map_err(|rows: Vec<_>| Fault::NotSix { found: rows.len() }.at(joints.defined))?;
+    Ok((six.map(|row| row.0), six.map(|row| row.1)))
+}
+
+/// The couplings in an order in which each refers only to joints whose own couplings stand before it.
+fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, ProfileError> {
+    let mut waiting = Vec::new();
+    for entry in entries {
+        let at = entry.defined;
+        let (joint, on) = (index("joint", entry.value.joint, at)?, index("on", entry.value.on, at)?);
+        waiting.push((Coupling { joint, on, ratio: entry.value.ratio.0 }, at));
+    }
+    let mut ordered = Vec::new();
+    while !waiting.is_empty() {
+        let free = waiting.iter().position(|(c, _)| waiting.iter().all(|(other, _)| other.joint != c.on));
+        let Some(free) = free else {
+            let (coupling, at) = waiting[0];
+            return Err(Fault::CircularCoupling { joint: coupling.joint + 1, on: coupling.on + 1 }.at(at));
+        };
+        ordered.push(waiting.remove(free).0);
+    }
+    Ok(ordered)
+}
+
+fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
+    let p = &file.value;
+    let translation = metres([p.x_mm, p.y_mm, p.z_mm]);
+    match (p.rx_deg, p.ry_deg, p.rz_deg, p.quaternion) {
+        (Some(rx), Some(ry), Some(rz), None) => {
+            let [x, y, z] = translation;
+            Ok(Pose::from_xyz_rxryrz([x, y, z, rx.0 * DEG, ry.0 * DEG, rz.0 * DEG]))
+        }
+        (None, None, None, Some(q)) => {
+            let quaternion = Quaternion(q.map(|n| n.0));
+            let norm = quaternion.norm();
+            if (norm - 1.0).abs() > UNIT_TOLERANCE {
+                return Err(Fault::NotUnit { norm, tolerance: UNIT_TOLERANCE }.at(file.defined));
+            }
+            Ok(Pose::from_parts(translation, quaternion.normalized()))
+        }
+        _ => Err(Fault::Orientation.at(file.defined)),
+    }
+}
+
+fn effects(entries: Vec<Spanned<BTreeMap<String, Spanned<serde_json::Value>>>>) -> Result<Vec<Effect>, ProfileError> {
+    let mut out: Vec<Effect> = Vec::new();
+    for entry in entries {
+        let at = entry.defined;
+        let places: BTreeMap<_, _> = entry.value.iter().map(|(key, value)| (key.clone(), value.defined)).collect();
+        let map = entry.value.into_iter().map(|(key, value)| (key, value.value)).collect();
+        let effect = Effect::from_entry(&map).map_err(|error| {
+            let at = error.key().and_then(|key| places.get(key)).copied().unwrap_or(at);
+            Fault::Effect(error).at(at)
+        })?;
+        if out.iter().any(|other| other.same_place(&effect)) {
+            return Err(Fault::DuplicateEffect { label: effect.label() }.at(at));
+        }
+        out.push(effect);
+    }
+    Ok(out)
+}

@@ -1,0 +1,4 @@
+//! The tests that look at the program from outside, in one binary.
+
+mod oracle;
+mod support;

@@ -1,0 +1,3 @@
+//! Numbers that come from elsewhere: each data folder says from where in its ORIGIN.md.
+
+mod forward;
