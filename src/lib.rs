@@ -2,5 +2,6 @@
 #![allow(missing_docs)]
 pub mod finding;
 pub mod geometry;
+pub mod inverse;
 pub mod model;
 pub mod program;

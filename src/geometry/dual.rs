@@ -130,6 +130,10 @@ impl<const N: usize> Scalar for Dual<N> {
             otherwise
         }
     }
+    #[inline(always)]
+    fn round(self) -> Self {
+        Self::constant(self.value.round())
+    }
 }
 
 #[cfg(test)]

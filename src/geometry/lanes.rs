@@ -113,4 +113,8 @@ impl<const N: usize> Scalar for Lanes<N> {
         }
         Self(out)
     }
+    #[inline(always)]
+    fn round(self) -> Self {
+        self.map(Scalar::round)
+    }
 }

@@ -38,6 +38,10 @@ pub trait Scalar:
     #[must_use]
     fn choose_less(self, limit: Self, then: Self, otherwise: Self) -> Self;
 
+    /// The nearest whole number, |self| < 2^51; its derivative is zero.
+    #[must_use]
+    fn round(self) -> Self;
+
     /// Zero.
     #[inline(always)]
     fn zero() -> Self {
@@ -97,6 +101,10 @@ impl Scalar for f64 {
     fn choose_less(self, limit: Self, then: Self, otherwise: Self) -> Self {
         if self < limit { then } else { otherwise }
     }
+    #[inline(always)]
+    fn round(self) -> Self {
+        (self + elementary::ROUND) - elementary::ROUND
+    }
 }
 
 /// Branch-free elementary functions, so that a loop over lanes becomes vector instructions.
@@ -113,7 +121,7 @@ pub(super) mod elementary {
         2.695_151_429_079_059_5e-15,
     ];
     /// Adding and subtracting 1.5·2⁵² rounds to the nearest integer.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
+    pub const ROUND: f64 = 6_755_399_441_055_744.0;
 
     /// Sine and cosine, |x| < 1e5.
     #[inline(always)]

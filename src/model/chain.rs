@@ -50,11 +50,20 @@ impl<S: Scalar> Loads<S> {
     pub fn of(geometry: &Geometry<S>) -> Self {
         let flange = geometry.link6_from_flange;
         let mut bodies = geometry.bodies.clone();
-        bodies.extend(geometry.load.map(|(mass_kg, cog)| Body { link: 5, mass_kg, cog_m: flange.transform(cog) }));
+        bodies.extend(geometry.load.map(|(mass_kg, cog)| Body {
+            link: 5,
+            mass_kg,
+            cog_m: flange.transform(cog),
+        }));
         bodies.sort_by_key(|body| std::cmp::Reverse(body.link));
         Self {
             bodies,
-            force_point: flange.transform(geometry.flange_from_nominal_tool.translation.map(S::constant)),
+            force_point: flange.transform(
+                geometry
+                    .flange_from_nominal_tool
+                    .translation
+                    .map(S::constant),
+            ),
             gravity_m_s2: geometry.gravity_m_s2.map(S::constant),
         }
     }
@@ -79,7 +88,10 @@ impl<S: Scalar> Chain<S> {
             6 => along_z(links[5].d_m) * geometry.link6_from_flange * geometry.flange_from_tool,
             _ => along_z(links[i - 1].d_m) * crossing(&links[i]),
         });
-        Self { fixed, d_m: links.map(|l| l.d_m) }
+        Self {
+            fixed,
+            d_m: links.map(|l| l.d_m),
+        }
     }
 
     /// `world_from_tool` at these chain angles, radians.
@@ -104,7 +116,10 @@ impl<S: Scalar> Chain<S> {
             pose = turned(pose, angles[i]);
             // the bend turns about the link's origin, which lies d along z
             let along = [S::zero(), S::zero(), self.d_m[i]];
-            let about = Pose { rotation: bend, translation: sub(along, bend * along) };
+            let about = Pose {
+                rotation: bend,
+                translation: sub(along, bend * along),
+            };
             pose = pose * about * self.fixed[i + 1];
         }
         pose * Pose::from_xyz_rxryrz(deflection.tool)
@@ -136,7 +151,10 @@ impl<S: Scalar> Chain<S> {
         for i in (0..6).rev() {
             while let Some(body) = bodies.next_if(|b| b.link == i) {
                 mass += body.mass_kg;
-                first_moment = add(first_moment, scale(body.mass_kg, links[i].transform(body.cog_m)));
+                first_moment = add(
+                    first_moment,
+                    scale(body.mass_kg, links[i].transform(body.cog_m)),
+                );
             }
             let lever = sub(first_moment, scale(mass, links[i].translation));
             moments[i] = cross(lever, loads.gravity_m_s2);
@@ -158,16 +176,26 @@ fn turned<S: Scalar>(pose: Pose<S>, angle: S) -> Pose<S> {
     let (s, c) = angle.sin_cos();
     let m = &pose.rotation.0;
     let rotation = Rotation(std::array::from_fn(|i| {
-        [c * m[i][0] + s * m[i][1], c * m[i][1] - s * m[i][0], m[i][2]]
+        [
+            c * m[i][0] + s * m[i][1],
+            c * m[i][1] - s * m[i][0],
+            m[i][2],
+        ]
     }));
-    Pose { rotation, translation: pose.translation }
+    Pose {
+        rotation,
+        translation: pose.translation,
+    }
 }
 
 impl Chain {
     /// The same chain as constants of another scalar.
     #[must_use]
     pub fn cast<S: Scalar>(&self) -> Chain<S> {
-        Chain { fixed: self.fixed.map(|p| p.cast()), d_m: self.d_m.map(S::constant) }
+        Chain {
+            fixed: self.fixed.map(|p| p.cast()),
+            d_m: self.d_m.map(S::constant),
+        }
     }
 }
 
@@ -179,7 +207,11 @@ impl Loads {
             bodies: self
                 .bodies
                 .iter()
-                .map(|b| Body { link: b.link, mass_kg: S::constant(b.mass_kg), cog_m: b.cog_m.map(S::constant) })
+                .map(|b| Body {
+                    link: b.link,
+                    mass_kg: S::constant(b.mass_kg),
+                    cog_m: b.cog_m.map(S::constant),
+                })
                 .collect(),
             force_point: self.force_point.map(S::constant),
             gravity_m_s2: self.gravity_m_s2.map(S::constant),

@@ -152,9 +152,15 @@ impl Geometry {
             bodies: self
                 .bodies
                 .iter()
-                .map(|b| Body { link: b.link, mass_kg: S::constant(b.mass_kg), cog_m: b.cog_m.map(S::constant) })
+                .map(|b| Body {
+                    link: b.link,
+                    mass_kg: S::constant(b.mass_kg),
+                    cog_m: b.cog_m.map(S::constant),
+                })
                 .collect(),
-            load: self.load.map(|(mass, cog)| (S::constant(mass), cog.map(S::constant))),
+            load: self
+                .load
+                .map(|(mass, cog)| (S::constant(mass), cog.map(S::constant))),
             gravity_m_s2: self.gravity_m_s2,
             tool_name: self.tool_name.clone(),
         }

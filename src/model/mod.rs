@@ -4,6 +4,7 @@
 //! the effects that change the geometry once, and [`Model::forward`] evaluates the ones that depend on the posture for
 //! each set of commanded joint angles.
 
+pub(crate) mod batch;
 mod chain;
 mod conditions;
 pub mod effects;
@@ -11,6 +12,7 @@ mod geometry;
 pub mod profile;
 mod real;
 
+pub use batch::forward_batch;
 pub use chain::{Chain, Frames};
 pub use conditions::Conditions;
 pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};

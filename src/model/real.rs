@@ -27,17 +27,28 @@ pub struct Model<S = f64> {
 impl<S: Scalar> Model<S> {
     /// Applies the effects that change the geometry and keeps the others for [`Model::forward`].
     #[must_use]
-    pub fn build(geometry: &Geometry, mechanism: &Mechanism, effects: &[Effect<S>], conditions: &Conditions) -> Self {
+    pub fn build(
+        geometry: &Geometry,
+        mechanism: &Mechanism,
+        effects: &[Effect<S>],
+        conditions: &Conditions,
+    ) -> Self {
         let mut real: Geometry<S> = geometry.cast();
         for effect in effects {
             effect.change_geometry(conditions, &mut real);
         }
-        let deflecting: Vec<_> = effects.iter().filter(|e| e.definition().deflects).cloned().collect();
+        let deflecting: Vec<_> = effects
+            .iter()
+            .filter(|e| e.definition().deflects)
+            .cloned()
+            .collect();
         Self {
             chain: Chain::of(&real),
             loads: Loads::of(&real),
             mechanism: mechanism.clone(),
-            home: std::array::from_fn(|i| real.links[i].theta_rad + S::constant(mechanism.joints[i].offset_rad)),
+            home: std::array::from_fn(|i| {
+                real.links[i].theta_rad + S::constant(mechanism.joints[i].offset_rad)
+            }),
             sign: std::array::from_fn(|i| S::constant(mechanism.joints[i].sign)),
             loaded: deflecting.iter().any(|e| e.definition().needs_masses()),
             bends: deflecting.iter().any(|e| e.definition().bends),
@@ -90,9 +101,18 @@ impl<S: Scalar> Model<S> {
 
     #[inline(always)]
     fn deflection_of(&self, commanded: [S; 6], conditions: &Conditions) -> Deflection<S> {
-        let mut state = State { commanded, torques: [S::zero(); 6], frames: None, conditions: *conditions };
+        let mut state = State {
+            commanded,
+            torques: [S::zero(); 6],
+            frames: None,
+            conditions: *conditions,
+        };
         if self.loaded {
-            let frames = self.chain.frames(&self.chain_angles(&commanded), &self.loads, conditions.force_n);
+            let frames = self.chain.frames(
+                &self.chain_angles(&commanded),
+                &self.loads,
+                conditions.force_n,
+            );
             state.torques = self.torques_of(&frames);
             state.frames = self.bends.then_some(frames);
         }

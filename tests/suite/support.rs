@@ -18,16 +18,24 @@ pub struct Row(BTreeMap<String, String>);
 
 impl Row {
     pub fn text(&self, column: &str) -> &str {
-        self.0.get(column).unwrap_or_else(|| panic!("no column {column}"))
+        self.0
+            .get(column)
+            .unwrap_or_else(|| panic!("no column {column}"))
     }
 
     pub fn number(&self, column: &str) -> f64 {
-        self.text(column).parse().unwrap_or_else(|_| panic!("{column}: {}", self.text(column)))
+        self.text(column)
+            .parse()
+            .unwrap_or_else(|_| panic!("{column}: {}", self.text(column)))
     }
 
     /// The number, 0 where there is no such column.
     pub fn number_or_zero(&self, column: &str) -> f64 {
-        if self.0.contains_key(column) { self.number(column) } else { 0.0 }
+        if self.0.contains_key(column) {
+            self.number(column)
+        } else {
+            0.0
+        }
     }
 
     pub fn numbers<const N: usize>(&self, columns: [&str; N]) -> [f64; N] {
@@ -36,17 +44,32 @@ impl Row {
 
     /// Six columns named with `{}` in place of the joint number, degrees, in radians.
     pub fn joints(&self, pattern: &str) -> [f64; 6] {
-        std::array::from_fn(|i| self.number(&pattern.replace("{}", &(i + 1).to_string())).to_radians())
+        std::array::from_fn(|i| {
+            self.number(&pattern.replace("{}", &(i + 1).to_string()))
+                .to_radians()
+        })
     }
 }
 
 /// The rows of a CSV file below the repository's top.
 pub fn table(path: &str) -> Vec<Row> {
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(repository(path)).expect(path);
-    let header: Vec<String> = reader.headers().expect(path).iter().map(str::to_owned).collect();
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_path(repository(path))
+        .expect(path);
+    let header: Vec<String> = reader
+        .headers()
+        .expect(path)
+        .iter()
+        .map(str::to_owned)
+        .collect();
     let rows = reader.records().map(|record| {
         let record = record.expect(path);
-        Row(header.iter().cloned().zip(record.iter().map(str::to_owned)).collect())
+        Row(header
+            .iter()
+            .cloned()
+            .zip(record.iter().map(str::to_owned))
+            .collect())
     });
     rows.collect()
 }
@@ -55,8 +78,15 @@ pub fn table(path: &str) -> Vec<Row> {
 pub fn gap(a: [f64; 7], b: [f64; 7]) -> (f64, f64) {
     let distance = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
     let (p, q) = (&a[3..], &b[3..]);
-    let sign = if (0..4).map(|i| p[i] * q[i]).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    let chord = (0..4).map(|i| (p[i] - sign * q[i]).powi(2)).sum::<f64>().sqrt();
+    let sign = if (0..4).map(|i| p[i] * q[i]).sum::<f64>() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let chord = (0..4)
+        .map(|i| (p[i] - sign * q[i]).powi(2))
+        .sum::<f64>()
+        .sqrt();
     (distance, 4.0 * (0.5 * chord).min(1.0).asin())
 }
 
@@ -65,4 +95,39 @@ pub fn numbers_of(pose: &poseshift::geometry::Pose) -> [f64; 7] {
     let t = pose.translation;
     let q = pose.rotation.quaternion().0;
     [t[0] * 1e3, t[1] * 1e3, t[2] * 1e3, q[0], q[1], q[2], q[3]]
+}
+
+/// Every shipped profile: file name and profile, in the order of their names.
+pub fn shipped_profiles() -> Vec<(String, poseshift::model::profile::Profile)> {
+    let mut names: Vec<_> = std::fs::read_dir(repository("robots"))
+        .expect("the shipped robots")
+        .map(|entry| {
+            entry
+                .expect("a file")
+                .file_name()
+                .into_string()
+                .expect("a plain name")
+        })
+        .filter(|name| name.ends_with(".yaml"))
+        .collect();
+    names.sort();
+    let read = |name: String| {
+        let profile =
+            poseshift::model::profile::Profile::from_yaml(&text(&format!("robots/{name}")));
+        let profile = profile.unwrap_or_else(|error| panic!("{name}: {error}"));
+        (name, profile)
+    };
+    names.into_iter().map(read).collect()
+}
+
+/// Joint angles drawn evenly within the limits of a mechanism, radians.
+pub fn random_joints(
+    random: &mut rand::rngs::StdRng,
+    profile: &poseshift::model::profile::Profile,
+) -> [f64; 6] {
+    use rand::RngExt;
+    profile
+        .mechanism
+        .joints
+        .map(|joint| random.random_range(joint.min_rad..joint.max_rad))
 }

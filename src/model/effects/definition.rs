@@ -142,7 +142,11 @@ impl Need {
 /// The six parameters of a frame, in the order of [`crate::geometry::Pose::from_xyz_rxryrz`].
 pub(super) const fn frame_parameters(length_sigma_mm: f64, angle_sigma_deg: f64) -> [Parameter; 6] {
     const fn parameter(key: &'static str, unit: Unit, prior_sigma: f64) -> Parameter {
-        Parameter { key, unit, prior_sigma }
+        Parameter {
+            key,
+            unit,
+            prior_sigma,
+        }
     }
     [
         parameter("x_mm", Unit::Millimetre, length_sigma_mm),

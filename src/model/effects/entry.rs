@@ -76,9 +76,14 @@ impl EntryError {
             }
             Self::UnknownKey { id, .. } | Self::MissingKey { id, .. } => {
                 let kind = Kind::by_id(id).expect("the name came from the registry");
-                format!("keys of `{id}`: {}", keys(kind.definition()).collect::<Vec<_>>().join(", "))
+                format!(
+                    "keys of `{id}`: {}",
+                    keys(kind.definition()).collect::<Vec<_>>().join(", ")
+                )
             }
-            Self::BadValue { .. } | Self::SameJoint { .. } => "`poseshift effects` lists every key with its unit".into(),
+            Self::BadValue { .. } | Self::SameJoint { .. } => {
+                "`poseshift effects` lists every key with its unit".into()
+            }
         }
     }
 }
@@ -100,36 +105,65 @@ impl Effect {
     /// An unknown effect, an unknown or missing key, a value of the wrong kind, out of range or not finite.
     pub fn from_entry(entry: &Map<String, Value>) -> Result<Self, EntryError> {
         let id = entry.get("effect").ok_or(EntryError::NoEffect)?;
-        let kind = id.as_str().and_then(Kind::by_id).ok_or_else(|| EntryError::UnknownEffect { id: plain(id) })?;
+        let kind = id
+            .as_str()
+            .and_then(Kind::by_id)
+            .ok_or_else(|| EntryError::UnknownEffect { id: plain(id) })?;
         let definition = kind.definition();
         let known = |key: &String| key == "effect" || keys(definition).any(|k| k == key);
         if let Some(key) = entry.keys().find(|key| !known(key)) {
-            return Err(EntryError::UnknownKey { id: definition.id, key: key.clone() });
+            return Err(EntryError::UnknownKey {
+                id: definition.id,
+                key: key.clone(),
+            });
         }
         let mut site = Site::default();
         for place in definition.site {
             let value = entry.get(place.key());
             match (place, value) {
                 (Place::Tool, None) => {}
-                (_, None) => return Err(EntryError::MissingKey { id: definition.id, key: place.key() }),
+                (_, None) => {
+                    return Err(EntryError::MissingKey {
+                        id: definition.id,
+                        key: place.key(),
+                    });
+                }
                 (Place::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
-                (Place::Link | Place::Joint, Some(value)) => site.index = whole(definition, *place, value)? as usize - 1,
-                (Place::On, Some(value)) => site.on = whole(definition, *place, value)? as usize - 1,
+                (Place::Link | Place::Joint, Some(value)) => {
+                    site.index = whole(definition, *place, value)? as usize - 1
+                }
+                (Place::On, Some(value)) => {
+                    site.on = whole(definition, *place, value)? as usize - 1
+                }
                 (Place::Order, Some(value)) => site.order = whole(definition, *place, value)?,
             }
         }
         if definition.site.contains(&Place::On) && site.index == site.on {
-            return Err(EntryError::SameJoint { id: definition.id, joint: site.index + 1 });
+            return Err(EntryError::SameJoint {
+                id: definition.id,
+                joint: site.index + 1,
+            });
         }
         let mut parameters = [0.0; MOST_PARAMETERS];
         for (slot, parameter) in parameters.iter_mut().zip(definition.parameters) {
             match entry.get(parameter.key) {
-                Some(value) => *slot = number(definition, parameter, value)? * parameter.unit.in_si(),
+                Some(value) => {
+                    *slot = number(definition, parameter, value)? * parameter.unit.in_si()
+                }
                 None if optional(definition) => {}
-                None => return Err(EntryError::MissingKey { id: definition.id, key: parameter.key }),
+                None => {
+                    return Err(EntryError::MissingKey {
+                        id: definition.id,
+                        key: parameter.key,
+                    });
+                }
             }
         }
-        Ok(Self { kind, site, parameters })
+        Ok(Self {
+            kind,
+            site,
+            parameters,
+        })
     }
 
     /// The entry's keys and values in the order of the definition; parameters that are zero and may be left out are.
@@ -142,7 +176,12 @@ impl Effect {
                 Place::Link | Place::Joint => entry.push((place.key(), json!(self.site.index + 1))),
                 Place::On => entry.push((place.key(), json!(self.site.on + 1))),
                 Place::Order => entry.push((place.key(), json!(self.site.order))),
-                Place::Tool => entry.extend(self.site.tool.as_ref().map(|tool| (place.key(), json!(tool)))),
+                Place::Tool => entry.extend(
+                    self.site
+                        .tool
+                        .as_ref()
+                        .map(|tool| (place.key(), json!(tool))),
+                ),
             }
         }
         for (value, parameter) in self.parameters.iter().zip(definition.parameters) {
@@ -158,9 +197,17 @@ impl Effect {
     pub fn label(&self) -> String {
         let definition = self.definition();
         let count = 1 + definition.site.len();
-        let words = self.to_entry().into_iter().take(count).filter(|(key, _)| keys(definition).all(|k| k != *key) || definition.site.iter().any(|p| p.key() == *key));
+        let words = self.to_entry().into_iter().take(count).filter(|(key, _)| {
+            keys(definition).all(|k| k != *key) || definition.site.iter().any(|p| p.key() == *key)
+        });
         words
-            .map(|(key, value)| if key == "effect" { plain(&value) } else { format!("{key} {}", plain(&value)) })
+            .map(|(key, value)| {
+                if key == "effect" {
+                    plain(&value)
+                } else {
+                    format!("{key} {}", plain(&value))
+                }
+            })
             .collect::<Vec<_>>()
             .join(" ")
     }
@@ -173,34 +220,64 @@ impl Effect {
 }
 
 fn plain(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
 }
 
 fn bad(definition: &Definition, key: &str, found: &Value, expected: String) -> EntryError {
-    EntryError::BadValue { id: definition.id, key: key.into(), found: plain(found), expected }
+    EntryError::BadValue {
+        id: definition.id,
+        key: key.into(),
+        found: plain(found),
+        expected,
+    }
 }
 
 fn name(definition: &Definition, place: Place, value: &Value) -> Result<String, EntryError> {
     let text = value.as_str().filter(|text| !text.is_empty());
-    text.map(str::to_owned).ok_or_else(|| bad(definition, place.key(), value, "a name".into()))
+    text.map(str::to_owned)
+        .ok_or_else(|| bad(definition, place.key(), value, "a name".into()))
 }
 
 fn whole(definition: &Definition, place: Place, value: &Value) -> Result<u32, EntryError> {
     let (low, high) = place.range().expect("a place that is counted");
-    let number = value.as_u64().and_then(|n| u32::try_from(n).ok()).filter(|n| (low..=high).contains(n));
-    number.ok_or_else(|| bad(definition, place.key(), value, format!("a whole number from {low} to {high}")))
+    let number = value
+        .as_u64()
+        .and_then(|n| u32::try_from(n).ok())
+        .filter(|n| (low..=high).contains(n));
+    number.ok_or_else(|| {
+        bad(
+            definition,
+            place.key(),
+            value,
+            format!("a whole number from {low} to {high}"),
+        )
+    })
 }
 
-fn number(definition: &Definition, parameter: &Parameter, value: &Value) -> Result<f64, EntryError> {
+fn number(
+    definition: &Definition,
+    parameter: &Parameter,
+    value: &Value,
+) -> Result<f64, EntryError> {
     let number = value.as_f64().filter(|n| n.is_finite());
-    number.ok_or_else(|| bad(definition, parameter.key, value, format!("a finite number in {}", parameter.unit.symbol())))
+    number.ok_or_else(|| {
+        bad(
+            definition,
+            parameter.key,
+            value,
+            format!("a finite number in {}", parameter.unit.symbol()),
+        )
+    })
 }
 
 /// The JSON Schema of one entry, from the registry.
 #[must_use]
 pub fn entry_schema() -> Value {
     let one = |definition: &Definition| {
-        let mut properties = Map::from_iter([("effect".to_owned(), json!({"const": definition.id}))]);
+        let mut properties =
+            Map::from_iter([("effect".to_owned(), json!({"const": definition.id}))]);
         let mut required = vec!["effect"];
         for place in definition.site {
             let schema = match place.range() {

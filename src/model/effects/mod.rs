@@ -26,13 +26,23 @@ trait Equation {
     const DEFINITION: Definition;
 
     /// Changes the arm's geometry, before any posture is known.
-    fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], conditions: &Conditions, geometry: &mut Geometry<S>) {
+    fn change_geometry<S: Scalar>(
+        site: &Site,
+        p: &[S; MOST_PARAMETERS],
+        conditions: &Conditions,
+        geometry: &mut Geometry<S>,
+    ) {
         let _ = (site, p, conditions, geometry);
     }
 
     /// Adds what the posture does to `deflection`.
     #[inline(always)]
-    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+    fn deflect<S: Scalar>(
+        site: &Site,
+        p: &[S; MOST_PARAMETERS],
+        state: &State<S>,
+        deflection: &mut Deflection<S>,
+    ) {
         let _ = (site, p, state, deflection);
     }
 }
@@ -92,7 +102,10 @@ impl Kind {
     /// The effect of this name.
     #[must_use]
     pub fn by_id(id: &str) -> Option<Self> {
-        REGISTRY.iter().copied().find(|kind| kind.definition().id == id)
+        REGISTRY
+            .iter()
+            .copied()
+            .find(|kind| kind.definition().id == id)
     }
 }
 
@@ -132,7 +145,11 @@ impl Effect {
     /// The same effect with constants of another scalar.
     #[must_use]
     pub fn cast<S: Scalar>(&self) -> Effect<S> {
-        Effect { kind: self.kind, site: self.site.clone(), parameters: self.parameters.map(S::constant) }
+        Effect {
+            kind: self.kind,
+            site: self.site.clone(),
+            parameters: self.parameters.map(S::constant),
+        }
     }
 
     /// Whether every parameter is zero, so that it does nothing.
@@ -174,6 +191,11 @@ impl<S: Scalar> Deflection<S> {
     #[must_use]
     pub fn none() -> Self {
         let zero = S::zero();
-        Self { joints: [zero; 6], links: [[zero; 3]; 6], world: [zero; 6], tool: [zero; 6] }
+        Self {
+            joints: [zero; 6],
+            links: [[zero; 3]; 6],
+            world: [zero; 6],
+            tool: [zero; 6],
+        }
     }
 }

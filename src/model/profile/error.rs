@@ -121,7 +121,9 @@ impl ProfileError {
         match &self.fault {
             Fault::Effect(error) => error.hint(),
             Fault::DuplicateEffect { .. } => "add the two up into one entry".into(),
-            Fault::Format { .. } | Fault::Yaml { .. } => "`poseshift profile schema` prints the format".into(),
+            Fault::Format { .. } | Fault::Yaml { .. } => {
+                "`poseshift profile schema` prints the format".into()
+            }
             Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),
             _ => String::new(),
         }
@@ -133,11 +135,20 @@ impl From<serde_yaml::Error> for ProfileError {
         let location = error.location();
         let message = error.without_snippet().to_string();
         // the parser repeats the place at the end of its message
-        let message = message.split(" at line ").next().unwrap_or(&message).to_owned();
+        let message = message
+            .split(" at line ")
+            .next()
+            .unwrap_or(&message)
+            .to_owned();
         let fault = Fault::Yaml { message };
         match location {
             Some(location) => fault.at(location),
-            None => Self { line: 0, column: 0, span: None, fault },
+            None => Self {
+                line: 0,
+                column: 0,
+                span: None,
+                fault,
+            },
         }
     }
 }

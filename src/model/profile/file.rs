@@ -225,6 +225,7 @@ pub struct CalibrationFile {
 }
 
 fn effects_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-    let schema = serde_json::json!({"type": "array", "items": crate::model::effects::entry_schema()});
+    let schema =
+        serde_json::json!({"type": "array", "items": crate::model::effects::entry_schema()});
     schema.try_into().expect("an object is a schema")
 }

@@ -78,7 +78,11 @@ impl Mounted {
     /// No tool: the flange itself.
     #[must_use]
     pub fn flange() -> Self {
-        Self { name: "flange".into(), flange_from_tool: Pose::identity(), load: None }
+        Self {
+            name: "flange".into(),
+            flange_from_tool: Pose::identity(),
+            load: None,
+        }
     }
 }
 
@@ -94,7 +98,10 @@ impl Profile {
 
     fn from_file(file: ProfileFile) -> Result<Self, ProfileError> {
         if file.poseshift.value != FORMAT {
-            return Err(Fault::Format { found: file.poseshift.value }.at(file.poseshift.defined));
+            return Err(Fault::Format {
+                found: file.poseshift.value,
+            }
+            .at(file.poseshift.defined));
         }
         let kinematics = file.kinematics;
         let mut bodies = Vec::new();
@@ -102,16 +109,30 @@ impl Profile {
             let at = body.defined;
             let body = &body.value;
             let mass_kg = mass(body.mass_kg, at)?;
-            bodies.push(Body { link: index("link", body.link, at)?, mass_kg, cog_m: metres(body.cog_mm) });
+            bodies.push(Body {
+                link: index("link", body.link, at)?,
+                mass_kg,
+                cog_m: metres(body.cog_mm),
+            });
         }
         let mut tools = BTreeMap::new();
         for (name, tool) in file.tools {
             let load = match (tool.mass_kg, tool.cog_mm) {
-                (Some(kg), cog) => Some((mass(kg.value, kg.defined)?, cog.map_or([0.0; 3], metres))),
-                (None, Some(_)) => return Err(Fault::CogWithoutMass { tool: name }.at(tool.frame.defined)),
+                (Some(kg), cog) => {
+                    Some((mass(kg.value, kg.defined)?, cog.map_or([0.0; 3], metres)))
+                }
+                (None, Some(_)) => {
+                    return Err(Fault::CogWithoutMass { tool: name }.at(tool.frame.defined));
+                }
                 (None, None) => None,
             };
-            tools.insert(name, ToolOfProfile { flange_from_tool: pose(&tool.frame)?, load });
+            tools.insert(
+                name,
+                ToolOfProfile {
+                    flange_from_tool: pose(&tool.frame)?,
+                    load,
+                },
+            );
         }
         let (links, joints) = rows(&kinematics.joints)?;
         let profile = Self {
@@ -120,14 +141,27 @@ impl Profile {
             serial: file.robot.serial,
             language: file.controller.language.map(|language| language.value),
             controller: file.controller.model,
-            world_from_base: kinematics.base.as_ref().map_or(Ok(Pose::identity()), pose)?,
+            world_from_base: kinematics
+                .base
+                .as_ref()
+                .map_or(Ok(Pose::identity()), pose)?,
             links,
-            mechanism: Mechanism { joints, coupling: couplings(&kinematics.coupling)? },
-            link6_from_flange: kinematics.flange.as_ref().map_or(Ok(Pose::identity()), pose)?,
+            mechanism: Mechanism {
+                joints,
+                coupling: couplings(&kinematics.coupling)?,
+            },
+            link6_from_flange: kinematics
+                .flange
+                .as_ref()
+                .map_or(Ok(Pose::identity()), pose)?,
             bodies,
             gravity_m_s2: file.gravity_m_s2.map(|n| n.0),
             tools,
-            points: file.points.into_iter().map(|(name, point)| (name, metres(point))).collect(),
+            points: file
+                .points
+                .into_iter()
+                .map(|(name, point)| (name, metres(point)))
+                .collect(),
             effects: effects(file.calibration.effects)?,
             quality: file.calibration.quality,
             provenance: file.calibration.provenance,
@@ -148,7 +182,11 @@ impl Profile {
     #[must_use]
     pub fn tool(&self, name: &str) -> Option<Mounted> {
         let tool = self.tools.get(name)?;
-        Some(Mounted { name: name.into(), flange_from_tool: tool.flange_from_tool, load: tool.load })
+        Some(Mounted {
+            name: name.into(),
+            flange_from_tool: tool.flange_from_tool,
+            load: tool.load,
+        })
     }
 
     /// The nominal arm with a tool.
@@ -172,22 +210,35 @@ impl Profile {
     pub fn controller_effects(&self) -> Vec<Effect> {
         match self.controller {
             ControllerModel::Nominal => Vec::new(),
-            ControllerModel::Calibrated => {
-                self.effects.iter().filter(|effect| effect.kind == Kind::LinkGeometry).cloned().collect()
-            }
+            ControllerModel::Calibrated => self
+                .effects
+                .iter()
+                .filter(|effect| effect.kind == Kind::LinkGeometry)
+                .cloned()
+                .collect(),
         }
     }
 
     /// The arm as the controller computes with it.
     #[must_use]
     pub fn controller_model(&self, tool: &Mounted) -> Model {
-        Model::build(&self.geometry(tool), &self.mechanism, &self.controller_effects(), &Conditions::default())
+        Model::build(
+            &self.geometry(tool),
+            &self.mechanism,
+            &self.controller_effects(),
+            &Conditions::default(),
+        )
     }
 
     /// The arm as it really is.
     #[must_use]
     pub fn real_model(&self, tool: &Mounted, conditions: &Conditions) -> Model {
-        Model::build(&self.geometry(tool), &self.mechanism, &self.effects, conditions)
+        Model::build(
+            &self.geometry(tool),
+            &self.mechanism,
+            &self.effects,
+            conditions,
+        )
     }
 }
 
@@ -198,18 +249,32 @@ fn metres(mm: [Number; 3]) -> Vector {
 fn index(key: &'static str, number: u8, at: Location) -> Result<usize, ProfileError> {
     match number {
         1..=6 => Ok(usize::from(number) - 1),
-        _ => Err(Fault::OutOfRange { key, found: f64::from(number), low: 1.0, high: 6.0 }.at(at)),
+        _ => Err(Fault::OutOfRange {
+            key,
+            found: f64::from(number),
+            low: 1.0,
+            high: 6.0,
+        }
+        .at(at)),
     }
 }
 
 fn mass(kg: Number, at: Location) -> Result<f64, ProfileError> {
     if kg.0 < 0.0 {
-        return Err(Fault::OutOfRange { key: "mass_kg", found: kg.0, low: 0.0, high: f64::INFINITY }.at(at));
+        return Err(Fault::OutOfRange {
+            key: "mass_kg",
+            found: kg.0,
+            low: 0.0,
+            high: f64::INFINITY,
+        }
+        .at(at));
     }
     Ok(kg.0)
 }
 
-fn rows(joints: &Spanned<Vec<Spanned<file::JointFile>>>) -> Result<([Link; 6], [JointSense; 6]), ProfileError> {
+fn rows(
+    joints: &Spanned<Vec<Spanned<file::JointFile>>>,
+) -> Result<([Link; 6], [JointSense; 6]), ProfileError> {
     let mut rows = Vec::new();
     for joint in &joints.value {
         let (at, joint) = (joint.defined, &joint.value);
@@ -217,7 +282,11 @@ fn rows(joints: &Spanned<Vec<Spanned<file::JointFile>>>) -> Result<([Link; 6], [
             return Err(Fault::Sign { found: joint.sign }.at(at));
         }
         if joint.min_deg.0 >= joint.max_deg.0 {
-            return Err(Fault::Limits { min: joint.min_deg.0, max: joint.max_deg.0 }.at(at));
+            return Err(Fault::Limits {
+                min: joint.min_deg.0,
+                max: joint.max_deg.0,
+            }
+            .at(at));
         }
         let link = Link {
             alpha_rad: joint.alpha_deg.0 * DEG,
@@ -234,7 +303,9 @@ fn rows(joints: &Spanned<Vec<Spanned<file::JointFile>>>) -> Result<([Link; 6], [
         };
         rows.push((link, sense));
     }
-    let six: [_; 6] = rows.try_into().map_err(|rows: Vec<_>| Fault::NotSix { found: rows.len() }.at(joints.defined))?;
+    let six: [_; 6] = rows
+        .try_into()
+        .map_err(|rows: Vec<_>| Fault::NotSix { found: rows.len() }.at(joints.defined))?;
     Ok((six.map(|row| row.0), six.map(|row| row.1)))
 }
 
@@ -243,15 +314,31 @@ fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, P
     let mut waiting = Vec::new();
     for entry in entries {
         let at = entry.defined;
-        let (joint, on) = (index("joint", entry.value.joint, at)?, index("on", entry.value.on, at)?);
-        waiting.push((Coupling { joint, on, ratio: entry.value.ratio.0 }, at));
+        let (joint, on) = (
+            index("joint", entry.value.joint, at)?,
+            index("on", entry.value.on, at)?,
+        );
+        waiting.push((
+            Coupling {
+                joint,
+                on,
+                ratio: entry.value.ratio.0,
+            },
+            at,
+        ));
     }
     let mut ordered = Vec::new();
     while !waiting.is_empty() {
-        let free = waiting.iter().position(|(c, _)| waiting.iter().all(|(other, _)| other.joint != c.on));
+        let free = waiting
+            .iter()
+            .position(|(c, _)| waiting.iter().all(|(other, _)| other.joint != c.on));
         let Some(free) = free else {
             let (coupling, at) = waiting[0];
-            return Err(Fault::CircularCoupling { joint: coupling.joint + 1, on: coupling.on + 1 }.at(at));
+            return Err(Fault::CircularCoupling {
+                joint: coupling.joint + 1,
+                on: coupling.on + 1,
+            }
+            .at(at));
         };
         ordered.push(waiting.remove(free).0);
     }
@@ -264,13 +351,24 @@ fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
     match (p.rx_deg, p.ry_deg, p.rz_deg, p.quaternion) {
         (Some(rx), Some(ry), Some(rz), None) => {
             let [x, y, z] = translation;
-            Ok(Pose::from_xyz_rxryrz([x, y, z, rx.0 * DEG, ry.0 * DEG, rz.0 * DEG]))
+            Ok(Pose::from_xyz_rxryrz([
+                x,
+                y,
+                z,
+                rx.0 * DEG,
+                ry.0 * DEG,
+                rz.0 * DEG,
+            ]))
         }
         (None, None, None, Some(q)) => {
             let quaternion = Quaternion(q.map(|n| n.0));
             let norm = quaternion.norm();
             if (norm - 1.0).abs() > UNIT_TOLERANCE {
-                return Err(Fault::NotUnit { norm, tolerance: UNIT_TOLERANCE }.at(file.defined));
+                return Err(Fault::NotUnit {
+                    norm,
+                    tolerance: UNIT_TOLERANCE,
+                }
+                .at(file.defined));
             }
             Ok(Pose::from_parts(translation, quaternion.normalized()))
         }
@@ -278,18 +376,35 @@ fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
     }
 }
 
-fn effects(entries: Vec<Spanned<BTreeMap<String, Spanned<serde_json::Value>>>>) -> Result<Vec<Effect>, ProfileError> {
+fn effects(
+    entries: Vec<Spanned<BTreeMap<String, Spanned<serde_json::Value>>>>,
+) -> Result<Vec<Effect>, ProfileError> {
     let mut out: Vec<Effect> = Vec::new();
     for entry in entries {
         let at = entry.defined;
-        let places: BTreeMap<_, _> = entry.value.iter().map(|(key, value)| (key.clone(), value.defined)).collect();
-        let map = entry.value.into_iter().map(|(key, value)| (key, value.value)).collect();
+        let places: BTreeMap<_, _> = entry
+            .value
+            .iter()
+            .map(|(key, value)| (key.clone(), value.defined))
+            .collect();
+        let map = entry
+            .value
+            .into_iter()
+            .map(|(key, value)| (key, value.value))
+            .collect();
         let effect = Effect::from_entry(&map).map_err(|error| {
-            let at = error.key().and_then(|key| places.get(key)).copied().unwrap_or(at);
+            let at = error
+                .key()
+                .and_then(|key| places.get(key))
+                .copied()
+                .unwrap_or(at);
             Fault::Effect(error).at(at)
         })?;
         if out.iter().any(|other| other.same_place(&effect)) {
-            return Err(Fault::DuplicateEffect { label: effect.label() }.at(at));
+            return Err(Fault::DuplicateEffect {
+                label: effect.label(),
+            }
+            .at(at));
         }
         out.push(effect);
     }

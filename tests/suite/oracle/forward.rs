@@ -21,7 +21,8 @@ fn real_and_controller_poses_torques_and_deflections_agree_with_the_oracle() {
     let mut rows_seen = 0;
     for case in &cases {
         let name = case.text("case");
-        let profile = Profile::from_yaml(&text(&format!("{folder}/{}", case.text("profile")))).expect(name);
+        let profile =
+            Profile::from_yaml(&text(&format!("{folder}/{}", case.text("profile")))).expect(name);
         let tool = profile.tool(case.text("tool")).expect("the case's tool");
         let controller = profile.controller_model(&tool);
         let joints = table(&format!("{folder}/{}", case.text("joints")));
@@ -35,18 +36,36 @@ fn real_and_controller_poses_torques_and_deflections_agree_with_the_oracle() {
                 ..Conditions::default()
             };
             let real = profile.real_model(&tool, &conditions);
-            let (distance, angle) = gap(numbers_of(&real.forward(&q, &conditions)), want.numbers(POSE));
-            assert!(distance < POSITION_MM && angle < ANGLE_RAD, "{name}: {distance} mm {angle} rad");
-            let (distance, angle) =
-                gap(numbers_of(&controller.forward(&q, &Conditions::default())), want.numbers(CONTROLLER_POSE));
-            assert!(distance < POSITION_MM && angle < ANGLE_RAD, "{name}, controller: {distance} mm {angle} rad");
+            let (distance, angle) = gap(
+                numbers_of(&real.forward(&q, &conditions)),
+                want.numbers(POSE),
+            );
+            assert!(
+                distance < POSITION_MM && angle < ANGLE_RAD,
+                "{name}: {distance} mm {angle} rad"
+            );
+            let (distance, angle) = gap(
+                numbers_of(&controller.forward(&q, &Conditions::default())),
+                want.numbers(CONTROLLER_POSE),
+            );
+            assert!(
+                distance < POSITION_MM && angle < ANGLE_RAD,
+                "{name}, controller: {distance} mm {angle} rad"
+            );
             let torques = real.torques(&q, &conditions);
             let deflection = real.deflection(&q, &conditions);
             for i in 0..6 {
                 let torque = want.number(&format!("tau{}_n_m", i + 1));
-                assert!((torques[i] - torque).abs() < TORQUE_N_M, "{name}: torque {} {torque}", torques[i]);
+                assert!(
+                    (torques[i] - torque).abs() < TORQUE_N_M,
+                    "{name}: torque {} {torque}",
+                    torques[i]
+                );
                 let delta = want.number(&format!("delta{}_deg", i + 1)).to_radians();
-                assert!((deflection.joints[i] - delta).abs() < ANGLE_RAD, "{name}: joint {i} {delta}");
+                assert!(
+                    (deflection.joints[i] - delta).abs() < ANGLE_RAD,
+                    "{name}: joint {i} {delta}"
+                );
             }
             rows_seen += 1;
         }

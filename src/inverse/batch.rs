@@ -1,0 +1,129 @@
+//! Many targets at once, four side by side in vector registers.
+
+use super::branch::Branch;
+use super::pose_shift::{Inverse, Outcome, step, within};
+use crate::geometry::{Pose, Rotation, Separation};
+use crate::model::Model;
+use crate::model::batch::{Four, WIDTH, side_by_side};
+use pulp::Arch;
+
+/// Steps after which the targets of a group that have not converged are left to the slow way.
+const MOST_STEPS: u32 = 7;
+
+/// What to solve: as many poses as branches and nearby joint angles.
+#[derive(Clone, Copy, Debug)]
+pub struct Targets<'a> {
+    /// `world_from_tool` of each.
+    pub wanted: &'a [Pose],
+    /// The branch of each.
+    pub branches: &'a [Branch],
+    /// The controller's joint angles that each solution is nearest to by whole turns, radians.
+    pub near: &'a [[f64; 6]],
+}
+
+/// Solves many targets with one tool under one set of conditions; the same outcomes as [`Inverse::solve`] within its
+/// tolerances, in the same order.
+///
+/// The pose shift runs on four targets at a time with the widest vector instructions that this processor has. Targets that
+/// do not converge in it are finished one by one.
+///
+/// # Panics
+/// If the three slices differ in length: the caller's bug.
+#[must_use]
+pub fn solve_batch(inverse: &Inverse, targets: Targets) -> Vec<Outcome> {
+    let count = targets.wanted.len();
+    assert!(
+        targets.branches.len() == count && targets.near.len() == count,
+        "as many branches and seeds as poses"
+    );
+    let real = inverse.real.cast::<Four>();
+    let mut outcomes = Vec::with_capacity(count);
+    Arch::new().dispatch(Kernel {
+        inverse,
+        real: &real,
+        targets,
+        outcomes: &mut outcomes,
+    });
+    outcomes
+}
+
+struct Kernel<'a> {
+    inverse: &'a Inverse,
+    real: &'a Model<Four>,
+    targets: Targets<'a>,
+    outcomes: &'a mut Vec<Outcome>,
+}
+
+impl pulp::NullaryFnOnce for Kernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self {
+            inverse,
+            real,
+            targets,
+            outcomes,
+        } = self;
+        let count = targets.wanted.len();
+        for start in (0..count).step_by(WIDTH) {
+            // past the end the last target is repeated and its outcome dropped
+            let lanes: [usize; WIDTH] = std::array::from_fn(|lane| (start + lane).min(count - 1));
+            let wanted = gather(lanes.map(|i| &targets.wanted[i]));
+            let near = side_by_side(lanes.map(|i| targets.near[i]));
+            let signs = side_by_side(lanes.map(|i| targets.branches[i].signs()));
+            let mut given = wanted;
+            let mut iterations = 0;
+            let last = loop {
+                iterations += 1;
+                let now = step(
+                    &inverse.arm,
+                    real,
+                    &inverse.conditions,
+                    &wanted,
+                    &given,
+                    signs,
+                    &near,
+                );
+                let done = (0..WIDTH).all(|lane| within(now.distance.0[lane], now.angle.0[lane]));
+                if done || iterations == MOST_STEPS {
+                    break now;
+                }
+                given = now.next;
+            };
+            for (lane, &target) in lanes.iter().enumerate().take(count - start) {
+                let residual = Separation {
+                    distance_m: last.distance.0[lane],
+                    angle_rad: last.angle.0[lane],
+                };
+                let outcome = if within(residual.distance_m, residual.angle_rad)
+                    && last.beyond.0[lane] == 0.0
+                {
+                    inverse.finish(
+                        last.q.map(|q| q.0[lane]),
+                        residual,
+                        iterations,
+                        targets.branches[target],
+                    )
+                } else {
+                    inverse.solve(
+                        &targets.wanted[target],
+                        targets.branches[target],
+                        &targets.near[target],
+                    )
+                };
+                outcomes.push(outcome);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn gather(poses: [&Pose; WIDTH]) -> Pose<Four> {
+    Pose {
+        rotation: Rotation(std::array::from_fn(|i| {
+            side_by_side(poses.map(|p| p.rotation.0[i]))
+        })),
+        translation: side_by_side(poses.map(|p| p.translation)),
+    }
+}

@@ -1,0 +1,16 @@
+//! From a wanted pose to joint angles: the nominal arm in closed form, the calibrated one by pose shift.
+//!
+//! The calibrated inverse needs no derivative: [`pose_shift`] feeds what is still missing back into the nominal inverse.
+//! Where that stalls, near singularities and at the edge of reach, a damped Newton method on the exact Jacobian
+//! ([`newton`]) goes on from the best posture and keeps the branch.
+
+mod batch;
+mod branch;
+mod closed_form;
+mod newton;
+mod pose_shift;
+
+pub use batch::{Targets, solve_batch};
+pub use branch::Branch;
+pub use closed_form::{Arm, Margins, Solution, Unsupported};
+pub use pose_shift::{Inverse, Outcome, Status, TOLERANCE_M, TOLERANCE_RAD};
