@@ -1,5 +1,6 @@
 //! Makes an offline-programmed robot path land where the simulation wanted it.
 #![allow(missing_docs)]
+pub mod compensate;
 pub mod finding;
 pub mod geometry;
 pub mod inverse;

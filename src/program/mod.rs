@@ -54,6 +54,10 @@ pub trait Language: Sync {
     /// What each number of a target is, in the order of [`Target::numbers`].
     fn roles(&self, shape: Shape) -> &'static [Role];
 
+    /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a metre away where it is an
+    /// angle or part of a quaternion.
+    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize;
+
     /// The meaning of a target's numbers, as many as it has roles.
     fn decode(&self, shape: Shape, numbers: &[f64]) -> Decoded;
 

@@ -1,0 +1,262 @@
+//! Which of the inverse's solutions the program means: by its configuration data where the controller honours them, and by
+//! the way it comes from the target before.
+
+use super::placement::{Place, name_of};
+use super::{Job, Task};
+use crate::finding::{Finding, Severity};
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
+use crate::inverse::{Arm, Branch};
+use crate::model::effects::Need;
+use crate::program::{Configuration, Decoded, Move, Shape, Value};
+
+/// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
+const BORDER_RAD: f64 = 0.05 * DEG;
+/// How far beyond its limits a joint of the nominal arm may stand; the real one is judged exactly.
+const LIMIT_RAD: f64 = 2.0 * DEG;
+/// A joint that moves less than this keeps the direction in which it moved before.
+const STANDSTILL_RAD: f64 = 1e-6;
+
+/// A way to reach a target with the nominal arm.
+#[derive(Clone, Copy)]
+struct Way {
+    branch: Branch,
+    q: [f64; 6],
+    /// It is all that the configuration data ask for.
+    configured: bool,
+    /// Its joints are in the ranges that the configuration data name.
+    in_ranges: bool,
+}
+
+/// Where the path has been.
+#[derive(Clone, Copy, Default)]
+struct Path {
+    file: u32,
+    joints: Option<[f64; 6]>,
+    direction: [i8; 6],
+}
+
+impl Path {
+    fn go(&mut self, q: [f64; 6]) {
+        if let Some(before) = self.joints {
+            for i in 0..6 {
+                let by = q[i] - before[i];
+                if by.abs() > STANDSTILL_RAD {
+                    self.direction[i] = if by > 0.0 { 1 } else { -1 };
+                }
+            }
+        }
+        self.joints = Some(q);
+    }
+}
+
+/// The tasks of all targets that have a place and a branch, in the order of the targets.
+pub(super) fn choose(job: &Job, places: &[Option<Place>], findings: &mut Vec<Finding>) -> Vec<Task> {
+    let directed = job.profile.effects.iter().any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions));
+    let mut chosen: Vec<Option<Task>> = vec![None; places.len()];
+    let mut tried = vec![false; places.len()];
+    let mut path = Path::default();
+    for motion in &job.program.moves {
+        if motion.file != path.file {
+            path = Path { file: motion.file, ..Path::default() };
+        }
+        let target = motion.target;
+        if !tried[target] {
+            tried[target] = true;
+            chosen[target] = task(job, target, Some(motion), places[target].as_ref(), &path, findings);
+        }
+        match (&mut chosen[target], job.program.targets[target].shape) {
+            (Some(task), _) => {
+                path.go(task.nominal_q);
+                if directed && task.direction == [0; 6] {
+                    task.direction = path.direction;
+                }
+            }
+            (None, Shape::Joints) => {
+                if let Value::Joints(q) = decoded(job, target).value {
+                    path.go(q);
+                }
+            }
+            // where the robot is after a target that nobody understands is unknown
+            (None, Shape::Pose) => path = Path { file: motion.file, ..Path::default() },
+        }
+    }
+    for (target, place) in places.iter().enumerate().filter(|(target, _)| !tried[*target]) {
+        chosen[target] = task(job, target, None, place.as_ref(), &Path::default(), findings);
+    }
+    chosen.into_iter().flatten().collect()
+}
+
+pub(super) fn decoded(job: &Job, target: usize) -> Decoded {
+    let target = &job.program.targets[target];
+    let numbers: Vec<f64> = job.program.numbers_of(target).iter().map(|n| n.value).collect();
+    job.language.decode(target.shape, &numbers)
+}
+
+fn task(
+    job: &Job,
+    target: usize,
+    motion: Option<&Move>,
+    place: Option<&Place>,
+    path: &Path,
+    findings: &mut Vec<Finding>,
+) -> Option<Task> {
+    let place = place?;
+    let equipped = job.equipped(place.tool);
+    let arm = &equipped.arm;
+    let Decoded { value, configuration } = decoded(job, target);
+    let (wanted, branch, nominal_q) = match value {
+        Value::Joints(q) => (equipped.controller.forward(&q, &crate::model::Conditions::default()), arm.posture(&q).0, q),
+        Value::Pose(frame_from_tool) => {
+            let wanted = place.world_from_frame * frame_from_tool;
+            let honoured = motion.is_none_or(|motion| motion.configured);
+            let way = choose_way(job, target, arm, &wanted, &configuration, honoured, path, findings)?;
+            (wanted, way.branch, way.q)
+        }
+    };
+    let direction = [0; 6];
+    let world_from_frame = place.world_from_frame;
+    Some(Task { target, tool: place.tool, world_from_frame, wanted, branch, nominal_q, direction })
+}
+
+#[allow(clippy::too_many_arguments)]
+fn choose_way(
+    job: &Job,
+    target: usize,
+    arm: &Arm,
+    wanted: &Pose,
+    configuration: &Configuration,
+    honoured: bool,
+    path: &Path,
+    findings: &mut Vec<Finding>,
+) -> Option<Way> {
+    // along a path the next posture is mostly on the branch of the last one; the others are tried where it does not fit
+    let middle = std::array::from_fn(|i| {
+        let joint = &arm.mechanism().joints[i];
+        0.0_f64.clamp(joint.min_rad, joint.max_rad)
+    });
+    let near = path.joints.unwrap_or(middle);
+    if let Some(before) = path.joints {
+        let way = way(arm, wanted, arm.posture(&before).0, &before, configuration);
+        if let Some(way) = way.filter(|way| way.configured && is_close(&way.q, &before)) {
+            return Some(way);
+        }
+    }
+    let ways: Vec<Way> = Branch::ALL.iter().filter_map(|&branch| way(arm, wanted, branch, &near, configuration)).collect();
+    let nearest = |accept: &dyn Fn(&Way) -> bool| {
+        let distance = |way: &Way| (0..6).map(|i| (way.q[i] - near[i]).abs()).fold(0.0, f64::max);
+        let accepted = ways.iter().filter(|way| accept(way)).copied();
+        accepted.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    let name = || name_of(job, target);
+    if ways.is_empty() {
+        return out_of_reach(job, target, arm, wanted, &near, findings);
+    }
+    if !honoured && path.joints.is_some() {
+        return nearest(&|_| true);
+    }
+    if let Some(way) = nearest(&|way| way.configured).or_else(|| nearest(&|way| way.in_ranges)) {
+        return Some(way);
+    }
+    let shown = nearest(&|_| true)?.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+    if path.joints.is_some() {
+        let message = format!(
+            "no solution at {} has the configuration that the file gives; the one nearest to the target before is taken \
+             (joints {shown} deg)",
+            name()
+        );
+        let hint = "check the configuration data, and that robot, tool and frame are those of the program";
+        findings.push(job.at_target("configuration-mismatch", Severity::Warning, target, message, hint));
+        return nearest(&|_| true);
+    }
+    let message = format!(
+        "no solution at {} has the configuration that the file gives, and no target before tells how the robot comes here \
+         (nearest: joints {shown} deg)",
+        name()
+    );
+    let hint = "check that robot, tool and frame are those of the program; start with a joint target";
+    findings.push(job.at_target("configuration-unknown", Severity::Error, target, message, hint));
+    None
+}
+
+/// Whether a posture follows the one before without a change of branch or a turn in between.
+fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
+    (0..6).all(|i| (q[i] - before[i]).abs() < 45.0 * DEG)
+}
+
+/// The solution on one branch with the turns that the configuration data and the limits ask for; `None` out of reach or
+/// beyond a limit.
+fn way(arm: &Arm, wanted: &Pose, branch: Branch, near: &[f64; 6], configuration: &Configuration) -> Option<Way> {
+    let solution = arm.solve_branch(wanted, branch, near);
+    if solution.beyond > 0.0 {
+        return None;
+    }
+    let mechanism = arm.mechanism();
+    let mut q = solution.q;
+    let mut in_ranges = true;
+    for i in 0..6 {
+        let limits = (mechanism.joints[i].min_rad - LIMIT_RAD, mechanism.joints[i].max_rad + LIMIT_RAD);
+        let asked = configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
+        let turned = |range: (f64, f64)| turned_into(q[i], range, limits);
+        match asked.and_then(turned) {
+            Some(angle) => q[i] = angle,
+            None => {
+                in_ranges &= asked.is_none();
+                q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
+            }
+        }
+    }
+    let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);
+    let configured = in_ranges
+        && agrees(configuration.behind_axis_1, branch.behind_axis_1)
+        && agrees(configuration.behind_lower_arm, branch.behind_lower_arm)
+        && agrees(configuration.joint_5_negative, branch.joint_5_negative);
+    Some(Way { branch, q, configured, in_ranges })
+}
+
+/// The angle, by as few whole turns as can be, that lies in both ranges.
+fn turned_into(angle: f64, range: (f64, f64), limits: (f64, f64)) -> Option<f64> {
+    let (low, high) = (range.0.max(limits.0), range.1.min(limits.1));
+    let turn = std::f64::consts::TAU;
+    if (low..=high).contains(&angle) {
+        return Some(angle);
+    }
+    let moved = if angle < low { angle + turn * ((low - angle) / turn).ceil() } else { angle - turn * ((angle - high) / turn).ceil() };
+    (low..=high).contains(&moved).then_some(moved)
+}
+
+/// A pose that the nominal arm does not reach within its limits: the real one may, so the branch of the posture before or of
+/// the stretched arm goes on; with neither it is an error.
+fn out_of_reach(
+    job: &Job,
+    target: usize,
+    arm: &Arm,
+    wanted: &Pose,
+    near: &[f64; 6],
+    findings: &mut Vec<Finding>,
+) -> Option<Way> {
+    let branch = arm.posture(near).0;
+    let stretched = arm.solve_branch(wanted, branch, near);
+    // squared cosine of the elbow beyond 1: a few millimetres at full stretch
+    if stretched.beyond > 0.0 && stretched.beyond < 0.02 {
+        return Some(Way { branch, q: stretched.q, configured: false, in_ranges: false });
+    }
+    let message = if stretched.beyond > 0.0 {
+        format!("{} is out of the nominal robot's reach", name_of(job, target))
+    } else {
+        let q = stretched.q;
+        let joint = arm.mechanism().beyond_limit(&q, LIMIT_RAD).unwrap_or(0);
+        let limits = &arm.mechanism().joints[joint];
+        format!(
+            "{} is reachable on no branch within the joint limits (nearest: joint {} at {:.2} deg, limits {:.2} to {:.2})",
+            name_of(job, target),
+            joint + 1,
+            q[joint] / DEG,
+            limits.min_rad / DEG,
+            limits.max_rad / DEG
+        )
+    };
+    let hint = "check that robot, tool and frame are those of the program";
+    findings.push(job.at_target("out-of-reach", Severity::Error, target, message, hint));
+    None
+}
