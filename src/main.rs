@@ -1,1 +1,5 @@
-fn main() {}
+//! The command line of poseshift.
+
+fn main() -> std::process::ExitCode {
+    poseshift::cli::run()
+}

@@ -14,26 +14,60 @@ use std::collections::BTreeMap;
 const LIMIT_M: f64 = 0.05 * MM;
 
 /// Adds a finding for each move to a displaced target.
-pub(super) fn check(job: &Job, tasks: &[Task], reports: &BTreeMap<usize, TargetReport>, findings: &mut Vec<Finding>) {
+pub(super) fn check(
+    job: &Job,
+    tasks: &[Task],
+    reports: &BTreeMap<usize, TargetReport>,
+    findings: &mut Vec<Finding>,
+) {
     let tasks: BTreeMap<usize, &Task> = tasks.iter().map(|task| (task.target, task)).collect();
-    for motion in job.program.moves.iter().filter(|motion| motion.displacement != Displacement::None) {
-        let Some(task) = tasks.get(&motion.target) else { continue };
-        let Some(fake) = reports.get(&motion.target).and_then(|report| report.fake) else { continue };
+    for motion in job
+        .program
+        .moves
+        .iter()
+        .filter(|motion| motion.displacement != Displacement::None)
+    {
+        let Some(task) = tasks.get(&motion.target) else {
+            continue;
+        };
+        let Some(fake) = reports.get(&motion.target).and_then(|report| report.fake) else {
+            continue;
+        };
         let name = name_of(job, motion.target);
         let finding = match landing(job, task, &fake, motion) {
             None => {
-                let message = format!("a point derived from {name} at run time takes its correction along; how well is unknown");
+                let message = format!(
+                    "a point derived from {name} at run time takes its correction along; how well is unknown"
+                );
                 let hint = "give the point a target of its own if it must be exact";
-                job.finding("displacement-unknown", Severity::Warning, motion.file, motion.offset, message, hint)
+                job.finding(
+                    "displacement-unknown",
+                    Severity::Warning,
+                    motion.file,
+                    motion.offset,
+                    message,
+                    hint,
+                )
             }
             Some(gap) => {
-                let severity = if gap.distance_m > LIMIT_M { Severity::Warning } else { Severity::Note };
+                let severity = if gap.distance_m > LIMIT_M {
+                    Severity::Warning
+                } else {
+                    Severity::Note
+                };
                 let message = format!(
                     "a point derived from {name} takes its correction along and lands {:.3} mm beside its own wanted pose",
                     mm_from_m(gap.distance_m)
                 );
                 let hint = "give the point a target of its own if it must be exact";
-                job.finding("displaced-target", severity, motion.file, motion.offset, message, hint)
+                job.finding(
+                    "displaced-target",
+                    severity,
+                    motion.file,
+                    motion.offset,
+                    message,
+                    hint,
+                )
             }
         };
         findings.push(finding);
@@ -51,7 +85,15 @@ fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Optio
     let wanted = task.world_from_frame * displaced(task.world_from_frame.inverse() * task.wanted)?;
     let given = task.world_from_frame * displaced(*fake_in_frame)?;
     let equipped = job.equipped(task.tool);
-    let solution = equipped.arm.solve_branch(&given, task.branch, &task.nominal_q);
-    let landed = || equipped.inverse.real.forward(&solution.q, &job.conditions(task)).separation(&wanted);
+    let solution = equipped
+        .arm
+        .solve_branch(&given, task.branch, &task.nominal_q);
+    let landed = || {
+        equipped
+            .inverse
+            .real
+            .forward(&solution.q, &job.conditions(task))
+            .separation(&wanted)
+    };
     (solution.beyond == 0.0).then(landed)
 }

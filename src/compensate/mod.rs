@@ -102,23 +102,51 @@ struct Task {
 
 impl Job<'_> {
     fn equipped(&self, tool: usize) -> &Equipped {
-        self.arms[tool].as_ref().expect("an arm was made for each tool that a target needs")
+        self.arms[tool]
+            .as_ref()
+            .expect("an arm was made for each tool that a target needs")
     }
 
     /// The conditions of one task.
     fn conditions(&self, task: &Task) -> Conditions {
-        Conditions { direction: task.direction.map(f64::from), ..self.equipped(task.tool).inverse.conditions }
+        Conditions {
+            direction: task.direction.map(f64::from),
+            ..self.equipped(task.tool).inverse.conditions
+        }
     }
 
     /// A finding at a byte of a source.
-    fn finding(&self, id: &'static str, severity: Severity, file: u32, offset: u32, message: String, hint: &str) -> Finding {
+    fn finding(
+        &self,
+        id: &'static str,
+        severity: Severity,
+        file: u32,
+        offset: u32,
+        message: String,
+        hint: &str,
+    ) -> Finding {
         let source = &self.sources[file as usize];
         let (line, column) = source.line_column(offset as usize);
-        Finding { id, severity, file: source.name.clone(), line, column, message, hint: hint.into() }
+        Finding {
+            id,
+            severity,
+            file: source.name.clone(),
+            line,
+            column,
+            message,
+            hint: hint.into(),
+        }
     }
 
     /// A finding at a target.
-    fn at_target(&self, id: &'static str, severity: Severity, target: usize, message: String, hint: &str) -> Finding {
+    fn at_target(
+        &self,
+        id: &'static str,
+        severity: Severity,
+        target: usize,
+        message: String,
+        hint: &str,
+    ) -> Finding {
         let target = &self.program.targets[target];
         self.finding(id, severity, target.file, target.offset, message, hint)
     }
@@ -137,7 +165,14 @@ pub fn compensate(
 ) -> Result<Compensation, CompensateError> {
     let mut program = language.read(sources)?;
     let mut findings = std::mem::take(&mut program.findings);
-    let mut job = Job { language, program: &program, sources, profile, options, arms: Vec::new() };
+    let mut job = Job {
+        language,
+        program: &program,
+        sources,
+        profile,
+        options,
+        arms: Vec::new(),
+    };
     let places = placement::place(&job, &mut findings)?;
     job.arms = equip(&job, &places)?;
     let tasks = posture::choose(&job, &places, &mut findings);
@@ -153,7 +188,10 @@ pub fn compensate(
 }
 
 /// The arm with each tool that a placed target needs.
-fn equip(job: &Job, places: &[Option<placement::Place>]) -> Result<Vec<Option<Equipped>>, Unsupported> {
+fn equip(
+    job: &Job,
+    places: &[Option<placement::Place>],
+) -> Result<Vec<Option<Equipped>>, Unsupported> {
     let mut arms: Vec<Option<Equipped>> = job.program.tools.iter().map(|_| None).collect();
     // the last place is for targets that no move uses but the user gave a tool for
     arms.push(None);
@@ -168,31 +206,63 @@ fn equip(job: &Job, places: &[Option<placement::Place>]) -> Result<Vec<Option<Eq
 fn mount(profile: &Profile, tool: &Mounted) -> Result<Equipped, Unsupported> {
     let conditions = Conditions::default();
     let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)?;
-    let inverse = Inverse { arm: arm.clone(), real: profile.real_model(tool, &conditions), conditions };
+    let inverse = Inverse {
+        arm: arm.clone(),
+        real: profile.real_model(tool, &conditions),
+        conditions,
+    };
     let controller = profile.controller_model(tool);
     let is_calibrated = !profile.controller_effects().is_empty();
-    let calibrated_controller =
-        is_calibrated.then(|| Inverse { arm: arm.clone(), real: controller.clone(), conditions });
-    Ok(Equipped { arm, controller, calibrated_controller, inverse })
+    let calibrated_controller = is_calibrated.then(|| Inverse {
+        arm: arm.clone(),
+        real: controller.clone(),
+        conditions,
+    });
+    Ok(Equipped {
+        arm,
+        controller,
+        calibrated_controller,
+        inverse,
+    })
 }
 
 /// Solves all tasks, those with the same tool and conditions side by side; outcomes in the order of the tasks.
 fn solve(job: &Job, tasks: &[Task]) -> Vec<Outcome> {
     let mut alike: BTreeMap<(usize, [i8; 6]), Vec<usize>> = BTreeMap::new();
     for (index, task) in tasks.iter().enumerate() {
-        alike.entry((task.tool, task.direction)).or_default().push(index);
+        alike
+            .entry((task.tool, task.direction))
+            .or_default()
+            .push(index);
     }
-    let chunks: Vec<&[usize]> = alike.values().flat_map(|indices| indices.chunks(CHUNK)).collect();
+    let chunks: Vec<&[usize]> = alike
+        .values()
+        .flat_map(|indices| indices.chunks(CHUNK))
+        .collect();
     let solved = chunks.par_iter().map(|chunk| {
         let first = &tasks[chunk[0]];
-        let inverse = Inverse { conditions: job.conditions(first), ..job.equipped(first.tool).inverse.clone() };
+        let inverse = Inverse {
+            conditions: job.conditions(first),
+            ..job.equipped(first.tool).inverse.clone()
+        };
         let wanted: Vec<_> = chunk.iter().map(|&i| tasks[i].wanted).collect();
         let branches: Vec<_> = chunk.iter().map(|&i| tasks[i].branch).collect();
         let near: Vec<_> = chunk.iter().map(|&i| tasks[i].nominal_q).collect();
-        solve_batch(&inverse, Targets { wanted: &wanted, branches: &branches, near: &near })
+        solve_batch(
+            &inverse,
+            Targets {
+                wanted: &wanted,
+                branches: &branches,
+                near: &near,
+            },
+        )
     });
     let solved: Vec<Vec<Outcome>> = solved.collect();
-    let mut outcomes: Vec<_> = chunks.iter().zip(solved).flat_map(|(chunk, out)| chunk.iter().copied().zip(out)).collect();
+    let mut outcomes: Vec<_> = chunks
+        .iter()
+        .zip(solved)
+        .flat_map(|(chunk, out)| chunk.iter().copied().zip(out))
+        .collect();
     outcomes.sort_by_key(|(index, _)| *index);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }

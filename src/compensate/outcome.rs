@@ -97,7 +97,9 @@ impl TargetReport {
         Self {
             name: target.name.clone(),
             file: target.file as usize,
-            line: job.sources[target.file as usize].line_column(target.offset as usize).0,
+            line: job.sources[target.file as usize]
+                .line_column(target.offset as usize)
+                .0,
             tool: None,
             frame: None,
             wanted: decoded(job, index).value,
@@ -129,17 +131,29 @@ impl Compensation {
     ) -> Self {
         let program = job.program;
         let mut targets: Vec<_> = (0..program.targets.len())
-            .map(|index| reports.remove(&index).unwrap_or_else(|| TargetReport::untouched(job, index)))
+            .map(|index| {
+                reports
+                    .remove(&index)
+                    .unwrap_or_else(|| TargetReport::untouched(job, index))
+            })
             .collect();
         for motion in program.moves.iter().rev() {
             let report = &mut targets[motion.target];
             report.tool = Some(program.tools[motion.tool].name.clone());
             report.frame = Some(program.frames[motion.frame].name.clone());
         }
-        let order: BTreeMap<&str, usize> = job.sources.iter().enumerate().map(|(i, s)| (s.name.as_str(), i)).collect();
+        let order: BTreeMap<&str, usize> = job
+            .sources
+            .iter()
+            .enumerate()
+            .map(|(i, s)| (s.name.as_str(), i))
+            .collect();
         findings.sort_by_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
         let mut compensated = vec![false; job.sources.len()];
-        let mut summary = Summary { targets: targets.len(), ..Summary::default() };
+        let mut summary = Summary {
+            targets: targets.len(),
+            ..Summary::default()
+        };
         for (index, report) in targets.iter().enumerate() {
             compensated[report.file] |= report.status == Some(Status::Converged);
             summary.compensated += usize::from(report.changed);
@@ -152,12 +166,20 @@ impl Compensation {
                 summary.max_rounding_m = summary.max_rounding_m.max(report.rounding.distance_m);
             }
         }
-        Self { targets, findings, edits, compensated, summary }
+        Self {
+            targets,
+            findings,
+            edits,
+            compensated,
+            summary,
+        }
     }
 
     /// Whether an error finding says that the program must not be written.
     #[must_use]
     pub fn is_refused(&self) -> bool {
-        self.findings.iter().any(|finding| finding.severity == Severity::Error)
+        self.findings
+            .iter()
+            .any(|finding| finding.severity == Severity::Error)
     }
 }

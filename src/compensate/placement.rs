@@ -21,7 +21,7 @@ pub struct Given {
 
 /// A tool or frame that nobody knows.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{file}:{line}:{column}: {what} `{name}` is used here; neither the program files nor the profile nor the command line say where it is")]
+#[error("{file}:{line}:{column}: {}", self.message())]
 pub struct PlacementError {
     /// The file of a move that uses it.
     pub file: String,
@@ -36,11 +36,27 @@ pub struct PlacementError {
 }
 
 impl PlacementError {
+    /// What is wrong, without the place.
+    #[must_use]
+    pub fn message(&self) -> String {
+        let Self { what, name, .. } = self;
+        format!(
+            "neither the program files nor the profile nor the command line say where {what} `{name}` is"
+        )
+    }
+
     /// The way out.
     #[must_use]
     pub fn hint(&self) -> String {
-        let option = if self.what == "tool" { "--tool" } else { "--frame" };
-        format!("give the file that declares it too, or `{option} {}=x,y,z,rx,ry,rz` (mm, deg)", self.name)
+        let option = if self.what == "tool" {
+            "--tool"
+        } else {
+            "--frame"
+        };
+        format!(
+            "give the file that declares it too, or `{option} {}=x,y,z,rx,ry,rz` (mm, deg)",
+            self.name
+        )
     }
 }
 
@@ -54,18 +70,30 @@ pub(super) struct Place {
 }
 
 /// The place of each target; `None` where it stays as it is.
-pub(super) fn place(job: &Job, findings: &mut Vec<Finding>) -> Result<Vec<Option<Place>>, PlacementError> {
+pub(super) fn place(
+    job: &Job,
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<Option<Place>>, PlacementError> {
     let program = job.program;
     let mut uses: Vec<Vec<usize>> = vec![Vec::new(); program.targets.len()];
     for (index, motion) in program.moves.iter().enumerate() {
         uses[motion.target].push(index);
     }
-    let tools: Vec<_> = (0..program.tools.len()).map(|tool| tool_of(job, tool)).collect();
-    let frames: Vec<_> = (0..program.frames.len()).map(|frame| frame_of(job, frame)).collect();
+    let tools: Vec<_> = (0..program.tools.len())
+        .map(|tool| tool_of(job, tool))
+        .collect();
+    let frames: Vec<_> = (0..program.frames.len())
+        .map(|frame| frame_of(job, frame))
+        .collect();
     let mut places = Vec::with_capacity(uses.len());
     for (index, target) in program.targets.iter().enumerate() {
-        let left_alone = target.blocked || (target.shape == Shape::Joints && !job.options.correct_joint_targets);
-        let place = if left_alone { None } else { place_target(job, index, &uses[index], &tools, &frames, findings)? };
+        let left_alone =
+            target.blocked || (target.shape == Shape::Joints && !job.options.correct_joint_targets);
+        let place = if left_alone {
+            None
+        } else {
+            place_target(job, index, &uses[index], &tools, &frames, findings)?
+        };
         places.push(place);
     }
     Ok(places)
@@ -89,12 +117,25 @@ fn place_target(
         let unknown = |what, name: &str| {
             let source = &job.sources[motion.file as usize];
             let (line, column) = source.line_column(motion.offset as usize);
-            PlacementError { file: source.name.clone(), line, column, what, name: name.into() }
+            PlacementError {
+                file: source.name.clone(),
+                line,
+                column,
+                what,
+                name: name.into(),
+            }
         };
-        let tool = tools[motion.tool].as_ref().ok_or_else(|| unknown("tool", &program.tools[motion.tool].name))?;
+        let tool = tools[motion.tool]
+            .as_ref()
+            .ok_or_else(|| unknown("tool", &program.tools[motion.tool].name))?;
         // joint targets have no work frame
-        let frame = if is_joints { Some(Pose::identity()) } else { frames[motion.frame] };
-        let frame = frame.ok_or_else(|| unknown("work frame", &program.frames[motion.frame].name))?;
+        let frame = if is_joints {
+            Some(Pose::identity())
+        } else {
+            frames[motion.frame]
+        };
+        let frame =
+            frame.ok_or_else(|| unknown("work frame", &program.frames[motion.frame].name))?;
         Ok((motion.tool, tool, frame))
     };
     let (tool, mounted, world_from_frame) = known(first)?;
@@ -106,7 +147,9 @@ fn place_target(
         if !same {
             let line = |use_: usize| {
                 let motion = &program.moves[use_];
-                job.sources[motion.file as usize].line_column(motion.offset as usize).0
+                job.sources[motion.file as usize]
+                    .line_column(motion.offset as usize)
+                    .0
             };
             let message = format!(
                 "{} is used with different tools or work frames (lines {} and {}): one fake target cannot serve both",
@@ -119,7 +162,11 @@ fn place_target(
             return Ok(None);
         }
     }
-    Ok(Some(Place { tool, mounted: mounted.clone(), world_from_frame }))
+    Ok(Some(Place {
+        tool,
+        mounted: mounted.clone(),
+        world_from_frame,
+    }))
 }
 
 /// A target that no move in these files uses: its tool and frame are what the user gives for unknown names.
@@ -128,10 +175,19 @@ fn place_unused(job: &Job, index: usize, findings: &mut Vec<Finding>) -> Option<
         return None;
     }
     let given = &job.options.given;
-    if let (Some(mounted), Some(&world_from_frame)) = (given.tools.get(&None), given.frames.get(&None)) {
-        return Some(Place { tool: job.program.tools.len(), mounted: mounted.clone(), world_from_frame });
+    if let (Some(mounted), Some(&world_from_frame)) =
+        (given.tools.get(&None), given.frames.get(&None))
+    {
+        return Some(Place {
+            tool: job.program.tools.len(),
+            mounted: mounted.clone(),
+            world_from_frame,
+        });
     }
-    let message = format!("no move in these files uses {}: its tool and work frame are unknown", name_of(job, index));
+    let message = format!(
+        "no move in these files uses {}: its tool and work frame are unknown",
+        name_of(job, index)
+    );
     let hint = "give the files that use it together, or --tool and --frame for it, or --keep-going to leave it as it is";
     findings.push(job.at_target("target-unused", Severity::Error, index, message, hint));
     None
@@ -140,7 +196,10 @@ fn place_unused(job: &Job, index: usize, findings: &mut Vec<Finding>) -> Option<
 /// A target's name for messages.
 pub(super) fn name_of(job: &Job, index: usize) -> String {
     let target = &job.program.targets[index];
-    target.name.as_ref().map_or_else(|| "this target".into(), |name| format!("`{name}`"))
+    target
+        .name
+        .as_ref()
+        .map_or_else(|| "this target".into(), |name| format!("`{name}`"))
 }
 
 fn same_pose(a: &Pose, b: &Pose) -> bool {
@@ -155,16 +214,25 @@ fn tool_of(job: &Job, index: usize) -> Option<Mounted> {
     let of_profile = job.profile.tool(&tool.name);
     let elsewhere = || {
         let named = given.get(&Some(tool.name.clone())).cloned();
-        named.or_else(|| of_profile.clone()).or_else(|| given.get(&None).cloned())
+        named
+            .or_else(|| of_profile.clone())
+            .or_else(|| given.get(&None).cloned())
     };
     match tool.flange_from_tool {
         Some(flange_from_tool) => {
             let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
             let load = load.or_else(|| of_profile.as_ref().and_then(|tool| tool.load));
-            Some(Mounted { name: tool.name.clone(), flange_from_tool, load })
+            Some(Mounted {
+                name: tool.name.clone(),
+                flange_from_tool,
+                load,
+            })
         }
         None => elsewhere().map(|found| Mounted {
-            load: tool.load.map(|load| (load.mass_kg, load.cog_m)).or(found.load),
+            load: tool
+                .load
+                .map(|load| (load.mass_kg, load.cog_m))
+                .or(found.load),
             ..found
         }),
     }
@@ -173,6 +241,11 @@ fn tool_of(job: &Job, index: usize) -> Option<Mounted> {
 fn frame_of(job: &Job, index: usize) -> Option<Pose> {
     let frame = &job.program.frames[index];
     let given = &job.options.given.frames;
-    let elsewhere = || given.get(&Some(frame.name.clone())).or_else(|| given.get(&None)).copied();
+    let elsewhere = || {
+        given
+            .get(&Some(frame.name.clone()))
+            .or_else(|| given.get(&None))
+            .copied()
+    };
     frame.world_from_frame.or_else(elsewhere)
 }

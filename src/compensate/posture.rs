@@ -51,19 +51,37 @@ impl Path {
 }
 
 /// The tasks of all targets that have a place and a branch, in the order of the targets.
-pub(super) fn choose(job: &Job, places: &[Option<Place>], findings: &mut Vec<Finding>) -> Vec<Task> {
-    let directed = job.profile.effects.iter().any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions));
+pub(super) fn choose(
+    job: &Job,
+    places: &[Option<Place>],
+    findings: &mut Vec<Finding>,
+) -> Vec<Task> {
+    let directed = job
+        .profile
+        .effects
+        .iter()
+        .any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions));
     let mut chosen: Vec<Option<Task>> = vec![None; places.len()];
     let mut tried = vec![false; places.len()];
     let mut path = Path::default();
     for motion in &job.program.moves {
         if motion.file != path.file {
-            path = Path { file: motion.file, ..Path::default() };
+            path = Path {
+                file: motion.file,
+                ..Path::default()
+            };
         }
         let target = motion.target;
         if !tried[target] {
             tried[target] = true;
-            chosen[target] = task(job, target, Some(motion), places[target].as_ref(), &path, findings);
+            chosen[target] = task(
+                job,
+                target,
+                Some(motion),
+                places[target].as_ref(),
+                &path,
+                findings,
+            );
         }
         match (&mut chosen[target], job.program.targets[target].shape) {
             (Some(task), _) => {
@@ -78,18 +96,39 @@ pub(super) fn choose(job: &Job, places: &[Option<Place>], findings: &mut Vec<Fin
                 }
             }
             // where the robot is after a target that nobody understands is unknown
-            (None, Shape::Pose) => path = Path { file: motion.file, ..Path::default() },
+            (None, Shape::Pose) => {
+                path = Path {
+                    file: motion.file,
+                    ..Path::default()
+                }
+            }
         }
     }
-    for (target, place) in places.iter().enumerate().filter(|(target, _)| !tried[*target]) {
-        chosen[target] = task(job, target, None, place.as_ref(), &Path::default(), findings);
+    for (target, place) in places
+        .iter()
+        .enumerate()
+        .filter(|(target, _)| !tried[*target])
+    {
+        chosen[target] = task(
+            job,
+            target,
+            None,
+            place.as_ref(),
+            &Path::default(),
+            findings,
+        );
     }
     chosen.into_iter().flatten().collect()
 }
 
 pub(super) fn decoded(job: &Job, target: usize) -> Decoded {
     let target = &job.program.targets[target];
-    let numbers: Vec<f64> = job.program.numbers_of(target).iter().map(|n| n.value).collect();
+    let numbers: Vec<f64> = job
+        .program
+        .numbers_of(target)
+        .iter()
+        .map(|n| n.value)
+        .collect();
     job.language.decode(target.shape, &numbers)
 }
 
@@ -104,19 +143,45 @@ fn task(
     let place = place?;
     let equipped = job.equipped(place.tool);
     let arm = &equipped.arm;
-    let Decoded { value, configuration } = decoded(job, target);
+    let Decoded {
+        value,
+        configuration,
+    } = decoded(job, target);
     let (wanted, branch, nominal_q) = match value {
-        Value::Joints(q) => (equipped.controller.forward(&q, &crate::model::Conditions::default()), arm.posture(&q).0, q),
+        Value::Joints(q) => (
+            equipped
+                .controller
+                .forward(&q, &crate::model::Conditions::default()),
+            arm.posture(&q).0,
+            q,
+        ),
         Value::Pose(frame_from_tool) => {
             let wanted = place.world_from_frame * frame_from_tool;
             let honoured = motion.is_none_or(|motion| motion.configured);
-            let way = choose_way(job, target, arm, &wanted, &configuration, honoured, path, findings)?;
+            let way = choose_way(
+                job,
+                target,
+                arm,
+                &wanted,
+                &configuration,
+                honoured,
+                path,
+                findings,
+            )?;
             (wanted, way.branch, way.q)
         }
     };
     let direction = [0; 6];
     let world_from_frame = place.world_from_frame;
-    Some(Task { target, tool: place.tool, world_from_frame, wanted, branch, nominal_q, direction })
+    Some(Task {
+        target,
+        tool: place.tool,
+        world_from_frame,
+        wanted,
+        branch,
+        nominal_q,
+        direction,
+    })
 }
 
 #[allow(clippy::too_many_arguments)]
@@ -142,9 +207,16 @@ fn choose_way(
             return Some(way);
         }
     }
-    let ways: Vec<Way> = Branch::ALL.iter().filter_map(|&branch| way(arm, wanted, branch, &near, configuration)).collect();
+    let ways: Vec<Way> = Branch::ALL
+        .iter()
+        .filter_map(|&branch| way(arm, wanted, branch, &near, configuration))
+        .collect();
     let nearest = |accept: &dyn Fn(&Way) -> bool| {
-        let distance = |way: &Way| (0..6).map(|i| (way.q[i] - near[i]).abs()).fold(0.0, f64::max);
+        let distance = |way: &Way| {
+            (0..6)
+                .map(|i| (way.q[i] - near[i]).abs())
+                .fold(0.0, f64::max)
+        };
         let accepted = ways.iter().filter(|way| accept(way)).copied();
         accepted.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
@@ -158,15 +230,25 @@ fn choose_way(
     if let Some(way) = nearest(&|way| way.configured).or_else(|| nearest(&|way| way.in_ranges)) {
         return Some(way);
     }
-    let shown = nearest(&|_| true)?.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+    let shown = nearest(&|_| true)?
+        .q
+        .map(|q| format!("{:.1}", q / DEG))
+        .join(", ");
     if path.joints.is_some() {
         let message = format!(
             "no solution at {} has the configuration that the file gives; the one nearest to the target before is taken \
              (joints {shown} deg)",
             name()
         );
-        let hint = "check the configuration data, and that robot, tool and frame are those of the program";
-        findings.push(job.at_target("configuration-mismatch", Severity::Warning, target, message, hint));
+        let hint =
+            "check the configuration data, and that robot, tool and frame are those of the program";
+        findings.push(job.at_target(
+            "configuration-mismatch",
+            Severity::Warning,
+            target,
+            message,
+            hint,
+        ));
         return nearest(&|_| true);
     }
     let message = format!(
@@ -174,8 +256,15 @@ fn choose_way(
          (nearest: joints {shown} deg)",
         name()
     );
-    let hint = "check that robot, tool and frame are those of the program; start with a joint target";
-    findings.push(job.at_target("configuration-unknown", Severity::Error, target, message, hint));
+    let hint =
+        "check that robot, tool and frame are those of the program; start with a joint target";
+    findings.push(job.at_target(
+        "configuration-unknown",
+        Severity::Error,
+        target,
+        message,
+        hint,
+    ));
     None
 }
 
@@ -186,7 +275,13 @@ fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
 
 /// The solution on one branch with the turns that the configuration data and the limits ask for; `None` out of reach or
 /// beyond a limit.
-fn way(arm: &Arm, wanted: &Pose, branch: Branch, near: &[f64; 6], configuration: &Configuration) -> Option<Way> {
+fn way(
+    arm: &Arm,
+    wanted: &Pose,
+    branch: Branch,
+    near: &[f64; 6],
+    configuration: &Configuration,
+) -> Option<Way> {
     let solution = arm.solve_branch(wanted, branch, near);
     if solution.beyond > 0.0 {
         return None;
@@ -195,8 +290,12 @@ fn way(arm: &Arm, wanted: &Pose, branch: Branch, near: &[f64; 6], configuration:
     let mut q = solution.q;
     let mut in_ranges = true;
     for i in 0..6 {
-        let limits = (mechanism.joints[i].min_rad - LIMIT_RAD, mechanism.joints[i].max_rad + LIMIT_RAD);
-        let asked = configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
+        let limits = (
+            mechanism.joints[i].min_rad - LIMIT_RAD,
+            mechanism.joints[i].max_rad + LIMIT_RAD,
+        );
+        let asked =
+            configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
         let turned = |range: (f64, f64)| turned_into(q[i], range, limits);
         match asked.and_then(turned) {
             Some(angle) => q[i] = angle,
@@ -211,7 +310,12 @@ fn way(arm: &Arm, wanted: &Pose, branch: Branch, near: &[f64; 6], configuration:
         && agrees(configuration.behind_axis_1, branch.behind_axis_1)
         && agrees(configuration.behind_lower_arm, branch.behind_lower_arm)
         && agrees(configuration.joint_5_negative, branch.joint_5_negative);
-    Some(Way { branch, q, configured, in_ranges })
+    Some(Way {
+        branch,
+        q,
+        configured,
+        in_ranges,
+    })
 }
 
 /// The angle, by as few whole turns as can be, that lies in both ranges.
@@ -221,7 +325,11 @@ fn turned_into(angle: f64, range: (f64, f64), limits: (f64, f64)) -> Option<f64>
     if (low..=high).contains(&angle) {
         return Some(angle);
     }
-    let moved = if angle < low { angle + turn * ((low - angle) / turn).ceil() } else { angle - turn * ((angle - high) / turn).ceil() };
+    let moved = if angle < low {
+        angle + turn * ((low - angle) / turn).ceil()
+    } else {
+        angle - turn * ((angle - high) / turn).ceil()
+    };
     (low..=high).contains(&moved).then_some(moved)
 }
 
@@ -239,10 +347,18 @@ fn out_of_reach(
     let stretched = arm.solve_branch(wanted, branch, near);
     // squared cosine of the elbow beyond 1: a few millimetres at full stretch
     if stretched.beyond > 0.0 && stretched.beyond < 0.02 {
-        return Some(Way { branch, q: stretched.q, configured: false, in_ranges: false });
+        return Some(Way {
+            branch,
+            q: stretched.q,
+            configured: false,
+            in_ranges: false,
+        });
     }
     let message = if stretched.beyond > 0.0 {
-        format!("{} is out of the nominal robot's reach", name_of(job, target))
+        format!(
+            "{} is out of the nominal robot's reach",
+            name_of(job, target)
+        )
     } else {
         let q = stretched.q;
         let joint = arm.mechanism().beyond_limit(&q, LIMIT_RAD).unwrap_or(0);

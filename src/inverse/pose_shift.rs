@@ -42,6 +42,20 @@ pub enum Status {
     NotConverged,
 }
 
+impl Status {
+    /// Its name in tables and reports.
+    #[must_use]
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::OutOfReach => "out-of-reach",
+            Self::JointLimit(_) => "joint-limit",
+            Self::BranchLost => "branch-lost",
+            Self::NotConverged => "not-converged",
+        }
+    }
+}
+
 /// The joint angles found for one target, and how good they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {

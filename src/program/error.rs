@@ -4,7 +4,7 @@
 #[derive(Debug, thiserror::Error, Clone, PartialEq, Eq)]
 pub enum ReadError {
     /// The bytes are no text.
-    #[error("{file}: not a text file (byte {byte:#04x} at offset {offset})")]
+    #[error("{file}: {}", self.message())]
     Binary {
         /// The file.
         file: String,
@@ -14,7 +14,7 @@ pub enum ReadError {
         offset: usize,
     },
     /// The file is too large for its places to be kept.
-    #[error("{file}: {size} bytes; the limit is {limit} bytes")]
+    #[error("{file}: {}", self.message())]
     TooLarge {
         /// The file.
         file: String,
@@ -24,7 +24,7 @@ pub enum ReadError {
         limit: usize,
     },
     /// The text has none of the marks of the language.
-    #[error("{file}: not a {language} program: {missing} is missing")]
+    #[error("{file}: {}", self.message())]
     NotThisLanguage {
         /// The file.
         file: String,
@@ -34,7 +34,7 @@ pub enum ReadError {
         missing: &'static str,
     },
     /// Something that was opened is not closed.
-    #[error("{file}:{line}:{column}: {what} is not closed")]
+    #[error("{file}:{line}:{column}: {}", self.message())]
     Unclosed {
         /// The file.
         file: String,
@@ -46,7 +46,7 @@ pub enum ReadError {
         what: &'static str,
     },
     /// Something else stands where the language wants one thing.
-    #[error("{file}:{line}:{column}: found {found}, where {expected} belongs")]
+    #[error("{file}:{line}:{column}: {}", self.message())]
     Unexpected {
         /// The file.
         file: String,
@@ -60,7 +60,7 @@ pub enum ReadError {
         expected: &'static str,
     },
     /// A number that no robot can use.
-    #[error("{file}:{line}:{column}: {value} is no {meaning}: {limit}")]
+    #[error("{file}:{line}:{column}: {}", self.message())]
     BadValue {
         /// The file.
         file: String,
@@ -78,6 +78,32 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    /// What is wrong, without the place.
+    #[must_use]
+    pub fn message(&self) -> String {
+        match self {
+            Self::Binary { byte, offset, .. } => {
+                format!("not a text file (byte {byte:#04x} at offset {offset})")
+            }
+            Self::TooLarge { size, limit, .. } => {
+                format!("{size} bytes; the limit is {limit} bytes")
+            }
+            Self::NotThisLanguage {
+                language, missing, ..
+            } => format!("not a {language} program: {missing} is missing"),
+            Self::Unclosed { what, .. } => format!("{what} is not closed"),
+            Self::Unexpected {
+                found, expected, ..
+            } => format!("found {found}, where {expected} belongs"),
+            Self::BadValue {
+                value,
+                meaning,
+                limit,
+                ..
+            } => format!("{value} is no {meaning}: {limit}"),
+        }
+    }
+
     /// File, line and column; line and column are 0 where the error concerns the whole file.
     #[must_use]
     pub fn place(&self) -> (&str, usize, usize) {

@@ -19,6 +19,40 @@ pub use source::Source;
 use crate::finding::Finding;
 use crate::geometry::{Pose, Vector};
 use std::ops::Range;
+use std::path::Path;
+
+/// Every language there is.
+pub const LANGUAGES: &[&dyn Language] = &[];
+
+/// Whether a file's name ends as programs of a language do.
+#[must_use]
+pub fn has_extension(language: &dyn Language, path: &Path) -> bool {
+    let extension = path
+        .extension()
+        .and_then(|e| e.to_str())
+        .map(str::to_ascii_lowercase);
+    extension.is_some_and(|e| language.about().extensions.contains(&e.as_str()))
+}
+
+/// The language of a file: the one whose ending it has and whose content it shows, else the only one whose content it
+/// shows, else the only one whose ending it has.
+#[must_use]
+pub fn language_of(source: &Source) -> Option<&'static dyn Language> {
+    let ends =
+        |language: &&&'static dyn Language| has_extension(**language, Path::new(&source.name));
+    let shows = |language: &&&'static dyn Language| language.recognises(source);
+    let only = |mut found: Box<dyn Iterator<Item = &&'static dyn Language> + '_>| {
+        let first = found.next();
+        first.filter(|_| found.next().is_none()).copied()
+    };
+    let both = LANGUAGES
+        .iter()
+        .filter(ends)
+        .find(|language| shows(&language));
+    both.copied()
+        .or_else(|| only(Box::new(LANGUAGES.iter().filter(shows))))
+        .or_else(|| only(Box::new(LANGUAGES.iter().filter(ends))))
+}
 
 /// What a language is called and does; the text of `poseshift languages`.
 #[derive(Debug)]

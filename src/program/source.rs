@@ -24,10 +24,24 @@ impl Source {
         }
     }
 
+    fn line_starts(&self) -> &[usize] {
+        self.line_starts.get_or_init(|| line_starts(&self.bytes))
+    }
+
+    /// The bytes of a line without its end; the first is line 0.
+    #[must_use]
+    pub fn line(&self, index: usize) -> Option<&[u8]> {
+        let starts = self.line_starts();
+        let end = starts.get(index + 1).copied().unwrap_or(self.bytes.len());
+        let line = &self.bytes[*starts.get(index)?..end];
+        let line = line.strip_suffix(b"\n").unwrap_or(line);
+        Some(line.strip_suffix(b"\r").unwrap_or(line))
+    }
+
     /// Line and column of a byte, both from 1; lines end with LF, CR LF or CR. The column counts bytes.
     #[must_use]
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
-        let starts = self.line_starts.get_or_init(|| line_starts(&self.bytes));
+        let starts = self.line_starts();
         let line = starts.partition_point(|&start| start <= offset);
         (line, offset - starts[line - 1] + 1)
     }

@@ -9,6 +9,9 @@
 mod definition;
 mod entry;
 
+#[cfg(test)]
+mod laws;
+
 pub use definition::{Definition, Need, Parameter, Place, Unit};
 pub use entry::{EntryError, entry_schema};
 

@@ -2,9 +2,11 @@
 
 mod error;
 mod file;
+mod shipped;
 
 pub use error::{Fault, ProfileError};
 pub use file::{ControllerModel, FORMAT, ProfileFile};
+pub use shipped::SHIPPED;
 
 use super::effects::{Effect, Kind};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};

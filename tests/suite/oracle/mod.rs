@@ -1,3 +1,4 @@
 //! Numbers that come from elsewhere: each data folder says from where in its ORIGIN.md.
 
 mod forward;
+mod inverse;

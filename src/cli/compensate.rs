@@ -1,0 +1,420 @@
+//! `compensate`: program files in, program files with fake targets out.
+
+use super::failure::Failure;
+use super::{Answer, Output, files, print, print_json, values};
+use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
+use crate::model::profile::{ControllerModel, Profile};
+use crate::program::{LANGUAGES, Language, Marker, Source};
+use crate::report;
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+/// Rewrite the targets of programs so that the real tool arrives where the simulation wanted it
+#[derive(Args)]
+pub struct Compensate {
+    /// Program files that belong together, or folders of them
+    #[arg(required = true, value_name = "PROGRAM")]
+    programs: Vec<PathBuf>,
+    /// Robot profile (YAML) with a calibration
+    #[arg(long, value_name = "FILE")]
+    profile: PathBuf,
+    /// Where to write: a file, or a folder for several programs
+    #[arg(
+        short,
+        long,
+        value_name = "OUT",
+        required_unless_present = "in_place",
+        conflicts_with = "in_place"
+    )]
+    output: Option<PathBuf>,
+    /// Write over the program files
+    #[arg(long)]
+    in_place: bool,
+    /// Write even when targets cannot be compensated; these stay as they are, and the status is 1
+    #[arg(long)]
+    keep_going: bool,
+    /// Compensate files that already are
+    #[arg(long)]
+    force: bool,
+    /// Write at least so many decimals of a millimetre (default: as many as the file has)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=9))]
+    decimals: Option<u8>,
+    /// What to do with joint targets
+    #[arg(long, value_enum, default_value = "keep")]
+    joint_targets: JointTargets,
+    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
+    #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
+    tools: Vec<String>,
+    /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
+    #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
+    frames: Vec<String>,
+    /// Language of the programs (default: by file name and content)
+    #[arg(long, value_name = "ID")]
+    language: Option<String>,
+}
+
+/// What to do with joint targets
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum JointTargets {
+    /// Leave them: they are exact for the joints, not for the tool
+    Keep,
+    /// Shift them so that the real tool comes where the nominal one would
+    Correct,
+}
+
+/// A program file and where its compensated version goes.
+struct Job {
+    input: PathBuf,
+    output: PathBuf,
+}
+
+impl Compensate {
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let (profile, profile_sha256) = files::read_profile(&self.profile)?;
+        refuse_doubtful(&profile, &self.profile)?;
+        let options = self.options(&profile)?;
+        let asked = self.language.as_deref().map(language_by_id).transpose()?;
+        let found = self.find_programs(asked)?;
+        let sources = found
+            .iter()
+            .map(|job| {
+                Ok(Source::new(
+                    job.input.display().to_string(),
+                    files::read(&job.input)?,
+                ))
+            })
+            .collect::<Result<Vec<_>, Failure>>()?;
+        let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
+        if !self.force {
+            refuse_marked(&sources)?;
+        }
+        let compensation = compensate(language, &sources, &profile, &options)
+            .map_err(|error| explain(&error, &sources))?;
+        let refused = compensation.is_refused();
+        let writes = !refused || self.keep_going;
+        let mut header = report::compensation::Header {
+            inputs: sources.iter().map(|s| s.name.clone()).collect(),
+            outputs: Vec::new(),
+            language: language.about().id,
+            profile_sha256: &profile_sha256,
+        };
+        let mut compensation = compensation;
+        if writes {
+            let edits = std::mem::take(&mut compensation.edits);
+            let written = render(
+                language,
+                &sources,
+                edits,
+                &compensation.compensated,
+                &profile_sha256,
+            )?;
+            let outputs: Vec<_> = found
+                .iter()
+                .map(|job| job.output.clone())
+                .zip(written)
+                .collect();
+            files::write_all(&outputs)?;
+            header.outputs = found
+                .iter()
+                .map(|job| job.output.display().to_string())
+                .collect();
+        }
+        tell(&header, &compensation, writes, output)?;
+        Ok(if refused { Answer::No } else { Answer::Yes })
+    }
+
+    fn options(&self, profile: &Profile) -> Result<Options, Failure> {
+        let mut given = Given::default();
+        for text in &self.tools {
+            let (name, tool) = values::tool(text, profile)?;
+            given.tools.insert(name, tool);
+        }
+        for text in &self.frames {
+            let (name, frame) = values::frame(text)?;
+            given.frames.insert(name, frame);
+        }
+        Ok(Options {
+            given,
+            correct_joint_targets: self.joint_targets == JointTargets::Correct,
+            decimals: self.decimals.map(usize::from),
+        })
+    }
+
+    /// The program files that are meant, in the order of the arguments; folders give theirs by name.
+    fn find_programs(&self, asked: Option<&'static dyn Language>) -> Result<Vec<Job>, Failure> {
+        let mut inputs: Vec<(PathBuf, PathBuf)> = Vec::new();
+        for program in &self.programs {
+            if program.is_dir() {
+                inputs.extend(programs_in(program, asked)?);
+            } else {
+                let name = program
+                    .file_name()
+                    .map_or_else(|| program.clone(), PathBuf::from);
+                inputs.push((program.clone(), name));
+            }
+        }
+        if inputs.is_empty() {
+            return Err(Failure::with_hint(
+                "no program files in these folders",
+                "`poseshift languages` lists what is recognised",
+            ));
+        }
+        let several = inputs.len() > 1 || self.programs.iter().any(|p| p.is_dir());
+        let mut jobs = Vec::with_capacity(inputs.len());
+        for (input, name) in inputs {
+            let output = match &self.output {
+                None => input.clone(),
+                Some(out) if several || out.is_dir() => out.join(name),
+                Some(out) => out.clone(),
+            };
+            if !self.in_place && same_file(&input, &output) {
+                let hint = "--in-place says that this is meant";
+                return Err(Failure::with_hint(
+                    format!("{} would be written over", input.display()),
+                    hint,
+                ));
+            }
+            jobs.push(Job { input, output });
+        }
+        let mut outputs: Vec<_> = jobs.iter().map(|job| &job.output).collect();
+        outputs.sort();
+        match outputs.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(pair) => Err(Failure::new(format!(
+                "two programs would be written to {}",
+                pair[0].display()
+            ))),
+            None => Ok(jobs),
+        }
+    }
+}
+
+/// A profile whose calibration cannot be meant.
+fn refuse_doubtful(profile: &Profile, path: &Path) -> Result<(), Failure> {
+    let nothing = profile
+        .effects
+        .iter()
+        .all(crate::model::effects::Effect::is_zero);
+    if profile.controller == ControllerModel::Calibrated && nothing {
+        let message = format!(
+            "{}: the controller is calibrated itself, and the profile has no effects to apply",
+            path.display()
+        );
+        let hint = "a calibrated controller needs the effects that it applies and those that remain; see `poseshift effects`";
+        return Err(Failure::with_hint(message, hint));
+    }
+    Ok(())
+}
+
+fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
+    for source in sources {
+        if let Some(offset) = Marker::find(&source.bytes) {
+            let (line, column) = source.line_column(offset);
+            let hint = "compensate the original instead; --force compensates once more";
+            return Err(Failure::at(
+                source,
+                line,
+                column,
+                None,
+                "this file is already compensated".into(),
+                hint.into(),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
+    let known = || {
+        LANGUAGES
+            .iter()
+            .map(|l| l.about().id)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let found = LANGUAGES.iter().find(|language| language.about().id == id);
+    found.copied().ok_or_else(|| {
+        Failure::with_hint(
+            format!("no language is called `{id}`"),
+            format!("languages are: {}", known()),
+        )
+    })
+}
+
+/// The language of all these files, by name and content.
+fn common_language(
+    sources: &[Source],
+    profile: &Profile,
+) -> Result<&'static dyn Language, Failure> {
+    let mut common: Option<(&'static dyn Language, &str)> = None;
+    for source in sources {
+        let Some(language) = crate::program::language_of(source) else {
+            let hint = "`poseshift languages` lists what is recognised; --language says what it is";
+            return Err(Failure::with_hint(
+                format!("{}: not a robot program of a known language", source.name),
+                hint,
+            ));
+        };
+        match common {
+            Some((first, name)) if first.about().id != language.about().id => {
+                return Err(Failure::new(format!(
+                    "{name} is {} and {} is {}: programs of one call have one language",
+                    first.about().name,
+                    source.name,
+                    language.about().name
+                )));
+            }
+            _ => common = Some((language, &source.name)),
+        }
+    }
+    let (language, name) = common.expect("there is at least one source");
+    match &profile.language {
+        Some(of_profile)
+            if of_profile != language.about().id
+                && of_profile != "csv"
+                && language.about().id != "csv" =>
+        {
+            Err(Failure::with_hint(
+                format!(
+                    "{name} is {}, and the profile's controller speaks {of_profile}",
+                    language.about().name
+                ),
+                "is it the profile of this robot? --language overrides",
+            ))
+        }
+        _ => Ok(language),
+    }
+}
+
+/// Program files in a folder and below, with their paths relative to it.
+fn programs_in(
+    folder: &Path,
+    asked: Option<&'static dyn Language>,
+) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
+    let mut found = Vec::new();
+    for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
+        let entry = entry.map_err(|error| {
+            Failure::new(format!(
+                "cannot read the folder {}: {error}",
+                folder.display()
+            ))
+        })?;
+        let path = entry.path();
+        let known = LANGUAGES
+            .iter()
+            .filter(|l| asked.is_none_or(|a| a.about().id == l.about().id));
+        let mut candidates = known
+            .filter(|l| crate::program::has_extension(**l, path))
+            .peekable();
+        if !entry.file_type().is_file() || candidates.peek().is_none() {
+            continue;
+        }
+        let source = Source::new("", files::read(path)?);
+        if candidates.any(|language| language.recognises(&source)) {
+            let below = path
+                .strip_prefix(folder)
+                .expect("a walk stays below its top");
+            found.push((path.to_owned(), below.to_owned()));
+        }
+    }
+    Ok(found)
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (std::fs::canonicalize(a), std::fs::canonicalize(b)) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}
+
+/// The files' new bytes: edits and marker, read again to make sure that they say what was meant.
+fn render(
+    language: &dyn Language,
+    sources: &[Source],
+    edits: Vec<crate::program::Edits>,
+    compensated: &[bool],
+    profile_sha256: &str,
+) -> Result<Vec<Vec<u8>>, Failure> {
+    let mut out = Vec::with_capacity(sources.len());
+    for ((source, mut edits), compensated) in sources.iter().zip(edits).zip(compensated) {
+        if *compensated {
+            let marker = Marker {
+                version: env!("CARGO_PKG_VERSION").into(),
+                profile_sha256: profile_sha256.into(),
+                source_sha256: files::sha256(&source.bytes),
+            };
+            let (at, text) = language.mark(source, &marker);
+            edits.replace(at..at, |bytes| bytes.extend(text));
+        }
+        out.push(edits.apply(&source.bytes));
+    }
+    let written: Vec<_> = sources
+        .iter()
+        .zip(&out)
+        .map(|(s, bytes)| Source::new(s.name.clone(), bytes.clone()))
+        .collect();
+    let count = |sources: &[Source]| {
+        language
+            .read(sources)
+            .map(|program| (program.targets.len(), program.moves.len()))
+    };
+    if count(sources) != count(&written) {
+        return Err(Failure::new(
+            "internal error: the rewritten program does not read back as the same program; nothing is written",
+        ));
+    }
+    Ok(out)
+}
+
+fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
+    let source_of = |file: &str| sources.iter().find(|source| source.name == file);
+    match error {
+        CompensateError::Read(read) => {
+            let (file, line, column) = read.place();
+            match source_of(file) {
+                Some(source) if line > 0 => {
+                    Failure::at(source, line, column, None, read.message(), String::new())
+                }
+                _ => Failure::new(read.to_string()),
+            }
+        }
+        CompensateError::Placement(unknown) => match source_of(&unknown.file) {
+            Some(source) => Failure::at(
+                source,
+                unknown.line,
+                unknown.column,
+                None,
+                unknown.message(),
+                unknown.hint(),
+            ),
+            None => Failure::with_hint(unknown.to_string(), unknown.hint()),
+        },
+        CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
+    }
+}
+
+fn tell(
+    header: &report::compensation::Header,
+    compensation: &Compensation,
+    written: bool,
+    output: Output,
+) -> Result<(), Failure> {
+    if output.json {
+        return print_json(&report::compensation::json(header, compensation));
+    }
+    let mut text = String::new();
+    if !output.quiet || !written {
+        text += &report::findings::text(&compensation.findings, output.verbose);
+    }
+    if !output.quiet {
+        text += &report::compensation::text(header, compensation);
+    }
+    match header.outputs.as_slice() {
+        [] => {
+            text += "nothing is written: not every target could be compensated (--keep-going leaves those as they are)\n"
+        }
+        _ if output.quiet => {}
+        [one] => text += &format!("written to {one}\n"),
+        many => text += &format!("{} files written\n", many.len()),
+    }
+    print(&text)
+}

@@ -1,0 +1,95 @@
+//! Files in and out: outputs appear whole or not at all.
+
+use super::failure::Failure;
+use crate::model::profile::Profile;
+use sha2::{Digest, Sha256};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// A file's bytes.
+pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| Failure::file(path, "read", &error))
+}
+
+/// A file's text, which must be UTF-8.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    String::from_utf8(read(path)?).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::new(format!(
+            "{}: not a text file (byte {at} is not UTF-8)",
+            path.display()
+        ))
+    })
+}
+
+/// A profile and the SHA-256 of its file.
+pub fn read_profile(path: &Path) -> Result<(Profile, String), Failure> {
+    let text = read_text(path)?;
+    let profile =
+        Profile::from_yaml(&text).map_err(|error| Failure::profile(path, &text, &error))?;
+    Ok((profile, sha256(text.as_bytes())))
+}
+
+/// 64 hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes)
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect()
+}
+
+/// Writes all files or none: each is written beside its place, and only when all are on disk they are renamed into it.
+pub fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    let mut waiting = Vec::with_capacity(files.len());
+    for (path, bytes) in files {
+        let folder = path
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new("."));
+        let failure = |error: std::io::Error| Failure::file(path, "write", &error);
+        std::fs::create_dir_all(folder).map_err(failure)?;
+        if path.is_dir() {
+            return Err(Failure::new(format!(
+                "cannot write {}: it is a folder",
+                path.display()
+            )));
+        }
+        let mut file = tempfile::Builder::new()
+            .prefix(".poseshift-")
+            .tempfile_in(folder)
+            .map_err(failure)?;
+        file.write_all(bytes)
+            .and_then(|()| file.as_file().sync_all())
+            .map_err(failure)?;
+        keep_permissions(path, file.as_file()).map_err(failure)?;
+        waiting.push((path, file));
+    }
+    for (path, file) in waiting {
+        file.persist(path)
+            .map_err(|error| Failure::file(path, "write", &error.error))?;
+    }
+    Ok(())
+}
+
+/// A file that replaces another has its permissions; a new one those of any new file.
+fn keep_permissions(path: &Path, file: &std::fs::File) -> std::io::Result<()> {
+    match std::fs::metadata(path) {
+        Ok(old) if old.permissions().readonly() => Err(std::io::Error::new(
+            std::io::ErrorKind::PermissionDenied,
+            "the file is read-only",
+        )),
+        Ok(old) => file.set_permissions(old.permissions()),
+        Err(_) => new_permissions(file),
+    }
+}
+
+#[cfg(unix)]
+fn new_permissions(file: &std::fs::File) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn new_permissions(_: &std::fs::File) -> std::io::Result<()> {
+    Ok(())
+}

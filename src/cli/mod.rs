@@ -1,0 +1,113 @@
+//! The command line: the only place with paths, colour and standard output. One file a command.
+
+mod catalogue;
+mod compensate;
+mod failure;
+mod files;
+mod kinematics;
+mod profile;
+mod shell;
+mod table;
+mod values;
+
+use clap::{Args, Parser, Subcommand};
+use failure::Failure;
+use std::process::ExitCode;
+
+/// Makes an offline-programmed robot path land where the simulation wanted it
+#[derive(Parser)]
+#[command(
+    name = "poseshift",
+    version,
+    propagate_version = true,
+    max_term_width = 100,
+    arg_required_else_help = true
+)]
+#[command(
+    after_help = "Exit status: 0 done; 1 done, and the answer is no (nothing is written); 2 could not do it."
+)]
+pub struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// How results are told.
+#[derive(Args, Clone, Copy)]
+pub struct Output {
+    /// Print a machine-readable report (JSON) and nothing else
+    #[arg(long, global = true)]
+    json: bool,
+    /// Print less: errors only
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Print more: every finding
+    #[arg(short, long, global = true)]
+    verbose: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Compensate(compensate::Compensate),
+    Fk(kinematics::Fk),
+    Ik(kinematics::Ik),
+    Profile(profile::ProfileCommand),
+    Robots(catalogue::Robots),
+    Effects(catalogue::Effects),
+    Languages(catalogue::Languages),
+    Completions(shell::Completions),
+    Man(shell::Man),
+}
+
+/// How a command ended that did what it was asked.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Answer {
+    /// Done.
+    Yes,
+    /// Done, and the answer is no.
+    No,
+}
+
+/// Runs the program with the arguments of this process.
+#[must_use]
+pub fn run() -> ExitCode {
+    let CommandLine { command, output } = CommandLine::parse();
+    let answer = match command {
+        Command::Compensate(command) => command.run(output),
+        Command::Fk(command) => command.run(output),
+        Command::Ik(command) => command.run(output),
+        Command::Profile(command) => command.run(output),
+        Command::Robots(command) => command.run(output),
+        Command::Effects(command) => command.run(output),
+        Command::Languages(command) => command.run(output),
+        Command::Completions(command) => command.run(),
+        Command::Man(command) => command.run(),
+    };
+    match answer {
+        Ok(Answer::Yes) => ExitCode::SUCCESS,
+        Ok(Answer::No) => ExitCode::from(1),
+        // whoever reads the output has gone: nothing to tell
+        Err(Failure::Pipe) => ExitCode::SUCCESS,
+        Err(failure) => {
+            anstream::eprintln!("{}", failure.render());
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Prints text to standard output.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    let mut out = anstream::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(Failure::output)
+}
+
+/// Prints a JSON document to standard output.
+fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value)
+        .expect("a report holds only finite numbers and text keys");
+    print(&format!("{text}\n"))
+}

@@ -1,0 +1,193 @@
+//! `profile`: make and inspect profiles.
+
+use super::failure::Failure;
+use super::{Answer, Output, files, print, print_json};
+use crate::inverse::Arm;
+use crate::model::Conditions;
+use crate::model::profile::{ControllerModel, Mounted, Profile, SHIPPED};
+use crate::report::profile::{facts, typical_deviation};
+use clap::{Args, Subcommand};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Make and inspect robot profiles
+#[derive(Args)]
+pub struct ProfileCommand {
+    #[command(subcommand)]
+    command: Sub,
+}
+
+#[derive(Subcommand)]
+enum Sub {
+    /// Start a profile from a built-in robot
+    New {
+        /// Name of the robot, as `poseshift robots` lists it
+        #[arg(long, value_name = "NAME")]
+        robot: String,
+        /// Where to write it (default: standard output)
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Print what a person wants to know of a profile
+    Show {
+        /// The profile
+        profile: PathBuf,
+    },
+    /// Print how two profiles differ; status 1 where they do
+    Diff {
+        /// The one profile
+        a: PathBuf,
+        /// The other profile
+        b: PathBuf,
+    },
+    /// Print the JSON Schema of the format
+    Schema,
+}
+
+impl ProfileCommand {
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        match &self.command {
+            Sub::New {
+                robot,
+                output: file,
+            } => new(robot, file.as_ref(), output),
+            Sub::Show { profile } => show(&files::read_profile(profile)?.0, output),
+            Sub::Diff { a, b } => diff(
+                &files::read_profile(a)?.0,
+                &files::read_profile(b)?.0,
+                output,
+            ),
+            Sub::Schema => print_json(&Profile::schema()).map(|()| Answer::Yes),
+        }
+    }
+}
+
+fn new(robot: &str, file: Option<&PathBuf>, output: Output) -> Result<Answer, Failure> {
+    let found = SHIPPED.iter().find(|(name, _)| *name == robot);
+    let (name, text) = found.ok_or_else(|| {
+        let names: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
+        Failure::with_hint(
+            format!("no built-in robot is called `{robot}`"),
+            format!("robots are: {}", names.join(", ")),
+        )
+    })?;
+    match file {
+        None if output.json => {
+            print_json(&json!({"poseshift": "new-profile/1", "robot": name, "profile": text}))?
+        }
+        None => print(text)?,
+        Some(path) => {
+            if path.exists() {
+                return Err(Failure::new(format!(
+                    "{} exists; profiles are not written over",
+                    path.display()
+                )));
+            }
+            files::write_all(&[(path.clone(), text.as_bytes().to_vec())])?;
+            if output.json {
+                print_json(
+                    &json!({"poseshift": "new-profile/1", "robot": name, "output": path.display().to_string()}),
+                )?;
+            } else if !output.quiet {
+                print(&format!(
+                    "written to {}; set the serial number, the base and the tools\n",
+                    path.display()
+                ))?;
+            }
+        }
+    }
+    Ok(Answer::Yes)
+}
+
+fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
+    let inverse = Arm::of(&profile.geometry(&Mounted::flange()), &profile.mechanism);
+    let inverse = inverse.as_ref().map_or_else(ToString::to_string, |arm| {
+        format!("closed form, {}", arm.kind())
+    });
+    let deviation = typical_deviation(profile, &Conditions::default());
+    if output.json {
+        let facts: BTreeMap<_, _> = facts(profile).into_iter().collect();
+        print_json(&json!({
+            "poseshift": "profile-facts/1", "facts": facts, "inverse": inverse,
+            "deviation": {"mean_mm": deviation.mean_mm, "max_mm": deviation.max_mm, "postures": deviation.postures},
+        }))?;
+        return Ok(Answer::Yes);
+    }
+    let controller = match profile.controller {
+        ControllerModel::Nominal => "computes with the nominal chain",
+        ControllerModel::Calibrated => "computes with a calibrated chain",
+    };
+    let mut text = format!(
+        "{} {}, serial {}\ncontroller: {}, {controller}\ninverse: {inverse}\n\njoints\n",
+        profile.manufacturer,
+        profile.model,
+        profile.serial.as_deref().unwrap_or("not given"),
+        profile.language.as_deref().unwrap_or("language not given"),
+    );
+    let facts = facts(profile);
+    let start = |key: &str| {
+        facts
+            .iter()
+            .filter(move |(k, _)| k.starts_with(key))
+            .cloned()
+            .collect::<Vec<_>>()
+    };
+    for (title, key) in [
+        ("", "joint "),
+        ("bodies", "body "),
+        ("tools", "tool "),
+        ("points", "point "),
+        ("effects", "effect "),
+    ] {
+        let rows = start(key);
+        if !title.is_empty() && !rows.is_empty() {
+            text += &format!("\n{title}\n");
+        }
+        for (name, value) in rows {
+            text += &format!("  {}  {value}\n", name.strip_prefix(key).unwrap_or(&name));
+        }
+    }
+    if profile.effects.is_empty() {
+        text += "\nno calibration: compensation changes nothing\n";
+    } else {
+        text += &format!(
+            "\nthe real tool is {:.3} mm (mean), at most {:.3} mm, beside the controller's over {} random postures\n",
+            deviation.mean_mm, deviation.max_mm, deviation.postures
+        );
+    }
+    print(&text)?;
+    Ok(Answer::Yes)
+}
+
+fn diff(a: &Profile, b: &Profile, output: Output) -> Result<Answer, Failure> {
+    let (a, b): (BTreeMap<_, _>, BTreeMap<_, _>) = (
+        facts(a).into_iter().collect(),
+        facts(b).into_iter().collect(),
+    );
+    let keys: std::collections::BTreeSet<_> = a.keys().chain(b.keys()).collect();
+    let changed: Vec<_> = keys
+        .into_iter()
+        .filter(|key| a.get(*key) != b.get(*key))
+        .collect();
+    if output.json {
+        let rows: Vec<_> = changed
+            .iter()
+            .map(|key| json!({"key": key, "a": a.get(*key), "b": b.get(*key)}))
+            .collect();
+        print_json(&json!({"poseshift": "profile-diff/1", "differences": rows}))?;
+    } else {
+        let mut text = String::new();
+        for key in &changed {
+            text += &format!("{key}\n");
+            text.extend(a.get(*key).map(|value| format!("  - {value}\n")));
+            text.extend(b.get(*key).map(|value| format!("  + {value}\n")));
+        }
+        print(&text)?;
+    }
+    Ok(if changed.is_empty() {
+        Answer::Yes
+    } else {
+        Answer::No
+    })
+}

@@ -1,0 +1,48 @@
+//! `completions` and `man`: what shells and readers want to know of the command line.
+
+use super::failure::Failure;
+use super::{Answer, CommandLine, print};
+use clap::{Args, CommandFactory};
+
+/// Print a completion script for a shell
+#[derive(Args)]
+pub struct Completions {
+    /// The shell
+    shell: clap_complete::Shell,
+}
+
+/// Print the manual page
+#[derive(Args)]
+pub struct Man {}
+
+impl Completions {
+    pub fn run(&self) -> Result<Answer, Failure> {
+        let mut text = Vec::new();
+        clap_complete::generate(
+            self.shell,
+            &mut CommandLine::command(),
+            "poseshift",
+            &mut text,
+        );
+        print(&String::from_utf8_lossy(&text))?;
+        Ok(Answer::Yes)
+    }
+}
+
+impl Man {
+    pub fn run(&self) -> Result<Answer, Failure> {
+        let mut text = Vec::new();
+        let command = CommandLine::command();
+        let mut page = |command: clap::Command| {
+            clap_mangen::Man::new(command)
+                .render(&mut text)
+                .map_err(Failure::output)
+        };
+        page(command.clone())?;
+        for sub in command.get_subcommands() {
+            page(sub.clone())?;
+        }
+        print(&String::from_utf8_lossy(&text))?;
+        Ok(Answer::Yes)
+    }
+}

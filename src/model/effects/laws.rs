@@ -1,0 +1,233 @@
+//! What holds for every effect of the registry.
+
+use super::{Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site};
+use crate::geometry::{Dual, Pose};
+use crate::model::profile::Profile;
+use crate::model::{Conditions, Model};
+
+/// Postures, away from singularities and limits.
+const POSTURES: [[f64; 6]; 3] = [
+    [0.3, -0.4, 0.5, 0.6, -0.7, 0.8],
+    [-1.1, 0.7, -0.6, 1.9, 0.9, -2.5],
+    [2.0, 0.2, -0.9, -1.4, 0.5, 4.0],
+];
+
+fn profile() -> Profile {
+    Profile::from_yaml(include_str!("../../../robots/abb_irb120.yaml")).expect("a shipped profile")
+}
+
+fn conditions() -> Conditions {
+    Conditions {
+        direction: [1.0, -1.0, 1.0, 1.0, -1.0, 1.0],
+        force_n: [20.0, -35.0, 10.0],
+        temperature_c: Some(27.0),
+        time_s: Some(300.0),
+    }
+}
+
+fn pose_with(kind: Kind, parameters: [f64; MOST_PARAMETERS], q: &[f64; 6]) -> Pose {
+    let (profile, conditions) = (profile(), conditions());
+    let effect = Effect {
+        kind,
+        site: site(),
+        parameters,
+    };
+    Model::build(
+        &profile.geometry(&tool()),
+        &profile.mechanism,
+        &[effect],
+        &conditions,
+    )
+    .forward(q, &conditions)
+}
+
+fn site() -> Site {
+    Site {
+        index: 3,
+        on: 4,
+        order: 2,
+        tool: None,
+    }
+}
+
+fn tool() -> crate::model::profile::Mounted {
+    let flange_from_tool = Pose::from_xyz_rxryrz([0.05, 0.02, 0.13, 0.1, -0.2, 0.3]);
+    crate::model::profile::Mounted {
+        name: "t".into(),
+        flange_from_tool,
+        load: Some((2.0, [0.02, 0.01, 0.08])),
+    }
+}
+
+#[test]
+fn names_and_keys_are_unique_and_keys_end_in_their_units() {
+    for (i, kind) in REGISTRY.iter().enumerate() {
+        let d = kind.definition();
+        assert!(
+            REGISTRY[..i]
+                .iter()
+                .all(|other| other.definition().id != d.id),
+            "{}",
+            d.id
+        );
+        assert!(
+            !d.parameters.is_empty() && d.parameters.len() <= MOST_PARAMETERS,
+            "{}",
+            d.id
+        );
+        assert!(
+            !d.summary.is_empty() && !d.equation.is_empty() && !d.source.is_empty(),
+            "{}",
+            d.id
+        );
+        for (j, parameter) in d.parameters.iter().enumerate() {
+            assert!(
+                d.parameters[..j]
+                    .iter()
+                    .all(|other| other.key != parameter.key),
+                "{}",
+                d.id
+            );
+            assert!(parameter.prior_sigma > 0.0, "{} {}", d.id, parameter.key);
+            let ending = match parameter.unit.symbol() {
+                "mm" => "_mm",
+                "deg" => "_deg",
+                "rad/(N m)" => "rad_per_n_m",
+                _ => "",
+            };
+            assert!(
+                parameter.key.ends_with(ending),
+                "{} {}",
+                d.id,
+                parameter.key
+            );
+        }
+    }
+}
+
+#[test]
+fn zero_parameters_change_nothing() {
+    for q in &POSTURES {
+        let nominal = Model::build(
+            &profile().geometry(&tool()),
+            &profile().mechanism,
+            &[],
+            &conditions(),
+        )
+        .forward(q, &conditions());
+        for kind in REGISTRY {
+            let gap = pose_with(*kind, [0.0; MOST_PARAMETERS], q).separation(&nominal);
+            assert!(
+                gap.distance_m < 1e-15 && gap.angle_rad < 1e-15,
+                "{}",
+                kind.definition().id
+            );
+        }
+    }
+}
+
+#[test]
+fn every_parameter_moves_the_tool_or_its_orientation() {
+    for kind in REGISTRY {
+        let d = kind.definition();
+        for (index, parameter) in d.parameters.iter().enumerate() {
+            let mut parameters = [0.0; MOST_PARAMETERS];
+            parameters[index] = 10.0 * parameter.prior_sigma * parameter.unit.in_si();
+            let moved = POSTURES.iter().any(|q| {
+                let gap = pose_with(*kind, parameters, q).separation(&pose_with(
+                    *kind,
+                    [0.0; MOST_PARAMETERS],
+                    q,
+                ));
+                gap.distance_m > 1e-7 || gap.angle_rad > 1e-7
+            });
+            assert!(moved, "{} {}", d.id, parameter.key);
+        }
+    }
+}
+
+#[test]
+fn dual_derivatives_agree_with_central_differences() {
+    let conditions = conditions();
+    for kind in REGISTRY {
+        let d = kind.definition();
+        for (index, parameter) in d.parameters.iter().enumerate() {
+            let at = 0.7 * parameter.prior_sigma * parameter.unit.in_si();
+            let step = 1e-3 * parameter.prior_sigma * parameter.unit.in_si();
+            let mut values =
+                [Dual::<1>::variable(0.0, 0); MOST_PARAMETERS].map(|p| Dual { slope: [0.0], ..p });
+            values[index] = Dual::variable(at, 0);
+            let effect = Effect {
+                kind: *kind,
+                site: site(),
+                parameters: values,
+            };
+            let model = Model::build(
+                &profile().geometry(&tool()),
+                &profile().mechanism,
+                &[effect],
+                &conditions,
+            );
+            for q in &POSTURES {
+                let dual = model.forward(
+                    &q.map(|q| Dual {
+                        value: q,
+                        slope: [0.0],
+                    }),
+                    &conditions,
+                );
+                let plain = |by: f64| {
+                    let mut parameters = [0.0; MOST_PARAMETERS];
+                    parameters[index] = at + by;
+                    pose_with(*kind, parameters, q).translation
+                };
+                let (low, high) = (plain(-step), plain(step));
+                for i in 0..3 {
+                    let slope = (high[i] - low[i]) / (2.0 * step);
+                    let tolerance = 1e-9 / step.max(1e-9) * 1e-3 + 1e-6 * slope.abs();
+                    assert!(
+                        (dual.translation[i].slope[0] - slope).abs() < tolerance,
+                        "{} {}",
+                        d.id,
+                        parameter.key
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn an_entry_written_is_read_as_the_same_effect() {
+    for kind in REGISTRY {
+        let d = kind.definition();
+        let mut site = Site::default();
+        for place in d.site {
+            match place {
+                Place::Link | Place::Joint => site.index = 3,
+                Place::On => site.on = 4,
+                Place::Order => site.order = 2,
+                Place::Tool => site.tool = Some("gripper".into()),
+            }
+        }
+        let mut parameters = [0.0; MOST_PARAMETERS];
+        for (slot, parameter) in parameters.iter_mut().zip(d.parameters) {
+            *slot = 0.3 * parameter.prior_sigma * parameter.unit.in_si();
+        }
+        let effect = Effect {
+            kind: *kind,
+            site,
+            parameters,
+        };
+        let entry = effect
+            .to_entry()
+            .into_iter()
+            .map(|(key, value)| (key.to_owned(), value))
+            .collect();
+        let back = Effect::from_entry(&entry).expect("an entry that was just written");
+        assert!(back.same_place(&effect), "{}", d.id);
+        for (a, b) in back.parameters.iter().zip(&effect.parameters) {
+            assert!((a - b).abs() <= 1e-15 * b.abs(), "{}", d.id);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The report of `compensate`: `compensation/1`.
+
+use super::pose;
+use crate::compensate::{Compensation, Summary, TargetReport};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::program::Value as TargetValue;
+use serde_json::{Value, json};
+
+/// What the report says beside the compensation itself.
+#[derive(Debug)]
+pub struct Header<'a> {
+    /// Program files, as the user named them, in the order of the sources.
+    pub inputs: Vec<String>,
+    /// Where they were written; empty where nothing was.
+    pub outputs: Vec<String>,
+    /// The language.
+    pub language: &'a str,
+    /// Hash of the profile file.
+    pub profile_sha256: &'a str,
+}
+
+/// The JSON document.
+#[must_use]
+pub fn json(header: &Header, compensation: &Compensation) -> Value {
+    let one_or_many = |names: &[String]| match names {
+        [] => Value::Null,
+        [one] => json!(one),
+        many => json!(many),
+    };
+    let targets: Vec<_> = compensation
+        .targets
+        .iter()
+        .map(|t| target(t, &header.inputs))
+        .collect();
+    let s = &compensation.summary;
+    json!({
+        "poseshift": "compensation/1",
+        "input": one_or_many(&header.inputs),
+        "output": one_or_many(&header.outputs),
+        "language": header.language,
+        "profile_sha256": header.profile_sha256,
+        "targets": targets,
+        "summary": {
+            "targets": s.targets,
+            "compensated": s.compensated,
+            "unchanged": s.unchanged,
+            "joint_targets": s.joint_targets,
+            "max_shift_mm": mm_from_m(s.max_shift_m),
+            "max_residual_mm": mm_from_m(s.max_residual_m),
+            "max_rounding_mm": mm_from_m(s.max_rounding_m),
+        },
+        "findings": compensation.findings,
+    })
+}
+
+fn target(t: &TargetReport, files: &[String]) -> Value {
+    let mut wanted_joints = Value::Null;
+    let wanted = match &t.wanted {
+        TargetValue::Pose(p) => pose(p),
+        TargetValue::Joints(q) => {
+            wanted_joints = json!(q.map(|q| q / DEG));
+            Value::Null
+        }
+    };
+    json!({
+        "name": t.name,
+        "file": files[t.file],
+        "line": t.line,
+        "tool": t.tool,
+        "frame": t.frame,
+        "wanted": wanted,
+        "wanted_joints_deg": wanted_joints,
+        "fake": t.fake.as_ref().map(pose),
+        "joints_deg": t.q.map(|q| q.map(|q| q / DEG)),
+        "shift_mm": mm_from_m(t.shift.distance_m),
+        "shift_deg": t.shift.angle_rad / DEG,
+        "residual_mm": mm_from_m(t.residual.distance_m),
+        "residual_deg": t.residual.angle_rad / DEG,
+        "rounding_mm": mm_from_m(t.rounding.distance_m),
+        "rounding_deg": t.rounding.angle_rad / DEG,
+        "iterations": t.iterations,
+        "branch": t.branch.map(|b| b.to_string()),
+        "status": t.status.map(crate::inverse::Status::id),
+        "changed": t.changed,
+        "findings": t.findings,
+    })
+}
+
+/// The text for people, without the findings.
+#[must_use]
+pub fn text(header: &Header, compensation: &Compensation) -> String {
+    let Summary {
+        targets,
+        compensated,
+        unchanged,
+        joint_targets,
+        max_shift_m,
+        max_residual_m,
+        max_rounding_m,
+    } = compensation.summary;
+    let mut lines = vec![format!(
+        "{} file(s), {targets} targets: {compensated} shifted, {unchanged} unchanged",
+        header.inputs.len()
+    )];
+    if joint_targets > 0 {
+        lines.push(format!(
+            "  {joint_targets} joint targets stay as they are (--joint-targets correct shifts them)"
+        ));
+    }
+    if compensated > 0 {
+        let shifts = compensation
+            .targets
+            .iter()
+            .filter(|t| t.changed)
+            .map(|t| t.shift.distance_m);
+        let mean = shifts.sum::<f64>() / compensated as f64;
+        lines.push(format!(
+            "  shift     mean {:.3} mm, largest {:.3} mm",
+            mm_from_m(mean),
+            mm_from_m(max_shift_m)
+        ));
+        lines.push(format!(
+            "  residual  largest {:.1e} mm (what the search left)",
+            mm_from_m(max_residual_m)
+        ));
+        lines.push(format!(
+            "  rounding  largest {:.4} mm (what the file's decimals cost)",
+            mm_from_m(max_rounding_m)
+        ));
+    }
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,56 @@
+//! Findings as lines of text.
+
+use crate::finding::{Finding, Severity};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Findings of one name that are shown before the rest is only counted.
+const SHOWN: usize = 5;
+
+/// One line a finding, `file:line:column: severity[id]: message`, with its hint once a name. Where `every` is false, notes
+/// are left out and of many findings of one name the first are shown and the rest is counted.
+#[must_use]
+pub fn text(findings: &[Finding], every: bool) -> String {
+    let mut out = String::new();
+    let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
+    let shown = |finding: &&Finding| every || finding.severity > Severity::Note;
+    for finding in findings.iter().filter(shown) {
+        let count = seen.entry(finding.id).or_default();
+        *count += 1;
+        if every || *count <= SHOWN {
+            line(finding, *count == 1, &mut out);
+        }
+    }
+    for (id, count) in seen.iter().filter(|(_, count)| !every && **count > SHOWN) {
+        let rest = count - SHOWN;
+        writeln!(out, "… and {rest} more {id} (-v or --json shows all)")
+            .expect("a string takes all text");
+    }
+    out
+}
+
+fn line(finding: &Finding, with_hint: bool, out: &mut String) {
+    let Finding {
+        id,
+        severity,
+        file,
+        line,
+        column,
+        message,
+        hint,
+    } = finding;
+    let word = match severity {
+        Severity::Error => "\x1b[1;31merror\x1b[0m",
+        Severity::Warning => "\x1b[1;33mwarning\x1b[0m",
+        Severity::Note => "\x1b[1;34mnote\x1b[0m",
+    };
+    let place = if *line == 0 {
+        file.clone()
+    } else {
+        format!("{file}:{line}:{column}")
+    };
+    writeln!(out, "{place}: {word}[{id}]: {message}").expect("a string takes all text");
+    if with_hint && !hint.is_empty() {
+        writeln!(out, "    {hint}").expect("a string takes all text");
+    }
+}

@@ -1,0 +1,20 @@
+//! What commands tell: texts for people and JSON for programs.
+
+pub mod compensation;
+pub mod findings;
+pub mod profile;
+
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
+use serde_json::{Value, json};
+
+/// A pose for reports: position, angles and quaternion.
+pub fn pose(pose: &Pose) -> Value {
+    let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
+    let quaternion = pose.rotation.quaternion().0;
+    json!({
+        "x_mm": mm_from_m(x), "y_mm": mm_from_m(y), "z_mm": mm_from_m(z),
+        "rx_deg": rx / DEG, "ry_deg": ry / DEG, "rz_deg": rz / DEG,
+        "quaternion": quaternion,
+    })
+}
