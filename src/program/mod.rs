@@ -9,6 +9,7 @@ mod edit;
 mod error;
 mod marker;
 pub mod number;
+pub mod rapid;
 mod source;
 
 pub use edit::Edits;
