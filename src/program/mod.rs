@@ -9,6 +9,7 @@ mod edit;
 mod error;
 mod marker;
 pub mod number;
+pub mod rapid;
 mod source;
 
 pub use edit::Edits;
@@ -204,7 +205,8 @@ pub struct Target {
     pub offset: u32,
     /// Pose or joints.
     pub shape: Shape,
-    /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`].
+    /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`]. None where it is blocked because it has no
+    /// numbers of its own.
     pub numbers: Range<u32>,
     /// It must stay as it is; a finding says why.
     pub blocked: bool,
@@ -232,6 +234,8 @@ pub enum Displacement {
     Frame(Vector),
     /// A motion in the tool frame (RAPID `RelTool`).
     Tool(Pose),
+    /// A translation in the work frame and a motion in the tool frame; which comes first does not matter.
+    Both(Vector, Pose),
     /// Something that only the running program knows.
     Unknown,
 }

@@ -1,0 +1,265 @@
+//! Values in brackets, read against a template of their type.
+//!
+//! A template is a text of brackets and leaves: `n` a number, `b` TRUE or FALSE, `s` a string. Where the program has something
+//! else in the place of a leaf or of a whole bracket, those leaves are [`Leaf::Computed`].
+
+use super::reader::Reader;
+use super::tokens::{Fault, Kind, Token};
+use crate::program::number;
+
+pub const ROBTARGET: &[u8] = b"[[nnn][nnnn][nnnn][nnnnnn]]";
+pub const JOINTTARGET: &[u8] = b"[[nnnnnn][nnnnnn]]";
+/// robhold, tframe, tload.
+pub const TOOLDATA: &[u8] = b"[b[[nnn][nnnn]][n[nnn][nnnn]nnn]]";
+/// robhold, ufprog, ufmec, uframe, oframe.
+pub const WOBJDATA: &[u8] = b"[bbs[[nnn][nnnn]][[nnn][nnnn]]]";
+pub const LOADDATA: &[u8] = b"[n[nnn][nnnn]nnn]";
+pub const POSE: &[u8] = b"[[nnn][nnnn]]";
+pub const POS: &[u8] = b"[nnn]";
+pub const ORIENT: &[u8] = b"[nnnn]";
+pub const NUM: &[u8] = b"n";
+pub const BOOL: &[u8] = b"b";
+pub const STRING: &[u8] = b"s";
+
+/// What a quaternion must be.
+pub const UNIT_LIMIT: &str = "its length may differ from 1 by 0.01 at most";
+
+/// Most leaves of a template.
+pub const MOST: usize = 20;
+
+/// One part of a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Leaf {
+    /// A number with its field.
+    Number { value: f64, start: u32, length: u16 },
+    /// TRUE or FALSE.
+    Bool(bool),
+    /// A string, empty or not.
+    Text { empty: bool },
+    /// An expression.
+    Computed,
+    /// Not given.
+    Missing,
+}
+
+impl Leaf {
+    /// The number, where it is one.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Self::Number { value, .. } => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Whether two leaves say the same.
+    pub fn agrees(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Number { value: a, .. }, Self::Number { value: b, .. }) => {
+                a.to_bits() == b.to_bits()
+            }
+            _ => self == other,
+        }
+    }
+}
+
+/// The leaves of a value.
+#[derive(Clone, Copy, Debug)]
+pub struct Leaves {
+    leaves: [Leaf; MOST],
+    count: usize,
+}
+
+impl Leaves {
+    pub fn new() -> Self {
+        Self {
+            leaves: [Leaf::Missing; MOST],
+            count: 0,
+        }
+    }
+
+    pub fn as_slice(&self) -> &[Leaf] {
+        &self.leaves[..self.count]
+    }
+
+    fn push(&mut self, leaf: Leaf) {
+        self.leaves[self.count] = leaf;
+        self.count += 1;
+    }
+}
+
+/// What a value is called where it should stand.
+const WANTED: &str = "a value of this type";
+
+impl Reader<'_> {
+    /// Reads a value against a template; the present token is its first.
+    pub(super) fn aggregate(&mut self, template: &[u8]) -> Result<Leaves, Fault> {
+        let mut leaves = Leaves::new();
+        let mut openers = [0_u32; 4];
+        let mut depth = 0;
+        let mut at = 0;
+        while let Some(&part) = template.get(at) {
+            match part {
+                b']' => {
+                    if !self.token.is(b']') {
+                        return Err(self.unclosed_or_unexpected(openers[depth - 1], "]"));
+                    }
+                    depth -= 1;
+                    self.advance()?;
+                    at += 1;
+                }
+                b'[' if self.token.is(b'[') => {
+                    openers[depth] = self.token.start;
+                    depth += 1;
+                    self.advance()?;
+                    at += 1;
+                    continue;
+                }
+                b'[' => {
+                    let end = closing(template, at);
+                    self.computed(&openers, depth)?;
+                    for _ in template[at..end].iter().filter(|b| b.is_ascii_lowercase()) {
+                        leaves.push(Leaf::Computed);
+                    }
+                    at = end;
+                }
+                _ => {
+                    let leaf = self.leaf(part, &openers, depth)?;
+                    leaves.push(leaf);
+                    at += 1;
+                }
+            }
+            // between neighbours stands a comma
+            if depth > 0 && template.get(at).is_some_and(|&next| next != b']') {
+                if !self.token.is(b',') {
+                    return Err(self.unclosed_or_unexpected(openers[depth - 1], ","));
+                }
+                self.advance()?;
+            }
+        }
+        Ok(leaves)
+    }
+
+    fn leaf(&mut self, part: u8, openers: &[u32; 4], depth: usize) -> Result<Leaf, Fault> {
+        let first = self.token;
+        let mark = self.mark();
+        let leaf = match (part, first.kind) {
+            (b'n', Kind::Number | Kind::Sign(b'-' | b'+')) => self.signed_number()?,
+            (b'b' | b'n', Kind::Name) => {
+                let name = self.text(first);
+                let leaf = if part == b'b' && name.eq_ignore_ascii_case(b"true") {
+                    Leaf::Bool(true)
+                } else if part == b'b' && name.eq_ignore_ascii_case(b"false") {
+                    Leaf::Bool(false)
+                } else {
+                    not_a_number(name, first)?;
+                    Leaf::Computed
+                };
+                self.advance()?;
+                leaf
+            }
+            (b's', Kind::Text) => {
+                self.advance()?;
+                Leaf::Text {
+                    empty: first.end - first.start == 2,
+                }
+            }
+            _ => Leaf::Computed,
+        };
+        let ends = depth == 0 || self.token.is(b',') || self.token.is(b']');
+        if leaf != Leaf::Computed && ends {
+            return Ok(leaf);
+        }
+        self.rewind(mark);
+        self.computed(openers, depth)?;
+        Ok(Leaf::Computed)
+    }
+
+    /// A number with its sign in one field, or [`Leaf::Computed`].
+    fn signed_number(&mut self) -> Result<Leaf, Fault> {
+        let first = self.token;
+        if first.kind != Kind::Number {
+            self.advance()?;
+            if self.token.kind == Kind::Name {
+                not_a_number(self.text(self.token), self.token)?;
+            }
+            if self.token.kind != Kind::Number || self.token.start != first.end {
+                return Ok(Leaf::Computed);
+            }
+        }
+        let (start, end) = (first.start, self.token.end);
+        let text = &self.bytes[start as usize..end as usize];
+        let value = number::parse(text).ok_or(Fault::BadValue {
+            start,
+            end,
+            meaning: "number",
+            limit: "it must be finite and written in decimal digits",
+        })?;
+        let length = u16::try_from(end - start).map_err(|_| Fault::BadValue {
+            start,
+            end,
+            meaning: "number",
+            limit: "it must have fewer than 65536 digits",
+        })?;
+        self.advance()?;
+        Ok(Leaf::Number {
+            value,
+            start,
+            length,
+        })
+    }
+
+    /// Passes over an expression inside a bracket, to the comma or bracket that ends it.
+    fn computed(&mut self, openers: &[u32; 4], depth: usize) -> Result<(), Fault> {
+        let first = self.token;
+        self.expression()?;
+        if self.token.start == first.start {
+            let opener = openers[depth.saturating_sub(1)];
+            return Err(self.unclosed_or_unexpected(opener, WANTED));
+        }
+        Ok(())
+    }
+
+    fn unclosed_or_unexpected(&self, opener: u32, expected: &'static str) -> Fault {
+        if self.token.kind == Kind::End || self.token.is(b';') {
+            return Fault::Unclosed {
+                at: opener,
+                what: "bracket",
+            };
+        }
+        Fault::Unexpected {
+            start: self.token.start,
+            end: self.token.end,
+            expected,
+        }
+    }
+}
+
+/// NaN and infinity are no names of data.
+fn not_a_number(name: &[u8], token: Token) -> Result<(), Fault> {
+    if [&b"nan"[..], b"inf", b"infinity"]
+        .iter()
+        .any(|word| name.eq_ignore_ascii_case(word))
+    {
+        return Err(Fault::BadValue {
+            start: token.start,
+            end: token.end,
+            meaning: "number",
+            limit: "it must be finite and written in decimal digits",
+        });
+    }
+    Ok(())
+}
+
+/// The byte after the bracket that closes the one at `at`.
+fn closing(template: &[u8], at: usize) -> usize {
+    let mut depth = 0;
+    let length = template[at..].iter().position(|part| {
+        match part {
+            b'[' => depth += 1,
+            b']' => depth -= 1,
+            _ => {}
+        }
+        depth == 0
+    });
+    at + length.expect("templates are balanced") + 1
+}

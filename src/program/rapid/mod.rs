@@ -1,0 +1,288 @@
+//! ABB RAPID: modules (.mod, .modx, .prg) and system modules (.sys, .sysx).
+//!
+//! A robtarget is `[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [external axes]]`, mm and a unit quaternion with its
+//! scalar first; a jointtarget is `[[six joints], [external axes]]`, degrees. External axes stay as they are. The pose is that
+//! of the tool in `uframe · oframe` of the work object of the move, not of the declaration.
+//!
+//! # Findings
+//!
+//! | id | severity | meaning |
+//! |---|---|---|
+//! | `target-assigned-at-run-time` | error | the running program changes the target: an assignment, a search |
+//! | `target-has-expressions` | error | parts of the target are expressions, not numbers |
+//! | `target-in-array-of-names` | error | the target is used through another name |
+//! | `target-passed-to-routine` | error | the target is handed to a routine |
+//! | `target-name-ambiguous` | error | a name is declared more than once, and its use does not tell which is meant |
+//! | `frame-name-ambiguous` | error | the same for a tool or work object |
+//! | `frame-assigned-at-run-time` | error | the running program changes the tool or work object; at the assignment and at each target |
+//! | `frame-chosen-at-run-time` | error | the tool or work object is a parameter, an element by index, or an expression |
+//! | `held-work-piece` | error | the robot holds the work object |
+//! | `stationary-tool` | error | the tool does not hang on the robot |
+//! | `moving-frame` | error | a conveyor or another mechanical unit moves the work object |
+//! | `displacement-active` | error | PDispOn, PDispSet, EOffsOn or EOffsSet may be active |
+//! | `computed-target` | warning | a move goes to a position that only the running program knows |
+//! | `target-not-in-files` | warning | a move goes to a target that the files do not declare |
+//! | `target-copied` | warning | another target is computed from this one |
+//! | `sync-move` | note | the move runs together with one of another robot |
+//! | `grip-load` | note | the robot carries something that is not in the tool's load |
+//!
+//! # Limits
+//!
+//! Targets inside records, Load at run time of modules that are not given, and functions that move are not followed.
+
+mod aggregate;
+mod arguments;
+mod confdata;
+mod declarations;
+mod displacement;
+mod findings;
+mod frames;
+mod instruction;
+mod moves;
+mod names;
+mod reader;
+mod sniff;
+mod syntax;
+mod tokens;
+mod uses;
+mod verbs;
+mod world;
+
+use super::{
+    About, Decoded, Language, Marker, Posture, Program, ReadError, Role, Shape, Source, Value,
+};
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::{Pose, Quaternion};
+use crate::program::Configuration;
+use findings::{Cause, Report};
+use moves::Moves;
+use reader::{Reader, index};
+use syntax::{Notes, StatementKind, indices};
+use verbs::Verbs;
+use world::{Points, World};
+
+/// ABB RAPID.
+#[derive(Debug)]
+pub struct Rapid;
+
+static ABOUT: About = About {
+    id: "rapid",
+    name: "ABB RAPID",
+    extensions: &["mod", "modx", "prg", "sys", "sysx"],
+    rewrites: &[
+        "robtargets: CONST, PERS, VAR, LOCAL, TASK, arrays, and written out in any Move, Arc, Trigg or Search instruction",
+        "jointtargets of MoveAbsJ",
+        "confdata, where an axis leaves its quarter turn or the arm changes sides",
+    ],
+    leaves: &[
+        "external axes, speeds, zones, tools, work objects, loads",
+        "comments, strings, line ends, encoding, header",
+    ],
+    refuses: &[
+        "targets that the running program changes, or with expressions in them",
+        "tools and work objects that only the running program knows",
+        "held work pieces, stationary tools, conveyors and other moving frames",
+        "moves with a program displacement or external offset",
+        "targets handed to routines, arrays of names of targets",
+    ],
+};
+
+const POSE_ROLES: [Role; 11] = [
+    Role::Position,
+    Role::Position,
+    Role::Position,
+    Role::Orientation,
+    Role::Orientation,
+    Role::Orientation,
+    Role::Orientation,
+    Role::Configuration,
+    Role::Configuration,
+    Role::Configuration,
+    Role::Configuration,
+];
+
+impl Language for Rapid {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn recognises(&self, source: &Source) -> bool {
+        sniff::recognises(&source.bytes)
+    }
+
+    fn read(&self, sources: &[Source]) -> Result<Program, ReadError> {
+        let (mut notes, mut verbs) = (Notes::default(), Verbs::default());
+        for (file, source) in sources.iter().enumerate() {
+            check_bytes(source)?;
+            let recognised = Reader::read(source, index(file), &mut notes, &mut verbs)
+                .map_err(|fault| fault.in_source(source))?;
+            if !recognised {
+                return Err(ReadError::NotThisLanguage {
+                    file: source.name.clone(),
+                    language: ABOUT.name,
+                    missing: "a module, data of robots, a routine or a move",
+                });
+            }
+        }
+        resolve(sources, notes)
+    }
+
+    fn roles(&self, shape: Shape) -> &'static [Role] {
+        match shape {
+            Shape::Pose => &POSE_ROLES,
+            Shape::Joints => &[Role::Joint; 6],
+        }
+    }
+
+    fn decode(&self, shape: Shape, numbers: &[f64]) -> Decoded {
+        match shape {
+            Shape::Pose => {
+                let n: &[f64; 11] = numbers.try_into().expect("a pose has 11 numbers");
+                let translation = [n[0], n[1], n[2]].map(m_from_mm);
+                let rotation = Quaternion([n[3], n[4], n[5], n[6]]).normalized();
+                Decoded {
+                    value: Value::Pose(Pose::from_parts(translation, rotation)),
+                    configuration: confdata::configuration([n[7], n[8], n[9], n[10]]),
+                }
+            }
+            Shape::Joints => {
+                let n: &[f64; 6] = numbers.try_into().expect("six joint angles");
+                Decoded {
+                    value: Value::Joints(n.map(|degrees| degrees * DEG)),
+                    configuration: Configuration::default(),
+                }
+            }
+        }
+    }
+
+    fn encode(
+        &self,
+        shape: Shape,
+        value: &Value,
+        before: &Posture,
+        after: &Posture,
+        numbers: &mut [f64],
+    ) {
+        match (shape, value) {
+            (Shape::Pose, Value::Pose(pose)) => {
+                let present = Quaternion([numbers[3], numbers[4], numbers[5], numbers[6]]);
+                let new = pose.rotation.quaternion().nearest_to(&present);
+                numbers[..3].copy_from_slice(&pose.translation.map(mm_from_m));
+                numbers[3..7].copy_from_slice(&new.0);
+                confdata::update(before, after, &mut numbers[7..]);
+            }
+            (Shape::Joints, Value::Joints(joints)) => {
+                numbers.copy_from_slice(&joints.map(|angle| angle / DEG));
+            }
+            _ => panic!("a value of the other shape"),
+        }
+    }
+
+    fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
+        sniff::mark(source, marker)
+    }
+}
+
+/// No text has a zero byte, and places are kept in 32 bits.
+fn check_bytes(source: &Source) -> Result<(), ReadError> {
+    let limit = u32::MAX as usize;
+    let (file, size) = (source.name.clone(), source.bytes.len());
+    if size >= limit {
+        return Err(ReadError::TooLarge { file, size, limit });
+    }
+    match memchr::memchr(0, &source.bytes) {
+        Some(offset) => Err(ReadError::Binary {
+            file,
+            byte: 0,
+            offset,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Puts together what was noted of all files.
+fn resolve(sources: &[Source], mut notes: Notes) -> Result<Program, ReadError> {
+    let mut report = Report::new(sources);
+    report.program.targets = std::mem::take(&mut notes.targets);
+    report.program.numbers = std::mem::take(&mut notes.numbers);
+    let world = World::new(notes);
+    for target in 0..report.program.targets.len() {
+        let found = &report.program.targets[target];
+        if found.blocked {
+            let place = syntax::Place {
+                file: found.file,
+                offset: found.offset,
+            };
+            report.block(target, Cause::Expressions, place, "");
+        }
+    }
+    let mut moves = Moves::new(&world, report);
+    assigned_targets(&world, &mut moves);
+    moves.list()?;
+    let mut report = moves.report;
+    for bad in &world.notes.bad_values {
+        if report.is_blocked(bad.target, Cause::Assigned) {
+            // its value is that of the last run, or none yet
+            report.program.targets[bad.target].numbers = 0..0;
+        } else {
+            let file = report.program.targets[bad.target].file;
+            return Err(bad.fault.in_source(&sources[file as usize]));
+        }
+    }
+    Ok(report.finish())
+}
+
+/// Blocks targets that statements assign, and reports those that others are computed from.
+fn assigned_targets(world: &World, moves: &mut Moves) {
+    for statement in &world.notes.statements {
+        let StatementKind::Assign {
+            name,
+            index,
+            component,
+            mentions,
+            target,
+            ..
+        } = statement.kind
+        else {
+            continue;
+        };
+        let spelled = world.notes.symbols.spelling(name);
+        if let Some(target) = target {
+            moves.report.program.targets[target].name = Some(spelled.into());
+            let cause = Cause::Assigned;
+            moves
+                .report
+                .block(target, cause, statement.place, "the assignment");
+        }
+        let points = world.points(name, index, statement.context);
+        if matches!(points, Points::Unknown | Points::Other) {
+            continue;
+        }
+        moves.block_name(
+            statement.context,
+            name,
+            index,
+            Cause::Assigned,
+            statement.place,
+        );
+        if component != syntax::Component::Whole {
+            continue;
+        }
+        for &other in &world.notes.mentions[indices(mentions)] {
+            let from = world.points(other, syntax::Index::Whole, statement.context);
+            if other != name && matches!(from, Points::Elements { .. }) {
+                let other = world.notes.symbols.spelling(other);
+                moves.report.say(
+                    "target-copied",
+                    crate::finding::Severity::Warning,
+                    statement.place,
+                    format!("{spelled} is computed from {other}, which may be compensated for other moves"),
+                    "look where the new target is used",
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

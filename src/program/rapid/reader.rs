@@ -1,0 +1,572 @@
+//! Reads the statements of one file.
+//!
+//! A statement ends at its semicolon, or where a name follows an operand: some posts forget semicolons, and a short IF has its
+//! statement behind its condition. Nothing here recurses on the text's brackets.
+
+use super::names::{Context, Symbol};
+use super::syntax::{
+    Argument, Component, Expression, Notes, Part, Place, Routine, Statement, StatementKind, Verb,
+};
+use super::tokens::{Fault, Kind, Scanner, Token};
+use super::verbs::Verbs;
+use crate::program::Source;
+
+/// A place to go back to.
+#[derive(Clone, Copy)]
+pub(super) struct Mark<'a>(Scanner<'a>, Token);
+
+/// Reads one file into the notes of all.
+pub(super) struct Reader<'a> {
+    pub(super) bytes: &'a [u8],
+    scanner: Scanner<'a>,
+    /// The token that is not used yet.
+    pub(super) token: Token,
+    pub(super) notes: &'a mut Notes,
+    verbs: &'a mut Verbs,
+    pub(super) file: u32,
+    pub(super) context: Context,
+    /// Where the open module and routine start.
+    module: Option<u32>,
+    routine: Option<u32>,
+    /// Open brackets of the present expression.
+    brackets: Vec<(u8, u32)>,
+    /// Anything of the language was seen.
+    recognised: bool,
+}
+
+/// Words that start or end a block without an expression of their own.
+const BLOCK_WORDS: [&[u8]; 9] = [
+    b"else",
+    b"endif",
+    b"endwhile",
+    b"endfor",
+    b"endtest",
+    b"default",
+    b"error",
+    b"undo",
+    b"backward",
+];
+
+/// Words between operands.
+const OPERATORS: [&[u8]; 9] = [
+    b"and", b"or", b"xor", b"not", b"div", b"mod", b"from", b"to", b"step",
+];
+
+/// Longest keyword.
+const KEYWORD: usize = 12;
+
+/// A name in lower case where it is short enough for a keyword, else nothing.
+pub(super) fn keyword<'b>(name: &[u8], buffer: &'b mut [u8; KEYWORD]) -> &'b [u8] {
+    let Some(word) = buffer.get_mut(..name.len()) else {
+        return b"";
+    };
+    word.copy_from_slice(name);
+    word.make_ascii_lowercase();
+    word
+}
+
+impl<'a> Reader<'a> {
+    /// Reads a file; whether it has anything of the language.
+    pub(super) fn read(
+        source: &'a Source,
+        file: u32,
+        notes: &'a mut Notes,
+        verbs: &'a mut Verbs,
+    ) -> Result<bool, Fault> {
+        let bytes = &source.bytes;
+        let start = content_start(bytes)?;
+        let scanner = Scanner::new(bytes, start);
+        let mut reader = Self {
+            bytes,
+            scanner,
+            token: Token {
+                kind: Kind::End,
+                start: 0,
+                end: 0,
+            },
+            context: outside(notes, file),
+            notes,
+            verbs,
+            file,
+            module: None,
+            routine: None,
+            brackets: Vec::new(),
+            recognised: false,
+        };
+        reader.advance()?;
+        reader.statements()?;
+        Ok(reader.recognised)
+    }
+
+    pub(super) fn advance(&mut self) -> Result<(), Fault> {
+        self.token = self.scanner.next()?;
+        Ok(())
+    }
+
+    pub(super) fn mark(&self) -> Mark<'a> {
+        Mark(self.scanner, self.token)
+    }
+
+    pub(super) fn rewind(&mut self, mark: Mark<'a>) {
+        (self.scanner, self.token) = (mark.0, mark.1);
+    }
+
+    pub(super) fn text(&self, token: Token) -> &'a [u8] {
+        &self.bytes[token.start as usize..token.end as usize]
+    }
+
+    pub(super) fn is_word(&self, word: &[u8]) -> bool {
+        self.token.kind == Kind::Name && self.text(self.token).eq_ignore_ascii_case(word)
+    }
+
+    pub(super) fn unexpected(&self, expected: &'static str) -> Fault {
+        Fault::Unexpected {
+            start: self.token.start,
+            end: self.token.end,
+            expected,
+        }
+    }
+
+    /// The name that must stand here.
+    pub(super) fn name(&mut self, expected: &'static str) -> Result<Symbol, Fault> {
+        if self.token.kind != Kind::Name {
+            return Err(self.unexpected(expected));
+        }
+        let name = self.notes.symbols.intern(self.text(self.token));
+        self.advance()?;
+        Ok(name)
+    }
+
+    fn statements(&mut self) -> Result<(), Fault> {
+        loop {
+            match self.token.kind {
+                Kind::End => break,
+                Kind::Name => self.statement()?,
+                Kind::Sign(b'%') => self.late_bound_call()?,
+                Kind::Sign(b']' | b')' | b'}') => {
+                    return Err(self.unexpected("a statement"));
+                }
+                Kind::Sign(b'[' | b'(' | b'{') => {
+                    self.expression()?;
+                }
+                _ => self.advance()?,
+            }
+        }
+        let open = self
+            .routine
+            .map(|at| (at, "routine"))
+            .or_else(|| self.module.map(|at| (at, "module")));
+        open.map_or(Ok(()), |(at, what)| Err(Fault::Unclosed { at, what }))
+    }
+
+    fn statement(&mut self) -> Result<(), Fault> {
+        let first = self.token;
+        let mut buffer = [0; KEYWORD];
+        match keyword(self.text(first), &mut buffer) {
+            b"module" => self.open_module(),
+            b"endmodule" => self.close_module(),
+            b"local" => {
+                self.advance()?;
+                if let Some(found) = self.routine_or_data(first.start, true)? {
+                    self.recognised |= found;
+                }
+                Ok(())
+            }
+            b"const" | b"pers" | b"var" | b"task" | b"proc" | b"func" | b"trap" => {
+                if let Some(found) = self.routine_or_data(first.start, false)? {
+                    self.recognised |= found;
+                }
+                Ok(())
+            }
+            b"endproc" | b"endfunc" | b"endtrap" => {
+                if self.routine.take().is_none() {
+                    return Err(self.unexpected("a statement"));
+                }
+                self.context.routine = None;
+                self.advance()
+            }
+            b"record" => {
+                while !self.is_word(b"endrecord") {
+                    if self.token.kind == Kind::End {
+                        return Err(Fault::Unclosed {
+                            at: first.start,
+                            what: "record",
+                        });
+                    }
+                    self.advance()?;
+                }
+                self.advance()
+            }
+            b"alias" | b"connect" => self.finish_statement(),
+            b"if" | b"elseif" | b"while" | b"for" | b"test" | b"case" => self.condition(),
+            word if BLOCK_WORDS.contains(&word) => {
+                self.crooked();
+                self.advance()?;
+                if self.token.is(b'(') {
+                    self.expression()?;
+                }
+                Ok(())
+            }
+            b"goto" => {
+                self.crooked();
+                self.finish_statement()
+            }
+            _ => self.assignment_or_call(),
+        }
+    }
+
+    /// What follows `LOCAL`, or a declaration or routine without it; whether it is of the language, where anything is.
+    fn routine_or_data(&mut self, start: u32, local: bool) -> Result<Option<bool>, Fault> {
+        if self.is_word(b"task") {
+            self.advance()?;
+        }
+        let mut buffer = [0; KEYWORD];
+        match keyword(self.text(self.token), &mut buffer) {
+            b"const" => self.declaration(start, local, true).map(Some),
+            b"pers" | b"var" => self.declaration(start, local, false).map(Some),
+            b"proc" | b"func" | b"trap" => self.open_routine(local).map(|()| Some(true)),
+            _ => Ok(None),
+        }
+    }
+
+    fn open_module(&mut self) -> Result<(), Fault> {
+        if let Some(at) = self.module {
+            return Err(Fault::Unclosed { at, what: "module" });
+        }
+        self.module = Some(self.token.start);
+        self.advance()?;
+        self.name("the name of a module")?;
+        if self.token.is(b'(') {
+            self.expression()?;
+        }
+        self.context = outside(self.notes, self.file);
+        self.recognised = true;
+        Ok(())
+    }
+
+    fn close_module(&mut self) -> Result<(), Fault> {
+        if let Some(at) = self.routine {
+            return Err(Fault::Unclosed {
+                at,
+                what: "routine",
+            });
+        }
+        if self.module.take().is_none() {
+            return Err(self.unexpected("a statement"));
+        }
+        self.context = outside(self.notes, self.file);
+        self.advance()
+    }
+
+    fn open_routine(&mut self, local: bool) -> Result<(), Fault> {
+        if let Some(at) = self.routine {
+            return Err(Fault::Unclosed {
+                at,
+                what: "routine",
+            });
+        }
+        self.routine = Some(self.token.start);
+        let function = self.is_word(b"func");
+        self.advance()?;
+        if function {
+            self.name("the type of a function")?;
+        }
+        let name = self.name("the name of a routine")?;
+        let routine = index(self.notes.routines.len());
+        self.notes.routines.push(Routine {
+            name,
+            module: self.context.module,
+            local,
+            straight: true,
+        });
+        self.context.routine = Some(routine);
+        if self.token.is(b'(') {
+            self.parameters()?;
+        }
+        Ok(())
+    }
+
+    /// The present routine does not run from top to bottom.
+    fn crooked(&mut self) {
+        if let Some(routine) = self.context.routine {
+            self.notes.routines[routine as usize].straight = false;
+        }
+    }
+
+    /// `IF condition THEN`, `CASE 1,2:` and their like, without the statements behind.
+    fn condition(&mut self) -> Result<(), Fault> {
+        self.crooked();
+        self.advance()?;
+        loop {
+            self.expression()?;
+            match self.token.kind {
+                Kind::Sign(b',' | b'\\') | Kind::Assign => self.advance()?,
+                Kind::Sign(b':') => return self.advance(),
+                Kind::Name if self.is_word(b"then") || self.is_word(b"do") => {
+                    return self.advance();
+                }
+                _ => return Ok(()),
+            }
+        }
+    }
+
+    /// Passes over the rest of a statement.
+    pub(super) fn finish_statement(&mut self) -> Result<(), Fault> {
+        loop {
+            let before = self.token.start;
+            self.expression()?;
+            match self.token.kind {
+                Kind::Sign(b';') => return self.advance(),
+                Kind::Sign(b']' | b')' | b'}') => return Err(self.unexpected("a semicolon")),
+                Kind::End => return Ok(()),
+                Kind::Name if self.token.start > before => return Ok(()),
+                _ => self.advance()?,
+            }
+        }
+    }
+
+    /// `%"Module:Routine"%;`
+    fn late_bound_call(&mut self) -> Result<(), Fault> {
+        let start = self.token.start;
+        self.advance()?;
+        while !self.token.is(b'%') && !self.token.is(b';') && self.token.kind != Kind::End {
+            self.advance()?;
+        }
+        if self.token.is(b'%') {
+            self.advance()?;
+        }
+        let arguments = self.arguments(Verb::Other)?;
+        self.note(
+            start,
+            StatementKind::Call {
+                name: None,
+                verb: Verb::Other,
+                arguments,
+            },
+        );
+        Ok(())
+    }
+
+    fn assignment_or_call(&mut self) -> Result<(), Fault> {
+        let first = self.token;
+        let name = self.notes.symbols.intern(self.text(first));
+        self.advance()?;
+        match self.token.kind {
+            Kind::Sign(b':') => {
+                self.crooked();
+                self.advance()
+            }
+            Kind::Assign => self.assignment(first.start, name),
+            Kind::Sign(b'{' | b'.') => self.assignment(first.start, name),
+            _ => {
+                let verb = self.verbs.of(name, self.text(first));
+                let arguments = self.arguments(verb)?;
+                if verb != Verb::Harmless {
+                    self.recognised |= matches!(verb, Verb::Move { .. });
+                    self.note(
+                        first.start,
+                        StatementKind::Call {
+                            name: Some(name),
+                            verb,
+                            arguments,
+                        },
+                    );
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn arguments(&mut self, verb: Verb) -> Result<Part, Fault> {
+        let start = self.notes.arguments.len();
+        let mut expecting = true;
+        let mut positional = 0;
+        loop {
+            match self.token.kind {
+                Kind::Sign(b',') => {
+                    expecting = true;
+                    self.advance()?;
+                }
+                Kind::Sign(b'\\') => {
+                    self.advance()?;
+                    let option = Some(self.name("the name of an optional argument")?);
+                    let expression = if self.token.kind == Kind::Assign {
+                        self.advance()?;
+                        self.argument(None)?
+                    } else {
+                        Expression::Nothing
+                    };
+                    self.notes.arguments.push(Argument { option, expression });
+                    expecting = false;
+                }
+                Kind::Sign(b';') => {
+                    self.advance()?;
+                    break;
+                }
+                Kind::End => break,
+                Kind::Name if !expecting || self.at_block_end() => break,
+                Kind::Sign(b']' | b')' | b'}') => return Err(self.unexpected("an argument")),
+                _ => {
+                    let before = self.token.start;
+                    let expression = self.argument(Some((verb, positional)))?;
+                    if self.token.start == before {
+                        self.advance()?;
+                    }
+                    self.notes.arguments.push(Argument {
+                        option: None,
+                        expression,
+                    });
+                    positional += 1;
+                    expecting = false;
+                }
+            }
+        }
+        if verb == Verb::Harmless {
+            self.notes.arguments.truncate(start);
+        }
+        Ok((index(start), index(self.notes.arguments.len())))
+    }
+
+    /// Whether the present word ends a block: the semicolon before it is missing.
+    fn at_block_end(&self) -> bool {
+        let mut buffer = [0; KEYWORD];
+        let word = keyword(self.text(self.token), &mut buffer);
+        matches!(
+            word,
+            b"endproc" | b"endfunc" | b"endtrap" | b"endmodule" | b"elseif" | b"case"
+        ) || BLOCK_WORDS.contains(&word)
+    }
+
+    /// Passes over an expression, to what ends it or to a name that follows an operand; notes the names in it.
+    pub(super) fn expression(&mut self) -> Result<Part, Fault> {
+        let start = index(self.notes.mentions.len());
+        self.brackets.clear();
+        let mut operand = false;
+        let mut component = false;
+        loop {
+            let token = self.token;
+            match token.kind {
+                Kind::End | Kind::Sign(b';') => {
+                    if let Some(&(_, at)) = self.brackets.last() {
+                        return Err(Fault::Unclosed {
+                            at,
+                            what: "bracket",
+                        });
+                    }
+                    break;
+                }
+                Kind::Sign(open @ (b'[' | b'(' | b'{')) => {
+                    self.brackets.push((open, token.start));
+                    operand = false;
+                }
+                Kind::Sign(close @ (b']' | b')' | b'}')) => match self.brackets.pop() {
+                    None => break,
+                    Some((open, _)) if closes(open, close) => operand = true,
+                    Some(_) => return Err(self.unexpected("the bracket that closes the last one")),
+                },
+                Kind::Sign(b',' | b'\\' | b':') | Kind::Assign if self.brackets.is_empty() => break,
+                Kind::Sign(_) | Kind::Assign => operand = false,
+                Kind::Number | Kind::Text => operand = true,
+                Kind::Name => {
+                    let mut buffer = [0; KEYWORD];
+                    if OPERATORS.contains(&keyword(self.text(token), &mut buffer)) {
+                        operand = false;
+                    } else if operand && self.brackets.is_empty() {
+                        break;
+                    } else {
+                        if !component {
+                            let name = self.notes.symbols.intern(self.text(token));
+                            self.notes.mentions.push(name);
+                        }
+                        operand = true;
+                    }
+                }
+            }
+            component = token.is(b'.') || token.is(b'\\');
+            self.advance()?;
+        }
+        Ok((start, index(self.notes.mentions.len())))
+    }
+
+    pub(super) fn note(&mut self, offset: u32, kind: StatementKind) {
+        self.notes.statements.push(Statement {
+            place: Place {
+                file: self.file,
+                offset,
+            },
+            context: self.context,
+            kind,
+        });
+    }
+
+    /// `name{i}.part := value`; the present token is what follows the name.
+    fn assignment(&mut self, start: u32, name: Symbol) -> Result<(), Fault> {
+        let index = self.index()?;
+        let path = self.component()?;
+        if self.token.kind != Kind::Assign {
+            // a call of something like `record.component`: nothing of the language, passed over
+            return self.finish_statement();
+        }
+        self.advance()?;
+        let (component, leaves, target) = self.assigned(path)?;
+        let mentions = if leaves.is_none() && target.is_none() {
+            self.expression()?
+        } else {
+            (0, 0)
+        };
+        self.finish_statement()?;
+        self.recognised = self.recognised || component != Component::Whole;
+        self.note(
+            start,
+            StatementKind::Assign {
+                name,
+                index,
+                component,
+                leaves,
+                mentions,
+                target,
+            },
+        );
+        Ok(())
+    }
+}
+
+fn closes(open: u8, close: u8) -> bool {
+    matches!((open, close), (b'[', b']') | (b'(', b')') | (b'{', b'}'))
+}
+
+/// A count as an index; a file of 4 GiB has fewer of anything.
+pub(super) fn index(count: usize) -> u32 {
+    u32::try_from(count).expect("sources are smaller than 4 GiB")
+}
+
+/// A context outside routines, of its own.
+fn outside(notes: &mut Notes, file: u32) -> Context {
+    notes.modules.push(file);
+    Context {
+        module: index(notes.modules.len() - 1),
+        routine: None,
+    }
+}
+
+/// The byte after a byte order mark and a `%%%` header.
+pub(super) fn content_start(bytes: &[u8]) -> Result<usize, Fault> {
+    let start = if bytes.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
+    };
+    let blanks = bytes[start..]
+        .iter()
+        .take_while(|b| b.is_ascii_whitespace());
+    let header = start + blanks.count();
+    if !bytes[header..].starts_with(b"%%%") {
+        return Ok(start);
+    }
+    memchr::memmem::find(&bytes[header + 3..], b"%%%")
+        .map(|length| header + length + 6)
+        .ok_or(Fault::Unclosed {
+            at: index(header),
+            what: "header",
+        })
+}
