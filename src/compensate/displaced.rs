@@ -79,6 +79,7 @@ fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Optio
     let displaced = |frame_from_tool: Pose| match motion.displacement {
         Displacement::Frame([x, y, z]) => Some(Pose::from_translation(x, y, z) * frame_from_tool),
         Displacement::Tool(by) => Some(frame_from_tool * by),
+        Displacement::Both([x, y, z], by) => Some(Pose::from_translation(x, y, z) * frame_from_tool * by),
         Displacement::None => Some(frame_from_tool),
         Displacement::Unknown => None,
     };

@@ -55,8 +55,8 @@ pub struct TargetReport {
     pub tool: Option<String>,
     /// Name of its work frame.
     pub frame: Option<String>,
-    /// The target as the file has it: `frame_from_tool`, or joints.
-    pub wanted: Value,
+    /// The target as the file has it: `frame_from_tool`, or joints; `None` where it is blocked because it has no numbers.
+    pub wanted: Option<Value>,
     /// The target written instead, before rounding; `None` where it stays.
     pub fake: Option<Pose>,
     /// The controller's joints at the fake target.
@@ -102,7 +102,7 @@ impl TargetReport {
                 .0,
             tool: None,
             frame: None,
-            wanted: decoded(job, index).value,
+            wanted: decoded(job, index).map(|decoded| decoded.value),
             fake: None,
             q: None,
             shift: none,

@@ -91,8 +91,9 @@ pub(super) fn choose(
                 }
             }
             (None, Shape::Joints) => {
-                if let Value::Joints(q) = decoded(job, target).value {
-                    path.go(q);
+                match decoded(job, target).map(|decoded| decoded.value) {
+                    Some(Value::Joints(q)) => path.go(q),
+                    _ => path.joints = None,
                 }
             }
             // where the robot is after a target that nobody understands is unknown
@@ -121,15 +122,19 @@ pub(super) fn choose(
     chosen.into_iter().flatten().collect()
 }
 
-pub(super) fn decoded(job: &Job, target: usize) -> Decoded {
+/// The meaning of a target's numbers; a blocked target may have none.
+pub(super) fn decoded(job: &Job, target: usize) -> Option<Decoded> {
     let target = &job.program.targets[target];
+    if target.numbers.is_empty() {
+        return None;
+    }
     let numbers: Vec<f64> = job
         .program
         .numbers_of(target)
         .iter()
         .map(|n| n.value)
         .collect();
-    job.language.decode(target.shape, &numbers)
+    Some(job.language.decode(target.shape, &numbers))
 }
 
 fn task(
@@ -146,7 +151,7 @@ fn task(
     let Decoded {
         value,
         configuration,
-    } = decoded(job, target);
+    } = decoded(job, target)?;
     let (wanted, branch, nominal_q) = match value {
         Value::Joints(q) => (
             equipped

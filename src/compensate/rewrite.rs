@@ -2,7 +2,6 @@
 
 use super::outcome::TargetReport;
 use super::placement::name_of;
-use super::posture::decoded;
 use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
@@ -10,7 +9,7 @@ use crate::geometry::{Pose, Separation};
 use crate::inverse::{Arm, Outcome, Status};
 use crate::model::Conditions;
 use crate::program::number::{self, Fraction, Style};
-use crate::program::{Edits, Number, Posture, Role, Target, Value};
+use crate::program::{Edits, Number, Posture, Role, Shape, Target, Value};
 
 /// A shift below this is none: the target's text stays as it is.
 const NO_SHIFT: Separation = Separation {
@@ -109,9 +108,9 @@ impl<'a> Writer<'a> {
         let numbers = job.program.numbers_of(target);
         let roles = job.language.roles(target.shape);
         let arm = &job.equipped(task.tool).arm;
-        let value = match decoded(job, task.target).value {
-            Value::Pose(_) => Value::Pose(task.world_from_frame.inverse() * *controller_pose),
-            Value::Joints(_) => Value::Joints(outcome.q),
+        let value = match target.shape {
+            Shape::Pose => Value::Pose(task.world_from_frame.inverse() * *controller_pose),
+            Shape::Joints => Value::Joints(outcome.q),
         };
         let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
         let mut new = old.clone();

@@ -23,7 +23,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[];
+pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]

@@ -56,11 +56,12 @@ pub fn json(header: &Header, compensation: &Compensation) -> Value {
 fn target(t: &TargetReport, files: &[String]) -> Value {
     let mut wanted_joints = Value::Null;
     let wanted = match &t.wanted {
-        TargetValue::Pose(p) => pose(p),
-        TargetValue::Joints(q) => {
+        Some(TargetValue::Pose(p)) => pose(p),
+        Some(TargetValue::Joints(q)) => {
             wanted_joints = json!(q.map(|q| q / DEG));
             Value::Null
         }
+        None => Value::Null,
     };
     json!({
         "name": t.name,

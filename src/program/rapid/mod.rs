@@ -134,6 +134,16 @@ impl Language for Rapid {
         }
     }
 
+    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
+        match role {
+            Role::Position => millimetre_decimals,
+            // a thousandth of a millimetre is a millionth of a quaternion part at one metre, 6e-5 degrees
+            Role::Orientation => millimetre_decimals + 3,
+            Role::Joint => millimetre_decimals + 2,
+            Role::Configuration => 0,
+        }
+    }
+
     fn decode(&self, shape: Shape, numbers: &[f64]) -> Decoded {
         match shape {
             Shape::Pose => {
