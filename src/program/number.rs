@@ -12,11 +12,78 @@ const EXPONENT_BELOW: f64 = 1e-4;
 /// The value of a decimal number: `12`, `-.5`, `3.`, `+1.5E-04`. `None` where the text is anything else or not finite.
 #[must_use]
 pub fn parse(text: &[u8]) -> Option<f64> {
+    if let Some((value, length)) = parse_start(text)
+        && length == text.len()
+    {
+        return Some(value);
+    }
     let digits = text
         .iter()
         .all(|b| matches!(b, b'0'..=b'9' | b'.' | b'+' | b'-' | b'e' | b'E'));
     let text = std::str::from_utf8(text).ok().filter(|_| digits)?;
     text.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Powers of ten that a 64-bit number holds exactly.
+const EXACT_POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
+/// The value and length of the number that `text` starts with, where its digits make a whole number below 2^53 and its power
+/// of ten is at most 22: one exact product or quotient rounds it as well as any longer way does. `None` for all others, and
+/// where no number stands.
+///
+/// # Source
+/// W. D. Clinger, "How to read floating point numbers accurately", PLDI 1990, section 5.
+#[inline]
+#[must_use]
+pub fn parse_start(text: &[u8]) -> Option<(f64, usize)> {
+    let first = text.first()?;
+    let mut at = usize::from(matches!(first, b'+' | b'-'));
+    let (mut whole, mut digits, mut power) = (0_u64, 0_u32, 0_i32);
+    let mut point = false;
+    while let Some(&byte) = text.get(at) {
+        match byte {
+            b'0'..=b'9' => {
+                whole = whole.wrapping_mul(10) + u64::from(byte - b'0');
+                digits += 1;
+                power -= i32::from(point);
+            }
+            b'.' if !point => point = true,
+            _ => break,
+        }
+        at += 1;
+    }
+    // 18 digits cannot overflow
+    if !(1..=18).contains(&digits) || whole >= 1 << 53 {
+        return None;
+    }
+    if let Some(b'e' | b'E') = text.get(at) {
+        let negative = text.get(at + 1) == Some(&b'-');
+        at += 1 + usize::from(negative || text.get(at + 1) == Some(&b'+'));
+        let exponent = text[at..].iter().take(4).take_while(|b| b.is_ascii_digit());
+        let (mut size, mut length) = (0_i32, 0);
+        for byte in exponent {
+            size = 10 * size + i32::from(byte - b'0');
+            length += 1;
+        }
+        if !(1..=3).contains(&length) {
+            return None;
+        }
+        at += length;
+        power += if negative { -size } else { size };
+    }
+    let scale = EXACT_POWERS.get(power.unsigned_abs() as usize)?;
+    // below 2^53 every whole number is exact
+    #[allow(clippy::cast_precision_loss)]
+    let whole = whole as f64;
+    let value = if power < 0 {
+        whole / scale
+    } else {
+        whole * scale
+    };
+    Some((if *first == b'-' { -value } else { value }, at))
 }
 
 /// How the numbers of one file write magnitudes below one.
@@ -251,7 +318,19 @@ mod tests {
         ] {
             assert_eq!(parse(text.as_bytes()), Some(value));
         }
-        for text in ["", "1e400", "nan", "inf", "1,5", "0x10", "--1", "1_000"] {
+        for text in [
+            "0.1",
+            "-0.70710678",
+            "9007199254740991",
+            "9007199254740993",
+            "0.00000000000000000001",
+        ] {
+            assert_eq!(parse(text.as_bytes()), text.parse().ok(), "{text}");
+        }
+        assert!(parse(b"-0").is_some_and(f64::is_sign_negative));
+        for text in [
+            "", "-", ".", " 1", "1e400", "nan", "inf", "1,5", "0x10", "--1", "1_000",
+        ] {
             assert_eq!(parse(text.as_bytes()), None, "{text}");
         }
     }

@@ -93,6 +93,11 @@ const WANTED: &str = "a value of this type";
 impl Reader<'_> {
     /// Reads a value against a template; the present token is its first.
     pub(super) fn aggregate(&mut self, template: &[u8]) -> Result<Leaves, Fault> {
+        if let Some((leaves, end)) = plain_numbers(self.bytes, self.token.start as usize, template)
+        {
+            self.jump(end)?;
+            return Ok(leaves);
+        }
         let mut leaves = Leaves::new();
         let mut openers = [0_u32; 4];
         let mut depth = 0;
@@ -232,6 +237,54 @@ impl Reader<'_> {
             expected,
         }
     }
+}
+
+/// The leaves of a value of numbers with nothing but blanks between them, and the byte behind it. `None` for all others: the
+/// way by tokens knows what is wrong with them, if anything is.
+fn plain_numbers(bytes: &[u8], start: usize, template: &[u8]) -> Option<(Leaves, usize)> {
+    let mut leaves = Leaves::new();
+    let mut at = start;
+    for (k, &part) in template.iter().enumerate() {
+        let comma = k > 0 && part != b']' && template[k - 1] != b'[';
+        if comma {
+            at = past_blanks(bytes, at);
+            if bytes.get(at) != Some(&b',') {
+                return None;
+            }
+            at += 1;
+        }
+        at = past_blanks(bytes, at);
+        if part == b'n' {
+            let (value, length) = number::parse_start(&bytes[at..])?;
+            // a file is smaller than 4 GiB and such a number shorter than 30 bytes
+            #[allow(clippy::cast_possible_truncation)]
+            leaves.push(Leaf::Number {
+                value,
+                start: at as u32,
+                length: length as u16,
+            });
+            at += length;
+            if !matches!(
+                bytes.get(at),
+                Some(b',' | b']' | b' ' | b'\t' | b'\r' | b'\n')
+            ) {
+                return None;
+            }
+        } else {
+            if bytes.get(at) != Some(&part) {
+                return None;
+            }
+            at += 1;
+        }
+    }
+    Some((leaves, at))
+}
+
+fn past_blanks(bytes: &[u8], mut at: usize) -> usize {
+    while let Some(b' ' | b'\t' | b'\r' | b'\n') = bytes.get(at) {
+        at += 1;
+    }
+    at
 }
 
 /// NaN and infinity are no names of data.

@@ -53,7 +53,8 @@ impl Reader<'_> {
         if first.is(b'[') {
             return match of {
                 Some((verb, position)) => {
-                    Ok(self.written_target(verb, position)?.map(Base::Target))
+                    let target = self.written_target(verb, position)?;
+                    Ok(target.map(|target| Base::Target(index(target))))
                 }
                 None => Ok(None),
             };
@@ -70,7 +71,13 @@ impl Reader<'_> {
             return Ok(None);
         }
         let name = self.notes.symbols.intern(self.text(first));
-        let index = self.index()?;
+        let index = match self.index()? {
+            Index::Whole => 0,
+            other => {
+                self.notes.indices.push(other);
+                index(self.notes.indices.len())
+            }
+        };
         Ok(Some(Base::Named { name, index }))
     }
 

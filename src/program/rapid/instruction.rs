@@ -24,7 +24,7 @@ impl World {
     pub fn plain_names(&self, arguments: Part) -> impl Iterator<Item = Symbol> {
         self.notes.arguments[indices(arguments)]
             .iter()
-            .filter_map(|argument| plain(argument).map(|(name, _)| name))
+            .filter_map(|argument| self.plain(argument).map(|(name, _)| name))
     }
 
     /// Whether an argument can be a target.
@@ -97,7 +97,7 @@ impl World {
         let mut before_wobj = None;
         let mut inside = None;
         for (place, (at, argument)) in positional().filter(|(at, _)| *at >= end).enumerate() {
-            let named = plain(argument);
+            let named = self.plain(argument);
             last = named;
             if place == 2 {
                 inside = named;
@@ -122,7 +122,7 @@ impl World {
                 Expression::Point {
                     base: Base::Named { name, index },
                     steps: (a, b),
-                } if a == b => Ok(Some((name, index))),
+                } if a == b => Ok(Some((name, self.notes.index(index)))),
                 _ => Err(()),
             },
         };
@@ -134,15 +134,17 @@ impl World {
             synchronised: option(b"id").is_some(),
         })
     }
-}
 
-/// The name that a positional argument is.
-pub(super) fn plain(argument: &Argument) -> Option<(Symbol, Index)> {
-    match argument.expression {
-        Expression::Point {
-            base: Base::Named { name, index },
-            steps,
-        } if steps.0 == steps.1 && argument.option.is_none() => Some((name, index)),
-        _ => None,
+    /// The name that a positional argument is.
+    pub fn plain(&self, argument: &Argument) -> Option<(Symbol, Index)> {
+        match argument.expression {
+            Expression::Point {
+                base: Base::Named { name, index },
+                steps,
+            } if steps.0 == steps.1 && argument.option.is_none() => {
+                Some((name, self.notes.index(index)))
+            }
+            _ => None,
+        }
     }
 }

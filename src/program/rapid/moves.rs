@@ -1,7 +1,6 @@
 //! What each move drives to, with which tool, in which work object.
 
 use super::findings::{Cause, Report};
-use super::instruction::plain;
 use super::names::{Context, Symbol};
 use super::syntax::{
     Argument, Base, Element, Expression, Index, Part, Path, Place, Statement, StatementKind,
@@ -182,7 +181,7 @@ impl<'a> Moves<'a> {
             .iter()
             .filter(|argument| argument.option.is_none())
             .nth(1)
-            .and_then(plain);
+            .and_then(|argument| self.world.plain(argument));
         if let Some((name, index)) = found {
             self.block_name(
                 statement.context,
@@ -248,7 +247,9 @@ impl<'a> Moves<'a> {
         let wobj = world.notes.symbols.find(b"wobj");
         let has_tool = all.iter().any(|argument| {
             (argument.option.is_some() && argument.option == wobj)
-                || plain(argument).is_some_and(|(name, _)| world.is_tool(name, context))
+                || world
+                    .plain(argument)
+                    .is_some_and(|(name, _)| world.is_tool(name, context))
         });
         if has_tool && name.is_some() && !self.is_routine(name, context) {
             // an instruction of an option or of another cell: it moves like the ones we know
@@ -269,11 +270,14 @@ impl<'a> Moves<'a> {
                     ..
                 } => self
                     .report
-                    .block(target, Cause::Passed, statement.place, callee),
+                    .block(target as usize, Cause::Passed, statement.place, callee),
                 Expression::Point {
                     base: Base::Named { name, index },
                     ..
-                } => self.block_name(context, name, index, Cause::Passed, statement.place),
+                } => {
+                    let index = world.notes.index(index);
+                    self.block_name(context, name, index, Cause::Passed, statement.place);
+                }
                 Expression::Computed(part) => {
                     for &name in &world.notes.mentions[indices(part)] {
                         let whole = Index::Whole;
@@ -312,8 +316,11 @@ impl<'a> Moves<'a> {
             Expression::Point { base, steps } => {
                 let displacement = self.world.displacement(steps, statement.context);
                 match base {
-                    Base::Target(target) => self.use_target(statement, target, displacement, with),
+                    Base::Target(target) => {
+                        self.use_target(statement, target as usize, displacement, with);
+                    }
                     Base::Named { name, index } => {
+                        let index = self.world.notes.index(index);
                         self.use_name(statement, name, index, displacement, with, true);
                     }
                 }

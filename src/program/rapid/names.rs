@@ -5,24 +5,51 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// A name without its case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Symbol(pub u32);
 
 /// Every name that was read, with its first spelling.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Symbols {
     ids: HashMap<Box<[u8]>, u32>,
     spellings: Vec<Box<str>>,
+    /// The last name of each of some checksums: most names are met again soon.
+    recent: Vec<u32>,
 }
 
 /// Names up to this length are looked up without allocation; RAPID allows 32 letters.
 const SHORT: usize = 64;
+/// Names that are remembered; a power of two.
+const RECENT: usize = 1024;
+
+impl Default for Symbols {
+    fn default() -> Self {
+        Self {
+            ids: HashMap::new(),
+            spellings: Vec::new(),
+            recent: vec![u32::MAX; RECENT],
+        }
+    }
+}
 
 impl Symbols {
     /// The symbol of a name.
     pub fn intern(&mut self, name: &[u8]) -> Symbol {
+        let at = checksum(name);
+        let recent = self.recent[at];
+        let spelling = self.spellings.get(recent as usize);
+        if spelling.is_some_and(|spelling| spelling.as_bytes() == name) {
+            return Symbol(recent);
+        }
+        let id = self.insert(name);
+        self.recent[at] = id;
+        Symbol(id)
+    }
+
+    fn insert(&mut self, name: &[u8]) -> u32 {
         let mut short = [0; SHORT];
         let long;
         let folded: &[u8] = if let Some(copy) = short.get_mut(..name.len()) {
@@ -34,7 +61,7 @@ impl Symbols {
             &long
         };
         if let Some(&id) = self.ids.get(folded) {
-            return Symbol(id);
+            return id;
         }
         // a file of 4 GiB has fewer names
         #[allow(clippy::cast_possible_truncation)]
@@ -42,7 +69,7 @@ impl Symbols {
         self.ids.insert(folded.into(), id);
         self.spellings
             .push(crate::program::Source::text(name).into());
-        Symbol(id)
+        id
     }
 
     /// The symbol of a name that was read; `name` in lower case.
@@ -56,6 +83,14 @@ impl Symbols {
     }
 }
 
+/// A place in the list of recent names. Names with one checksum only push each other out.
+fn checksum(name: &[u8]) -> usize {
+    let sum = name.iter().fold(name.len(), |sum, &byte| {
+        sum.wrapping_mul(31).wrapping_add(usize::from(byte))
+    });
+    (sum ^ (sum >> 10)) % RECENT
+}
+
 /// Where something stands: its module and, inside a routine, that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Context {
@@ -66,11 +101,48 @@ pub struct Context {
 }
 
 /// Where a declaration is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug)]
 enum Scope {
     Everywhere,
     Module(u32),
     Routine(u32),
+}
+
+impl Scope {
+    /// A number for a name in this scope, different for all.
+    fn key(self, name: Symbol) -> u64 {
+        let scope = match self {
+            Self::Everywhere => 0,
+            Self::Module(module) => 1 + 2 * u64::from(module),
+            Self::Routine(routine) => 2 + 2 * u64::from(routine),
+        };
+        // fewer than 2^31 modules and routines fit in 4 GiB
+        scope << 32 | u64::from(name.0)
+    }
+}
+
+/// Spreads the keys of [`Scope::key`]: they count up, so no text can be made to let many of them meet.
+#[derive(Default)]
+struct Spread(u64);
+
+impl Hasher for Spread {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.write_u64(self.0 << 8 | u64::from(byte));
+        }
+    }
+
+    /// The finaliser of splitmix64.
+    fn write_u64(&mut self, key: u64) {
+        let z = key.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        self.0 = z ^ (z >> 31);
+    }
 }
 
 /// What a name means.
@@ -84,25 +156,62 @@ pub enum Meaning {
     Nothing,
 }
 
+/// What is known of a symbol.
+#[derive(Clone, Copy, Debug, Default)]
+enum Slot {
+    /// It is not declared.
+    #[default]
+    Free,
+    /// It is declared once.
+    Once {
+        context: Context,
+        local: bool,
+        declaration: u32,
+    },
+    /// [`Scopes::found`] has its declarations.
+    Often,
+}
+
 /// Declarations by scope and name.
 #[derive(Debug, Default)]
 pub struct Scopes {
-    found: HashMap<(Scope, Symbol), Meaning>,
+    /// By symbol.
+    slots: Vec<Slot>,
+    found: HashMap<u64, Meaning, BuildHasherDefault<Spread>>,
     several: Vec<Vec<u32>>,
-    /// By symbol: whether it is declared somewhere, and whether in a routine.
-    declared: Vec<(bool, bool)>,
 }
 
 impl Scopes {
     /// Adds a declaration; one outside routines that is not LOCAL is seen everywhere.
     pub fn add(&mut self, name: Symbol, context: Context, local: bool, declaration: u32) {
         let at = name.0 as usize;
-        if self.declared.len() <= at {
-            self.declared.resize(at + 1, (false, false));
+        if self.slots.len() <= at {
+            self.slots.resize(at + 1, Slot::Free);
         }
-        self.declared[at].0 = true;
+        match self.slots[at] {
+            Slot::Free => {
+                self.slots[at] = Slot::Once {
+                    context,
+                    local,
+                    declaration,
+                };
+                return;
+            }
+            Slot::Once {
+                context,
+                local,
+                declaration,
+            } => {
+                self.slots[at] = Slot::Often;
+                self.scope(name, context, local, declaration);
+            }
+            Slot::Often => {}
+        }
+        self.scope(name, context, local, declaration);
+    }
+
+    fn scope(&mut self, name: Symbol, context: Context, local: bool, declaration: u32) {
         if let Some(routine) = context.routine {
-            self.declared[at].1 = true;
             self.insert(Scope::Routine(routine), name, declaration);
             return;
         }
@@ -113,7 +222,7 @@ impl Scopes {
     }
 
     fn insert(&mut self, scope: Scope, name: Symbol, declaration: u32) {
-        match self.found.entry((scope, name)) {
+        match self.found.entry(scope.key(name)) {
             Entry::Vacant(free) => {
                 free.insert(Meaning::One(declaration));
             }
@@ -136,23 +245,34 @@ impl Scopes {
 
     /// What a name means at a place.
     pub fn meaning(&self, name: Symbol, context: Context) -> Meaning {
-        let (declared, in_routine) = self
-            .declared
-            .get(name.0 as usize)
-            .copied()
-            .unwrap_or_default();
-        if !declared {
-            return Meaning::Nothing;
+        match self.slots.get(name.0 as usize) {
+            None | Some(Slot::Free) => Meaning::Nothing,
+            Some(&Slot::Once {
+                context: there,
+                local,
+                declaration,
+            }) => {
+                let seen = match there.routine {
+                    Some(_) => there.routine == context.routine,
+                    None => !local || there.module == context.module,
+                };
+                if seen {
+                    Meaning::One(declaration)
+                } else {
+                    Meaning::Nothing
+                }
+            }
+            Some(Slot::Often) => {
+                let of = |scope: Scope| self.found.get(&scope.key(name));
+                context
+                    .routine
+                    .and_then(|routine| of(Scope::Routine(routine)))
+                    .or_else(|| of(Scope::Module(context.module)))
+                    .or_else(|| of(Scope::Everywhere))
+                    .copied()
+                    .unwrap_or(Meaning::Nothing)
+            }
         }
-        let inner = context
-            .routine
-            .filter(|_| in_routine)
-            .and_then(|routine| self.found.get(&(Scope::Routine(routine), name)));
-        inner
-            .or_else(|| self.found.get(&(Scope::Module(context.module), name)))
-            .or_else(|| self.found.get(&(Scope::Everywhere, name)))
-            .copied()
-            .unwrap_or(Meaning::Nothing)
     }
 }
 

@@ -103,6 +103,12 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Goes on at a byte.
+    pub(super) fn jump(&mut self, at: usize) -> Result<(), Fault> {
+        self.scanner = Scanner::new(self.bytes, at);
+        self.advance()
+    }
+
     pub(super) fn mark(&self) -> Mark<'a> {
         Mark(self.scanner, self.token)
     }

@@ -28,12 +28,24 @@ pub struct Notes {
     pub mentions: Vec<Symbol>,
     /// Calls of Offs and RelTool.
     pub steps: Vec<Step>,
+    /// Indices of names in arguments.
+    pub indices: Vec<Index>,
     /// Arguments of instructions.
     pub arguments: Vec<Argument>,
     /// Statements that matter, by file and place.
     pub statements: Vec<Statement>,
     /// A number of a target that no robot can use, if the target is one that is moved to.
     pub bad_values: Vec<BadValue>,
+}
+
+impl Notes {
+    /// The index of a name in an argument; 0 is none.
+    pub fn index(&self, index: u32) -> Index {
+        match index {
+            0 => Index::Whole,
+            _ => self.indices[index as usize - 1],
+        }
+    }
 }
 
 /// A part of [`Notes::leaves`], [`Notes::mentions`], [`Notes::elements`] or [`Notes::arguments`].
@@ -172,10 +184,10 @@ pub enum Expression {
 /// What Offs and RelTool start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
-    /// A name, perhaps with an index.
-    Named { name: Symbol, index: Index },
+    /// A name, perhaps with an index: see [`Notes::index`].
+    Named { name: Symbol, index: u32 },
     /// A target written out.
-    Target(TargetId),
+    Target(u32),
 }
 
 /// One call of Offs or RelTool: amounts x, y, z in mm and about x, y, z in degrees.

@@ -1,5 +1,8 @@
 //! What the language reads, by behaviour.
 
+mod posts;
+mod robust;
+
 use super::*;
 use crate::program::{Displacement, Motion, Tool};
 

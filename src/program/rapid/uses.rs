@@ -17,12 +17,18 @@ pub(super) type Used<Id> = Result<Id, (Cause, Place, Symbol)>;
 /// The symbol of a move without work object: no name has it.
 const WOBJ0: Symbol = Symbol(u32::MAX);
 
+/// A tool or work object, its element, and which of its values.
+type Key = (Entity, Index, usize);
+
 /// Tools and work objects that were used so far.
 pub(super) struct Uses<'a> {
     world: &'a World,
     plans: Plans,
-    tools: HashMap<(Entity, Index, usize), Used<ToolId>>,
-    frames: HashMap<(Entity, Index, usize), Used<FrameId>>,
+    tools: HashMap<Key, Used<ToolId>>,
+    frames: HashMap<Key, Used<FrameId>>,
+    /// The last ones: neighbours mostly use the same.
+    last_tool: Option<(Key, Used<ToolId>)>,
+    last_frame: Option<(Key, Used<FrameId>)>,
 }
 
 impl<'a> Uses<'a> {
@@ -32,6 +38,8 @@ impl<'a> Uses<'a> {
             plans: Plans::new(world, |asked| users(world, asked)),
             tools: HashMap::new(),
             frames: HashMap::new(),
+            last_tool: None,
+            last_frame: None,
         }
     }
 
@@ -54,7 +62,13 @@ impl<'a> Uses<'a> {
             Err(cause) => return Ok(Err((cause, statement.place, name))),
         };
         let key = (entity, index, self.plans.version(entity, at));
+        if let Some((last, used)) = self.last_tool
+            && last == key
+        {
+            return Ok(used);
+        }
         if let Some(used) = self.tools.get(&key) {
+            self.last_tool = Some((key, *used));
             return Ok(*used);
         }
         let spelled = self.spelled(name, index);
@@ -108,7 +122,13 @@ impl<'a> Uses<'a> {
             }
         };
         let key = (entity, index, self.plans.version(entity, at));
+        if let Some((last, used)) = self.last_frame
+            && last == key
+        {
+            return Ok(used);
+        }
         if let Some(used) = self.frames.get(&key) {
+            self.last_frame = Some((key, *used));
             return Ok(*used);
         }
         let spelled = if name == WOBJ0 {
