@@ -12,7 +12,8 @@ const TARGETS: u32 = 100_000;
 
 /// A smooth path through the work space of the thesis's IRB 120.
 fn program() -> String {
-    let profile = Profile::from_yaml(include_str!("../robots/abb_irb120_thesis.yaml")).expect("a shipped profile");
+    let profile = Profile::from_yaml(include_str!("../robots/abb_irb120_thesis.yaml"))
+        .expect("a shipped profile");
     let tool = profile.tool("artifact").expect("its tool");
     let controller = profile.controller_model(&tool);
     let mut text = String::from(
@@ -21,7 +22,14 @@ fn program() -> String {
     );
     for n in 0..TARGETS {
         let t = f64::from(n) * 1e-3;
-        let q = [0.6 * t.sin(), 0.2 + 0.2 * (0.7 * t).sin(), 0.2 * (1.1 * t).cos(), 0.3 * (0.9 * t).sin(), 1.0 + 0.2 * t.cos(), 0.5 * t.sin()];
+        let q = [
+            0.6 * t.sin(),
+            0.2 + 0.2 * (0.7 * t).sin(),
+            0.2 * (1.1 * t).cos(),
+            0.3 * (0.9 * t).sin(),
+            1.0 + 0.2 * t.cos(),
+            0.5 * t.sin(),
+        ];
         let pose = controller.forward(&q, &Conditions::default());
         let [x, y, z] = pose.translation.map(mm_from_m);
         let [w, i, j, k] = pose.rotation.quaternion().0;
@@ -41,13 +49,20 @@ fn command(criterion: &mut Criterion) {
     let (input, output) = (folder.join("path.mod"), folder.join("path_out.mod"));
     std::fs::write(&input, program()).expect("the target folder is writable");
     let mut group = criterion.benchmark_group("whole command");
-    group.throughput(Throughput::Elements(u64::from(TARGETS))).sample_size(10);
+    group
+        .throughput(Throughput::Elements(u64::from(TARGETS)))
+        .sample_size(10);
     group.bench_function("compensate 100 000 RAPID targets", |b| {
         b.iter(|| {
             let status = Command::new(env!("CARGO_BIN_EXE_poseshift"))
                 .arg("compensate")
                 .arg(&input)
-                .args(["--profile", concat!(env!("CARGO_MANIFEST_DIR"), "/robots/abb_irb120_thesis.yaml"), "-q", "-o"])
+                .args([
+                    "--profile",
+                    concat!(env!("CARGO_MANIFEST_DIR"), "/robots/abb_irb120_thesis.yaml"),
+                    "-q",
+                    "-o",
+                ])
                 .arg(&output)
                 .status();
             assert!(status.expect("the program starts").success());

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::{Answer, Output, files, print, print_json, values};
 use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use crate::model::profile::{ControllerModel, Profile};
-use crate::program::{LANGUAGES, Language, Marker, Source};
+use crate::program::{Edits, LANGUAGES, Language, Marker, Source};
 use crate::report;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -95,19 +95,15 @@ impl Compensate {
         let mut header = report::compensation::Header {
             inputs: sources.iter().map(|s| s.name.clone()).collect(),
             outputs: Vec::new(),
-            language: language.about().id,
+            sources: &sources,
+            language,
             profile_sha256: &profile_sha256,
         };
         let mut compensation = compensation;
         if writes {
             let edits = std::mem::take(&mut compensation.edits);
-            let written = render(
-                language,
-                &sources,
-                edits,
-                &compensation.compensated,
-                &profile_sha256,
-            )?;
+            let written = render(language, &sources, edits, &compensation, &profile_sha256)?;
+            let written = written.into_iter().map(|source| source.bytes);
             let outputs: Vec<_> = found
                 .iter()
                 .map(|job| job.output.clone())
@@ -330,12 +326,14 @@ fn same_file(a: &Path, b: &Path) -> bool {
 fn render(
     language: &dyn Language,
     sources: &[Source],
-    edits: Vec<crate::program::Edits>,
-    compensated: &[bool],
+    edits: Vec<Edits>,
+    compensation: &Compensation,
     profile_sha256: &str,
-) -> Result<Vec<Vec<u8>>, Failure> {
-    let mut out = Vec::with_capacity(sources.len());
-    for ((source, mut edits), compensated) in sources.iter().zip(edits).zip(compensated) {
+) -> Result<Vec<Source>, Failure> {
+    let mut written = Vec::with_capacity(sources.len());
+    for ((source, mut edits), compensated) in
+        sources.iter().zip(edits).zip(&compensation.compensated)
+    {
         if *compensated {
             let marker = Marker {
                 version: env!("CARGO_PKG_VERSION").into(),
@@ -345,24 +343,19 @@ fn render(
             let (at, text) = language.mark(source, &marker);
             edits.replace(at..at, |bytes| bytes.extend(text));
         }
-        out.push(edits.apply(&source.bytes));
+        written.push(Source::new(source.name.clone(), edits.apply(&source.bytes)));
     }
-    let written: Vec<_> = sources
-        .iter()
-        .zip(&out)
-        .map(|(s, bytes)| Source::new(s.name.clone(), bytes.clone()))
-        .collect();
-    let count = |sources: &[Source]| {
-        language
-            .read(sources)
-            .map(|program| (program.targets.len(), program.moves.len()))
-    };
-    if count(sources) != count(&written) {
-        return Err(Failure::new(
-            "internal error: the rewritten program does not read back as the same program; nothing is written",
-        ));
+    let before = &compensation.program;
+    let same = language
+        .read(&written, &compensation.settings)
+        .is_ok_and(|after| {
+            (after.targets.len(), after.moves.len()) == (before.targets.len(), before.moves.len())
+        });
+    if !same {
+        let message = "internal error: the rewritten program does not read back as the same program; nothing is written";
+        return Err(Failure::new(message));
     }
-    Ok(out)
+    Ok(written)
 }
 
 fn explain(error: &CompensateError, sources: &[Source]) -> Failure {

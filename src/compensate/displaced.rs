@@ -1,14 +1,13 @@
 //! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction along; here is told how far
 //! from their own wanted poses they land.
 
-use super::outcome::TargetReport;
 use super::placement::name_of;
+use super::rewrite::Rewritten;
 use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
 use crate::program::{Displacement, Move};
-use std::collections::BTreeMap;
 
 /// Landing farther from the wanted pose than this is a warning, metres.
 const LIMIT_M: f64 = 0.05 * MM;
@@ -17,20 +16,17 @@ const LIMIT_M: f64 = 0.05 * MM;
 pub(super) fn check(
     job: &Job,
     tasks: &[Task],
-    reports: &BTreeMap<usize, TargetReport>,
+    rewritten: &[Rewritten],
     findings: &mut Vec<Finding>,
 ) {
-    let tasks: BTreeMap<usize, &Task> = tasks.iter().map(|task| (task.target, task)).collect();
-    for motion in job
-        .program
-        .moves
-        .iter()
-        .filter(|motion| motion.displacement != Displacement::None)
-    {
-        let Some(task) = tasks.get(&motion.target) else {
+    let displaced = |motion: &&Move| motion.displacement != Displacement::None;
+    for motion in job.program.moves.iter().filter(displaced) {
+        let task = tasks.binary_search_by_key(&motion.target, |task| task.target);
+        let one = rewritten.binary_search_by_key(&motion.target, |one| one.target);
+        let (Ok(task), Ok(one)) = (task, one) else {
             continue;
         };
-        let Some(fake) = reports.get(&motion.target).and_then(|report| report.fake) else {
+        let (task, Some(fake)) = (&tasks[task], rewritten[one].report.fake) else {
             continue;
         };
         let name = name_of(job, motion.target);
@@ -76,15 +72,12 @@ pub(super) fn check(
 
 /// How far from its wanted pose a displaced use of a target lands; `None` where that cannot be told.
 fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Option<Separation> {
-    let displaced = |frame_from_tool: Pose| match motion.displacement {
-        Displacement::Frame([x, y, z]) => Some(Pose::from_translation(x, y, z) * frame_from_tool),
-        Displacement::Tool(by) => Some(frame_from_tool * by),
-        Displacement::Both([x, y, z], by) => Some(Pose::from_translation(x, y, z) * frame_from_tool * by),
-        Displacement::None => Some(frame_from_tool),
-        Displacement::Unknown => None,
+    let Displacement::By(shift) = &motion.displacement else {
+        return None;
     };
-    let wanted = task.world_from_frame * displaced(task.world_from_frame.inverse() * task.wanted)?;
-    let given = task.world_from_frame * displaced(*fake_in_frame)?;
+    let wanted =
+        task.world_from_frame * shift.apply(&(task.world_from_frame.inverse() * task.wanted));
+    let given = task.world_from_frame * shift.apply(fake_in_frame);
     let equipped = job.equipped(task.tool);
     let solution = equipped
         .arm

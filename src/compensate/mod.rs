@@ -22,7 +22,7 @@ mod placement;
 mod posture;
 mod rewrite;
 
-pub use outcome::{Compensation, Summary, TargetReport};
+pub use outcome::{Compensation, Summary, TargetReport, meaning};
 pub use placement::{Given, PlacementError};
 
 use crate::finding::{Finding, Severity};
@@ -30,7 +30,7 @@ use crate::geometry::Pose;
 use crate::inverse::{Arm, Branch, Inverse, Outcome, Targets, Unsupported, solve_batch};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
-use crate::program::{Language, Program, ReadError, Source};
+use crate::program::{Language, Program, ReadError, Settings, Source};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -65,6 +65,7 @@ pub enum CompensateError {
 /// What every step looks at.
 struct Job<'a> {
     language: &'a dyn Language,
+    settings: &'a Settings,
     program: &'a Program,
     sources: &'a [Source],
     profile: &'a Profile,
@@ -163,10 +164,14 @@ pub fn compensate(
     profile: &Profile,
     options: &Options,
 ) -> Result<Compensation, CompensateError> {
-    let mut program = language.read(sources)?;
+    let settings = Settings {
+        pulses_per_deg: profile.pulses_per_deg,
+    };
+    let mut program = language.read(sources, &settings)?;
     let mut findings = std::mem::take(&mut program.findings);
     let mut job = Job {
         language,
+        settings: &settings,
         program: &program,
         sources,
         profile,
@@ -176,15 +181,20 @@ pub fn compensate(
     let places = placement::place(&job, &mut findings)?;
     job.arms = equip(&job, &places)?;
     let tasks = posture::choose(&job, &places, &mut findings);
-    let outcomes = solve(&job, &tasks);
-    let mut writer = rewrite::Writer::new(&job);
-    let mut reports = BTreeMap::new();
-    for (task, outcome) in tasks.iter().zip(&outcomes) {
-        reports.insert(task.target, writer.target(task, outcome, &mut findings));
-    }
-    displaced::check(&job, &tasks, &reports, &mut findings);
-    let edits = writer.into_edits();
-    Ok(Compensation::assemble(&job, reports, findings, edits))
+    drop(places);
+    let solved = solve(&job, &tasks);
+    displaced::check(&job, &tasks, &solved, &mut findings);
+    drop(tasks);
+    let (targets, edits, compensated, summary) = outcome::assemble(&job, solved, &mut findings);
+    Ok(Compensation {
+        program,
+        settings,
+        targets,
+        findings,
+        edits,
+        compensated,
+        summary,
+    })
 }
 
 /// The arm with each tool that a placed target needs.
@@ -226,8 +236,9 @@ fn mount(profile: &Profile, tool: &Mounted) -> Result<Equipped, Unsupported> {
     })
 }
 
-/// Solves all tasks, those with the same tool and conditions side by side; outcomes in the order of the tasks.
-fn solve(job: &Job, tasks: &[Task]) -> Vec<Outcome> {
+/// Solves and rewrites all tasks, those with the same tool and conditions side by side, on all processors; in the order of
+/// the targets.
+fn solve(job: &Job, tasks: &[Task]) -> Vec<rewrite::Rewritten> {
     let mut alike: BTreeMap<(usize, [i8; 6]), Vec<usize>> = BTreeMap::new();
     for (index, task) in tasks.iter().enumerate() {
         alike
@@ -235,6 +246,7 @@ fn solve(job: &Job, tasks: &[Task]) -> Vec<Outcome> {
             .or_default()
             .push(index);
     }
+    let fractions = rewrite::fractions(job);
     let chunks: Vec<&[usize]> = alike
         .values()
         .flat_map(|indices| indices.chunks(CHUNK))
@@ -248,21 +260,20 @@ fn solve(job: &Job, tasks: &[Task]) -> Vec<Outcome> {
         let wanted: Vec<_> = chunk.iter().map(|&i| tasks[i].wanted).collect();
         let branches: Vec<_> = chunk.iter().map(|&i| tasks[i].branch).collect();
         let near: Vec<_> = chunk.iter().map(|&i| tasks[i].nominal_q).collect();
-        solve_batch(
+        let outcomes = solve_batch(
             &inverse,
             Targets {
                 wanted: &wanted,
                 branches: &branches,
                 near: &near,
             },
-        )
+        );
+        let rewrite = |(&index, outcome): (&usize, &Outcome)| {
+            rewrite::rewrite(job, &tasks[index], outcome, &fractions)
+        };
+        chunk.iter().zip(&outcomes).map(rewrite).collect::<Vec<_>>()
     });
-    let solved: Vec<Vec<Outcome>> = solved.collect();
-    let mut outcomes: Vec<_> = chunks
-        .iter()
-        .zip(solved)
-        .flat_map(|(chunk, out)| chunk.iter().copied().zip(out))
-        .collect();
-    outcomes.sort_by_key(|(index, _)| *index);
-    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+    let mut solved: Vec<_> = solved.collect::<Vec<_>>().into_iter().flatten().collect();
+    solved.sort_by_key(|rewritten| rewritten.target);
+    solved
 }

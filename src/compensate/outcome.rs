@@ -1,17 +1,21 @@
 //! What compensating a program gave.
 
-use super::posture::decoded;
+use super::rewrite::Rewritten;
 use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
 use crate::inverse::{Branch, Outcome, Status};
-use crate::program::{Edits, Shape, Value};
+use crate::program::{Decoded, Edits, Program, Settings, Shape};
 use std::collections::BTreeMap;
 
 /// A program with fake targets, not yet written.
 #[derive(Debug)]
 pub struct Compensation {
-    /// Every target, by file and place.
+    /// The program as it was read.
+    pub program: Program,
+    /// What its language had to know beside the files.
+    pub settings: Settings,
+    /// What became of each of its targets.
     pub targets: Vec<TargetReport>,
     /// What a person should look at, by file and place.
     pub findings: Vec<Finding>,
@@ -21,6 +25,16 @@ pub struct Compensation {
     pub compensated: Vec<bool>,
     /// The numbers of the whole.
     pub summary: Summary,
+}
+
+impl Compensation {
+    /// Whether an error finding says that the program must not be written.
+    #[must_use]
+    pub fn is_refused(&self) -> bool {
+        self.findings
+            .iter()
+            .any(|finding| finding.severity == Severity::Error)
+    }
 }
 
 /// The numbers of a whole program.
@@ -34,6 +48,8 @@ pub struct Summary {
     pub unchanged: usize,
     /// Joint targets among the unchanged.
     pub joint_targets: usize,
+    /// Mean shift of those that changed.
+    pub mean_shift_m: f64,
     /// Largest shift.
     pub max_shift_m: f64,
     /// Largest residual of the search.
@@ -42,24 +58,16 @@ pub struct Summary {
     pub max_rounding_m: f64,
 }
 
-/// One target and what became of it.
+/// What became of one target.
 #[derive(Clone, Debug)]
 pub struct TargetReport {
-    /// Its name in the program.
-    pub name: Option<Box<str>>,
-    /// Index of its source.
-    pub file: usize,
-    /// Its line.
-    pub line: usize,
-    /// Name of its tool.
-    pub tool: Option<String>,
-    /// Name of its work frame.
-    pub frame: Option<String>,
-    /// The target as the file has it: `frame_from_tool`, or joints; `None` where it is blocked because it has no numbers.
-    pub wanted: Option<Value>,
-    /// The target written instead, before rounding; `None` where it stays.
+    /// Index of its first tool in the program; `None` where no move uses it.
+    pub tool: Option<u32>,
+    /// Index of its first work frame.
+    pub frame: Option<u32>,
+    /// `frame_from_tool` to be written instead, before rounding; `None` where it stays.
     pub fake: Option<Pose>,
-    /// The controller's joints at the fake target.
+    /// The controller's joints at the fake target, radians.
     pub q: Option<[f64; 6]>,
     /// From wanted to fake.
     pub shift: Separation,
@@ -73,113 +81,109 @@ pub struct TargetReport {
     pub branch: Option<Branch>,
     /// How the search ended; `None` where there was none.
     pub status: Option<Status>,
-    /// Its text changed.
+    /// Its text changes.
     pub changed: bool,
-    /// Names of the findings about it.
-    pub findings: Vec<&'static str>,
 }
 
 impl TargetReport {
-    pub(super) fn new(job: &Job, task: &Task, outcome: &Outcome) -> Self {
-        let mut report = Self::untouched(job, task.target);
-        report.q = Some(outcome.q);
-        report.residual = outcome.residual;
-        report.iterations = outcome.iterations;
-        report.branch = Some(task.branch);
-        report.status = Some(outcome.status);
-        report
-    }
-
-    /// A target that stays as it is.
-    pub(super) fn untouched(job: &Job, index: usize) -> Self {
-        let target = &job.program.targets[index];
+    pub(super) fn new(program: &Program, target: usize, solved: Option<(&Task, &Outcome)>) -> Self {
+        debug_assert!(target < program.targets.len());
         let none = Separation::default();
         Self {
-            name: target.name.clone(),
-            file: target.file as usize,
-            line: job.sources[target.file as usize]
-                .line_column(target.offset as usize)
-                .0,
             tool: None,
             frame: None,
-            wanted: decoded(job, index).map(|decoded| decoded.value),
             fake: None,
-            q: None,
+            q: solved.map(|(_, outcome)| outcome.q),
             shift: none,
-            residual: none,
+            residual: solved.map_or(none, |(_, outcome)| outcome.residual),
             rounding: none,
-            iterations: 0,
-            branch: None,
-            status: None,
+            iterations: solved.map_or(0, |(_, outcome)| outcome.iterations),
+            branch: solved.map(|(task, _)| task.branch),
+            status: solved.map(|(_, outcome)| outcome.status),
             changed: false,
-            findings: Vec::new(),
         }
-    }
-
-    pub(super) fn set_fake(&mut self, task: &Task, controller_pose: &Pose) {
-        self.fake = Some(task.world_from_frame.inverse() * *controller_pose);
-        self.shift = task.wanted.separation(controller_pose);
     }
 }
 
-impl Compensation {
-    pub(super) fn assemble(
-        job: &Job,
-        mut reports: BTreeMap<usize, TargetReport>,
-        mut findings: Vec<Finding>,
-        edits: Vec<Edits>,
-    ) -> Self {
-        let program = job.program;
-        let mut targets: Vec<_> = (0..program.targets.len())
-            .map(|index| {
-                reports
-                    .remove(&index)
-                    .unwrap_or_else(|| TargetReport::untouched(job, index))
-            })
-            .collect();
-        for motion in program.moves.iter().rev() {
-            let report = &mut targets[motion.target];
-            report.tool = Some(program.tools[motion.tool].name.clone());
-            report.frame = Some(program.frames[motion.frame].name.clone());
+/// Puts the rewritten targets together: a report a target, edits a source, which sources are compensated, the numbers of
+/// the whole. Adds the targets' findings and brings all into the order of the files.
+pub(super) fn assemble(
+    job: &Job,
+    rewritten: Vec<Rewritten>,
+    findings: &mut Vec<Finding>,
+) -> (Vec<TargetReport>, Vec<Edits>, Vec<bool>, Summary) {
+    let program = job.program;
+    let mut reports: Vec<_> = (0..program.targets.len())
+        .map(|index| TargetReport::new(program, index, None))
+        .collect();
+    let mut edits: Vec<Edits> = job.sources.iter().map(|_| Edits::default()).collect();
+    for one in rewritten {
+        let target = &program.targets[one.target];
+        let numbers = program.numbers_of(target);
+        let mut start = 0;
+        for (index, end) in one.changes {
+            let number = &numbers[usize::from(index)];
+            let span = number.start as usize..number.start as usize + usize::from(number.length);
+            let digits = &one.text[start..usize::from(end)];
+            edits[target.file as usize].replace(span, |out| out.extend_from_slice(digits));
+            start = usize::from(end);
         }
-        let order: BTreeMap<&str, usize> = job
-            .sources
-            .iter()
-            .enumerate()
-            .map(|(i, s)| (s.name.as_str(), i))
-            .collect();
-        findings.sort_by_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
-        let mut compensated = vec![false; job.sources.len()];
-        let mut summary = Summary {
-            targets: targets.len(),
-            ..Summary::default()
-        };
-        for (index, report) in targets.iter().enumerate() {
-            compensated[report.file] |= report.status == Some(Status::Converged);
-            summary.compensated += usize::from(report.changed);
-            summary.unchanged += usize::from(!report.changed);
-            let is_joints = program.targets[index].shape == Shape::Joints;
-            summary.joint_targets += usize::from(is_joints && !report.changed);
-            if report.status == Some(Status::Converged) {
-                summary.max_shift_m = summary.max_shift_m.max(report.shift.distance_m);
-                summary.max_residual_m = summary.max_residual_m.max(report.residual.distance_m);
-                summary.max_rounding_m = summary.max_rounding_m.max(report.rounding.distance_m);
-            }
-        }
-        Self {
-            targets,
-            findings,
-            edits,
-            compensated,
-            summary,
+        findings.extend(one.findings);
+        reports[one.target] = one.report;
+    }
+    for motion in program.moves.iter().rev() {
+        let report = &mut reports[motion.target];
+        (report.tool, report.frame) = (Some(small(motion.tool)), Some(small(motion.frame)));
+    }
+    let order: BTreeMap<&str, usize> = job
+        .sources
+        .iter()
+        .enumerate()
+        .map(|(i, s)| (s.name.as_str(), i))
+        .collect();
+    findings.sort_by_cached_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
+    let mut compensated = vec![false; job.sources.len()];
+    let mut summary = Summary {
+        targets: reports.len(),
+        ..Summary::default()
+    };
+    let mut shifts = 0.0;
+    for (report, target) in reports.iter().zip(&program.targets) {
+        summary.compensated += usize::from(report.changed);
+        summary.unchanged += usize::from(!report.changed);
+        summary.joint_targets +=
+            usize::from(target.layout.shape == Shape::Joints && !report.changed);
+        if report.status == Some(Status::Converged) {
+            compensated[target.file as usize] = true;
+            shifts += if report.changed {
+                report.shift.distance_m
+            } else {
+                0.0
+            };
+            summary.max_shift_m = summary.max_shift_m.max(report.shift.distance_m);
+            summary.max_residual_m = summary.max_residual_m.max(report.residual.distance_m);
+            summary.max_rounding_m = summary.max_rounding_m.max(report.rounding.distance_m);
         }
     }
+    if summary.compensated > 0 {
+        summary.mean_shift_m = shifts / summary.compensated as f64;
+    }
+    (reports, edits, compensated, summary)
+}
 
-    /// Whether an error finding says that the program must not be written.
-    #[must_use]
-    pub fn is_refused(&self) -> bool {
-        self.findings
-            .iter()
-            .any(|finding| finding.severity == Severity::Error)
-    }
+fn small(index: usize) -> u32 {
+    u32::try_from(index).expect("a program's text is below 4 GiB")
+}
+
+/// What the numbers of a target mean; a blocked target may have none.
+#[must_use]
+pub fn meaning(
+    language: &dyn crate::program::Language,
+    program: &Program,
+    settings: &Settings,
+    target: usize,
+) -> Option<Decoded> {
+    let target = &program.targets[target];
+    let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
+    (!numbers.is_empty()).then(|| language.decode(target.layout, &numbers, settings))
 }

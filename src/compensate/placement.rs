@@ -87,8 +87,8 @@ pub(super) fn place(
         .collect();
     let mut places = Vec::with_capacity(uses.len());
     for (index, target) in program.targets.iter().enumerate() {
-        let left_alone =
-            target.blocked || (target.shape == Shape::Joints && !job.options.correct_joint_targets);
+        let left_alone = target.blocked
+            || (target.layout.shape == Shape::Joints && !job.options.correct_joint_targets);
         let place = if left_alone {
             None
         } else {
@@ -108,7 +108,7 @@ fn place_target(
     findings: &mut Vec<Finding>,
 ) -> Result<Option<Place>, PlacementError> {
     let program = job.program;
-    let is_joints = program.targets[index].shape == Shape::Joints;
+    let is_joints = program.targets[index].layout.shape == Shape::Joints;
     let Some((&first, others)) = uses.split_first() else {
         return Ok(place_unused(job, index, findings));
     };
@@ -171,7 +171,7 @@ fn place_target(
 
 /// A target that no move in these files uses: its tool and frame are what the user gives for unknown names.
 fn place_unused(job: &Job, index: usize, findings: &mut Vec<Finding>) -> Option<Place> {
-    if job.program.targets[index].shape == Shape::Joints {
+    if job.program.targets[index].layout.shape == Shape::Joints {
         return None;
     }
     let given = &job.options.given;

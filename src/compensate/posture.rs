@@ -1,6 +1,7 @@
 //! Which of the inverse's solutions the program means: by its configuration data where the controller honours them, and by
 //! the way it comes from the target before.
 
+use super::outcome::meaning;
 use super::placement::{Place, name_of};
 use super::{Job, Task};
 use crate::finding::{Finding, Severity};
@@ -83,19 +84,20 @@ pub(super) fn choose(
                 findings,
             );
         }
-        match (&mut chosen[target], job.program.targets[target].shape) {
+        match (
+            &mut chosen[target],
+            job.program.targets[target].layout.shape,
+        ) {
             (Some(task), _) => {
                 path.go(task.nominal_q);
                 if directed && task.direction == [0; 6] {
                     task.direction = path.direction;
                 }
             }
-            (None, Shape::Joints) => {
-                match decoded(job, target).map(|decoded| decoded.value) {
-                    Some(Value::Joints(q)) => path.go(q),
-                    _ => path.joints = None,
-                }
-            }
+            (None, Shape::Joints) => match decoded(job, target).map(|decoded| decoded.value) {
+                Some(Value::Joints(q)) => path.go(q),
+                _ => path.joints = None,
+            },
             // where the robot is after a target that nobody understands is unknown
             (None, Shape::Pose) => {
                 path = Path {
@@ -122,19 +124,8 @@ pub(super) fn choose(
     chosen.into_iter().flatten().collect()
 }
 
-/// The meaning of a target's numbers; a blocked target may have none.
-pub(super) fn decoded(job: &Job, target: usize) -> Option<Decoded> {
-    let target = &job.program.targets[target];
-    if target.numbers.is_empty() {
-        return None;
-    }
-    let numbers: Vec<f64> = job
-        .program
-        .numbers_of(target)
-        .iter()
-        .map(|n| n.value)
-        .collect();
-    Some(job.language.decode(target.shape, &numbers))
+fn decoded(job: &Job, target: usize) -> Option<Decoded> {
+    meaning(job.language, job.program, job.settings, target)
 }
 
 fn task(

@@ -2,14 +2,14 @@
 
 use super::outcome::TargetReport;
 use super::placement::name_of;
-use super::{Job, Task};
+use super::{Equipped, Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
 use crate::inverse::{Arm, Outcome, Status};
 use crate::model::Conditions;
 use crate::program::number::{self, Fraction, Style};
-use crate::program::{Edits, Number, Posture, Role, Shape, Target, Value};
+use crate::program::{Number, Posture, Role, Shape, Target, Value};
 
 /// A shift below this is none: the target's text stays as it is.
 const NO_SHIFT: Separation = Separation {
@@ -22,200 +22,218 @@ const ROUNDING_LIMIT_M: f64 = 0.01 * MM;
 const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
 const NEAR_AXIS_1_M: f64 = 5.0 * MM;
 
-/// Writes targets into edits, one for each source.
-pub(super) struct Writer<'a> {
-    job: &'a Job<'a>,
-    edits: Vec<Edits>,
-    /// How each source writes magnitudes below one.
-    fractions: Vec<Fraction>,
+/// One target, solved, and its new text.
+pub(super) struct Rewritten {
+    /// Index in the program's targets.
+    pub target: usize,
+    pub report: TargetReport,
+    pub findings: Vec<Finding>,
+    /// Which of its numbers change, by index, with the end of each one's text in `text`.
+    pub changes: Vec<(u8, u16)>,
+    pub text: Vec<u8>,
 }
 
-impl<'a> Writer<'a> {
-    pub fn new(job: &'a Job<'a>) -> Self {
-        let mut fractions: Vec<Option<Fraction>> = vec![None; job.sources.len()];
-        for target in &job.program.targets {
-            let fraction = &mut fractions[target.file as usize];
-            if fraction.is_none() {
-                let numbers = job.program.numbers_of(target);
-                *fraction = numbers
-                    .iter()
-                    .find_map(|n| Fraction::shown_by(text(job, target, n)));
-            }
-        }
-        let fractions = fractions
-            .into_iter()
-            .map(|f| f.unwrap_or(Fraction::Zero))
-            .collect();
-        Self {
-            job,
-            edits: job.sources.iter().map(|_| Edits::default()).collect(),
-            fractions,
-        }
-    }
-
-    pub fn into_edits(self) -> Vec<Edits> {
-        self.edits
-    }
-
-    /// Writes one target, where it converged, and reports on it.
-    pub fn target(
-        &mut self,
-        task: &Task,
-        outcome: &Outcome,
-        findings: &mut Vec<Finding>,
-    ) -> TargetReport {
-        let job = self.job;
-        let equipped = job.equipped(task.tool);
-        let mut report = TargetReport::new(job, task, outcome);
-        let first = findings.len();
-        if outcome.status != Status::Converged {
-            findings.push(failure(job, task, outcome));
-            report.findings = vec![findings[first].id];
-            return report;
-        }
-        let controller_pose = equipped
-            .controller
-            .forward(&outcome.q, &Conditions::default());
-        report.set_fake(task, &controller_pose);
-        if let Some(finding) = singularity(job, task, outcome) {
-            findings.push(finding);
-        }
-        let shift = task.wanted.separation(&controller_pose);
-        if shift.distance_m >= NO_SHIFT.distance_m || shift.angle_rad >= NO_SHIFT.angle_rad {
-            let written = self.write(task, outcome, &controller_pose, findings);
-            report.rounding = self.landing(task, outcome, &written);
-            report.changed = true;
-            if report.rounding.distance_m > ROUNDING_LIMIT_M
-                && report.rounding.distance_m > 0.1 * shift.distance_m
-            {
-                findings.push(self.rounding_finding(task, report.rounding, shift));
-            }
-        }
-        report.findings = findings[first..].iter().map(|f| f.id).collect();
-        report
-    }
-
-    /// Puts the new numbers into the edits; returns them as they were written.
-    fn write(
-        &mut self,
-        task: &Task,
-        outcome: &Outcome,
-        controller_pose: &Pose,
-        findings: &mut Vec<Finding>,
-    ) -> Vec<f64> {
-        let job = self.job;
-        let target = &job.program.targets[task.target];
-        let numbers = job.program.numbers_of(target);
-        let roles = job.language.roles(target.shape);
-        let arm = &job.equipped(task.tool).arm;
-        let value = match target.shape {
-            Shape::Pose => Value::Pose(task.world_from_frame.inverse() * *controller_pose),
-            Shape::Joints => Value::Joints(outcome.q),
-        };
-        let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-        let mut new = old.clone();
-        let (before, after) = (
-            posture_of(arm, &task.nominal_q),
-            posture_of(arm, &outcome.q),
-        );
-        job.language
-            .encode(target.shape, &value, &before, &after, &mut new);
-        let styles = self.styles(target, numbers, roles);
-        let mut digits = Vec::with_capacity(32);
-        for (index, number) in numbers.iter().enumerate() {
-            if new[index] == old[index] {
-                continue;
-            }
-            let role = roles[index];
-            digits.clear();
-            styles[role as usize].write(text(job, target, number), new[index], &mut digits);
-            let read =
-                number::parse(digits.trim_ascii_start()).expect("a written number is a number");
-            if role == Role::Configuration {
-                findings.push(configuration_finding(job, task, old[index], new[index]));
-            }
-            new[index] = read;
-            if read != old[index] {
-                let start = number.start as usize;
-                let edits = &mut self.edits[target.file as usize];
-                edits.replace(start..start + usize::from(number.length), |out| {
-                    out.extend_from_slice(&digits)
-                });
-            } else {
-                new[index] = old[index];
-            }
-        }
-        new
-    }
-
-    /// The style of each role's numbers in one target.
-    fn styles(&self, target: &Target, numbers: &[Number], roles: &[Role]) -> [Style; 4] {
-        let job = self.job;
-        [
-            Role::Position,
-            Role::Orientation,
-            Role::Joint,
-            Role::Configuration,
-        ]
-        .map(|role| {
-            let at_least = match (role, job.options.decimals) {
-                (Role::Configuration, _) | (_, None) => 0,
-                (role, Some(decimals)) => job.language.decimals(role, decimals),
-            };
-            let texts = numbers
+/// How each source writes magnitudes below one.
+pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
+    let mut fractions: Vec<Option<Fraction>> = vec![None; job.sources.len()];
+    for target in &job.program.targets {
+        let fraction = &mut fractions[target.file as usize];
+        if fraction.is_none() {
+            let numbers = job.program.numbers_of(target);
+            *fraction = numbers
                 .iter()
-                .zip(roles)
-                .filter(|(_, r)| **r == role)
-                .map(|(n, _)| text(job, target, n));
-            Style::of_group(texts, at_least, self.fractions[target.file as usize])
-        })
+                .find_map(|n| Fraction::shown_by(text(job, target, n)));
+        }
     }
+    fractions
+        .into_iter()
+        .map(|f| f.unwrap_or(Fraction::Zero))
+        .collect()
+}
 
-    /// How far from the wanted pose the real tool lands with the numbers as they were written.
-    fn landing(&self, task: &Task, outcome: &Outcome, written: &[f64]) -> Separation {
-        let job = self.job;
-        let arm = &job.equipped(task.tool).arm;
-        let target = &job.program.targets[task.target];
-        let q = match job.language.decode(target.shape, written).value {
-            Value::Joints(q) => q,
-            Value::Pose(frame_from_tool) => {
-                let given = task.world_from_frame * frame_from_tool;
-                controller_joints(job, task, arm, &given, outcome)
-            }
-        };
-        job.equipped(task.tool)
-            .inverse
-            .real
-            .forward(&q, &job.conditions(task))
-            .separation(&task.wanted)
+/// Writes the new text of one target, where it converged, and reports on it.
+pub(super) fn rewrite(
+    job: &Job,
+    task: &Task,
+    outcome: &Outcome,
+    fractions: &[Fraction],
+) -> Rewritten {
+    let report = TargetReport::new(job.program, task.target, Some((task, outcome)));
+    let mut rewritten = Rewritten {
+        target: task.target,
+        report,
+        findings: Vec::new(),
+        changes: Vec::new(),
+        text: Vec::new(),
+    };
+    if outcome.status != Status::Converged {
+        rewritten.findings.push(failure(job, task, outcome));
+        return rewritten;
     }
+    let controller_pose = job
+        .equipped(task.tool)
+        .controller
+        .forward(&outcome.q, &Conditions::default());
+    let shift = task.wanted.separation(&controller_pose);
+    rewritten.report.fake = Some(task.world_from_frame.inverse() * controller_pose);
+    rewritten.report.shift = shift;
+    rewritten.findings.extend(singularity(job, task, outcome));
+    if shift.distance_m >= NO_SHIFT.distance_m || shift.angle_rad >= NO_SHIFT.angle_rad {
+        let written = write(job, task, outcome, fractions, &mut rewritten);
+        let rounding = landing(job, task, outcome, &written);
+        rewritten.report.rounding = rounding;
+        rewritten.report.changed = !rewritten.changes.is_empty();
+        if rounding.distance_m > ROUNDING_LIMIT_M && rounding.distance_m > 0.1 * shift.distance_m {
+            rewritten
+                .findings
+                .push(rounding_finding(job, task, rounding, shift));
+        }
+    }
+    rewritten
+}
 
-    fn rounding_finding(&self, task: &Task, rounding: Separation, shift: Separation) -> Finding {
-        let message = format!(
-            "rounding to the file's decimals leaves {} {:.3} mm beside its wanted pose (the shift is {:.3} mm)",
-            name_of(self.job, task.target),
-            mm_from_m(rounding.distance_m),
-            mm_from_m(shift.distance_m)
-        );
-        self.job.at_target(
-            "rounding",
-            Severity::Warning,
-            task.target,
-            message,
-            "--decimals 3 writes more",
-        )
+/// Puts the new numbers' text into `rewritten`; returns the numbers as they are written.
+fn write(
+    job: &Job,
+    task: &Task,
+    outcome: &Outcome,
+    fractions: &[Fraction],
+    rewritten: &mut Rewritten,
+) -> Vec<f64> {
+    let target = &job.program.targets[task.target];
+    let numbers = job.program.numbers_of(target);
+    let roles = job.language.roles(target.layout);
+    let arm = &job.equipped(task.tool).arm;
+    let value = match (target.layout.shape, rewritten.report.fake) {
+        (Shape::Pose, Some(fake)) => Value::Pose(fake),
+        _ => Value::Joints(outcome.q),
+    };
+    let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
+    let mut new = old.clone();
+    let (before, after) = (
+        posture_of(arm, &task.nominal_q),
+        posture_of(arm, &outcome.q),
+    );
+    job.language.encode(
+        target.layout,
+        &value,
+        &before,
+        &after,
+        job.settings,
+        &mut new,
+    );
+    let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
+    if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
+        rewritten
+            .findings
+            .push(configuration_finding(job, task, roles, &old, &new));
     }
+    for (index, number) in numbers.iter().enumerate() {
+        if new[index] == old[index] {
+            continue;
+        }
+        let (old_text, start) = (text(job, target, number), rewritten.text.len());
+        if roles[index] == Role::Configuration {
+            job.language.write_configuration(
+                target.layout,
+                index,
+                new[index],
+                old_text,
+                &mut rewritten.text,
+            );
+        } else {
+            styles[roles[index] as usize].write(old_text, new[index], &mut rewritten.text);
+            let digits = rewritten.text[start..].trim_ascii_start();
+            new[index] = number::parse(digits).expect("a written number is a number");
+        }
+        if new[index] == old[index] {
+            rewritten.text.truncate(start);
+        } else {
+            // a target has a dozen numbers of a few bytes
+            #[allow(clippy::cast_possible_truncation)]
+            rewritten
+                .changes
+                .push((index as u8, rewritten.text.len() as u16));
+        }
+    }
+    new
+}
+
+/// The style of each role's numbers in one target.
+fn styles(
+    job: &Job,
+    target: &Target,
+    numbers: &[Number],
+    roles: &[Role],
+    fraction: Fraction,
+) -> [Style; 4] {
+    [
+        Role::Position,
+        Role::Orientation,
+        Role::Joint,
+        Role::Configuration,
+    ]
+    .map(|role| {
+        let at_least = job
+            .options
+            .decimals
+            .map_or(0, |decimals| job.language.decimals(role, decimals));
+        let texts = numbers
+            .iter()
+            .zip(roles)
+            .filter(|(_, r)| **r == role)
+            .map(|(n, _)| text(job, target, n));
+        Style::of_group(texts, at_least, fraction)
+    })
+}
+
+/// How far from the wanted pose the real tool lands with the numbers as they are written.
+fn landing(job: &Job, task: &Task, outcome: &Outcome, written: &[f64]) -> Separation {
+    let target = &job.program.targets[task.target];
+    let q = match job
+        .language
+        .decode(target.layout, written, job.settings)
+        .value
+    {
+        Value::Joints(q) => q,
+        Value::Pose(frame_from_tool) => controller_joints(
+            job,
+            task,
+            &(task.world_from_frame * frame_from_tool),
+            outcome,
+        ),
+    };
+    job.equipped(task.tool)
+        .inverse
+        .real
+        .forward(&q, &job.conditions(task))
+        .separation(&task.wanted)
+}
+
+fn rounding_finding(job: &Job, task: &Task, rounding: Separation, shift: Separation) -> Finding {
+    let message = format!(
+        "rounding to the file's decimals leaves {} {:.3} mm beside its wanted pose (the shift is {:.3} mm)",
+        name_of(job, task.target),
+        mm_from_m(rounding.distance_m),
+        mm_from_m(shift.distance_m)
+    );
+    job.at_target(
+        "rounding",
+        Severity::Warning,
+        task.target,
+        message,
+        "--decimals 3 writes more",
+    )
 }
 
 /// The joints that the controller computes for a pose near the one found.
-fn controller_joints(
-    job: &Job,
-    task: &Task,
-    arm: &Arm,
-    given: &Pose,
-    outcome: &Outcome,
-) -> [f64; 6] {
-    match &job.equipped(task.tool).calibrated_controller {
+fn controller_joints(job: &Job, task: &Task, given: &Pose, outcome: &Outcome) -> [f64; 6] {
+    let Equipped {
+        arm,
+        calibrated_controller,
+        ..
+    } = job.equipped(task.tool);
+    match calibrated_controller {
         None => arm.solve_branch(given, task.branch, &outcome.q).q,
         Some(controller) => controller.solve(given, task.branch, &outcome.q).q,
     }
@@ -235,10 +253,27 @@ pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {
     }
 }
 
-fn configuration_finding(job: &Job, task: &Task, old: f64, new: f64) -> Finding {
+fn configuration_finding(
+    job: &Job,
+    task: &Task,
+    roles: &[Role],
+    old: &[f64],
+    new: &[f64],
+) -> Finding {
+    let shown = |numbers: &[f64]| {
+        let data = numbers
+            .iter()
+            .zip(roles)
+            .filter(|(_, role)| **role == Role::Configuration);
+        data.map(|(number, _)| number.to_string())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let message = format!(
-        "a joint of {} crosses into another range: configuration {old} becomes {new}",
-        name_of(job, task.target)
+        "a joint of {} crosses into another range: configuration {} becomes {}",
+        name_of(job, task.target),
+        shown(old),
+        shown(new)
     );
     job.at_target(
         "configuration-changed",

@@ -84,29 +84,44 @@ pub trait Language: Sync {
     ///
     /// # Errors
     /// Where the text is not a program of this language or is broken.
-    fn read(&self, sources: &[Source]) -> Result<Program, ReadError>;
+    fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError>;
 
     /// What each number of a target is, in the order of [`Target::numbers`].
-    fn roles(&self, shape: Shape) -> &'static [Role];
+    fn roles(&self, layout: Layout) -> &'static [Role];
 
     /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a metre away where it is an
     /// angle or part of a quaternion.
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize;
 
     /// The meaning of a target's numbers, as many as it has roles.
-    fn decode(&self, shape: Shape, numbers: &[f64]) -> Decoded;
+    fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded;
 
     /// Writes the numbers of `value` into `numbers`, which hold the target's present ones. Configuration data change only
     /// where `before` and `after` (the controller's joints for the old and the new pose) truly differ in them; signs and
     /// turns that the pose leaves open stay as near to the present numbers as they can.
     fn encode(
         &self,
-        shape: Shape,
+        layout: Layout,
         value: &Value,
         before: &Posture,
         after: &Posture,
+        settings: &Settings,
         numbers: &mut [f64],
     );
+
+    /// Writes one of a target's configuration data, the `index`-th of its numbers, in the manner of the text it replaces.
+    /// Most languages write whole numbers.
+    fn write_configuration(
+        &self,
+        layout: Layout,
+        index: usize,
+        value: f64,
+        old: &[u8],
+        out: &mut Vec<u8>,
+    ) {
+        let _ = (layout, index, old);
+        out.extend_from_slice(format!("{value}").as_bytes());
+    }
 
     /// Where the marker goes and its text in the file's own line ends.
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>);
@@ -119,6 +134,22 @@ pub enum Shape {
     Pose,
     /// Six joint angles.
     Joints,
+}
+
+/// Which numbers make a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Layout {
+    /// Pose or joints.
+    pub shape: Shape,
+    /// Which of the language's own forms: with or without configuration data, Euler angles or quaternion, degrees or pulses.
+    pub variant: u8,
+}
+
+/// What a language must know beside the files.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Settings {
+    /// Encoder pulses of one degree of each joint, where programs count in pulses.
+    pub pulses_per_deg: Option<[f64; 6]>,
 }
 
 /// What one number of a target is.
@@ -203,8 +234,8 @@ pub struct Target {
     pub file: u32,
     /// First byte of the whole target.
     pub offset: u32,
-    /// Pose or joints.
-    pub shape: Shape,
+    /// Which numbers it has.
+    pub layout: Layout,
     /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`]. None where it is blocked because it has no
     /// numbers of its own.
     pub numbers: Range<u32>,
@@ -226,22 +257,45 @@ pub enum Motion {
 }
 
 /// What is added to a target before the robot goes there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Displacement {
     /// Nothing: the robot goes to the target.
     None,
-    /// A translation in the work frame, metres (RAPID `Offs`).
-    Frame(Vector),
-    /// A motion in the tool frame (RAPID `RelTool`).
-    Tool(Pose),
-    /// A translation in the work frame and a motion in the tool frame; which comes first does not matter.
-    Both(Vector, Pose),
+    /// A motion that the text tells.
+    By(Box<Shift>),
     /// Something that only the running program knows.
     Unknown,
 }
 
-/// One use of a target by a move instruction, in the order of the text.
+/// `shifted frame_from_tool = Trans(in_frame_m) · frame_from_tool · in_tool`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shift {
+    /// A translation in the work frame, metres (RAPID `Offs`).
+    pub in_frame_m: Vector,
+    /// A motion in the tool frame (RAPID `RelTool`).
+    pub in_tool: Pose,
+}
+
+impl Shift {
+    /// A translation in the work frame alone.
+    #[must_use]
+    pub fn in_frame(in_frame_m: Vector) -> Self {
+        Self {
+            in_frame_m,
+            in_tool: Pose::identity(),
+        }
+    }
+
+    /// `frame_from_tool`, shifted.
+    #[must_use]
+    pub fn apply(&self, frame_from_tool: &Pose) -> Pose {
+        let [x, y, z] = self.in_frame_m;
+        Pose::from_translation(x, y, z) * *frame_from_tool * self.in_tool
+    }
+}
+
+/// One use of a target by a move instruction, in the order of the text.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Move {
     /// Index of the file in the sources.
     pub file: u32,
@@ -259,6 +313,8 @@ pub struct Move {
     pub displacement: Displacement,
     /// The controller honours the target's configuration data in this move.
     pub configured: bool,
+    /// Joints, radians, that the controller's inverse starts from where the move names them (URScript `qnear`).
+    pub near: Option<Box<[f64; 6]>>,
 }
 
 /// A tool that moves name.

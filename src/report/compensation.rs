@@ -1,20 +1,22 @@
 //! The report of `compensate`: `compensation/1`.
 
 use super::pose;
-use crate::compensate::{Compensation, Summary, TargetReport};
+use crate::compensate::{Compensation, Summary, meaning};
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::program::Value as TargetValue;
+use crate::program::{Language, Source, Value as TargetValue};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// What the report says beside the compensation itself.
-#[derive(Debug)]
 pub struct Header<'a> {
     /// Program files, as the user named them, in the order of the sources.
     pub inputs: Vec<String>,
     /// Where they were written; empty where nothing was.
     pub outputs: Vec<String>,
+    /// The program files.
+    pub sources: &'a [Source],
     /// The language.
-    pub language: &'a str,
+    pub language: &'a dyn Language,
     /// Hash of the profile file.
     pub profile_sha256: &'a str,
 }
@@ -27,17 +29,20 @@ pub fn json(header: &Header, compensation: &Compensation) -> Value {
         [one] => json!(one),
         many => json!(many),
     };
-    let targets: Vec<_> = compensation
-        .targets
-        .iter()
-        .map(|t| target(t, &header.inputs))
+    let mut findings_of: BTreeMap<(&str, usize), Vec<&str>> = BTreeMap::new();
+    for finding in &compensation.findings {
+        let place = (finding.file.as_str(), finding.line);
+        findings_of.entry(place).or_default().push(finding.id);
+    }
+    let targets: Vec<_> = (0..compensation.targets.len())
+        .map(|index| target(header, compensation, index, &findings_of))
         .collect();
     let s = &compensation.summary;
     json!({
         "poseshift": "compensation/1",
         "input": one_or_many(&header.inputs),
         "output": one_or_many(&header.outputs),
-        "language": header.language,
+        "language": header.language.about().id,
         "profile_sha256": header.profile_sha256,
         "targets": targets,
         "summary": {
@@ -45,6 +50,7 @@ pub fn json(header: &Header, compensation: &Compensation) -> Value {
             "compensated": s.compensated,
             "unchanged": s.unchanged,
             "joint_targets": s.joint_targets,
+            "mean_shift_mm": mm_from_m(s.mean_shift_m),
             "max_shift_mm": mm_from_m(s.max_shift_m),
             "max_residual_mm": mm_from_m(s.max_residual_m),
             "max_rounding_mm": mm_from_m(s.max_rounding_m),
@@ -53,22 +59,34 @@ pub fn json(header: &Header, compensation: &Compensation) -> Value {
     })
 }
 
-fn target(t: &TargetReport, files: &[String]) -> Value {
-    let mut wanted_joints = Value::Null;
-    let wanted = match &t.wanted {
-        Some(TargetValue::Pose(p)) => pose(p),
-        Some(TargetValue::Joints(q)) => {
-            wanted_joints = json!(q.map(|q| q / DEG));
-            Value::Null
-        }
-        None => Value::Null,
-    };
+fn target(
+    header: &Header,
+    compensation: &Compensation,
+    index: usize,
+    findings_of: &BTreeMap<(&str, usize), Vec<&str>>,
+) -> Value {
+    let program = &compensation.program;
+    let (t, text) = (&compensation.targets[index], &program.targets[index]);
+    let (file, line) = (
+        text.file as usize,
+        header.sources[text.file as usize]
+            .line_column(text.offset as usize)
+            .0,
+    );
+    let (mut wanted, mut wanted_joints) = (Value::Null, Value::Null);
+    match meaning(header.language, program, &compensation.settings, index)
+        .map(|decoded| decoded.value)
+    {
+        Some(TargetValue::Pose(p)) => wanted = pose(&p),
+        Some(TargetValue::Joints(q)) => wanted_joints = json!(q.map(|q| q / DEG)),
+        None => {}
+    }
     json!({
-        "name": t.name,
-        "file": files[t.file],
-        "line": t.line,
-        "tool": t.tool,
-        "frame": t.frame,
+        "name": text.name,
+        "file": header.inputs[file],
+        "line": line,
+        "tool": t.tool.map(|tool| &program.tools[tool as usize].name),
+        "frame": t.frame.map(|frame| &program.frames[frame as usize].name),
         "wanted": wanted,
         "wanted_joints_deg": wanted_joints,
         "fake": t.fake.as_ref().map(pose),
@@ -83,7 +101,7 @@ fn target(t: &TargetReport, files: &[String]) -> Value {
         "branch": t.branch.map(|b| b.to_string()),
         "status": t.status.map(crate::inverse::Status::id),
         "changed": t.changed,
-        "findings": t.findings,
+        "findings": findings_of.get(&(header.inputs[file].as_str(), line)).cloned().unwrap_or_default(),
     })
 }
 
@@ -95,6 +113,7 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
         compensated,
         unchanged,
         joint_targets,
+        mean_shift_m,
         max_shift_m,
         max_residual_m,
         max_rounding_m,
@@ -109,15 +128,9 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
         ));
     }
     if compensated > 0 {
-        let shifts = compensation
-            .targets
-            .iter()
-            .filter(|t| t.changed)
-            .map(|t| t.shift.distance_m);
-        let mean = shifts.sum::<f64>() / compensated as f64;
         lines.push(format!(
             "  shift     mean {:.3} mm, largest {:.3} mm",
-            mm_from_m(mean),
+            mm_from_m(mean_shift_m),
             mm_from_m(max_shift_m)
         ));
         lines.push(format!(

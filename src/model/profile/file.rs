@@ -83,6 +83,9 @@ pub struct ControllerFile {
     pub language: Option<Spanned<String>>,
     /// Whether it computes with the nominal chain or with a calibrated one of its own.
     pub model: ControllerModel,
+    /// Encoder pulses of one degree of each joint, for programs that count in pulses (INFORM).
+    #[serde(default)]
+    pub pulses_per_deg: Option<[Number; 6]>,
 }
 
 /// What the controller computes with.

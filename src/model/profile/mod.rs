@@ -32,6 +32,8 @@ pub struct Profile {
     pub language: Option<String>,
     /// What the controller computes with.
     pub controller: ControllerModel,
+    /// Encoder pulses of one degree of each joint, for programs that count in pulses.
+    pub pulses_per_deg: Option<[f64; 6]>,
     /// Where the base stands.
     pub world_from_base: Pose,
     /// The nominal rows of the chain.
@@ -143,6 +145,10 @@ impl Profile {
             serial: file.robot.serial,
             language: file.controller.language.map(|language| language.value),
             controller: file.controller.model,
+            pulses_per_deg: file
+                .controller
+                .pulses_per_deg
+                .map(|pulses| pulses.map(|n| n.0)),
             world_from_base: kinematics
                 .base
                 .as_ref()

@@ -5,7 +5,7 @@ use super::reader::{Reader, index};
 use super::syntax::{Amount, BadValue, Base, Expression, Index, Path, Step, Verb};
 use super::tokens::{Fault, Kind};
 use crate::geometry::Quaternion;
-use crate::program::{Number, Shape, Target, TargetId, number};
+use crate::program::{Layout, Number, Shape, Target, TargetId, number};
 
 /// Calls inside calls that are followed; deeper ones are expressions like any other.
 const DEEPEST: usize = 16;
@@ -288,7 +288,7 @@ impl Reader<'_> {
             name,
             file: self.file,
             offset,
-            shape,
+            layout: Layout { shape, variant: 0 },
             numbers: index(start)..index(self.notes.numbers.len()),
             blocked,
         });

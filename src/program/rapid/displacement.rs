@@ -5,7 +5,7 @@ use super::syntax::{Amount, Part, Step, Stored, indices};
 use super::world::World;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
-use crate::program::Displacement;
+use crate::program::{Displacement, Shift};
 
 impl World {
     /// What these steps add; Offs shifts in the work object and RelTool in the tool, so their order among each other does not
@@ -33,12 +33,14 @@ impl World {
             }
         }
         let frame = frame_mm.map(m_from_mm);
-        match (steps.is_empty(), frame == [0.0; 3], tool) {
-            (true, ..) | (_, true, None) => Displacement::None,
-            (_, _, None) => Displacement::Frame(frame),
-            (_, true, Some(tool)) => Displacement::Tool(tool),
-            (_, _, Some(tool)) => Displacement::Both(frame, tool),
+        if frame == [0.0; 3] && tool.is_none() {
+            return Displacement::None;
         }
+        let in_tool = tool.unwrap_or_else(Pose::identity);
+        Displacement::By(Box::new(Shift {
+            in_frame_m: frame,
+            in_tool,
+        }))
     }
 
     fn amounts<const N: usize>(&self, amounts: &[Amount; N], context: Context) -> Option<[f64; N]> {

@@ -49,7 +49,8 @@ mod verbs;
 mod world;
 
 use super::{
-    About, Decoded, Language, Marker, Posture, Program, ReadError, Role, Shape, Source, Value,
+    About, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role, Settings, Shape,
+    Source, Value,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
@@ -110,7 +111,7 @@ impl Language for Rapid {
         sniff::recognises(&source.bytes)
     }
 
-    fn read(&self, sources: &[Source]) -> Result<Program, ReadError> {
+    fn read(&self, sources: &[Source], _: &Settings) -> Result<Program, ReadError> {
         let (mut notes, mut verbs) = (Notes::default(), Verbs::default());
         for (file, source) in sources.iter().enumerate() {
             check_bytes(source)?;
@@ -127,8 +128,8 @@ impl Language for Rapid {
         resolve(sources, notes)
     }
 
-    fn roles(&self, shape: Shape) -> &'static [Role] {
-        match shape {
+    fn roles(&self, layout: Layout) -> &'static [Role] {
+        match layout.shape {
             Shape::Pose => &POSE_ROLES,
             Shape::Joints => &[Role::Joint; 6],
         }
@@ -144,8 +145,8 @@ impl Language for Rapid {
         }
     }
 
-    fn decode(&self, shape: Shape, numbers: &[f64]) -> Decoded {
-        match shape {
+    fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
+        match layout.shape {
             Shape::Pose => {
                 let n: &[f64; 11] = numbers.try_into().expect("a pose has 11 numbers");
                 let translation = [n[0], n[1], n[2]].map(m_from_mm);
@@ -167,13 +168,14 @@ impl Language for Rapid {
 
     fn encode(
         &self,
-        shape: Shape,
+        layout: Layout,
         value: &Value,
         before: &Posture,
         after: &Posture,
+        _: &Settings,
         numbers: &mut [f64],
     ) {
-        match (shape, value) {
+        match (layout.shape, value) {
             (Shape::Pose, Value::Pose(pose)) => {
                 let present = Quaternion([numbers[3], numbers[4], numbers[5], numbers[6]]);
                 let new = pose.rotation.quaternion().nearest_to(&present);

@@ -9,7 +9,7 @@ use super::syntax::{
 use super::uses::{Used, Uses};
 use super::world::{Points, World};
 use crate::finding::Severity;
-use crate::program::{Displacement, FrameId, Motion, Move, ReadError, TargetId, ToolId};
+use crate::program::{Displacement, FrameId, Motion, Move, ReadError, Shift, TargetId, ToolId};
 use std::collections::HashSet;
 
 /// The most uses of elements of arrays with indices that only the running program knows.
@@ -365,13 +365,13 @@ impl<'a> Moves<'a> {
         let spelled = world.notes.symbols.spelling(name);
         match world.points(name, index, statement.context) {
             Points::Elements { datum, elements } => {
-                if elements.1 - elements.0 > 1 && !self.first_use(datum, displacement, with) {
+                if elements.1 - elements.0 > 1 && !self.first_use(datum, &displacement, with) {
                     return true;
                 }
                 for element in indices(elements) {
                     match world.notes.elements[element] {
                         Element::Target(target) => {
-                            self.use_target(statement, target, displacement, with);
+                            self.use_target(statement, target, displacement.clone(), with);
                         }
                         Element::Named(other) => {
                             let declared = world.datum(datum);
@@ -408,7 +408,7 @@ impl<'a> Moves<'a> {
     }
 
     /// Whether an array was not used in this way before: one index that only the running program knows is like another.
-    fn first_use(&mut self, datum: u32, displacement: Displacement, with: &With) -> bool {
+    fn first_use(&mut self, datum: u32, displacement: &Displacement, with: &With) -> bool {
         let (tool, frame) = match (*with.tool, *with.frame) {
             (Ok(tool), Ok(frame)) => (tool, frame),
             (Err((cause, ..)), _) | (_, Err((cause, ..))) => {
@@ -416,9 +416,11 @@ impl<'a> Moves<'a> {
             }
         };
         let by = match displacement {
-            Displacement::Frame(by) => by.map(f64::to_bits),
             Displacement::None => [0; 3],
-            Displacement::Tool(_) | Displacement::Both(..) => return self.room(),
+            Displacement::By(shift) if **shift == Shift::in_frame(shift.in_frame_m) => {
+                shift.in_frame_m.map(f64::to_bits)
+            }
+            Displacement::By(_) => return self.room(),
             Displacement::Unknown => [u64::MAX; 3],
         };
         self.room()
@@ -467,6 +469,7 @@ impl<'a> Moves<'a> {
                 frame,
                 displacement,
                 configured: with.configured,
+                near: None,
             });
         }
     }

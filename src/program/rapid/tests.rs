@@ -4,7 +4,12 @@ mod posts;
 mod robust;
 
 use super::*;
-use crate::program::{Displacement, Motion, Tool};
+use crate::program::{Displacement, Layout, Motion, Settings, Shape, Shift, Tool};
+
+const POSE: Layout = Layout {
+    shape: Shape::Pose,
+    variant: 0,
+};
 
 const CONF: &str = "[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
 
@@ -13,7 +18,7 @@ fn read_files(texts: &[&str]) -> Result<Program, ReadError> {
     let sources: Vec<Source> = named
         .map(|(k, text)| Source::new(format!("{k}.mod"), text.replace("CONF", CONF).into_bytes()))
         .collect();
-    Rapid.read(&sources)
+    Rapid.read(&sources, &Settings::default())
 }
 
 fn read(text: &str) -> Program {
@@ -54,7 +59,7 @@ fn to(program: &Program) -> Vec<&str> {
 #[test]
 fn a_move_names_its_target_tool_and_work_object() {
     let program = path("MoveL p2, v100, z10, t\\WObj:=w;");
-    let only = program.moves[0];
+    let only = &program.moves[0];
     assert_eq!((to(&program), only.motion), (vec!["p2"], Motion::Linear));
     let Tool {
         name,
@@ -139,15 +144,25 @@ fn displacements_add_up_and_unknown_ones_are_told() {
          MoveL RelTool(p1,0,0,10\\Rz:=90),v5,z5,t;\nMoveL Reltool(OFFS(p1,-50,100,100),0,0,0\\Rx:=180),v5,z5,t;\n\
          MoveL Offs(p1,0,0,height),v5,z5,t;\nMoveL MirPos(p1,mirror),v5,z5,t;",
     );
-    let by: Vec<_> = program.moves.iter().map(|m| m.displacement).collect();
-    assert_eq!(by[0], Displacement::Frame([0.001, -0.002, 0.003]));
-    assert_eq!(by[1], Displacement::Frame([0.0, 0.0, -0.025]));
-    let Displacement::Tool(turn) = by[2] else {
+    let by: Vec<_> = program
+        .moves
+        .iter()
+        .map(|m| m.displacement.clone())
+        .collect();
+    assert_eq!(
+        by[0],
+        Displacement::By(Box::new(Shift::in_frame([0.001, -0.002, 0.003])))
+    );
+    assert_eq!(
+        by[1],
+        Displacement::By(Box::new(Shift::in_frame([0.0, 0.0, -0.025])))
+    );
+    let Displacement::By(turn) = &by[2] else {
         panic!("in the tool");
     };
-    assert!((turn.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
-    assert!(matches!(by[3], Displacement::Both([-0.05, 0.1, 0.1], _)));
-    assert_eq!(by[4..], [Displacement::Unknown; 2]);
+    assert!((turn.in_tool.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
+    assert!(matches!(&by[3], Displacement::By(both) if both.in_frame_m == [-0.05, 0.1, 0.1]));
+    assert_eq!(by[4..], [Displacement::Unknown, Displacement::Unknown]);
     assert!(program.moves.iter().all(|m| m.target == 0));
 }
 
@@ -418,7 +433,7 @@ fn broken_text_is_an_error_with_its_place() {
 #[test]
 fn a_slightly_short_quaternion_is_made_a_unit_one() {
     let numbers = [1.0, 2.0, 3.0, 0.995, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    let Value::Pose(pose) = Rapid.decode(Shape::Pose, &numbers).value else {
+    let Value::Pose(pose) = Rapid.decode(POSE, &numbers, &Settings::default()).value else {
         panic!("a pose");
     };
     assert!(pose.rotation.angle() < 1e-12 && (pose.translation[2] - 0.003).abs() < 1e-15);
@@ -427,13 +442,20 @@ fn a_slightly_short_quaternion_is_made_a_unit_one() {
 #[test]
 fn encoding_keeps_the_sign_of_the_quaternion() {
     let mut numbers = [0.0, 0.0, 0.0, -0.6, 0.8, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    let value = Rapid.decode(Shape::Pose, &numbers).value;
+    let value = Rapid.decode(POSE, &numbers, &Settings::default()).value;
     let posture = Posture {
         joints_rad: [0.1; 6],
         behind_axis_1: false,
         behind_lower_arm: false,
     };
-    Rapid.encode(Shape::Pose, &value, &posture, &posture, &mut numbers);
+    Rapid.encode(
+        POSE,
+        &value,
+        &posture,
+        &posture,
+        &Settings::default(),
+        &mut numbers,
+    );
     assert!((numbers[3] + 0.6).abs() < 1e-12 && (numbers[4] - 0.8).abs() < 1e-12);
 }
 
@@ -458,7 +480,11 @@ fn the_marker_stands_behind_the_module_line() {
         assert!(lines.ends_with(source.line_end()) && lines.starts_with(b"  ! "));
         let mut marked = source.bytes.clone();
         marked.splice(at..at, lines);
-        assert!(Rapid.read(&[Source::new("a", marked)]).is_ok());
+        assert!(
+            Rapid
+                .read(&[Source::new("a", marked)], &Settings::default())
+                .is_ok()
+        );
     }
 }
 

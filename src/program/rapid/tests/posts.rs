@@ -34,7 +34,9 @@ fn outputs_of_post_processors_have_the_known_targets_and_frames() {
         let bytes = std::fs::read(folder.join("rapid").join(name)).expect("a program");
         let source = Source::new(name, bytes);
         assert!(Rapid.recognises(&source));
-        let program = Rapid.read(&[source]).expect("a program");
+        let program = Rapid
+            .read(&[source], &Settings::default())
+            .expect("a program");
         // 50 straight moves, 2 joint moves, and 4 arcs of two points
         assert_eq!(
             (program.targets.len(), program.moves.len()),
@@ -58,7 +60,7 @@ fn outputs_of_post_processors_have_the_known_targets_and_frames() {
         for (k, used) in program.moves.iter().enumerate() {
             let target = &program.targets[used.target];
             let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
-            let decoded = Rapid.decode(target.shape, &numbers);
+            let decoded = Rapid.decode(target.layout, &numbers, &Settings::default());
             let point = &truth["progs"]["PGA"][k];
             match decoded.value {
                 Value::Joints(joints) => {

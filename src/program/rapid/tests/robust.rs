@@ -9,7 +9,7 @@ proptest::proptest! {
     fn random_bytes_never_panic(bytes in proptest::collection::vec(0_u8..=255, 0..400)) {
         let source = Source::new("x", bytes);
         let _ = Rapid.recognises(&source);
-        let _ = Rapid.read(&[source]);
+        let _ = Rapid.read(&[source], &Settings::default());
     }
 
     #[test]
@@ -27,7 +27,7 @@ proptest::proptest! {
         let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
         let (at, _) = Rapid.mark(&source, &marker);
         assert!(at <= source.bytes.len());
-        if let Ok(program) = Rapid.read(std::slice::from_ref(&source)) {
+        if let Ok(program) = Rapid.read(std::slice::from_ref(&source), &Settings::default()) {
             for number in &program.numbers {
                 let start = number.start as usize;
                 let text = &source.bytes[start..start + usize::from(number.length)];
@@ -35,7 +35,7 @@ proptest::proptest! {
             }
             for target in &program.targets {
                 let count = target.numbers.len();
-                assert!(count == Rapid.roles(target.shape).len() || (count == 0 && target.blocked));
+                assert!(count == Rapid.roles(target.layout).len() || (count == 0 && target.blocked));
             }
         }
     }
