@@ -2,6 +2,7 @@
 
 mod posts;
 mod robust;
+mod samples;
 
 use super::*;
 use crate::program::{Displacement, Motion, Tool};
