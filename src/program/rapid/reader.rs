@@ -68,6 +68,7 @@ impl<'a> Reader<'a> {
     ) -> Result<bool, Fault> {
         let bytes = &source.bytes;
         let start = content_start(bytes)?;
+        notes.reserve(bytes.len());
         let scanner = Scanner::new(bytes, start);
         let mut reader = Self {
             bytes,
