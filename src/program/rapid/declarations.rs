@@ -51,7 +51,7 @@ impl Reader<'_> {
         } else if dimensions > 0 && kind != Type::Other {
             value = Stored::Computed((0, 0));
         }
-        self.finish_statement()?;
+        self.end_statement()?;
         let place = Place {
             file: self.file,
             offset: start,

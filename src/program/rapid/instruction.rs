@@ -17,6 +17,8 @@ pub(super) struct Parts {
     pub frame: Result<Option<(Symbol, Index)>, ()>,
     /// It has an ID for synchronised robots.
     pub synchronised: bool,
+    /// The load that stands for that of the tool.
+    pub load: Option<Symbol>,
 }
 
 impl World {
@@ -132,6 +134,13 @@ impl World {
             tool,
             frame,
             synchronised: option(b"id").is_some(),
+            load: option(b"tload").and_then(|at| match all[at].expression {
+                Expression::Point {
+                    base: Base::Named { name, .. },
+                    ..
+                } => Some(name),
+                _ => None,
+            }),
         })
     }
 

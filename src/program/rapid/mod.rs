@@ -35,6 +35,7 @@ mod arguments;
 mod confdata;
 mod declarations;
 mod displacement;
+mod expressions;
 mod findings;
 mod frames;
 mod instruction;

@@ -92,14 +92,18 @@ impl<'a> Moves<'a> {
     }
 
     fn grip_load(&mut self, statement: &Statement, arguments: Part) {
+        let load = self.world.plain_names(arguments).next();
+        self.other_load(statement, load);
+    }
+
+    /// A load that is not that of the tool.
+    fn other_load(&mut self, statement: &Statement, load: Option<Symbol>) {
         let symbols = &self.world.notes.symbols;
-        let none = symbols.find(b"load0");
-        let loads: Vec<_> = self.world.plain_names(arguments).collect();
-        if let Some(&load) = loads.first()
-            && Some(load) != none
+        if let Some(load) = load
+            && Some(load) != symbols.find(b"load0")
         {
             let message = format!(
-                "{} is carried from here on; its mass is not in the tool's load",
+                "{} is carried here; its mass is not in the tool's load",
                 symbols.spelling(load)
             );
             let hint = "where joints bend under load, give the profile a tool with this load";
@@ -123,6 +127,7 @@ impl<'a> Moves<'a> {
         if matches!(verb, Verb::Move { first: 2, .. }) {
             self.written_by_search(statement, arguments);
         }
+        self.other_load(statement, parts.load);
         if parts.synchronised {
             let message = "this move runs together with one of another robot";
             let hint = "both robots' programs have to be compensated";

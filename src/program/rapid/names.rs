@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::hash::{BuildHasherDefault, Hasher};
+use std::hash::{BuildHasher, BuildHasherDefault, Hasher, RandomState};
 
 /// A name without its case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -14,10 +14,22 @@ pub struct Symbol(pub u32);
 /// Every name that was read, with its first spelling.
 #[derive(Debug)]
 pub struct Symbols {
-    ids: HashMap<Box<[u8]>, u32>,
+    ids: HashMap<Box<[u8]>, u32, Seed>,
     spellings: Vec<Box<str>>,
     /// The last name of each of some checksums: most names are met again soon.
     recent: Vec<u32>,
+}
+
+/// Starts the checksums of names at a number that no text can know, so that none can make many names meet.
+#[derive(Clone, Copy, Debug)]
+struct Seed(u64);
+
+impl BuildHasher for Seed {
+    type Hasher = Spread;
+
+    fn build_hasher(&self) -> Spread {
+        Spread(self.0)
+    }
 }
 
 /// Names up to this length are looked up without allocation; RAPID allows 32 letters.
@@ -28,7 +40,7 @@ const RECENT: usize = 1024;
 impl Default for Symbols {
     fn default() -> Self {
         Self {
-            ids: HashMap::new(),
+            ids: HashMap::with_hasher(Seed(RandomState::new().build_hasher().finish())),
             spellings: Vec::new(),
             recent: vec![u32::MAX; RECENT],
         }
@@ -121,7 +133,7 @@ impl Scope {
     }
 }
 
-/// Spreads the keys of [`Scope::key`]: they count up, so no text can be made to let many of them meet.
+/// Spreads numbers over 64 bits, each to another: keys of [`Scope::key`], which count up, and names from a [`Seed`] on.
 #[derive(Default)]
 struct Spread(u64);
 
@@ -131,9 +143,15 @@ impl Hasher for Spread {
     }
 
     fn write(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.write_u64(self.0 << 8 | u64::from(byte));
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.write_u64(self.0 ^ u64::from_le_bytes(word));
         }
+    }
+
+    fn write_usize(&mut self, length: usize) {
+        self.write_u64(self.0 ^ length as u64);
     }
 
     /// The finaliser of splitmix64.

@@ -4,9 +4,7 @@
 //! statement behind its condition. Nothing here recurses on the text's brackets.
 
 use super::names::{Context, Symbol};
-use super::syntax::{
-    Argument, Component, Expression, Notes, Part, Place, Routine, Statement, StatementKind, Verb,
-};
+use super::syntax::{Component, Notes, Place, Routine, Statement, StatementKind, Verb};
 use super::tokens::{Fault, Kind, Scanner, Token};
 use super::verbs::Verbs;
 use crate::program::Source;
@@ -29,13 +27,13 @@ pub(super) struct Reader<'a> {
     module: Option<u32>,
     routine: Option<u32>,
     /// Open brackets of the present expression.
-    brackets: Vec<(u8, u32)>,
+    pub(super) brackets: Vec<(u8, u32)>,
     /// Anything of the language was seen.
     recognised: bool,
 }
 
 /// Words that start or end a block without an expression of their own.
-const BLOCK_WORDS: [&[u8]; 9] = [
+pub(super) const BLOCK_WORDS: [&[u8]; 9] = [
     b"else",
     b"endif",
     b"endwhile",
@@ -47,13 +45,8 @@ const BLOCK_WORDS: [&[u8]; 9] = [
     b"backward",
 ];
 
-/// Words between operands.
-const OPERATORS: [&[u8]; 9] = [
-    b"and", b"or", b"xor", b"not", b"div", b"mod", b"from", b"to", b"step",
-];
-
 /// Longest keyword.
-const KEYWORD: usize = 12;
+pub(super) const KEYWORD: usize = 12;
 
 /// A name in lower case where it is short enough for a keyword, else nothing.
 pub(super) fn keyword<'b>(name: &[u8], buffer: &'b mut [u8; KEYWORD]) -> &'b [u8] {
@@ -75,6 +68,7 @@ impl<'a> Reader<'a> {
     ) -> Result<bool, Fault> {
         let bytes = &source.bytes;
         let start = content_start(bytes)?;
+        notes.reserve(bytes.len());
         let scanner = Scanner::new(bytes, start);
         let mut reader = Self {
             bytes,
@@ -149,6 +143,7 @@ impl<'a> Reader<'a> {
                 Kind::End => break,
                 Kind::Name => self.statement()?,
                 Kind::Sign(b'%') => self.late_bound_call()?,
+                Kind::Sign(b'<') => self.placeholder()?,
                 Kind::Sign(b']' | b')' | b'}') => {
                     return Err(self.unexpected("a statement"));
                 }
@@ -316,19 +311,16 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Passes over the rest of a statement.
-    pub(super) fn finish_statement(&mut self) -> Result<(), Fault> {
-        loop {
-            let before = self.token.start;
-            self.expression()?;
-            match self.token.kind {
-                Kind::Sign(b';') => return self.advance(),
-                Kind::Sign(b']' | b')' | b'}') => return Err(self.unexpected("a semicolon")),
-                Kind::End => return Ok(()),
-                Kind::Name if self.token.start > before => return Ok(()),
-                _ => self.advance()?,
-            }
+    /// `<SMT>`, where a statement is still to be written.
+    fn placeholder(&mut self) -> Result<(), Fault> {
+        self.advance()?;
+        if self.token.kind == Kind::Name {
+            self.advance()?;
         }
+        if self.token.is(b'>') {
+            self.advance()?;
+        }
+        Ok(())
     }
 
     /// `%"Module:Routine"%;`
@@ -383,117 +375,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn arguments(&mut self, verb: Verb) -> Result<Part, Fault> {
-        let start = self.notes.arguments.len();
-        let mut expecting = true;
-        let mut positional = 0;
-        loop {
-            match self.token.kind {
-                Kind::Sign(b',') => {
-                    expecting = true;
-                    self.advance()?;
-                }
-                Kind::Sign(b'\\') => {
-                    self.advance()?;
-                    let option = Some(self.name("the name of an optional argument")?);
-                    let expression = if self.token.kind == Kind::Assign {
-                        self.advance()?;
-                        self.argument(None)?
-                    } else {
-                        Expression::Nothing
-                    };
-                    self.notes.arguments.push(Argument { option, expression });
-                    expecting = false;
-                }
-                Kind::Sign(b';') => {
-                    self.advance()?;
-                    break;
-                }
-                Kind::End => break,
-                Kind::Name if !expecting || self.at_block_end() => break,
-                Kind::Sign(b']' | b')' | b'}') => return Err(self.unexpected("an argument")),
-                _ => {
-                    let before = self.token.start;
-                    let expression = self.argument(Some((verb, positional)))?;
-                    if self.token.start == before {
-                        self.advance()?;
-                    }
-                    self.notes.arguments.push(Argument {
-                        option: None,
-                        expression,
-                    });
-                    positional += 1;
-                    expecting = false;
-                }
-            }
-        }
-        if verb == Verb::Harmless {
-            self.notes.arguments.truncate(start);
-        }
-        Ok((index(start), index(self.notes.arguments.len())))
-    }
-
-    /// Whether the present word ends a block: the semicolon before it is missing.
-    fn at_block_end(&self) -> bool {
-        let mut buffer = [0; KEYWORD];
-        let word = keyword(self.text(self.token), &mut buffer);
-        matches!(
-            word,
-            b"endproc" | b"endfunc" | b"endtrap" | b"endmodule" | b"elseif" | b"case"
-        ) || BLOCK_WORDS.contains(&word)
-    }
-
-    /// Passes over an expression, to what ends it or to a name that follows an operand; notes the names in it.
-    pub(super) fn expression(&mut self) -> Result<Part, Fault> {
-        let start = index(self.notes.mentions.len());
-        self.brackets.clear();
-        let mut operand = false;
-        let mut component = false;
-        loop {
-            let token = self.token;
-            match token.kind {
-                Kind::End | Kind::Sign(b';') => {
-                    if let Some(&(_, at)) = self.brackets.last() {
-                        return Err(Fault::Unclosed {
-                            at,
-                            what: "bracket",
-                        });
-                    }
-                    break;
-                }
-                Kind::Sign(open @ (b'[' | b'(' | b'{')) => {
-                    self.brackets.push((open, token.start));
-                    operand = false;
-                }
-                Kind::Sign(close @ (b']' | b')' | b'}')) => match self.brackets.pop() {
-                    None => break,
-                    Some((open, _)) if closes(open, close) => operand = true,
-                    Some(_) => return Err(self.unexpected("the bracket that closes the last one")),
-                },
-                Kind::Sign(b',' | b'\\' | b':') | Kind::Assign if self.brackets.is_empty() => break,
-                Kind::Sign(_) | Kind::Assign => operand = false,
-                Kind::Number | Kind::Text => operand = true,
-                Kind::Name => {
-                    let mut buffer = [0; KEYWORD];
-                    if OPERATORS.contains(&keyword(self.text(token), &mut buffer)) {
-                        operand = false;
-                    } else if operand && self.brackets.is_empty() {
-                        break;
-                    } else {
-                        if !component {
-                            let name = self.notes.symbols.intern(self.text(token));
-                            self.notes.mentions.push(name);
-                        }
-                        operand = true;
-                    }
-                }
-            }
-            component = token.is(b'.') || token.is(b'\\');
-            self.advance()?;
-        }
-        Ok((start, index(self.notes.mentions.len())))
-    }
-
     pub(super) fn note(&mut self, offset: u32, kind: StatementKind) {
         self.notes.statements.push(Statement {
             place: Place {
@@ -520,7 +401,7 @@ impl<'a> Reader<'a> {
         } else {
             (0, 0)
         };
-        self.finish_statement()?;
+        self.end_statement()?;
         self.recognised = self.recognised || component != Component::Whole;
         self.note(
             start,
@@ -535,10 +416,6 @@ impl<'a> Reader<'a> {
         );
         Ok(())
     }
-}
-
-fn closes(open: u8, close: u8) -> bool {
-    matches!((open, close), (b'[', b']') | (b'(', b')') | (b'{', b'}'))
 }
 
 /// A count as an index; a file of 4 GiB has fewer of anything.

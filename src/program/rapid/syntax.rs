@@ -39,6 +39,17 @@ pub struct Notes {
 }
 
 impl Notes {
+    /// Makes room for what a file of this size may hold, so that lists need not move while they grow: a target with its
+    /// numbers takes some 150 bytes, a statement 40.
+    pub fn reserve(&mut self, bytes: usize) {
+        self.targets.reserve(bytes / 150);
+        self.numbers.reserve(bytes / 14);
+        self.data.reserve(bytes / 150);
+        self.elements.reserve(bytes / 150);
+        self.statements.reserve(bytes / 40);
+        self.arguments.reserve(bytes / 20);
+    }
+
     /// The index of a name in an argument; 0 is none.
     pub fn index(&self, index: u32) -> Index {
         match index {

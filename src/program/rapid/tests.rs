@@ -2,6 +2,7 @@
 
 mod posts;
 mod robust;
+mod samples;
 
 use super::*;
 use crate::program::{Displacement, Layout, Motion, Settings, Shape, Shift, Tool};
@@ -510,4 +511,29 @@ fn rapid_is_told_from_other_text() {
     ] {
         assert!(!Rapid.recognises(&Source::new("a", text.into())), "{text}");
     }
+}
+
+#[test]
+fn nothing_before_a_move_swallows_it() {
+    for before in [
+        "<SMT>",
+        "sub\n",
+        "Set do1\n",
+        "x:=y",
+        "x:=1\n",
+        "label:",
+        "<SMT>;",
+        "Stop",
+        "IF a=1",
+        "IF a THEN\n",
+    ] {
+        let program = path(&format!("{before} MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t;"));
+        assert_eq!(to(&program), ["p1", "p2"], "{before}");
+    }
+}
+
+#[test]
+fn loads_that_are_not_the_tools_are_noted() {
+    let program = path("GripLoad load0;\nGripLoad part;\nMoveL p1,v5,z5,t\\WObj:=w\\TLoad:=heavy;");
+    assert_eq!(ids(&program), ["grip-load"; 2]);
 }
