@@ -347,7 +347,7 @@ impl<'a> Moves<'a> {
     fn not_written_out(&mut self, statement: &Statement, what: &str) {
         self.report.say(
             "computed-target",
-            Severity::Warning,
+            Severity::Error,
             statement.place,
             format!(
                 "{what} that this move goes to is known at run time only; it is not compensated"
@@ -401,7 +401,7 @@ impl<'a> Moves<'a> {
             Points::Unknown | Points::Other if wanted => {
                 self.report.say(
                     "target-not-in-files",
-                    Severity::Warning,
+                    Severity::Error,
                     statement.place,
                     format!("{spelled} is not declared in the files; this move is not compensated"),
                     "name the module that declares it, too",

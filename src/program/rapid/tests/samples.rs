@@ -32,7 +32,9 @@ fn samples_have_targets_and_nothing_to_complain_about() {
         ("cam", 5000, 5000),
         ("modules", 9, 12),
     ] {
-        let program = Rapid.read(&sample(case)).expect("a program");
+        let program = Rapid
+            .read(&sample(case), &Settings::default())
+            .expect("a program");
         assert_eq!(
             (program.targets.len(), program.moves.len()),
             (targets, moves),
@@ -60,7 +62,9 @@ fn a_module_without_targets_is_read_with_the_others() {
     let logic = sources
         .iter()
         .position(|source| source.name.ends_with("CellLogic.mod"));
-    let program = Rapid.read(&sources).expect("a program");
+    let program = Rapid
+        .read(&sources, &Settings::default())
+        .expect("a program");
     let logic = index(logic.expect("the module without targets"));
     assert!(program.targets.iter().all(|target| target.file != logic));
 }
