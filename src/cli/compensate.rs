@@ -403,7 +403,7 @@ fn tell(
     }
     match header.outputs.as_slice() {
         [] => {
-            text += "nothing is written: not every target could be compensated (--keep-going leaves those as they are)\n"
+            text += "nothing is written: not every target could be compensated (--keep-going leaves those as they are)\n";
         }
         _ if output.quiet => {}
         [one] => text += &format!("written to {one}\n"),

@@ -9,9 +9,9 @@
 //! fake target = world_from_frame⁻¹ · F
 //! ```
 //!
-//! Each step is one file: [`placement`] finds the tool and frame of each target, [`posture`] the branch of the inverse that
-//! the program means, [`rewrite`] puts the new numbers in the place of the old ones and reads them back to tell what
-//! rounding costs, [`displaced`] tells what a correction does to points that the program derives from a target.
+//! Each step is one file: `placement` finds the tool and frame of each target, `posture` the branch of the inverse that
+//! the program means, `rewrite` puts the new numbers in the place of the old ones and reads them back to tell what
+//! rounding costs, `displaced` tells what a correction does to points that the program derives from a target.
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].

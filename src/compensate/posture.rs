@@ -293,12 +293,11 @@ fn way(
         let asked =
             configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
         let turned = |range: (f64, f64)| turned_into(q[i], range, limits);
-        match asked.and_then(turned) {
-            Some(angle) => q[i] = angle,
-            None => {
-                in_ranges &= asked.is_none();
-                q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
-            }
+        if let Some(angle) = asked.and_then(turned) {
+            q[i] = angle
+        } else {
+            in_ranges &= asked.is_none();
+            q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
         }
     }
     let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);

@@ -144,10 +144,8 @@ mod tests {
     fn by_peer(x: f64, y: f64) -> (f64, [f64; 2]) {
         let (value, slope) = num_dual::gradient(
             |v| {
-                let (x, y) = (v[0].clone(), v[1].clone());
-                (x.clone() * y.clone()).sin() / (x.clone() * x.clone() + y.clone()).sqrt()
-                    + (-x).exp()
-                    - y.cos()
+                let (x, y) = (v[0], v[1]);
+                (x * y).sin() / (x * x + y).sqrt() + (-x).exp() - y.cos()
             },
             &nalgebra::vector![x, y],
         );

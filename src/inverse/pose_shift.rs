@@ -129,6 +129,7 @@ pub(super) fn within(distance_m: f64, angle_rad: f64) -> bool {
 impl Inverse {
     /// The joint angles with which the real arm brings its tool to `wanted`, on one branch, by whole turns nearest to `near`.
     #[must_use]
+    #[allow(clippy::missing_panics_doc)]
     pub fn solve(&self, wanted: &Pose, branch: Branch, near: &[f64; 6]) -> Outcome {
         let signs = branch.signs();
         let mut given = *wanted;

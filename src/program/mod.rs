@@ -49,7 +49,7 @@ pub fn language_of(source: &Source) -> Option<&'static dyn Language> {
     let both = LANGUAGES
         .iter()
         .filter(ends)
-        .find(|language| shows(&language));
+        .find(|language| shows(language));
     both.copied()
         .or_else(|| only(Box::new(LANGUAGES.iter().filter(shows))))
         .or_else(|| only(Box::new(LANGUAGES.iter().filter(ends))))
@@ -313,7 +313,7 @@ pub struct Move {
     pub displacement: Displacement,
     /// The controller honours the target's configuration data in this move.
     pub configured: bool,
-    /// Joints, radians, that the controller's inverse starts from where the move names them (URScript `qnear`).
+    /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
     pub near: Option<Box<[f64; 6]>>,
 }
 
