@@ -114,6 +114,10 @@ impl<const N: usize> Scalar for Lanes<N> {
         Self(out)
     }
     #[inline(always)]
+    fn every_below(self, limit: f64) -> bool {
+        self.0.iter().fold(true, |all, x| all & (*x < limit))
+    }
+    #[inline(always)]
     fn round(self) -> Self {
         self.map(Scalar::round)
     }

@@ -8,6 +8,7 @@ mod lanes;
 mod pose;
 mod rotation;
 mod scalar;
+mod turn;
 pub mod units;
 
 pub use dual::Dual;
@@ -15,6 +16,7 @@ pub use lanes::Lanes;
 pub use pose::{Pose, Separation};
 pub use rotation::{Quaternion, Rotation};
 pub use scalar::Scalar;
+pub use turn::Turn;
 
 /// A vector or point of three coordinates.
 pub type Vector<S = f64> = [S; 3];

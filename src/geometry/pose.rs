@@ -1,6 +1,6 @@
 //! Rigid motions.
 
-use super::{Quaternion, Rotation, Scalar, Vector, add, norm, scale, sub};
+use super::{Quaternion, Rotation, Scalar, Turn, Vector, add, norm, scale, sub};
 use std::ops::Mul;
 
 /// A rigid motion `a_from_b`: rotation and translation (metres) that map coordinates in b to coordinates in a.
@@ -71,6 +71,24 @@ impl<S: Scalar> Pose<S> {
         Self {
             rotation,
             translation: rotation * scale(-S::one(), self.translation),
+        }
+    }
+
+    /// This motion after a turn about the z axis of b: only two columns change.
+    #[inline(always)]
+    #[must_use]
+    pub fn turned(&self, turn: Turn<S>) -> Self {
+        let Turn { sine, cosine } = turn;
+        let row = |row: &Vector<S>| {
+            [
+                cosine * row[0] + sine * row[1],
+                cosine * row[1] - sine * row[0],
+                row[2],
+            ]
+        };
+        Self {
+            rotation: Rotation(std::array::from_fn(|i| row(&self.rotation.0[i]))),
+            translation: self.translation,
         }
     }
 

@@ -25,6 +25,9 @@ trait Equation {
     /// Everything about the effect but its equation.
     const DEFINITION: Definition;
 
+    /// Whether it reads [`State::commanded`]; where no effect does, an inverse need not know the angles on its way.
+    const READS_ANGLES: bool = true;
+
     /// Changes the arm's geometry, before any posture is known.
     fn change_geometry<S: Scalar>(
         site: &Site,
@@ -69,6 +72,12 @@ macro_rules! registry {
         }
 
         impl<S: Scalar> Effect<S> {
+            /// Whether it depends on the joint angles themselves, not only on their sines and cosines.
+            #[must_use]
+            pub const fn reads_angles(&self) -> bool {
+                match self.kind { $(Kind::$name => $file::$name::READS_ANGLES,)+ }
+            }
+
             /// Changes the arm's geometry where this effect does.
             pub fn change_geometry(&self, conditions: &Conditions, geometry: &mut Geometry<S>) {
                 match self.kind {
@@ -161,15 +170,15 @@ impl Effect {
 
 /// The posture that effects are evaluated at.
 #[derive(Clone, Debug)]
-pub struct State<S> {
+pub struct State<'a, S> {
     /// Commanded angle of each mechanical joint in the controller's sense, radians.
     pub commanded: [S; 6],
     /// Torque about each joint in the controller's sense, N·m; zero unless an effect needs masses.
     pub torques: [S; 6],
     /// Frames and moments of the links; present where an effect bends links or moves the base or the tool.
-    pub frames: Option<Frames<S>>,
+    pub frames: Option<&'a Frames<S>>,
     /// Direction, force, temperature, time.
-    pub conditions: Conditions,
+    pub conditions: &'a Conditions,
 }
 
 /// What a posture does to the arm, small.
