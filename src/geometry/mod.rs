@@ -64,5 +64,5 @@ pub fn norm<S: Scalar>(a: Vector<S>) -> S {
 /// A vector of plain numbers as a vector of `S`.
 #[inline(always)]
 pub fn constant<S: Scalar>(a: Vector<f64>) -> Vector<S> {
-    a.map(S::constant)
+    [S::constant(a[0]), S::constant(a[1]), S::constant(a[2])]
 }

@@ -1,6 +1,6 @@
 //! Rigid motions.
 
-use super::{Quaternion, Rotation, Scalar, Turn, Vector, add, norm, scale, sub};
+use super::{Quaternion, Rotation, Scalar, Turn, Vector, add, constant, norm, scale, sub};
 use std::ops::Mul;
 
 /// A rigid motion `a_from_b`: rotation and translation (metres) that map coordinates in b to coordinates in a.
@@ -79,15 +79,12 @@ impl<S: Scalar> Pose<S> {
     #[must_use]
     pub fn turned(&self, turn: Turn<S>) -> Self {
         let Turn { sine, cosine } = turn;
-        let row = |row: &Vector<S>| {
-            [
-                cosine * row[0] + sine * row[1],
-                cosine * row[1] - sine * row[0],
-                row[2],
-            ]
-        };
+        let mut rotation = self.rotation;
+        for [x, y, _] in &mut rotation.0 {
+            (*x, *y) = (cosine * *x + sine * *y, cosine * *y - sine * *x);
+        }
         Self {
-            rotation: Rotation(std::array::from_fn(|i| row(&self.rotation.0[i]))),
+            rotation,
             translation: self.translation,
         }
     }
@@ -116,7 +113,7 @@ impl Pose {
     pub fn cast<S: Scalar>(&self) -> Pose<S> {
         Pose {
             rotation: self.rotation.cast(),
-            translation: self.translation.map(S::constant),
+            translation: constant(self.translation),
         }
     }
 

@@ -24,6 +24,27 @@ impl<S: Scalar> Turn<S> {
         Self { sine, cosine }
     }
 
+    /// No turn.
+    #[inline(always)]
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            sine: S::zero(),
+            cosine: S::one(),
+        }
+    }
+
+    /// The turns by six angles.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_each(angles: &[S; 6]) -> [Self; 6] {
+        let mut turns = [Self::none(); 6];
+        for i in 0..6 {
+            turns[i] = Self::of(angles[i]);
+        }
+        turns
+    }
+
     /// The turn that takes the x axis to the direction of (x, y); none at the origin.
     #[inline(always)]
     #[must_use]

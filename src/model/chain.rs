@@ -226,20 +226,20 @@ impl<S: Scalar> Chain<S> {
         mut each: impl FnMut(usize, Vector<S>, Vector<S>),
     ) {
         let mut field = field_in_world;
-        let fields: [Vector<S>; 6] = std::array::from_fn(|i| {
+        let mut fields = [field; 6];
+        for i in 0..6 {
             let [x, y, z] = self.fixed[i].rotation.transpose() * field;
             let Turn { sine, cosine } = turns[i];
             field = [cosine * x + sine * y, cosine * y - sine * x, z];
-            field
-        });
-        let mut moment = hanging.fixed_moment[5];
-        each(5, moment, fields[5]);
-        for i in (0..5).rev() {
-            let Turn { sine, cosine } = turns[i + 1];
-            let [x, y, z] = moment;
-            let moved = [cosine * x - sine * y, sine * x + cosine * y, z];
-            moment = add(hanging.fixed_moment[i], self.fixed[i + 1].rotation * moved);
+            fields[i] = field;
+        }
+        let mut moment = [S::zero(); 3];
+        for i in (0..6).rev() {
+            moment = add(hanging.fixed_moment[i], moment);
             each(i, moment, fields[i]);
+            let Turn { sine, cosine } = turns[i];
+            let [x, y, z] = moment;
+            moment = self.fixed[i].rotation * [cosine * x - sine * y, sine * x + cosine * y, z];
         }
     }
 }

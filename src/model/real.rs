@@ -63,7 +63,7 @@ impl<S: Scalar> Model<S> {
     #[must_use]
     pub fn forward(&self, q: &[S; 6], conditions: &Conditions) -> Pose<S> {
         let commanded = self.mechanism.commanded(q);
-        self.forward_turned(&commanded, &commanded.map(Turn::of), conditions)
+        self.forward_turned(&commanded, &Turn::of_each(&commanded), conditions)
     }
 
     /// [`Model::forward`] from the mechanical angles in the controller's sense and their sines and cosines. The angles
@@ -76,16 +76,18 @@ impl<S: Scalar> Model<S> {
         turns: &[Turn<S>; 6],
         conditions: &Conditions,
     ) -> Pose<S> {
-        if self.deflecting.is_empty() {
-            return self.chain.forward(turns);
+        let mut real = *turns;
+        if !self.deflecting.is_empty() {
+            let mut deflection = Deflection::none();
+            self.deflect(commanded, turns, conditions, &mut deflection);
+            for i in 0..6 {
+                real[i] = real[i].and(deflection.joints[i]);
+            }
+            if self.bends {
+                return self.chain.forward_deflected(&real, &deflection);
+            }
         }
-        let deflection = self.deflection_of(commanded, turns, conditions);
-        let real = std::array::from_fn(|i| turns[i].and(deflection.joints[i]));
-        if self.bends {
-            self.chain.forward_deflected(&real, &deflection)
-        } else {
-            self.chain.forward(&real)
-        }
+        self.chain.forward(&real)
     }
 
     /// Whether some effect depends on the joint angles themselves, not only on their sines and cosines.
@@ -97,42 +99,47 @@ impl<S: Scalar> Model<S> {
     #[must_use]
     pub fn deflection(&self, q: &[S; 6], conditions: &Conditions) -> Deflection<S> {
         let commanded = self.mechanism.commanded(q);
-        self.deflection_of(&commanded, &commanded.map(Turn::of), conditions)
+        let turns = Turn::of_each(&commanded);
+        let mut deflection = Deflection::none();
+        self.deflect(&commanded, &turns, conditions, &mut deflection);
+        deflection
     }
 
     /// Torque of gravity and external force about each joint in the controller's sense, N·m.
     #[must_use]
     pub fn torques(&self, q: &[S; 6], conditions: &Conditions) -> [S; 6] {
-        let turns = self.mechanism.commanded(q).map(Turn::of);
+        let turns = Turn::of_each(&self.mechanism.commanded(q));
         self.chain.torques(&turns, &self.loads, conditions.force_n)
     }
 
     #[inline(always)]
-    fn deflection_of(
+    fn deflect(
         &self,
         commanded: &[S; 6],
         turns: &[Turn<S>; 6],
         conditions: &Conditions,
-    ) -> Deflection<S> {
-        let torques = if self.loaded {
-            self.chain.torques(turns, &self.loads, conditions.force_n)
+        deflection: &mut Deflection<S>,
+    ) {
+        let mut torques = [S::zero(); 6];
+        if self.loaded {
+            torques = self.chain.torques(turns, &self.loads, conditions.force_n);
+        }
+        let bent;
+        let frames = if self.bends {
+            bent = self.chain.frames(turns, &self.loads, conditions.force_n);
+            Some(&bent)
         } else {
-            [S::zero(); 6]
+            None
         };
-        let frames = self
-            .bends
-            .then(|| self.chain.frames(turns, &self.loads, conditions.force_n));
         let state = State {
-            commanded: *commanded,
-            torques,
-            frames: frames.as_ref(),
+            commanded,
+            torques: &torques,
+            frames,
             conditions,
         };
-        let mut deflection = Deflection::none();
         for effect in &self.deflecting {
-            effect.deflect(&state, &mut deflection);
+            effect.deflect(&state, deflection);
         }
-        deflection
     }
 }
 

@@ -172,9 +172,9 @@ impl Effect {
 #[derive(Clone, Debug)]
 pub struct State<'a, S> {
     /// Commanded angle of each mechanical joint in the controller's sense, radians.
-    pub commanded: [S; 6],
+    pub commanded: &'a [S; 6],
     /// Torque about each joint in the controller's sense, N·m; zero unless an effect needs masses.
-    pub torques: [S; 6],
+    pub torques: &'a [S; 6],
     /// Frames and moments of the links; present where an effect bends links or moves the base or the tool.
     pub frames: Option<&'a Frames<S>>,
     /// Direction, force, temperature, time.
