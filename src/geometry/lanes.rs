@@ -1,5 +1,10 @@
 //! Several numbers side by side.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
+
 use super::{Scalar, scalar::elementary};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

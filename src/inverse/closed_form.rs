@@ -3,6 +3,11 @@
 //! Both kinds of arm share the shoulder (axis 1 turns the arm's plane) and the planar pair of links; they differ in the
 //! wrist. Every step is written over [`Scalar`] without branches, so that several targets are solved side by side.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
+
 use super::branch::Branch;
 use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add};
 use crate::model::{Geometry, Link, Mechanism};

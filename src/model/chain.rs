@@ -1,5 +1,10 @@
 //! The chain of six links, with everything that does not move folded into constants.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
+
 use super::effects::Deflection;
 use super::geometry::{Body, Geometry, Link, Mechanism};
 use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, scale, sub};
@@ -272,6 +277,59 @@ impl Loads {
             masses: self.masses.cast(),
             gravity_m_s2: self.gravity_m_s2.map(S::constant),
             unit_mass: self.unit_mass.cast(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dot;
+    use crate::model::profile::Profile;
+
+    /// Rounding of moments of some hundred newton metres.
+    const TOLERANCE_N_M: f64 = 1e-11;
+
+    #[test]
+    fn torques_and_moments_are_those_of_every_mass_about_every_origin() {
+        let text = include_str!("../../tests/data/forward/hanging_compliance.profile.yaml");
+        let profile = Profile::from_yaml(text).expect("a profile of the oracle");
+        let name = profile.tools.keys().next().expect("it has a tool");
+        let tool = profile.tool(name).expect("its own tool");
+        let geometry = profile.geometry(&tool);
+        let mechanism = &profile.mechanism;
+        let chain = Chain::of(&geometry, mechanism);
+        let loads = Loads::of(&geometry, &chain);
+        let force = [30.0, -20.0, 50.0];
+        for k in 0..100_i32 {
+            let q = std::array::from_fn(|i| (f64::from(k) * (0.7 + i as f64)).sin() * 3.0);
+            let turns = Turn::of_each(&mechanism.commanded(&q));
+            let torques = chain.torques(&turns, &loads, force);
+            let frames = chain.frames(&turns, &loads, force);
+            let last = frames.links[5] * geometry.link6_from_flange;
+            let mut pulls: Vec<(usize, Vector, Vector)> = vec![(
+                5,
+                last.transform(geometry.flange_from_nominal_tool.translation),
+                force,
+            )];
+            for body in &geometry.bodies {
+                let point = frames.links[body.link].transform(body.cog_m);
+                pulls.push((body.link, point, scale(body.mass_kg, geometry.gravity_m_s2)));
+            }
+            if let Some((mass, cog)) = geometry.load {
+                pulls.push((5, last.transform(cog), scale(mass, geometry.gravity_m_s2)));
+            }
+            for (i, link) in frames.links.iter().enumerate() {
+                let mut moment = [0.0; 3];
+                for (_, point, pull) in pulls.iter().filter(|pull| pull.0 >= i) {
+                    moment = add(moment, cross(sub(*point, link.translation), *pull));
+                }
+                let torque = mechanism.joints[i].sign * dot(moment, link.rotation.axis(2));
+                assert!((torques[i] - torque).abs() < TOLERANCE_N_M, "joint {i}");
+                for (a, b) in moment.iter().zip(frames.moments[i]) {
+                    assert!((a - b).abs() < TOLERANCE_N_M, "link {i}");
+                }
+            }
         }
     }
 }

@@ -1,5 +1,10 @@
 //! The real arm: a chain with the effects on it.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
+
 use super::chain::{Chain, Loads};
 use super::conditions::Conditions;
 use super::effects::{Deflection, Effect, State};

@@ -208,3 +208,42 @@ impl<S: Scalar> Deflection<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_effect_that_does_not_read_angles_is_the_same_at_all() {
+        let conditions = Conditions {
+            direction: [1.0; 6],
+            ..Conditions::default()
+        };
+        let mut found = 0;
+        for &kind in REGISTRY {
+            let effect = Effect {
+                kind,
+                site: Site::default(),
+                parameters: [0.5; MOST_PARAMETERS],
+            };
+            if !effect.definition().deflects || effect.reads_angles() {
+                continue;
+            }
+            found += 1;
+            let at = |angle: f64| {
+                let state = State {
+                    commanded: &[angle; 6],
+                    torques: &[2.0; 6],
+                    frames: None,
+                    conditions: &conditions,
+                };
+                let mut deflection = Deflection::none();
+                effect.deflect(&state, &mut deflection);
+                deflection
+            };
+            assert_eq!(at(0.3), at(-1.1), "{}", effect.definition().id);
+            assert_ne!(at(0.3), Deflection::none());
+        }
+        assert!(found >= 2);
+    }
+}
