@@ -131,6 +131,10 @@ impl<const N: usize> Scalar for Dual<N> {
         }
     }
     #[inline(always)]
+    fn every_below(self, limit: f64) -> bool {
+        self.value < limit
+    }
+    #[inline(always)]
     fn round(self) -> Self {
         Self::constant(self.value.round())
     }
