@@ -60,7 +60,16 @@ pub enum CompensateError {
     /// The arm has no closed-form inverse.
     #[error(transparent)]
     Arm(#[from] Unsupported),
+    /// Not one of several targets can be reached.
+    #[error("none of the {targets} targets is within reach: is this the profile of this robot?")]
+    NothingInReach {
+        /// How many there are.
+        targets: usize,
+    },
 }
+
+/// Where fewer targets than this are all out of reach, each is told on its own.
+const FEW: usize = 3;
 
 /// What every step looks at.
 struct Job<'a> {
@@ -181,6 +190,14 @@ pub fn compensate(
     let places = placement::place(&job, &mut findings)?;
     job.arms = equip(&job, &places)?;
     let tasks = posture::choose(&job, &places, &mut findings);
+    let placed = places.iter().flatten().count();
+    let out_of_reach = findings
+        .iter()
+        .filter(|finding| finding.id == posture::OUT_OF_REACH)
+        .count();
+    if placed >= FEW && out_of_reach == placed {
+        return Err(CompensateError::NothingInReach { targets: placed });
+    }
     drop(places);
     let solved = solve(&job, &tasks);
     displaced::check(&job, &tasks, &solved, &mut findings);

@@ -18,6 +18,9 @@ const LIMIT_RAD: f64 = 2.0 * DEG;
 /// A joint that moves less than this keeps the direction in which it moved before.
 const STANDSTILL_RAD: f64 = 1e-6;
 
+/// Name of the finding about a target that the nominal arm does not reach.
+pub(super) const OUT_OF_REACH: &str = "out-of-reach";
+
 /// A way to reach a target with the nominal arm.
 #[derive(Clone, Copy)]
 struct Way {
@@ -294,7 +297,7 @@ fn way(
             configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
         let turned = |range: (f64, f64)| turned_into(q[i], range, limits);
         if let Some(angle) = asked.and_then(turned) {
-            q[i] = angle
+            q[i] = angle;
         } else {
             in_ranges &= asked.is_none();
             q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
@@ -368,6 +371,6 @@ fn out_of_reach(
         )
     };
     let hint = "check that robot, tool and frame are those of the program";
-    findings.push(job.at_target("out-of-reach", Severity::Error, target, message, hint));
+    findings.push(job.at_target(OUT_OF_REACH, Severity::Error, target, message, hint));
     None
 }

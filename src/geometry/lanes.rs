@@ -120,7 +120,10 @@ impl<const N: usize> Scalar for Lanes<N> {
     }
     #[inline(always)]
     fn every_below(self, limit: f64) -> bool {
-        self.0.iter().fold(true, |all, x| all & (*x < limit))
+        // all lanes without a branch
+        #[allow(clippy::needless_bitwise_bool)]
+        let below = self.0.iter().fold(true, |all, x| all & (*x < limit));
+        below
     }
     #[inline(always)]
     fn round(self) -> Self {

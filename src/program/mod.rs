@@ -3,7 +3,7 @@
 //! A [`Language`] reads program files into a [`Program`]: which numbers at which bytes make a target, and which moves drive
 //! to it with which tool in which work frame. It never evaluates kinematics. Writing is the reverse: the new numbers of a
 //! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
-//! stays as it was ([`edit`]).
+//! stays as it was ([`Edits`]).
 
 mod edit;
 mod error;

@@ -1,6 +1,6 @@
 //! The registry of effects: each physical cause of error is one file that states its equation once.
 //!
-//! An effect's file has a type that implements [`Equation`]: its [`Definition`] (name, equation, source, parameters with
+//! An effect's file has a type that implements `Equation`: its [`Definition`] (name, equation, source, parameters with
 //! units and priors, what it needs) and one or both of its two functions. Profile keys, JSON Schema, help, identification,
 //! diagnosis and the law tests follow from the list in [`registry!`](self); nothing else names an effect.
 //!

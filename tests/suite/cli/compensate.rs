@@ -185,18 +185,24 @@ fn a_folder_is_rewritten_whole_and_other_files_are_left() {
 
 #[test]
 fn broken_programs_are_refused_with_their_place() {
-    let good = std::fs::read_to_string(repository(SAMPLE)).expect("a sample");
-    let target = good.find("MoveL [[").expect("an inline target") + 8;
-    let number = &good[target..target + good[target..].find(',').expect("a comma")];
-    let quaternion_at = target + good[target..].find("],[").expect("a quaternion") + 3;
-    let quaternion =
-        &good[quaternion_at..quaternion_at + good[quaternion_at..].find(']').expect("a bracket")];
+    let good = "MODULE m\n  PROC main()\n    MoveL [[374.0,0.0,500.0],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n  \
+                ENDPROC\nENDMODULE\n";
     let cases = [
-        (good[..target + 3].to_owned(), "not closed"),
-        (good.replacen(number, "1e400", 1), "1e400"),
-        (good.replacen(number, "9E9", 1), "9E9"),
-        (good.replacen(quaternion, "0,0,0,0", 1), "quaternion"),
-        (good.replacen(quaternion, "0.9,0.9,0,0", 1), "quaternion"),
+        (
+            good[..good.find("500.0").expect("a number")].to_owned(),
+            "not closed",
+        ),
+        (good.replacen("374.0", "1e400", 1), "1e400"),
+        (good.replacen("374.0", "9E9", 1), "9E9"),
+        (good.replacen("374.0", "NaN", 1), "NaN is no number"),
+        (
+            good.replacen("[0.5,0,0.8660254,0]", "[0,0,0,0]", 1),
+            "quaternion",
+        ),
+        (
+            good.replacen("[0.5,0,0.8660254,0]", "[0.9,0.9,0,0]", 1),
+            "quaternion",
+        ),
         (good.replacen("MODULE", "MO\0ULE", 1), "text"),
         (String::new(), "not a robot program"),
     ];
