@@ -155,7 +155,7 @@ fn task(
             q,
         ),
         Value::Pose(frame_from_tool) => {
-            let wanted = place.world_from_frame * frame_from_tool;
+            let wanted = *job.world_from_frame(place.frame) * frame_from_tool;
             let honoured = motion.is_none_or(|motion| motion.configured);
             let way = choose_way(
                 job,
@@ -171,11 +171,10 @@ fn task(
         }
     };
     let direction = [0; 6];
-    let world_from_frame = place.world_from_frame;
     Some(Task {
         target,
         tool: place.tool,
-        world_from_frame,
+        frame: place.frame,
         wanted,
         branch,
         nominal_q,

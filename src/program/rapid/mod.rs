@@ -122,7 +122,7 @@ impl Language for Rapid {
                 return Err(ReadError::NotThisLanguage {
                     file: source.name.clone(),
                     language: ABOUT.name,
-                    missing: "a module, data of robots, a routine or a move",
+                    missing: "module, data of robots, routine or move",
                 });
             }
         }

@@ -204,7 +204,7 @@ fn broken_programs_are_refused_with_their_place() {
             "quaternion",
         ),
         (good.replacen("MODULE", "MO\0ULE", 1), "text"),
-        (String::new(), "not a robot program"),
+        (String::new(), "no program in ABB RAPID"),
     ];
     for (text, told) in cases {
         let folder = scratch();
