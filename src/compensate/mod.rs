@@ -187,6 +187,7 @@ pub fn compensate(
         pulses_per_deg: profile.pulses_per_deg,
     };
     let mut program = language.read(sources, &settings)?;
+    program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
     let setting = Setting::of(&program, profile, &options.given);
     let mut job = Job {

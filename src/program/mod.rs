@@ -364,6 +364,13 @@ pub struct Program {
 }
 
 impl Program {
+    /// Gives back the memory that lists of unknown length took too much.
+    pub fn shrink_to_fit(&mut self) {
+        self.targets.shrink_to_fit();
+        self.numbers.shrink_to_fit();
+        self.moves.shrink_to_fit();
+    }
+
     /// The numbers of one target.
     #[must_use]
     pub fn numbers_of(&self, target: &Target) -> &[Number] {
