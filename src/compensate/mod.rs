@@ -306,17 +306,20 @@ fn solve(
         }
         portion
     };
-    let portions: Vec<Portion> = chunks.par_iter().map(solve_chunk).collect();
     let mut reports = vec![TargetReport::new(None); job.program.targets.len()];
     let mut edits: Vec<Edits> = job.sources.iter().map(|_| Edits::default()).collect();
-    for portion in portions {
-        for (target, report) in portion.reports {
-            reports[target] = report;
+    // a few chunks for each thread at a time: what they return is not in memory twice for a long program
+    for some in chunks.chunks(4 * rayon::current_num_threads()) {
+        let portions: Vec<Portion> = some.par_iter().map(solve_chunk).collect();
+        for portion in portions {
+            for (target, report) in portion.reports {
+                reports[target] = report;
+            }
+            for (source, changes) in &portion.edits {
+                edits[*source as usize].append(changes);
+            }
+            findings.extend(portion.findings);
         }
-        for (source, changes) in &portion.edits {
-            edits[*source as usize].append(changes);
-        }
-        findings.extend(portion.findings);
     }
     (reports, edits)
 }

@@ -3,6 +3,7 @@
 //! `POSESHIFT_BLESS=1 cargo test golden` writes the present output into `out/`: look at the difference before it is kept.
 
 mod landing;
+mod posts;
 
 use crate::support::{files_below, poseshift, repository, scratch};
 use serde::Deserialize;
