@@ -5,6 +5,7 @@
 //! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
 //! stays as it was ([`edit`]).
 
+pub mod csv;
 mod edit;
 mod error;
 pub mod inform;
@@ -24,7 +25,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid, &inform::Inform];
+pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid, &inform::Inform, &csv::Csv];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]
