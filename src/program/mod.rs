@@ -88,6 +88,11 @@ pub trait Language: Sync {
     /// Where the text is not a program of this language or is broken.
     fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError>;
 
+    /// Name of the work frame that targets without one stand in: the world unless the command line gives another for it.
+    fn frame_of_unframed(&self) -> Option<&'static str> {
+        None
+    }
+
     /// What each number of a target is, in the order of [`Target::numbers`].
     fn roles(&self, layout: Layout) -> &'static [Role];
 

@@ -9,9 +9,15 @@
 //! | `branch` | which solution of the inverse, 0 to 7: 4 behind axis 1, 2 behind the lower arm, 1 joint 5 negative |
 //! | `near1_deg` … `near6_deg` | joints that the solution is near to |
 //! | `tool` | the tool's name; without it the tool is the nameless one |
-//! | `frame` | the work frame's name; without it poses are in the world |
+//! | `frame` | the work frame's name; `world` is the world |
+//!
+//! Without `frame`, or where its cell is empty, poses are in the frame that `--frame` gives, and in the world without it.
 //!
 //! Other columns are kept. `#` starts a comment line.
+//!
+//! # Limits
+//! Cells are separated by commas, and numbers have a point. `GOTO` lines of APT and CL files are not read: they give a
+//! position and the axis of the tool, and a robot's pose has one turn more, on which the joints depend.
 
 mod header;
 mod records;
@@ -43,10 +49,14 @@ static ABOUT: About = About {
         "other columns, comment lines, quotes, blanks, line ends, encoding",
         "branch and near1_deg to near6_deg, which choose the solution; tool and frame",
     ],
-    refuses: &["tables with poses and joints: they are measurements"],
+    refuses: &[
+        "tables with poses and joints: they are measurements",
+        "cells separated by semicolons or tabs, numbers with a decimal comma",
+        "GOTO lines of APT and CL files: they do not tell the turn about the tool's axis",
+    ],
 };
 
-/// The frame that poses are in by themselves.
+/// The frame that poses are in which name none, unless the command line gives another.
 const WORLD: &str = "world";
 /// Farther from 1 the length of a quaternion is a mistake.
 const LENGTH: std::ops::RangeInclusive<f64> = 0.99..=1.01;
@@ -77,6 +87,10 @@ impl Language for Csv {
             reader.read(source, index(file))?;
         }
         Ok(reader.program)
+    }
+
+    fn frame_of_unframed(&self) -> Option<&'static str> {
+        Some(WORLD)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {
@@ -157,7 +171,8 @@ impl Language for Csv {
 struct Reader {
     program: Program,
     tools: HashMap<String, ToolId>,
-    frames: HashMap<String, FrameId>,
+    /// By name and whether a cell gives it.
+    frames: HashMap<(String, bool), FrameId>,
 }
 
 impl Reader {
@@ -234,7 +249,7 @@ impl Reader {
         let text = |column: Option<usize>| column.map(|column| cell_text(source, cells[column]));
         let name = text(header.id).filter(|name| !name.is_empty());
         let tool = self.tool(text(header.tool).unwrap_or_default());
-        let frame = self.frame(text(header.frame).unwrap_or_else(|| WORLD.to_owned()));
+        let frame = self.frame(text(header.frame).unwrap_or_default());
         let program = &mut self.program;
         program.targets.push(Target {
             name: name.map(Into::into),
@@ -274,14 +289,19 @@ impl Reader {
     }
 
     fn frame(&mut self, name: String) -> FrameId {
+        let is_named = !name.is_empty();
+        let name = if is_named { name } else { WORLD.to_owned() };
         let frames = &mut self.program.frames;
-        *self.frames.entry(name).or_insert_with_key(|name| {
-            frames.push(Frame {
-                name: name.clone(),
-                world_from_frame: (name == WORLD).then(Pose::identity),
-            });
-            frames.len() - 1
-        })
+        *self
+            .frames
+            .entry((name, is_named))
+            .or_insert_with_key(|(name, is_named)| {
+                frames.push(Frame {
+                    name: name.clone(),
+                    world_from_frame: (*is_named && name == WORLD).then(Pose::identity),
+                });
+                frames.len() - 1
+            })
     }
 }
 

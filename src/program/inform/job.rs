@@ -8,7 +8,11 @@ use super::instruction::{self, Event};
 use super::lines::{Line, Lines, after, index, numbers, unexpected, whole, words};
 use super::rconf;
 use crate::program::{Number, ReadError, Source};
+use memchr::memmem;
 use std::collections::{HashMap, HashSet};
+
+/// How a post names itself in `///COMM` that writes rear, lower arm, flip where flip, lower arm, rear belong.
+const POST: &[u8] = b"RoboDK";
 
 /// What the numbers of a position are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +75,8 @@ pub struct Job<'a> {
     pub events: Vec<Event<'a>>,
     /// `C` positions that the header announces, and where.
     pub announced: Option<(u32, u32)>,
+    /// It comes from a post that writes the fields of RCONF in an order of its own.
+    pub mixes_rconf: bool,
 }
 
 /// What the header lines above a position say.
@@ -137,6 +143,9 @@ pub fn read<'a>(source: &'a Source, file: u32, jobs: &mut Vec<Job<'a>>) -> Resul
         match (section, line.text) {
             (Section::Outside, _) => {}
             (Section::Instructions, b"END") => section = Section::Outside,
+            (Section::Instructions, [b'/', b'/', b'/', text @ ..]) => {
+                job.mixes_rconf |= text.starts_with(b"COMM") && memmem::find(text, POST).is_some();
+            }
             (Section::Instructions, [b'/', ..]) => {}
             (Section::Instructions, _) => instruction::read(line, &mut job.events),
             (_, [b'/', b'/', b'/', b'/', ..]) => {}
@@ -230,6 +239,7 @@ impl Job<'_> {
             base_moved: HashMap::new(),
             events: Vec::new(),
             announced: None,
+            mixes_rconf: false,
         }
     }
 

@@ -27,6 +27,8 @@
 //! | `base-axis` | error | the robot stands on a base axis that is not at zero |
 //! | `axis-count` | error | a position in pulses or degrees does not have six axes |
 //! | `pulses-per-degree-unknown` | error | positions in pulses, and a profile without `pulses_per_deg`; once a job |
+//! | `rconf-of-post` | warning | RCONF of a post that is known to mix its fields up; it is not used |
+//! | `wrist-not-told` | warning | a job starts with a rectangular position, so that nothing tells the solution of the wrist |
 //! | `target-copied` | warning | another position is computed from this one |
 //! | `position-count` | warning | NPOS announces another number of C positions |
 //! | `position-variable` | note | moves go to P variables, which jobs that are not given may change |
@@ -35,7 +37,9 @@
 //!
 //! Shifts that a job switches on which is not given or not called by name (macros, other tasks) are not seen. The first of
 //! successive MOVC is taken for a line, the others for arcs through each two; MOVS for lines. Robots with seven axes
-//! are refused in pulses; the elbow angle of their rectangular positions is left.
+//! are refused in pulses; the elbow angle of their rectangular positions is left. BASE and ROBOT are the world of the profile:
+//! its base has to stand at zero. Pulses are taken to be proportional to the joint of their own; on arms whose wrist motors
+//! are coupled (turning B moves T) PULSE positions come out wrong.
 
 mod cnd;
 mod findings;
@@ -117,7 +121,7 @@ impl Language for Inform {
                 return Err(ReadError::NotThisLanguage {
                     file: source.name.clone(),
                     language: ABOUT.name,
-                    missing: "the line /JOB",
+                    missing: "line /JOB",
                 });
             }
         }

@@ -214,6 +214,7 @@ impl Resolver<'_> {
             program.numbers.extend(&job.numbers[from..from + 6]);
         }
         let (shape, variant) = match point.coordinates {
+            Coordinates::Rectangular if job.mixes_rconf => (Shape::Pose, 0),
             Coordinates::Rectangular => (Shape::Pose, point.variant),
             Coordinates::Pulses => (Shape::Joints, PULSES),
             Coordinates::Degrees => (Shape::Joints, DEGREES),
@@ -277,6 +278,7 @@ impl Resolver<'_> {
         let job = &self.jobs[index];
         // moves of the present arc so far
         let mut arc = 0;
+        let (mut is_first, mut said) = (true, false);
         for (at, event) in job.events.iter().enumerate() {
             let (offset, kind, operand, base) = match *event {
                 Event::Move {
@@ -338,6 +340,25 @@ impl Resolver<'_> {
                 _ => Motion::Linear,
             };
             let (tool, frame) = (self.tool(point.tool), self.frame(point));
+            let is_rectangular = point.coordinates == Coordinates::Rectangular;
+            if std::mem::take(&mut is_first) && is_rectangular {
+                let message = "the job starts with a rectangular position, and the flip of RCONF is not used: the solution \
+                               with the joints nearest to zero is taken";
+                let hint = "start with a joint position (PULSE or ANGLE)";
+                let id = "wrist-not-told";
+                self.report
+                    .say(id, Severity::Warning, here, message.to_owned(), hint);
+            }
+            let is_mixed = self.jobs[owner].mixes_rconf && point.variant != 0;
+            if kind == Kind::Joint && is_rectangular && is_mixed && !said {
+                said = true;
+                let message =
+                    "the post that wrote this job mixes the fields of RCONF up: it is not used";
+                let hint = "check the configuration of the joint moves on the robot";
+                let id = "rconf-of-post";
+                self.report
+                    .say(id, Severity::Warning, here, message.to_owned(), hint);
+            }
             self.report.program.moves.push(Move {
                 file: job.file,
                 offset,

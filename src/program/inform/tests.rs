@@ -475,7 +475,11 @@ fn broken_jobs_are_told_with_line_and_column() {
             (7, 1),
             "where ///PULSE",
         ),
-        ("NOP\nMOVL C00000\nEND\n".into(), (0, 0), "/JOB is missing"),
+        (
+            "NOP\nMOVL C00000\nEND\n".into(),
+            (0, 0),
+            "it has no line /JOB",
+        ),
     ] {
         let error = read_files(&[&broken], &Settings::default()).expect_err("broken");
         let (_, line, column) = error.place();
