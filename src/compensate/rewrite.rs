@@ -82,7 +82,10 @@ impl Portion {
         if shift.distance_m < NO_SHIFT.distance_m && shift.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
-        let (written, changed) = self.write(job, task, outcome, &fake, fractions);
+        let Some((written, changed)) = self.write(job, task, outcome, &fake, fractions) else {
+            (report.fake, report.shift) = (None, Separation::default());
+            return;
+        };
         report.changed = changed;
         report.rounding = landing(job, task, outcome, &written);
         let beside = report.rounding.distance_m;
@@ -92,7 +95,8 @@ impl Portion {
         }
     }
 
-    /// Puts the new numbers' text into the edits; returns the numbers as they are written and whether any changed.
+    /// Puts the new numbers' text into the edits; returns the numbers as they are written and whether any changed,
+    /// or nothing where the target has to stay.
     fn write(
         &mut self,
         job: &Job,
@@ -100,7 +104,7 @@ impl Portion {
         outcome: &Outcome,
         fake: &Pose,
         fractions: &[Fraction],
-    ) -> (Vec<f64>, bool) {
+    ) -> Option<(Vec<f64>, bool)> {
         let target = &job.program.targets[task.target];
         let numbers = job.program.numbers_of(target);
         let roles = job.language.roles(target.layout);
@@ -125,7 +129,7 @@ impl Portion {
         );
         if let Some(joint) = kept_configuration(job, task, outcome, &new) {
             self.findings.push(kept_finding(job, task, joint));
-            return (old, false);
+            return None;
         }
         let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
         if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
@@ -162,7 +166,7 @@ impl Portion {
                 });
             }
         }
-        (new, changed)
+        Some((new, changed))
     }
 }
 

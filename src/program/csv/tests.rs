@@ -54,6 +54,23 @@ fn poses_in_any_order_of_columns_with_names_of_tool_and_frame() {
 }
 
 #[test]
+fn only_a_cell_makes_a_frame_the_world_for_good() {
+    let head = "x_mm,y_mm,z_mm,qw,qx,qy,qz,frame\n";
+    let program = read(&format!(
+        "{head}1,2,3,1,0,0,0,\n1,2,3,1,0,0,0,world\n1,2,3,1,0,0,0,\n"
+    ));
+    let program = program.expect("a table");
+    let frames: Vec<_> = program
+        .moves
+        .iter()
+        .map(|used| program.frames[used.frame].world_from_frame.is_some())
+        .collect();
+    assert_eq!(frames, [false, true, false]);
+    let unframed = &program.frames[program.moves[0].frame].name;
+    assert_eq!(Csv.frame_of_unframed(), Some(unframed.as_str()));
+}
+
+#[test]
 fn joints_and_joints_to_start_from() {
     let program =
         read("q6_deg,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg\n6,1,2,3,4,5\n").expect("a table");
@@ -162,6 +179,7 @@ fn only_tables_of_poses_or_joints_are_recognised() {
         "x_mm,y_mm,z_mm\n",
         "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n",
         "x_mm;y_mm;z_mm;qw;qx;qy;qz\n",
+        "GOTO/1.0,2.0,3.0,0.0,0.0,1.0\n",
         "/JOB\n//NAME A\n",
     ] {
         assert!(!recognised(other), "{other}");

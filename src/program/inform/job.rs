@@ -5,7 +5,7 @@
 //! of rectangular ones. (Some posts write `POSTYPE BASE` behind pulse positions.)
 
 use super::instruction::{self, Event};
-use super::lines::{Line, Lines, after, index, numbers, unexpected, whole, words};
+use super::lines::{Line, Lines, add_numbers, after, index, numbers, unexpected, whole, words};
 use super::rconf;
 use crate::program::{Number, ReadError, Source};
 use memchr::memmem;
@@ -65,6 +65,8 @@ pub struct Job<'a> {
     pub name: &'a [u8],
     pub points: Vec<Point>,
     pub numbers: Vec<Number>,
+    /// Where they start in the numbers of the whole program.
+    pub numbers_start: u32,
     /// The position that each letter and number names.
     pub named: HashMap<(Letter, u32), u32>,
     /// Positions whose name stands twice.
@@ -234,6 +236,7 @@ impl Job<'_> {
             name: b"",
             points: Vec::new(),
             numbers: Vec::new(),
+            numbers_start: 0,
             named: HashMap::new(),
             twice: HashSet::new(),
             base_moved: HashMap::new(),
@@ -268,12 +271,11 @@ impl Job<'_> {
         let coordinates = state
             .coordinates()
             .ok_or_else(|| wrong("///PULSE, ///RECTAN or ///ANGLE before the first position"))?;
-        let found = numbers(source, from, to)?;
-        if coordinates == Coordinates::Rectangular && found.len() < 6 {
+        let start = self.numbers.len();
+        add_numbers(source, from, to, &mut self.numbers)?;
+        if coordinates == Coordinates::Rectangular && self.numbers.len() - start < 6 {
             return Err(wrong("x, y, z, Rx, Ry and Rz"));
         }
-        let start = index(self.numbers.len());
-        self.numbers.extend(found);
         let place = index(self.points.len());
         if self.named.insert((letter, number), place).is_some() {
             self.twice.insert((letter, number));
@@ -286,7 +288,7 @@ impl Job<'_> {
             tool: state.tool,
             origin: state.origin(),
             variant: state.variant,
-            numbers: (start, index(self.numbers.len())),
+            numbers: (index(start), index(self.numbers.len())),
         });
         Ok(())
     }

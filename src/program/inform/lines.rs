@@ -84,6 +84,17 @@ pub fn whole(text: &[u8]) -> Option<u32> {
 /// The numbers between commas from a byte of the source to the end of the line.
 pub fn numbers(source: &Source, from: usize, to: usize) -> Result<Vec<Number>, ReadError> {
     let mut found = Vec::with_capacity(8);
+    add_numbers(source, from, to, &mut found)?;
+    Ok(found)
+}
+
+/// Adds these numbers to others.
+pub fn add_numbers(
+    source: &Source,
+    from: usize,
+    to: usize,
+    found: &mut Vec<Number>,
+) -> Result<(), ReadError> {
     let mut at = from;
     for field in source.bytes[from..to].split(|&b| b == b',') {
         let before = field.iter().take_while(|&&b| is_blank(b)).count();
@@ -101,7 +112,7 @@ pub fn numbers(source: &Source, from: usize, to: usize) -> Result<Vec<Number>, R
         });
         at += field.len() + 1;
     }
-    Ok(found)
+    Ok(())
 }
 
 /// What stands at a place is not what belongs there.

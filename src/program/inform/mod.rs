@@ -125,7 +125,7 @@ impl Language for Inform {
                 });
             }
         }
-        Ok(resolve::resolve(sources, &jobs, &conditions, settings))
+        Ok(resolve::resolve(sources, jobs, &conditions, settings))
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {

@@ -11,8 +11,8 @@ use super::{DEGREES, PULSES, shift};
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::program::{
-    Displacement, Frame, FrameId, Layout, Motion, Move, Program, Settings, Shape, Source, Target,
-    TargetId, Tool, ToolId,
+    Displacement, Frame, FrameId, Layout, Motion, Move, Number, Program, Settings, Shape, Source,
+    Target, TargetId, Tool, ToolId,
 };
 use std::collections::HashMap;
 
@@ -22,14 +22,18 @@ const NO_TOOL: &str = "none";
 /// The program of all files.
 pub fn resolve(
     sources: &[Source],
-    jobs: &[Job],
+    mut jobs: Vec<Job>,
     conditions: &Conditions,
     settings: &Settings,
 ) -> Program {
+    let variables = variables(&jobs);
+    let mut report = Report::new(sources);
+    report.program.numbers = all_numbers(&mut jobs);
+    let jobs = &jobs[..];
     let mut resolver = Resolver {
         jobs,
         conditions,
-        variables: variables(jobs),
+        variables,
         changes: Changes::of(jobs),
         targets: jobs
             .iter()
@@ -37,7 +41,7 @@ pub fn resolve(
             .collect(),
         tools: HashMap::new(),
         frames: HashMap::new(),
-        report: Report::new(sources),
+        report,
     };
     let usable = |pulses: &[f64; 6]| pulses.iter().all(|p| p.is_finite() && *p != 0.0);
     resolver.list_targets(settings.pulses_per_deg.as_ref().is_some_and(usable));
@@ -48,6 +52,21 @@ pub fn resolve(
     }
     resolver.report_copies();
     resolver.report.finish()
+}
+
+/// The numbers of all positions of all jobs; targets are ranges of them.
+fn all_numbers(jobs: &mut [Job]) -> Vec<Number> {
+    let mut all = Vec::new();
+    for job in jobs {
+        job.numbers_start = index(all.len());
+        let mut numbers = std::mem::take(&mut job.numbers);
+        if all.is_empty() {
+            all = numbers;
+        } else {
+            all.append(&mut numbers);
+        }
+    }
+    all
 }
 
 /// The position of a P variable: job and index, and whether files agree on it.
@@ -204,15 +223,13 @@ impl Resolver<'_> {
 
     fn push(&mut self, job: &Job, point: &Point, is_blind: bool) -> TargetId {
         let program = &mut self.report.program;
-        let start = index(program.numbers.len());
-        let (from, to) = (point.numbers.0 as usize, point.numbers.1 as usize);
+        let (from, to) = point.numbers;
         let complete = match point.coordinates {
             Coordinates::Rectangular => true,
             Coordinates::Pulses | Coordinates::Degrees => to - from == 6,
         };
-        if complete && !is_blind {
-            program.numbers.extend(&job.numbers[from..from + 6]);
-        }
+        let start = job.numbers_start + from;
+        let count = if complete && !is_blind { 6 } else { 0 };
         let (shape, variant) = match point.coordinates {
             Coordinates::Rectangular if job.mixes_rconf => (Shape::Pose, 0),
             Coordinates::Rectangular => (Shape::Pose, point.variant),
@@ -228,7 +245,7 @@ impl Resolver<'_> {
             file: job.file,
             offset: point.offset,
             layout: Layout { shape, variant },
-            numbers: start..index(program.numbers.len()),
+            numbers: start..start + count,
             blocked: is_blind,
         });
         let target = program.targets.len() - 1;
