@@ -69,11 +69,21 @@ fn all_numbers(jobs: &mut [Job]) -> Vec<Number> {
     all
 }
 
-/// The position of a P variable: job and index, and whether files agree on it.
+/// The position of a P variable: job and index where it stands first, the other places, and whether files agree on it.
 struct Variable {
     job: usize,
     point: u32,
+    copies: Vec<(usize, u32)>,
     agreed: bool,
+}
+
+impl Variable {
+    /// Job and index of every place.
+    fn places(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let first = std::iter::once((self.job, self.point));
+        let all = first.chain(self.copies.iter().copied());
+        all.map(|(job, point)| (job, point as usize))
+    }
 }
 
 fn variables(jobs: &[Job]) -> HashMap<u32, Variable> {
@@ -86,9 +96,13 @@ fn variables(jobs: &[Job]) -> HashMap<u32, Variable> {
             let here = Variable {
                 job: index,
                 point,
+                copies: Vec::new(),
                 agreed: true,
             };
             let known = found.entry(number).or_insert(here);
+            if known.job != index {
+                known.copies.push((index, point));
+            }
             let (first, other) = (
                 &jobs[known.job].points[known.point as usize],
                 &job.points[point as usize],
@@ -105,8 +119,8 @@ fn same(a_job: &Job, a: &Point, b_job: &Job, b: &Point) -> bool {
         let numbers = &job.numbers[start as usize..end as usize];
         numbers.iter().map(|n| n.value).collect()
     };
-    (a.coordinates, a.tool, a.origin) == (b.coordinates, b.tool, b.origin)
-        && values(a_job, a) == values(b_job, b)
+    let header = |point: &Point| (point.coordinates, point.tool, point.origin, point.variant);
+    header(a) == header(b) && values(a_job, a) == values(b_job, b)
 }
 
 /// What the running jobs change, and where; `None` stands for any number.
@@ -175,6 +189,15 @@ impl Resolver<'_> {
             .ok_or(Cause::NotInFiles)
     }
 
+    /// Every place of a P variable: whichever job is loaded last sets it.
+    fn places_of(&self, operand: Operand) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let variable = match operand {
+            Operand::P(number) => self.variables.get(&number),
+            Operand::C(_) | Operand::Computed => None,
+        };
+        variable.into_iter().flat_map(Variable::places)
+    }
+
     /// Makes targets of the positions that moves go to, in the order of the text.
     fn list_targets(&mut self, pulses_known: bool) {
         let mut used: Vec<Vec<bool>> = self
@@ -189,6 +212,9 @@ impl Resolver<'_> {
                     && let Ok((job, point)) = self.point(index, operand)
                 {
                     used[job][point] = true;
+                    for (job, point) in self.places_of(operand) {
+                        used[job][point] = true;
+                    }
                 }
             }
         }
@@ -293,8 +319,7 @@ impl Resolver<'_> {
     /// Lists the moves of one job; `shifted` tells for each event whether a shift may be on.
     fn list_moves(&mut self, index: usize, shifted: &[bool]) {
         let job = &self.jobs[index];
-        // moves of the present arc so far
-        let mut arc = 0;
+        let mut arc = Arc::default();
         let (mut is_first, mut said) = (true, false);
         for (at, event) in job.events.iter().enumerate() {
             let (offset, kind, operand, base) = match *event {
@@ -305,8 +330,7 @@ impl Resolver<'_> {
                     base,
                 } => (offset, kind, operand, base),
                 Event::BlindMove { offset } => {
-                    self.end_arc(arc);
-                    arc = 0;
+                    self.end_arc(&mut arc);
                     self.report
                         .refuse(Cause::OtherMove, place(job.file as usize, offset));
                     continue;
@@ -314,8 +338,7 @@ impl Resolver<'_> {
                 _ => continue,
             };
             if kind != Kind::Circular {
-                self.end_arc(arc);
-                arc = 0;
+                self.end_arc(&mut arc);
             }
             let here = place(job.file as usize, offset);
             if kind == Kind::Incremental {
@@ -329,26 +352,35 @@ impl Resolver<'_> {
                     continue;
                 }
             };
-            let target = self.targets[owner][point].expect("a target for each move");
-            let point = &self.jobs[owner].points[point];
             let is_shifted = shifted.get(at) == Some(&true);
-            if let Some(cause) = cause_of(kind) {
-                self.report.block(target, cause, Some(here));
+            let copies: Vec<(usize, usize)> = self
+                .places_of(operand)
+                .filter(|copy| *copy != (owner, point))
+                .collect();
+            for &(owner, point) in copies.iter().chain([&(owner, point)]) {
+                let target = self.target(owner, point);
+                let point = &self.jobs[owner].points[point];
+                if let Some(cause) = cause_of(kind) {
+                    self.report.block(target, cause, Some(here));
+                }
+                if is_shifted {
+                    self.report.block(target, Cause::Shifted, Some(here));
+                }
+                if point.coordinates == Coordinates::Rectangular
+                    && point.origin != Origin::Robot
+                    && base.is_some_and(|base| job.base_moved.get(&base) != Some(&false))
+                {
+                    self.report.block(target, Cause::BaseAxis, Some(here));
+                }
             }
-            if is_shifted {
-                self.report.block(target, Cause::Shifted, Some(here));
-            }
-            if point.coordinates == Coordinates::Rectangular
-                && point.origin != Origin::Robot
-                && base.is_some_and(|base| job.base_moved.get(&base) != Some(&false))
-            {
-                self.report.block(target, Cause::BaseAxis, Some(here));
-            }
+            let target = self.target(owner, point);
+            let point = &self.jobs[owner].points[point];
             let motion = match kind {
                 Kind::Joint => Motion::Joint,
                 Kind::Circular => {
-                    arc += 1;
-                    match arc {
+                    arc.points += 1;
+                    arc.last = self.report.program.moves.len();
+                    match arc.points {
                         1 => Motion::Linear,
                         n if n % 2 == 0 => Motion::ArcVia,
                         _ => Motion::ArcEnd,
@@ -376,7 +408,7 @@ impl Resolver<'_> {
                 self.report
                     .say(id, Severity::Warning, here, message.to_owned(), hint);
             }
-            self.report.program.moves.push(Move {
+            let mut used = Move {
                 file: job.file,
                 offset,
                 motion,
@@ -390,18 +422,36 @@ impl Resolver<'_> {
                 },
                 configured: kind == Kind::Joint,
                 near: None,
-            });
+            };
+            self.report.program.moves.push(used.clone());
+            // the same variable elsewhere stands for the same point: the robot is there already
+            used.configured = false;
+            if kind == Kind::Circular {
+                used.motion = Motion::Linear;
+            }
+            for (owner, point) in copies {
+                let target = self.target(owner, point);
+                let moves = &mut self.report.program.moves;
+                moves.push(Move {
+                    target,
+                    ..used.clone()
+                });
+            }
         }
-        self.end_arc(arc);
+        self.end_arc(&mut arc);
+    }
+
+    /// The target of a position that a move goes to.
+    fn target(&self, job: usize, point: usize) -> TargetId {
+        self.targets[job][point].expect("a target for each position that moves go to")
     }
 
     /// The last point of an arc is its end.
-    fn end_arc(&mut self, points: usize) {
-        if points > 1
-            && let Some(last) = self.report.program.moves.last_mut()
-        {
-            last.motion = Motion::ArcEnd;
+    fn end_arc(&mut self, arc: &mut Arc) {
+        if arc.points > 1 {
+            self.report.program.moves[arc.last].motion = Motion::ArcEnd;
         }
+        *arc = Arc::default();
     }
 
     fn tool(&mut self, number: Option<u32>) -> ToolId {
@@ -480,6 +530,13 @@ impl Resolver<'_> {
             }
         }
     }
+}
+
+/// Successive MOVC: how many so far, and the last one's place in the moves.
+#[derive(Default)]
+struct Arc {
+    points: usize,
+    last: usize,
 }
 
 /// Why the position of a move of this kind has to stay.

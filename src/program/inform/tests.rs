@@ -402,6 +402,14 @@ fn variables_belong_to_all_jobs() {
         .iter()
         .filter(|f| f.id == "target-name-ambiguous");
     assert_eq!(ambiguous.count(), 2);
+    // the same value in a job that does not go there: whichever is loaded last counts, so both are targets
+    let copy = job(&format!("{USER}P00018={P6}"), "").replace("//NAME A", "//NAME C");
+    let program = read_files(&[&holder, &user, &copy], &Settings::default()).expect("jobs");
+    let files: Vec<_> = program.targets.iter().map(|t| t.file).collect();
+    assert_eq!(files, [0, 0, 2]);
+    let mut gone: Vec<_> = program.moves.iter().map(|m| m.target).collect();
+    gone.sort_unstable();
+    assert_eq!(gone, [0, 1, 2]);
     // assigned in one job, used in the other
     let writer = job("", "SET P018 P019").replace("//NAME A", "//NAME D");
     let program = read_files(&[&holder, &user, &writer], &Settings::default()).expect("jobs");
