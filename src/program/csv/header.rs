@@ -40,7 +40,7 @@ pub enum Wrong {
     Both,
     /// A column stands twice, the one at this index the second time.
     Twice(usize),
-    /// Only some of near1_deg…near6_deg.
+    /// Only some of `near1_deg` to `near6_deg`.
     Near,
 }
 

@@ -178,8 +178,7 @@ fn operand(word: &[u8]) -> Option<Operand> {
         [b'L', b'P', digits @ ..] => {
             (digits.first() == Some(&b'[') || whole(digits).is_some()).then_some(Operand::Computed)
         }
-        [b'P', b'X', digits @ ..] => whole(digits).map(Operand::P),
-        [b'P', digits @ ..] => whole(digits).map(Operand::P),
+        [b'P', b'X', digits @ ..] | [b'P', digits @ ..] => whole(digits).map(Operand::P),
         _ => None,
     }
 }
@@ -216,7 +215,7 @@ fn moves(line: Line, offset: u32, events: &mut Vec<Event>) {
             match word {
                 [b'B', b'C', digits @ ..] => base = whole(digits).or(base),
                 [b'B', b'P', ..] | [b'L', b'B', b'P', ..] => base = base.or(Some(u32::MAX)),
-                [b'E', b'C', ..] | [b'E', b'X', ..] | [b'L', b'E', b'X', ..] => station = true,
+                [b'E', b'C' | b'X', ..] | [b'L', b'E', b'X', ..] => station = true,
                 _ => {}
             }
         }
