@@ -112,6 +112,8 @@ struct Task {
     nominal_q: [f64; 6],
     /// Direction in which each joint last moved, where an effect depends on it.
     direction: [i8; 6],
+    /// The controller goes by the target's configuration data.
+    honoured: bool,
 }
 
 impl Job<'_> {
@@ -189,7 +191,7 @@ pub fn compensate(
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
-    let setting = Setting::of(&program, profile, &options.given);
+    let setting = Setting::of(language, &program, profile, &options.given);
     let mut job = Job {
         language,
         settings: &settings,

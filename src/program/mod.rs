@@ -5,8 +5,10 @@
 //! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
 //! stays as it was ([`Edits`]).
 
+pub mod csv;
 mod edit;
 mod error;
+pub mod inform;
 mod marker;
 pub mod number;
 pub mod rapid;
@@ -23,7 +25,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid];
+pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid, &inform::Inform, &csv::Csv];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]
@@ -85,6 +87,11 @@ pub trait Language: Sync {
     /// # Errors
     /// Where the text is not a program of this language or is broken.
     fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError>;
+
+    /// Name of the work frame that targets without one stand in: the world unless the command line gives another for it.
+    fn frame_of_unframed(&self) -> Option<&'static str> {
+        None
+    }
 
     /// What each number of a target is, in the order of [`Target::numbers`].
     fn roles(&self, layout: Layout) -> &'static [Role];
