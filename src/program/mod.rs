@@ -7,6 +7,7 @@
 
 mod edit;
 mod error;
+pub mod fanuc;
 mod marker;
 pub mod number;
 pub mod rapid;
@@ -23,7 +24,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid];
+pub const LANGUAGES: &[&dyn Language] = &[&fanuc::Fanuc, &rapid::Rapid];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]
