@@ -43,6 +43,7 @@ mod findings;
 mod frames;
 mod instructions;
 pub mod mark;
+mod meaning;
 mod points;
 mod resolve;
 mod sections;

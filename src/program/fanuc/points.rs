@@ -326,25 +326,26 @@ impl<'a> Points<'a> {
         let field = self.at;
         self.skip_blanks_in_line();
         let digits = self.at;
-        let value = match number::parse_start(&self.bytes[digits..]) {
-            Some((value, length)) => {
-                self.at += length;
-                Some(value)
-            }
-            None => {
-                let rest = &self.bytes[digits..];
-                let part =
-                    |b: &&u8| b.is_ascii_alphanumeric() || matches!(b, b'+' | b'-' | b'.' | b'*');
-                let length = rest.iter().take_while(part).count();
-                self.at += length;
-                let text = &rest[..length];
-                if length > 0 && text.iter().all(|&b| b == b'*') {
-                    None
-                } else {
-                    let value = number::parse(text).ok_or(Fault::BadValue { at: digits, length });
-                    Some(value?)
-                }
-            }
+        let rest = &self.bytes[digits..];
+        let part = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'+' | b'-' | b'.' | b'*');
+        // a unit may follow without a blank
+        let ends = |at: usize| {
+            rest.get(at)
+                .is_none_or(|b| matches!(b, b'm' | b'd') || !part(b))
+        };
+        let stars = rest.iter().take_while(|b| **b == b'*').count();
+        let quick = number::parse_start(rest).filter(|(_, length)| ends(*length));
+        let value = if stars > 0 && ends(stars) {
+            self.at += stars;
+            None
+        } else if let Some((value, length)) = quick {
+            self.at += length;
+            Some(value)
+        } else {
+            let length = rest.iter().take_while(|b| part(b)).count();
+            self.at += length;
+            let value = number::parse(&rest[..length]);
+            Some(value.ok_or(Fault::BadValue { at: digits, length })?)
         };
         let (end, length) = (self.at, self.at - digits);
         if length > WIDEST_FIELD || value.is_some_and(|value| value.abs() > LARGEST) {

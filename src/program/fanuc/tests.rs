@@ -429,17 +429,17 @@ fn broken_text_is_an_error_with_its_place() {
         (
             "'N U T, 0, 0, -1',",
             "'N U T",
-            "a.ls:9:29: a string is not closed",
+            "a.ls:9:28: a string is not closed",
         ),
         (
             " 1922.978",
             " 19-2",
-            "a.ls:10:7: 19-2 is no coordinate, or number of a tool or frame: a plain number of at most 1000000 is wanted; numbers of tools and frames go to 255",
+            "a.ls:10:7: `19-2` is no coordinate, or number of a tool or frame: a plain number of at most 1000000 is wanted; numbers of tools and frames go to 255",
         ),
         (
             "X =",
             "X ",
-            "a.ls:10:5: found `1922.978`, where = or : belongs",
+            "a.ls:10:6: found `1922.978`, where = or : belongs",
         ),
         (
             "P[1]{",
