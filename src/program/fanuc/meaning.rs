@@ -69,16 +69,24 @@ pub fn understand(text: &[u8], mut take: impl FnMut(Event)) {
     let (name, rest) = (&text[..word], text[word..].trim_ascii_start());
     let name = name.to_ascii_uppercase();
     match (name.as_slice(), rest.first()) {
-        (b"LBL", _) => take(Event::Join),
+        (b"LBL" | b"LABEL", _) => take(Event::Join),
         (b"ELSE" | b"ENDIF" | b"FOR" | b"ENDFOR" | b"SELECT", _) => {
             take(Event::Join);
             calls(text, take);
         }
-        (b"JMP" | b"MESSAGE" | b"MSG", _) => {}
+        (b"JMP" | b"SPRUNG" | b"MESSAGE" | b"MSG", _) => {}
         (_, Some(b'=')) if selects(&name).is_some() => {
             let which = selects(&name).expect("just asked");
             let number = whole(rest[1..].trim_ascii());
             take(Event::Select { which, number });
+        }
+        (_, Some(b'[')) if selects(&name).is_some() && assigned(rest).is_some() => {
+            let which = selects(&name).expect("just asked");
+            let (groups, value) = assigned(rest).expect("just asked");
+            if concerns_group_1(groups) {
+                let number = whole(value);
+                take(Event::Select { which, number });
+            }
         }
         (b"$MNUTOOLNUM" | b"$MNUFRAMENUM", Some(b'[')) => {
             if let Some((index, value)) = assigned(rest)
@@ -138,6 +146,13 @@ fn assigned(rest: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((inside[..length].trim_ascii(), value.trim_ascii()))
 }
 
+/// Whether `GP1`, `GP1,GP2` or a text that names no group concerns group 1.
+fn concerns_group_1(text: &[u8]) -> bool {
+    let group = |word: &&[u8]| word.len() > 2 && word[..2].eq_ignore_ascii_case(b"GP");
+    let mut groups = text.split(|&b| !is_word(b)).filter(group).peekable();
+    groups.peek().is_none() || groups.any(|group| &group[2..] == b"1")
+}
+
 /// `$MNUTOOL[1,3]=…`
 fn assign_variable(name: &[u8], index: &[u8], mut take: impl FnMut(Event)) {
     let comma = memchr::memchr(b',', index);
@@ -157,10 +172,14 @@ fn assignment(name: &[u8], index: &[u8], value: &[u8], mut take: impl FnMut(Even
             let named = whole(index).map_or(Named::Any, Named::Point);
             take(Event::Mention(named));
         }
-        b"UFRAME" | b"UTOOL" => take(Event::Assign {
-            which: which_of(name),
-            number: whole(index),
-        }),
+        b"UFRAME" | b"UTOOL" => {
+            if concerns_group_1(index) {
+                take(Event::Assign {
+                    which: which_of(name),
+                    number: whole(behind_group(index)),
+                });
+            }
+        }
         b"PR" => mentions(value, |named| take(Event::Copy(named))),
         // a position goes into nothing else, in any dictionary
         _ if position && !element(value) && !is_data(name) => take(Event::Assign {
@@ -168,6 +187,15 @@ fn assignment(name: &[u8], index: &[u8], value: &[u8], mut take: impl FnMut(Even
             number: whole(index),
         }),
         _ => mentions(value, |named| take(Event::Copy(named))),
+    }
+}
+
+/// `6` of `GP1:6`.
+fn behind_group(index: &[u8]) -> &[u8] {
+    let is_group = index.len() > 2 && index[..2].eq_ignore_ascii_case(b"GP");
+    match memchr::memchr(b':', index) {
+        Some(colon) if is_group => index[colon + 1..].trim_ascii(),
+        _ => index,
     }
 }
 
@@ -192,11 +220,78 @@ fn is_data(name: &[u8]) -> bool {
 /// An instruction that is none of those above.
 fn other(text: &[u8], mut take: impl FnMut(Event)) {
     let mut words = text.split(|&b| !is_word(b));
+    let first = words.clone().next().unwrap_or_default();
     if words.any(|word| word.eq_ignore_ascii_case(b"THEN")) {
         take(Event::Join);
     }
+    for at in memchr::memchr_iter(b',', text) {
+        selects_behind(&text[at + 1..], &mut take);
+    }
+    if is_macro(first, text) {
+        take(Event::Call(text.to_ascii_uppercase().into()));
+    }
     calls(text, &mut take);
     mentions(text, |named| take(Event::Mention(named)));
+}
+
+/// `UTOOL_NUM=2` behind a condition: what is active then is not certain.
+fn selects_behind(text: &[u8], mut take: impl FnMut(Event)) {
+    let text = text.trim_ascii_start();
+    let name = text.iter().take_while(|b| is_word(**b)).count();
+    let rest = text[name..].trim_ascii_start();
+    if rest.starts_with(b"=") || rest.starts_with(b"[") {
+        let which = selects(&text[..name].to_ascii_uppercase());
+        if let Some(which) = which {
+            let number = None;
+            take(Event::Select { which, number });
+        }
+    }
+}
+
+/// Whether an instruction may be a macro of the user's, which is a call: words of the language, and those with an index or
+/// an assignment, are none.
+fn is_macro(first: &[u8], text: &[u8]) -> bool {
+    const KNOWN: [&[u8]; 36] = [
+        b"ABORT",
+        b"ABBRUCH",
+        b"BREAK",
+        b"CALL",
+        b"AUFRUF",
+        b"CASE",
+        b"COL",
+        b"CONTINUE",
+        b"DEFAULT",
+        b"ENABLE",
+        b"END",
+        b"ENDE",
+        b"ENDFOR",
+        b"IF",
+        b"WENN",
+        b"JOINT_MAX_SPEED",
+        b"LINEAR_MAX_SPEED",
+        b"LOCK",
+        b"MONITOR",
+        b"MOVE",
+        b"OFFSET",
+        b"OVERRIDE",
+        b"PAUSE",
+        b"RESET",
+        b"RESUME_PROG",
+        b"RETURN_PATH_DSBL",
+        b"RUN",
+        b"SEMAPHORE",
+        b"SKIP",
+        b"SONST",
+        b"STOP",
+        b"TOOL_OFFSET",
+        b"UNLOCK",
+        b"VOFFSET",
+        b"WAIT",
+        b"WARTEN",
+    ];
+    let is_known = KNOWN.iter().any(|known| first.eq_ignore_ascii_case(known));
+    let plain = !text.iter().any(|b| matches!(b, b'[' | b'='));
+    plain && !is_known && first.first().is_some_and(|b| !matches!(b, b'$' | b'-'))
 }
 
 /// The programs that a text calls.

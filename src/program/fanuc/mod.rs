@@ -2,7 +2,8 @@
 //!
 //! A point is `P[n]{ GP1: UF : f, UT : t, CONFIG : '…', X = …, … W = …, P = …, R = … };`, mm and degrees, `Rz(R)·Ry(P)·Rx(W)`;
 //! or J1 to J6 in degrees. It is the pose of tool t in user frame f; both are numbers, and 0 is the flange and the world.
-//! `F` for a number is the one that UTOOL_NUM and UFRAME_NUM select. Only group 1 is read and written; J3 of joint points is
+//! `F` for a number is the one that UTOOL_NUM and UFRAME_NUM select; where the program selects none before, the tool or frame
+//! is called `F`, and the user says where it is. Only group 1 is read and written; J3 of joint points is
 //! FANUC's, measured from the horizontal (the profile's coupling). Listings of any dictionary are read: UF, UT and the names
 //! of coordinates are in all of them, the configuration data are the only string in a group.
 //!
@@ -25,7 +26,7 @@
 //! | `coordinated-move` | error | COORD: a positioner moves the work piece |
 //! | `line-tracking` | error | the program follows a conveyor |
 //! | `frame-assigned-at-run-time` | error | UFRAME[n]=, UTOOL[n]= of the point's frame or tool in any of the programs |
-//! | `frame-chosen-at-run-time` | error | `UF : F` or `UT : F`, and what is active is not certain |
+//! | `frame-chosen-at-run-time` | error | `UF : F` or `UT : F`, and what the program selects is not certain |
 //! | `frame-number-differs` | warning | another number is selected than the point was taught with |
 //! | `extended-axis` | warning | an axis beside the six of the arm is away from zero |
 //! | `target-copied` | warning | the point is copied into a position register |

@@ -343,6 +343,9 @@ impl<'a> Points<'a> {
             Some(value)
         } else {
             let length = rest.iter().take_while(|b| part(b)).count();
+            if length == 0 {
+                return Err(self.unexpected("a number"));
+            }
             self.at += length;
             let value = number::parse(&rest[..length]);
             Some(value.ok_or(Fault::BadValue { at: digits, length })?)

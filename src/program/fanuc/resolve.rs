@@ -50,14 +50,23 @@ impl Numbers {
 
     /// Where the running program changes this number's value; 0 is fixed.
     fn changed(&self, number: u32) -> Option<Place> {
-        let changed = self.assigned.get(&number).copied().or(self.any);
+        let changed = match number {
+            ACTIVE => self.assigned.values().next().copied(),
+            number => self.assigned.get(&number).copied(),
+        };
+        let changed = changed.or(self.any);
         changed.filter(|_| number != 0)
     }
 }
 
+/// Stands for the number that is active when the program starts; no tool or frame has it.
+const ACTIVE: u32 = u32::MAX;
+
 /// The number that is active at a place of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Active {
+    /// The one that was active when the program started.
+    Start,
     Unknown,
     Number(u32),
 }
@@ -108,8 +117,9 @@ impl Listing {
         }
     }
 
-    /// The number that all selections of the program name; `None` where they differ or a register says which.
-    fn only_selected(&self, tool: bool) -> Option<u32> {
+    /// What is active wherever the program is: the number that all its selections name, or that of its start where it
+    /// has none.
+    fn everywhere(&self, tool: bool) -> Active {
         let mut selected = BTreeSet::new();
         for (_, event) in &self.events {
             if let Event::Select { which, number } = event
@@ -118,8 +128,11 @@ impl Listing {
                 selected.insert((*which == Which::Either, *number));
             }
         }
-        let only = selected.pop_first().filter(|_| selected.is_empty())?;
-        only.1.filter(|_| !only.0)
+        match (selected.pop_first(), selected.is_empty()) {
+            (None, _) => Active::Start,
+            (Some((false, Some(number))), true) => Active::Number(number),
+            _ => Active::Unknown,
+        }
     }
 }
 
@@ -154,14 +167,14 @@ impl<'a> Resolver<'a> {
             self.target(listing, point);
         }
         let mut state = State {
-            tool: Active::Unknown,
-            frame: Active::Unknown,
+            tool: Active::Start,
+            frame: Active::Start,
             used: vec![false; listing.points.len()],
             listed: HashSet::new(),
             mismatched: HashSet::new(),
             row_open: false,
         };
-        let only = [true, false].map(|tool| listing.only_selected(tool));
+        let everywhere = [true, false].map(|tool| listing.everywhere(tool));
         for (at, (offset, event)) in listing.events.iter().enumerate() {
             let place = listing.place(*offset);
             match event {
@@ -202,7 +215,7 @@ impl<'a> Resolver<'a> {
                         state.frame = if either { Active::Unknown } else { active };
                     }
                 }
-                Event::Join => state.join(only),
+                Event::Join => state.join(everywhere),
                 Event::Call(name) if !self.harmless.contains(&**name) => {
                     (state.tool, state.frame) = (Active::Unknown, Active::Unknown);
                 }
@@ -401,6 +414,7 @@ impl<'a> Resolver<'a> {
         let number = match (selected, active) {
             (Selected::Number(number), _) => number,
             (Selected::Active, Active::Number(number)) => number,
+            (Selected::Active, Active::Start) => ACTIVE,
             (Selected::Active, Active::Unknown) => {
                 self.block(first_target + index, Cause::FrameUnknown, Some(place));
                 return None;
@@ -431,7 +445,7 @@ impl<'a> Resolver<'a> {
         let known = self.values.tools.get(&number).copied();
         *self.tools.ids.entry(number).or_insert_with(|| {
             tools.push(Tool {
-                name: number.to_string(),
+                name: name(number),
                 flange_from_tool: known.or_else(|| zero(number)),
                 load: None,
             });
@@ -444,7 +458,7 @@ impl<'a> Resolver<'a> {
         let known = self.values.frames.get(&number).copied();
         *self.frames.ids.entry(number).or_insert_with(|| {
             frames.push(Frame {
-                name: number.to_string(),
+                name: name(number),
                 world_from_frame: known.or_else(|| zero(number)),
             });
             frames.len() - 1
@@ -497,16 +511,24 @@ impl<'a> Resolver<'a> {
     }
 }
 
+/// As points and users call a tool or frame.
+fn name(number: u32) -> String {
+    match number {
+        ACTIVE => "F".into(),
+        number => number.to_string(),
+    }
+}
+
 /// Tool and frame 0 are the flange and the world.
 fn zero(number: u32) -> Option<Pose> {
     (number == 0).then(Pose::identity)
 }
 
 impl State {
-    /// The program may come here from elsewhere: a number stays known where the whole program selects no other.
-    fn join(&mut self, [tool, frame]: [Option<u32>; 2]) {
-        for (active, only) in [(&mut self.tool, tool), (&mut self.frame, frame)] {
-            if *active != Active::Unknown && only.map(Active::Number) != Some(*active) {
+    /// The program may come here from elsewhere: what is active stays known where it is the same in the whole program.
+    fn join(&mut self, [tool, frame]: [Active; 2]) {
+        for (active, everywhere) in [(&mut self.tool, tool), (&mut self.frame, frame)] {
+            if *active != everywhere {
                 *active = Active::Unknown;
             }
         }

@@ -260,8 +260,23 @@ fn the_active_tool_and_frame_are_those_that_the_program_selects() {
     assert_eq!(tool_of(go).as_deref(), Some("4"));
     let label = "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nLBL[1] ;\nJ P[1] 100% FINE ;\nJMP LBL[1] ;";
     assert_eq!(tool_of(label).as_deref(), Some("4"), "no other number");
+    assert_eq!(
+        tool_of("J P[1] 100% FINE ;").as_deref(),
+        Some("F"),
+        "asked for by name"
+    );
+    assert_eq!(
+        tool_of("LBL[1] ;\nJ P[1] 100% FINE ;").as_deref(),
+        Some("F")
+    );
+    let group =
+        "UFRAME_NUM[GP1]=3 ;\nUTOOL_NUM[GP1,GP2]= 4 ;\nUTOOL_NUM[GP2]=5 ;\nJ P[1] 100% FINE ;";
+    assert_eq!(tool_of(group).as_deref(), Some("4"));
     for lines in [
-        "J P[1] 100% FINE ;",
+        "GRIP OPEN ;\nJ P[1] 100% FINE ;",
+        "UFRAME_NUM=3 ;\nLBL[1] ;\nJ P[1] 100% FINE ;\nUTOOL_NUM=3 ;\nJMP LBL[1] ;",
+        "UTOOL_NUM=4 ;\nIF (R[1]=1),UTOOL_NUM=5 ;\nJ P[1] 100% FINE ;",
+        "UTOOL_NUM=4 ;\nIF (R[1]=1) THEN ;\nUTOOL_NUM=5 ;\nENDIF ;\nJ P[1] 100% FINE ;",
         "UFRAME_NUM=3 ;\nUTOOL_NUM=R[1] ;\nJ P[1] 100% FINE ;",
         "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nLBL[1] ;\nJ P[1] 100% FINE ;\nUTOOL_NUM=5 ;\nJMP LBL[1] ;",
         "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nCALL OTHER ;\nJ P[1] 100% FINE ;",
@@ -297,6 +312,8 @@ fn tools_and_frames_assigned_at_run_time_block_their_users() {
         ("UTOOL[1:grip]=PR[9] ;", vec!["P[1]"]),
         ("UTOOL[R[2]]=PR[9] ;", vec!["P[1]"]),
         ("$MNUFRAME[1,2]=PR[9] ;", vec!["P[1]"]),
+        ("UFRAME[GP1:6]=PR[60] ;", vec!["P[2]"]),
+        ("UFRAME[GP2:6]=PR[60] ;", vec![]),
         ("UFRAME[9]=PR[60] ;", vec![]),
     ] {
         // in a program of its own: tools and frames are the controller's
@@ -450,9 +467,16 @@ fn broken_text_is_an_error_with_its_place() {
         let error = read_files(&[("a.ls", &good.replacen(from, to, 1))]).expect_err(wanted);
         assert_eq!(error.to_string(), wanted);
     }
-    let cut = &good[..good.len() - 20];
-    let error = read_files(&[("a.ls", cut)]).expect_err("cut");
-    assert_eq!(error.to_string(), "a.ls:7:1: a point is not closed");
+    for (cut, wanted) in [
+        (8, "a.ls:7:1: a point is not closed"),
+        (
+            20,
+            "a.ls:11:46: found the end of the file, where a number belongs",
+        ),
+    ] {
+        let error = read_files(&[("a.ls", &good[..good.len() - cut])]).expect_err("cut");
+        assert_eq!(error.to_string(), wanted);
+    }
     let log = "ERRALL.LS  Robot Name X\n 1\" 05-JAN-20 10:00 SRVO-002\n";
     assert!(!Fanuc.recognises(&Source::new("errall.ls", log.into())));
     let error = read_files(&[("errall.ls", log)]).expect_err("a log");
