@@ -113,6 +113,8 @@ fn variables(bytes: &[u8]) -> Result<Frames, BadNumber> {
             values = [None; 6];
         }
         let Some((_, number)) = element else { continue };
+        // behind a comment in quotes
+        let text = memchr::memrchr(b'\'', text).map_or(text, |quote| &text[quote + 1..]);
         coordinates(text, start + line.len() - text.len(), &mut values)?;
         if let [Some(x), Some(y), Some(z), Some(w), Some(p), Some(r)] = values {
             let pose = pose([x, y, z, w, p, r]);

@@ -1,15 +1,15 @@
 //! The marker: remarks at the end of `/MN`.
 //!
 //! A listing has no comments but remarks in numbered lines, and COMMENT of 16 characters in `/ATTR`, which is the user's. So
-//! the marker stands behind the last instruction, where it renumbers nothing, as remarks of at most 32 characters (what a
-//! controller keeps). LINE_COUNT stays: controllers count the lines themselves when they load a listing, and post-processors
-//! write any number there. Of the two hashes the first 24 of 64 digits fit.
+//! the marker stands behind the last instruction, where it renumbers nothing, as three remarks of at most 32 characters (what
+//! a controller keeps). LINE_COUNT stays: controllers count the lines themselves when they load a listing, and
+//! post-processors write any number there. Of the hashes the first 24 and 16 of 64 digits fit.
 
 use super::sections::{Sections, line_end};
 use crate::program::{Marker, Source};
 
-/// Digits of a hash in a remark.
-const HASH_DIGITS: usize = 24;
+/// Characters of a remark that a controller keeps.
+const WIDEST_REMARK: usize = 32;
 
 /// Where the marker goes, and its text.
 pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
@@ -33,17 +33,12 @@ pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     (at, text)
 }
 
-fn remarks(marker: &Marker) -> [String; 4] {
+fn remarks(marker: &Marker) -> [String; 3] {
     let [first, ..] = marker.lines();
-    let word = first.split(" (").next().unwrap_or_default().to_owned();
-    let start = |hash: &str| hash.chars().take(HASH_DIGITS).collect::<String>();
-    let version: String = marker.version.chars().take(HASH_DIGITS).collect();
-    [
-        word,
-        format!("version {version}"),
-        format!("profile {}", start(&marker.profile_sha256)),
-        format!("source {}", start(&marker.source_sha256)),
-    ]
+    let word = first.split(" (").next().unwrap_or_default();
+    let profile = format!("profile {:.24}", marker.profile_sha256);
+    let source = format!("source {:.16} v{}", marker.source_sha256, marker.version);
+    [word, &profile, &source].map(|remark| remark.chars().take(WIDEST_REMARK).collect())
 }
 
 /// The number of the last line; `None` where lines have no numbers. Blocks inside moves number their own lines.
@@ -94,9 +89,12 @@ mod tests {
         let found = marked(text);
         let lines: Vec<&str> = found.split("\r\n").collect();
         assert_eq!(lines[7], "   3:  !poseshift compensated this file ;");
-        assert_eq!(lines[10], format!("   6:  !source {} ;", "b".repeat(24)));
-        assert_eq!(lines[11], "/POS");
-        assert!(lines[7..11].iter().all(|line| line.len() <= 9 + 32 + 2));
+        assert_eq!(
+            lines[9],
+            format!("   5:  !source {} v1.2 ;", "b".repeat(16))
+        );
+        assert_eq!(lines[10], "/POS");
+        assert!(lines[7..10].iter().all(|line| line.len() <= 9 + 32 + 2));
         assert!(Marker::find(found.as_bytes()).is_some());
     }
 

@@ -7,7 +7,7 @@
 //! FANUC's, measured from the horizontal (the profile's coupling). Listings of any dictionary are read: UF, UT and the names
 //! of coordinates are in all of them, the configuration data are the only string in a group.
 //!
-//! Numbers stand in fields of a fixed width; a new number keeps the field's last column. The four remarks that mark a
+//! Numbers stand in fields of a fixed width; a new number keeps the field's last column. The remarks that mark a
 //! compensated program are explained in [`mark`].
 //!
 //! # Findings
