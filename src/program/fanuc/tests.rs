@@ -1,5 +1,6 @@
 //! What the language reads, by behaviour.
 
+mod compensated;
 mod posts;
 mod robust;
 
