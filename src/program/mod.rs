@@ -8,6 +8,7 @@
 pub mod csv;
 mod edit;
 mod error;
+pub mod fanuc;
 pub mod inform;
 mod marker;
 pub mod number;
@@ -25,7 +26,12 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid, &inform::Inform, &csv::Csv];
+pub const LANGUAGES: &[&dyn Language] = &[
+    &rapid::Rapid,
+    &fanuc::Fanuc,
+    &inform::Inform,
+    &csv::Csv,
+];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]
