@@ -265,21 +265,18 @@ fn same_pose(a: &Pose, b: &Pose) -> bool {
 fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
     let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
     let of_profile = profile.tool(&tool.name);
-    let found = match tool.flange_from_tool {
-        Some(flange_from_tool) => {
-            let load = of_profile.and_then(|tool| tool.load);
-            Some(Mounted {
-                name: tool.name.clone(),
-                flange_from_tool,
-                load,
-            })
-        }
-        None => {
-            let named = given.tools.get(&Some(tool.name.clone())).cloned();
-            named
-                .or(of_profile)
-                .or_else(|| given.tools.get(&None).cloned())
-        }
+    let found = if let Some(flange_from_tool) = tool.flange_from_tool {
+        let load = of_profile.and_then(|tool| tool.load);
+        Some(Mounted {
+            name: tool.name.clone(),
+            flange_from_tool,
+            load,
+        })
+    } else {
+        let named = given.tools.get(&Some(tool.name.clone())).cloned();
+        named
+            .or(of_profile)
+            .or_else(|| given.tools.get(&None).cloned())
     };
     found.map(|found| Mounted {
         load: load.or(found.load),

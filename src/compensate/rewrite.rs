@@ -162,7 +162,7 @@ impl Portion {
                 changed = true;
                 let start = number.start as usize;
                 edits.replace(start..start + usize::from(number.length), |out| {
-                    out.extend_from_slice(&digits)
+                    out.extend_from_slice(&digits);
                 });
             }
         }
