@@ -26,12 +26,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[
-    &rapid::Rapid,
-    &fanuc::Fanuc,
-    &inform::Inform,
-    &csv::Csv,
-];
+pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid, &fanuc::Fanuc, &inform::Inform, &csv::Csv];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]

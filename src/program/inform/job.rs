@@ -142,6 +142,10 @@ pub fn read<'a>(source: &'a Source, file: u32, jobs: &mut Vec<Job<'a>>) -> Resul
             // text before the first job
             continue;
         };
+        #[allow(
+            clippy::match_same_arms,
+            reason = "the order of the arms is the order of the rules"
+        )]
         match (section, line.text) {
             (Section::Outside, _) => {}
             (Section::Instructions, b"END") => section = Section::Outside,
