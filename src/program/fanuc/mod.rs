@@ -34,6 +34,9 @@
 //! | `other-group` | note | moves to points that have no group 1 |
 //! | `frames-rounded` | note | FRAME.DG shows tools and frames with one decimal |
 //!
+//! A move with `Offset`, `Tool_Offset` or `VOFFSET` goes to a point that only the running program knows: it takes the
+//! correction of its point along, which is told as `displacement-unknown`.
+//!
 //! # Limits
 //!
 //! Local conditions of moves (TB, TA, DB) and calls are not followed. A translated INC, RTCP or COORD is known in German only.
@@ -77,6 +80,7 @@ static ABOUT: About = About {
     leaves: &[
         "groups 2 and up, extended axes, instructions, names, attributes, line ends, encoding",
         "points that no move uses",
+        "offsets of moves (Offset, Tool_Offset, VOFFSET): the moved point takes the correction along, a warning says so",
         "SYSFRAME.VA and FRAME.DG, which tell tools and user frames",
     ],
     refuses: &[

@@ -41,7 +41,26 @@ proptest::proptest! {
             }
         }
     }
+
+    #[test]
+    fn mutated_lists_of_frames_never_panic(
+        variables in proptest::prelude::any::<bool>(),
+        changes in proptest::collection::vec((0_usize..700, proptest::sample::select(&MUTATIONS[..])), 1..6)
+    ) {
+        let mut bytes = if variables { VARIABLES } else { LIST }.as_bytes().to_vec();
+        for (at, (cut, text)) in changes {
+            let at = at % bytes.len().max(1);
+            let end = (at + cut).min(bytes.len());
+            bytes.splice(at..end, text.bytes());
+        }
+        let sources = [Source::new("x", bytes), Source::new("a", sample().into_bytes())];
+        let _ = Fanuc.recognises(&sources[0]);
+        let _ = Fanuc.read(&sources, &Settings::default());
+    }
 }
+
+const VARIABLES: &str = "[*SYSTEM*]$MNUFRAME  Storage: SHADOW  Access: RW  : ARRAY[1,2] OF POSITION\n    [1,1] = \n  Group: 1   Config: N D B, 0, 0, 0\n  X:   884.000   Y: -3329.790   Z:  -133.190\n  W:     0.000   P:      .370   R:    90.000\n    [1,2] =  Uninitialized\n[*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[1,1] OF POSITION\n  [1,1] = 'GRIP' Group: 1\n    X:   0.000   Y:   0.000   Z: 150.000\n    W:   0.000   P:   0.000   R:   0.000\n";
+const LIST: &str = "F Number: F000000\n\nTool Frame\n  -1.3  -90.6   150.1  -180.0     0.0   -90.0 SSW\n\nJog Frame\n   5.0     0.0     0.0     0.0     0.0     0.0 \n\nUser Frame\n ****** ****** ****** ****** ****** ******\n 884.0  -3329.8   -133.2      .1      .0    90.0 FIX 1\n";
 
 /// What mutations cut, and put in its place.
 const MUTATIONS: [(usize, &str); 24] = [
