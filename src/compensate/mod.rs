@@ -166,6 +166,7 @@ pub fn compensate(
 ) -> Result<Compensation, CompensateError> {
     let settings = Settings {
         pulses_per_deg: profile.pulses_per_deg,
+        ..Settings::default()
     };
     let mut program = language.read(sources, &settings)?;
     let mut findings = std::mem::take(&mut program.findings);
