@@ -21,7 +21,7 @@
 //! | `frame-name-ambiguous` | error | TOOL_DATA or BASE_DATA is declared more than once with different values |
 //! | `moving-frame` | error | the base hangs on another kinematic |
 //! | `external-tcp` | error | the robot holds the work piece (`#TCP`) |
-//! | `absolutely-accurate` | error | S bit 4: the controller corrects the target itself |
+//! | `absolutely-accurate` | error | S bit 4: the controller corrects the target itself; with `--force` a warning, once a file |
 //! | `computed-target` | error | a move goes to a position that only the running program knows |
 //! | `target-not-in-files` | error | a move goes to a target that the files do not declare |
 //! | `relative-move` | error | a _REL move from a position that the text does not tell |
@@ -385,23 +385,30 @@ fn unused_targets(world: &World, moves: &mut Moves) {
     }
 }
 
-/// Blocks points of absolutely accurate robots.
+/// Blocks points of absolutely accurate robots; where they are to be rewritten, says so once a file.
 fn marked_targets(world: &World, report: &mut Report, kept: &[bool], settings: &Settings) {
-    if settings.accept_absolutely_accurate {
-        return;
-    }
+    let mut said = std::collections::HashSet::new();
     for (id, target) in world.notes.targets.iter().enumerate() {
         let (has_status, _) = status_and_turn(target.layout);
         if !kept[id] || !has_status {
             continue;
         }
         let status = world.notes.numbers[target.numbers.start as usize + 6].value;
-        if whole(status) & status::ABSOLUTELY_ACCURATE != 0 {
-            let place = Place {
-                file: target.file,
-                offset: target.offset,
-            };
+        if whole(status) & status::ABSOLUTELY_ACCURATE == 0 {
+            continue;
+        }
+        let place = Place {
+            file: target.file,
+            offset: target.offset,
+        };
+        if !settings.accept_absolutely_accurate {
             report.block(id, Cause::AbsolutelyAccurate, place, "");
+        } else if said.insert(target.file) {
+            let message = "S of this target has bit 4 (16): taught on an absolutely accurate robot; it is compensated all \
+                           the same, as all of its kind in this file";
+            let hint = "the correction of the controller must be off, or the robot is corrected twice";
+            let (id, severity) = ("absolutely-accurate", Severity::Warning);
+            report.say(id, severity, place, message.to_owned(), hint);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::aggregate;
 use super::notes::{
-    Action, Assigned, Bas, Flow, Given, Index, Ipo, NO_WITH, Operand, Part, Passed, Path, Point,
+    Action, Assigned, Bas, Flow, Given, Index, NO_WITH, Operand, Part, Passed, Path, Point,
     Read, Statement, Variable, With,
 };
 use super::reader::{Reader, fdat, ipo};
@@ -585,6 +585,3 @@ fn skip(cursor: &mut Cursor) {
         }
     }
 }
-
-/// The mode without FDAT.
-pub const DEFAULT_IPO: Ipo = Ipo::Base;

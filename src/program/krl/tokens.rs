@@ -290,11 +290,6 @@ impl<'a> Cursor<'a> {
         Kind::Sign(b'\'')
     }
 
-    /// The word in front, if there is one, in capitals in `buffer`; longer ones than any keyword are empty.
-    pub fn word<'b>(&self, token: Token, buffer: &'b mut [u8; 24]) -> &'b [u8] {
-        capitals(self.text(token), buffer)
-    }
-
     /// Takes `[...]` where it stands here.
     ///
     /// # Errors

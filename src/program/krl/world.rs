@@ -1,6 +1,6 @@
 //! Names resolved over all files.
 
-use super::notes::{Action, DataKind, Datum, Flow, Index, Notes, Statement, Stored, indices};
+use super::notes::{Action, DataKind, Datum, Flow, Index, Notes, Statement, Stored};
 use super::tokens::index;
 use crate::program::rapid::names::{Context, Meaning, Scopes, Symbol};
 
@@ -205,11 +205,6 @@ impl World {
         Some(self.declared(datum).kind)
     }
 
-    /// Routines that one calls.
-    pub fn calls(&self, routine: u32) -> &[u32] {
-        &self.calls[routine as usize]
-    }
-
     /// Names of routines that change neither tool nor base.
     pub fn harmless(&self) -> Vec<Symbol> {
         let found = HARMLESS.iter().map(|name| self.notes.symbols.find(name));
@@ -247,10 +242,5 @@ impl World {
     /// Whether the robot may come here by another way than from the statement before.
     pub fn is_crossing(statement: &Statement) -> bool {
         matches!(statement.action, Action::Flow(flow) if flow != Flow::Return)
-    }
-
-    /// The statements of a routine.
-    pub fn statements(&self, routine: usize) -> std::ops::Range<usize> {
-        indices(self.notes.routines[routine].statements)
     }
 }
