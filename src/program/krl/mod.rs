@@ -406,7 +406,8 @@ fn marked_targets(world: &World, report: &mut Report, kept: &[bool], settings: &
         } else if said.insert(target.file) {
             let message = "S of this target has bit 4 (16): taught on an absolutely accurate robot; it is compensated all \
                            the same, as all of its kind in this file";
-            let hint = "the correction of the controller must be off, or the robot is corrected twice";
+            let hint =
+                "the correction of the controller must be off, or the robot is corrected twice";
             let (id, severity) = ("absolutely-accurate", Severity::Warning);
             report.say(id, severity, place, message.to_owned(), hint);
         }

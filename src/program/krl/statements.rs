@@ -2,8 +2,8 @@
 
 use super::aggregate;
 use super::notes::{
-    Action, Assigned, Bas, Flow, Given, Index, NO_WITH, Operand, Part, Passed, Path, Point,
-    Read, Statement, Variable, With,
+    Action, Assigned, Bas, Flow, Given, Index, NO_WITH, Operand, Part, Passed, Path, Point, Read,
+    Statement, Variable, With,
 };
 use super::reader::{Reader, fdat, ipo};
 use super::tokens::{Cursor, Fault, Kind, Place, Token, capitals, index};
