@@ -10,9 +10,10 @@ COUNT = 420
 LENGTH_MM, WIDTH_MM, DEPTH_MM, LOOPS = 260.0, 140.0, 18.0, 7
 TOOL = (0.0, 0.0, 310.0, 0.0, 60.0, 0.0)
 BASE = (1650.0, -120.0, 640.0, 8.0, 0.0, 0.0)
-# modified DH: alpha, a, theta offset, d; sign and limits of the controller's axes
+# modified DH: alpha, a, theta offset, d; sign limits of the controller's axes, and where it starts
 LINKS = [(0, 0, 0, 645), (-90, 330, 0, 0), (0, 1150, -90, 0), (-90, 115, 0, 1220), (90, 0, 0, 0), (-90, 0, 180, 215)]
 SIGNS = [-1, 1, 1, -1, 1, -1]
+START = [0, -90, 90, 0, 45, 0]
 LIMITS = [(-185, 185), (-140, -5), (-120, 168), (-350, 350), (-125, 125), (-350, 350)]
 
 
@@ -55,8 +56,8 @@ def links(axes, count=6):
     return t
 
 
-def axes_for(t):
-    """The solution with the arm in front, the elbow up, and axis 4 turned least; degrees."""
+def axes_for(t, near):
+    """The solution with the arm in front and the elbow up that is nearest to these axes; degrees."""
     wrist = [t[i][3] - 215 * t[i][2] for i in range(3)]
     a1 = -math.atan2(wrist[1], wrist[0])
     r, z = math.hypot(wrist[0], wrist[1]) - 330, wrist[2] - 645
@@ -66,15 +67,14 @@ def axes_for(t):
     a3 = math.atan2(115, 1220) - rise + up
     arm = [math.degrees(q) for q in (a1, -up, a3)]
     n = mul(mul(mul(inv(links(arm, 3)), t), turn(2, -180)), turn(0, 90))
-    best = None
+    wrists = []
     for sign in (1, -1):
         q5 = sign * math.acos(max(-1, min(1, n[1][1])))
         q4 = math.atan2(sign * n[2][1], -sign * n[0][1])
         q6 = math.atan2(sign * n[1][2], sign * n[1][0])
-        found = arm + [-math.degrees(q4), math.degrees(q5), -math.degrees(q6)]
-        if best is None or abs(found[3]) < abs(best[3]):
-            best = found
-    return best
+        found = [-math.degrees(q4), math.degrees(q5), -math.degrees(q6)]
+        wrists.append([angle + 360 * round((other - angle) / 360) for angle, other in zip(found, near[3:])])
+    return arm + min(wrists, key=lambda wrist: max(abs(a - b) for a, b in zip(wrist, near[3:])))
 
 
 def status(axes):
@@ -86,9 +86,9 @@ def turn_bits(axes):
     return sum(1 << i for i, angle in enumerate(axes) if angle < 0)
 
 
-def axes_of(base, tool, pose, at=""):
-    """The axes for a pose of the tool in a base."""
-    q = axes_for(mul(mul(base, pose), inv(tool)))
+def axes_of(base, tool, pose, near, at=""):
+    """The axes for a pose of the tool in a base, coming from others."""
+    q = axes_for(mul(mul(base, pose), inv(tool)), near)
     again = mul(mul(inv(base), links(q)), tool)
     gap = max(abs(again[i][j] - pose[i][j]) for i in range(3) for j in range(4))
     assert gap < 1e-7, (at, gap)
@@ -117,7 +117,7 @@ def aggregate(values, decimals=3):
 
 def main():
     tool, base = frame(TOOL), frame(BASE)
-    first = axes_of(base, tool, pocket(0))
+    axes = first = axes_of(base, tool, pocket(0), START)
     lines = [
         "&ACCESS RVP",
         "&REL 1",
@@ -136,7 +136,7 @@ def main():
     ]
     for k in range(COUNT):
         pose = pocket(k)
-        axes = axes_of(base, tool, pose, k)
+        axes = axes_of(base, tool, pose, axes, k)
         target = aggregate(numbers_of(pose))
         if k == 0:
             lines.append(f"PTP {{{target},S {status(axes)},T {turn_bits(axes)}}}")
