@@ -69,11 +69,11 @@ impl Cause {
             Self::FrameAmbiguous => (
                 "frame-name-ambiguous",
                 "the tool or base is declared more than once with different values",
-                "pass the $config.dat of one robot only",
+                "pass one $config.dat only, and where the program writes the entry the one that it has written",
             ),
             Self::MovingFrame => (
                 "moving-frame",
-                "another kinematic moves the base (MACHINE_FRAME_DAT)",
+                "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
                 "moves in a moving base are not compensated",
             ),
             Self::ExternalTcp => (

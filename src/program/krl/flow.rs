@@ -266,6 +266,7 @@ impl Analysis<'_> {
         let setting = match given {
             Given::Entry(entry) => Some(Setting::Entry(entry)),
             Given::Zero => Some(Setting::Zero),
+            Given::Moving => Some(Setting::Moving),
             Given::Literal(numbers) => Some(Setting::Literal(numbers.map(f64::to_bits))),
             Given::Named(name, index) => Some(named(world, name, index, context)),
             Given::Fdat(fdat) => Some(Setting::Fdat(fdat)),

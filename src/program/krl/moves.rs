@@ -5,7 +5,7 @@ use super::flow::Flows;
 use super::notes::{
     Action, DataKind, Flaw, Index, Operand, Path, Point, Statement, Stored, indices,
 };
-use super::places::{Places, pose_of};
+use super::places::{HERE, Places, pose_of};
 use super::state::{BASE, IPO, Slot, State, TOOL};
 use super::tokens::Place;
 use super::world::{Lead, World};
@@ -425,7 +425,7 @@ impl<'a, 's> Moves<'a, 's> {
         statement: &Statement,
     ) {
         // no place of its own: the move itself
-        let (place, what) = if place.file == u32::MAX {
+        let (place, what) = if place == HERE {
             (statement.place, "")
         } else {
             (place, what)

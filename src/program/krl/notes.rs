@@ -145,6 +145,8 @@ pub enum Given {
     Fdat(Fdat),
     /// A mode.
     Ipo(Ipo),
+    /// EK: a base that hangs on another kinematic.
+    Moving,
     /// Only the running program knows.
     Computed,
 }

@@ -1,7 +1,7 @@
 //! Tools and bases of moves: from settings to values.
 
 use super::findings::Cause;
-use super::notes::{DataKind, Entry, Index, Ipo, Stored, Table, Variable};
+use super::notes::{Action, DataKind, Entry, Index, Ipo, Stored, Table, Variable};
 use super::state::{BASE, FDAT, IPO, Setting, Settings, Slot, TOOL, Value};
 use super::tokens::Place;
 use super::world::World;
@@ -31,7 +31,13 @@ pub fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
 /// A tool or base that is found, or why the target has to stay: the place that says so and a name there.
 pub type Used = Result<usize, (Cause, Place, String)>;
 
-/// One entry of a table.
+/// Stands for the move itself.
+pub const HERE: Place = Place {
+    file: u32::MAX,
+    offset: 0,
+};
+
+/// What is known of one entry of a table.
 #[derive(Clone, Copy, Debug)]
 enum Known {
     Value([f64; 6]),
@@ -40,59 +46,88 @@ enum Known {
     Ambiguous(Place),
 }
 
+/// What is said of one entry by data lists and by statements.
+#[derive(Debug, Default)]
+struct Said {
+    declared: Option<Known>,
+    assigned: Option<(Known, Place)>,
+}
+
 /// TOOL_DATA or BASE_DATA.
 #[derive(Debug, Default)]
 struct Values {
-    entries: HashMap<u32, (Known, bool)>,
+    entries: HashMap<u32, Said>,
     /// An assignment to an entry that only the running program knows.
     any: Option<Place>,
+    /// The only file with moves, where there is one: what it assigns replaces what is declared.
+    alone: Option<u32>,
 }
 
 impl Values {
     fn add(&mut self, entry: &Entry) {
+        let place = entry.place;
         let Some(index) = entry.index else {
             if entry.assigned {
-                self.any = Some(entry.place);
+                self.any = Some(place);
             }
             return;
         };
-        let fresh = match (entry.value, entry.assigned) {
-            (Some(value), _) => Known::Value(value),
-            (None, true) => Known::RunTime(entry.place),
-            (None, false) => Known::Missing,
-        };
-        let slot = self.entries.entry(index);
-        let (known, assigned) = slot.or_insert((fresh, entry.assigned));
-        match (*assigned, entry.assigned) {
-            // what the program assigns replaces what is declared
-            (false, true) => (*known, *assigned) = (fresh, true),
-            (true, false) => {}
-            (_, is_assigned) => {
-                let same = match (*known, fresh) {
-                    (Known::Value(a), Known::Value(b)) => {
-                        a.map(f64::to_bits) == b.map(f64::to_bits)
-                    }
-                    (Known::Missing, Known::Missing) => true,
-                    _ => false,
-                };
-                if !same {
-                    *known = if is_assigned {
-                        Known::RunTime(entry.place)
-                    } else {
-                        Known::Ambiguous(entry.place)
-                    };
+        let said = self.entries.entry(index).or_default();
+        if entry.assigned {
+            let known = match (entry.value, said.assigned) {
+                (Some(value), None) => Known::Value(value),
+                (Some(value), Some((Known::Value(other), _))) if is_same(&value, &other) => {
+                    Known::Value(other)
                 }
-            }
+                _ => Known::RunTime(place),
+            };
+            said.assigned = Some((known, place));
+        } else {
+            said.declared = Some(match (entry.value, said.declared) {
+                (Some(value), None | Some(Known::Missing)) => Known::Value(value),
+                (Some(value), Some(Known::Value(other))) if is_same(&value, &other) => {
+                    Known::Value(other)
+                }
+                (None, None | Some(Known::Missing)) => Known::Missing,
+                _ => Known::Ambiguous(place),
+            });
         }
     }
 
     fn get(&self, index: u32) -> Known {
-        match (self.any, self.entries.get(&index)) {
-            (Some(place), _) => Known::RunTime(place),
-            (None, Some((known, _))) => *known,
-            (None, None) => Known::Missing,
+        if let Some(place) = self.any {
+            return Known::RunTime(place);
+        }
+        let Some(said) = self.entries.get(&index) else {
+            return Known::Missing;
+        };
+        match (said.declared, said.assigned) {
+            (declared, None) => declared.unwrap_or(Known::Missing),
+            // programs that do not write the entry may run before it is written
+            (Some(Known::Value(old)), Some((Known::Value(new), place)))
+                if self.alone != Some(place.file) && !is_same(&old, &new) =>
+            {
+                Known::Ambiguous(place)
+            }
+            (_, Some((known, _))) => known,
         }
     }
+}
+
+/// Whether two frames are one, as far as the controller's numbers of 32 bits tell.
+fn is_same(a: &[f64; 6], b: &[f64; 6]) -> bool {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * a.abs().max(1.0);
+    a.iter().zip(b).all(near)
+}
+
+/// The only file with moves, where there is one.
+fn only_file_with_moves(world: &World) -> Option<u32> {
+    let statements = world.notes.statements.iter();
+    let mut moves = statements.filter(|statement| matches!(statement.action, Action::Move { .. }));
+    let first = moves.next()?.place.file;
+    moves
+        .all(|other| other.place.file == first)
+        .then_some(first)
 }
 
 /// Every tool and base that moves use.
@@ -114,7 +149,11 @@ impl<'a> Places<'a> {
         settings: Settings,
         used: impl Iterator<Item = [Slot; 3]>,
     ) -> Self {
-        let mut tables = [Values::default(), Values::default()];
+        let alone = only_file_with_moves(world);
+        let mut tables = [(); 2].map(|()| Values {
+            alone,
+            ..Values::default()
+        });
         for entry in &world.notes.entries {
             tables[usize::from(entry.table == Table::Base)].add(entry);
         }
@@ -155,14 +194,7 @@ impl<'a> Places<'a> {
     pub fn mode(&self, slot: Slot) -> Result<(), (Cause, Place, String)> {
         let id = self.settled(slot, IPO)?;
         match self.settings.of(id) {
-            Setting::Ipo(Ipo::Tcp) => Err((
-                Cause::ExternalTcp,
-                Place {
-                    file: u32::MAX,
-                    offset: 0,
-                },
-                String::new(),
-            )),
+            Setting::Ipo(Ipo::Tcp) => Err((Cause::ExternalTcp, HERE, String::new())),
             _ => Ok(()),
         }
     }
@@ -249,12 +281,8 @@ impl<'a> Places<'a> {
                 if entry == 0 {
                     return Ok((name, Some(Pose::identity())));
                 }
-                let start = Place {
-                    file: u32::MAX,
-                    offset: 0,
-                };
                 if table == Table::Base && world.notes.moving_bases.contains(&entry) {
-                    return Err((Cause::MovingFrame, start, name));
+                    return Err((Cause::MovingFrame, HERE, name));
                 }
                 match self.tables[usize::from(table == Table::Base)].get(entry) {
                     Known::Value(value) => Ok((name, Some(pose_of(value)))),
@@ -263,6 +291,7 @@ impl<'a> Places<'a> {
                     Known::Ambiguous(place) => Err((Cause::FrameAmbiguous, place, name)),
                 }
             }
+            Setting::Moving => Err((Cause::MovingFrame, HERE, String::new())),
             Setting::Declared(datum, index) => self.variable(datum, index),
         }
     }

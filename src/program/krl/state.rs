@@ -18,6 +18,8 @@ pub enum Setting {
     Declared(u32, Index),
     /// A variable that the files do not declare.
     Undeclared(Symbol),
+    /// EK: it hangs on another kinematic.
+    Moving,
     /// Six numbers, by their bits.
     Literal([u64; 6]),
     /// What an FDAT says.

@@ -332,7 +332,12 @@ impl<'a> Reader<'a, '_> {
         }
         if matches!(cursor.blanks(), b'.' | b'(') {
             skip(cursor);
-            return Ok(Given::Computed);
+            let moving = (variable, word) == (Variable::Base, b"EK");
+            return Ok(if moving {
+                Given::Moving
+            } else {
+                Given::Computed
+            });
         }
         Ok(match (variable, word) {
             (Variable::Tool | Variable::Base, b"$NULLFRAME") | (Variable::Base, b"$WORLD") => {

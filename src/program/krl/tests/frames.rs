@@ -146,7 +146,6 @@ fn frames_that_only_the_running_program_knows_are_refused() {
         "BAS(#BASE,n)",
         "$BASE=BASE_DATA[1]:shift",
         "$BASE.X=100",
-        "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 0,Y 0,Z 0,A 0,B 0,C 0})",
         "$TOOL=tools[1]",
         "IF $IN[1] THEN\nBAS(#BASE,2)\nENDIF",
         "WHILE $IN[1]\nLIN XP2\nBAS(#BASE,2)\nENDWHILE",
@@ -221,8 +220,38 @@ fn fixed_tools_are_refused_by_name() {
 
 #[test]
 fn bases_on_other_kinematics_are_refused() {
-    let program = in_cell("BAS(#TOOL,1)\nBAS(#BASE,7)\nLIN XP1");
-    assert_eq!(told(&program), ["moving-frame"]);
+    for set in [
+        "BAS(#BASE,7)",
+        "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 0,Y 0,Z 0,A 0,B 0,C 0})",
+        "SLIN XP1 WITH $BASE=EK(K_ROOT(FP1.BASE_NO),K_TYPE(FP1.BASE_NO),K_OFFS(FP1.BASE_NO)), $APO=SAPO(L) C_SPL",
+    ] {
+        let program = in_cell(&format!("BAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1"));
+        assert_eq!(told(&program), ["moving-frame"], "{set}");
+        assert_eq!(blocked(&program), ["XP1"], "{set}");
+    }
+}
+
+#[test]
+fn an_entry_that_one_of_several_programs_writes_is_ambiguous_where_the_config_differs() {
+    let writes = |x: &str| {
+        format!(
+            "DEF a()\nBASE_DATA[2]={{X {x},Y 0.0,Z 0,A 90,B 0,C -0.0}}\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {{X 1,Y 2,Z 3,A 0,B 0,C 0}}\nEND\n"
+        )
+    };
+    let other = "DEF b()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    for (text, others, expected) in [
+        (writes("500.000001"), other, None),
+        (writes("9"), other, Some("frame-name-ambiguous")),
+        (writes("9"), "DEF b()\nEND\n", None),
+    ] {
+        let files = [
+            ("$config.dat", CONFIG),
+            ("a.src", &*text),
+            ("b.src", others),
+        ];
+        let program = read_files(&files);
+        assert_eq!(told(&program).first().copied(), expected);
+    }
 }
 
 #[test]
