@@ -25,8 +25,8 @@ pub enum Field {
 ///
 /// # Errors
 /// Where the aggregate is broken or `visit` says so.
-pub fn each<'a>(
-    cursor: &mut Cursor<'a>,
+pub fn each(
+    cursor: &mut Cursor,
     mut visit: impl FnMut(&[u8], Token, Field) -> Result<(), Fault>,
 ) -> Result<Option<Token>, Fault> {
     let open = cursor.at;
@@ -191,13 +191,13 @@ pub fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
     };
     each(cursor, |key, token, field| {
         let (list, mask, at): (&mut [Number], &mut u8, usize) = match *key {
-            [letter] => match b"XYZABCST".iter().position(|&known| known == letter) {
-                Some(at) => (&mut found.position, &mut found.has, at),
-                None => {
+            [letter] => {
+                let Some(at) = b"XYZABCST".iter().position(|&known| known == letter) else {
                     found.computed = true;
                     return Ok(());
-                }
-            },
+                };
+                (&mut found.position, &mut found.has, at)
+            }
             [b'A', digit @ b'1'..=b'6'] => (
                 &mut found.axes,
                 &mut found.has_axes,

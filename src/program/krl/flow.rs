@@ -353,12 +353,6 @@ fn step(
             *other = true;
             *start
         }
-        (Flow::EndIf, Some(Open::If { start, ends, other })) => {
-            let skipped = if *other { None } else { *start };
-            let merged = both(both(*ends, now, place), skipped, place);
-            open.pop();
-            merged
-        }
         (Flow::Switch, _) => {
             let (start, ends) = (now, None);
             let (other, any) = (false, false);
@@ -386,7 +380,8 @@ fn step(
             *other |= flow == Flow::Default;
             *start
         }
-        (
+        (Flow::EndIf, Some(Open::If { start, ends, other }))
+        | (
             Flow::EndSwitch,
             Some(Open::Switch {
                 start, ends, other, ..

@@ -4,7 +4,7 @@
 //! the inverse solution ([`status`]) where the move is a PTP. Axes are `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes
 //! stay as they are. The pose is that of $TOOL in $BASE, and both are variables of the controller: what they are at a move
 //! is worked out over branches, loops and calls ([`flow`]), from $TOOL and $BASE themselves, BAS, FDAT of inline forms, WITH,
-//! TOOL_DATA and BASE_DATA ([`places`]). Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere.
+//! `TOOL_DATA` and `BASE_DATA` ([`places`]). Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere.
 //!
 //! # Findings
 //!
@@ -18,7 +18,7 @@
 //! | `target-used-as-frame` | error | the target is a tool or base, too |
 //! | `frame-assigned-at-run-time` | error | the running program changes the tool or base |
 //! | `frame-chosen-at-run-time` | error | ways that meet, an expression or a routine outside the files decide the tool or base |
-//! | `frame-name-ambiguous` | error | TOOL_DATA or BASE_DATA is declared more than once with different values |
+//! | `frame-name-ambiguous` | error | `TOOL_DATA` or `BASE_DATA` is declared more than once with different values |
 //! | `moving-frame` | error | the base hangs on another kinematic |
 //! | `external-tcp` | error | the robot holds the work piece (`#TCP`) |
 //! | `absolutely-accurate` | error | S bit 4: the controller corrects the target itself; with `--force` a warning, once a file |

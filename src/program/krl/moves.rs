@@ -13,7 +13,7 @@ use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
 use crate::program::rapid::names::{Context, Symbol};
-use crate::program::{Displacement, Motion, Move, Shape, Shift, TargetId};
+use crate::program::{Displacement, Frame, Motion, Move, Shape, Shift, TargetId, Tool};
 use std::collections::HashSet;
 
 /// Moves that are listed at most; beyond, elements of arrays are listed once.
@@ -29,9 +29,12 @@ pub struct Moves<'a, 's> {
     /// The target that the robot is at.
     last: Option<(TargetId, usize, usize, Shift)>,
     /// Arrays that were used with an index that only the running program knows.
-    listed: HashSet<(u32, Symbol, Option<(usize, usize)>, bool)>,
+    listed: HashSet<Listed>,
     called: HashSet<Symbol>,
 }
+
+/// Module and name of an array, tool and base, and whether the joints are interpolated.
+type Listed = (u32, Symbol, Option<(usize, usize)>, bool);
 
 /// How a move goes to all its targets.
 struct With {
@@ -121,7 +124,7 @@ impl<'a, 's> Moves<'a, 's> {
             Point::Present => {}
             Point::Computed => self.computed(statement, "the position"),
             Point::Inline(target) => self.use_target(statement, target, with),
-            Point::Named(name, index) => self.use_name(statement, name, index, with),
+            Point::Named(name, index) => self.use_name(statement, name, index, &with),
             Point::Product(part) => self.product(statement, indices(part), with),
         }
     }
@@ -136,14 +139,14 @@ impl<'a, 's> Moves<'a, 's> {
             .say(id, severity, statement.place, message, hint);
     }
 
-    fn use_name(&mut self, statement: &Statement, name: Symbol, index: Index, with: With) {
+    fn use_name(&mut self, statement: &Statement, name: Symbol, index: Index, with: &With) {
         let world = self.world;
         let context = world.context(statement);
         let spelled = world.notes.symbols.spelling(name);
         match world.lead(name, index, context) {
             Lead::Values { first, last, .. } => {
                 let is_one = last - first == 1;
-                if !is_one && !self.first_use(name, &with, statement) {
+                if !is_one && !self.first_use(name, with, statement) {
                     return;
                 }
                 for at in first..last {
@@ -151,7 +154,7 @@ impl<'a, 's> Moves<'a, 's> {
                         Stored::Target(target) => {
                             let with = With {
                                 displacement: with.displacement.clone(),
-                                ..with
+                                ..*with
                             };
                             self.use_target(statement, target, with);
                         }
@@ -274,7 +277,7 @@ impl<'a, 's> Moves<'a, 's> {
                 Displacement::By(Box::new(shift))
             });
         if let Operand::Named(name, index) = operands[at] {
-            self.use_name(statement, name, index, with);
+            self.use_name(statement, name, index, &with);
             self.last = None;
         }
     }
@@ -347,7 +350,7 @@ impl<'a, 's> Moves<'a, 's> {
         }
         if is_blocked {
             // a joint target without a known tool cannot be corrected, only kept
-            ids = self.nothing_known(ids, &slots);
+            ids = self.nothing_known(&slots);
         }
         let [tool, frame] = ids;
         if with.displacement == Displacement::None && !is_joints {
@@ -378,41 +381,33 @@ impl<'a, 's> Moves<'a, 's> {
     }
 
     /// Tool and frame that are asked for by the names of the controller's variables.
-    fn nothing_known(&mut self, _: [usize; 2], slots: &[Slot; 4]) -> [usize; 2] {
+    fn nothing_known(&mut self, slots: &[Slot; 4]) -> [usize; 2] {
         let program = &mut self.report.program;
-        let tool = match self.places.tool(slots[TOOL], program) {
-            Ok(tool) => tool,
-            Err(_) => {
-                let known = program
-                    .tools
-                    .iter()
-                    .position(|tool| tool.name == "$TOOL" && tool.flange_from_tool.is_none());
-                known.unwrap_or_else(|| {
-                    program.tools.push(crate::program::Tool {
-                        name: "$TOOL".into(),
-                        flange_from_tool: None,
-                        load: None,
-                    });
-                    program.tools.len() - 1
-                })
-            }
-        };
-        let frame = match self.places.base(slots[BASE], program) {
-            Ok(frame) => frame,
-            Err(_) => {
-                let known = program
-                    .frames
-                    .iter()
-                    .position(|frame| frame.name == "$BASE" && frame.world_from_frame.is_none());
-                known.unwrap_or_else(|| {
-                    program.frames.push(crate::program::Frame {
-                        name: "$BASE".into(),
-                        world_from_frame: None,
-                    });
-                    program.frames.len() - 1
-                })
-            }
-        };
+        let tool = self.places.tool(slots[TOOL], program).unwrap_or_else(|_| {
+            let mut tools = program.tools.iter();
+            let known =
+                tools.position(|tool| tool.name == "$TOOL" && tool.flange_from_tool.is_none());
+            known.unwrap_or_else(|| {
+                program.tools.push(Tool {
+                    name: "$TOOL".into(),
+                    flange_from_tool: None,
+                    load: None,
+                });
+                program.tools.len() - 1
+            })
+        });
+        let frame = self.places.base(slots[BASE], program).unwrap_or_else(|_| {
+            let mut frames = program.frames.iter();
+            let known =
+                frames.position(|frame| frame.name == "$BASE" && frame.world_from_frame.is_none());
+            known.unwrap_or_else(|| {
+                program.frames.push(Frame {
+                    name: "$BASE".into(),
+                    world_from_frame: None,
+                });
+                program.frames.len() - 1
+            })
+        });
         [tool, frame]
     }
 

@@ -120,7 +120,7 @@ pub struct Entry {
     pub value: Option<[f64; 6]>,
 }
 
-/// A load of LOAD_DATA.
+/// A load of `LOAD_DATA`.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadEntry {
     pub index: u32,
@@ -128,7 +128,7 @@ pub struct LoadEntry {
     pub cog_mm: [f64; 3],
 }
 
-/// A value given to $TOOL, $BASE, $IPO_MODE or FDAT_ACT.
+/// A value given to $TOOL, $BASE, `$IPO_MODE` or `FDAT_ACT`.
 #[derive(Clone, Copy, Debug)]
 pub enum Given {
     /// An entry of its table.
@@ -175,7 +175,7 @@ pub enum Point {
     Inline(TargetId),
     /// A variable.
     Named(Symbol, Index),
-    /// Where the robot is or was: $AXIS_ACT, $POS_RET.
+    /// Where the robot is or was: `$AXIS_ACT`, `$POS_RET`.
     Present,
     /// Operands between colons, part of [`Notes::operands`].
     Product(Part),
@@ -231,7 +231,7 @@ pub enum Flow {
 pub enum Bas {
     /// #INITMOV.
     Init,
-    /// #FRAMES, #PTP_PARAMS, #CP_PARAMS: tool and base of FDAT_ACT.
+    /// `#FRAMES`, `#PTP_PARAMS`, `#CP_PARAMS`: tool and base of `FDAT_ACT`.
     Frames,
     /// #TOOL with a number, or one that only the running program knows.
     Tool(Option<u32>),

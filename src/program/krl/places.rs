@@ -53,7 +53,7 @@ struct Said {
     assigned: Option<(Known, Place)>,
 }
 
-/// TOOL_DATA or BASE_DATA.
+/// `TOOL_DATA` or `BASE_DATA`.
 #[derive(Debug, Default)]
 struct Values {
     entries: HashMap<u32, Said>,

@@ -51,7 +51,6 @@ pub fn recognises(bytes: &[u8]) -> bool {
         let next = cursor.next();
         let behind = cursor.peek();
         match word {
-            b"DEFDAT" if next.kind == Kind::Name => return true,
             b"DEF" | b"DEFFCT" if next.kind == Kind::Name => {
                 let text = bytes[start..end].trim_ascii();
                 defines |= text.last() != Some(&b':') && text.contains(&b'(');
@@ -64,7 +63,7 @@ pub fn recognises(bytes: &[u8]) -> bool {
                 }
                 hints = true;
             }
-            b"E6POS" | b"E6AXIS" if next.kind == Kind::Name => return true,
+            b"DEFDAT" | b"E6POS" | b"E6AXIS" if next.kind == Kind::Name => return true,
             b"BAS" if next.is(b'(') && behind.is(b'#') => return true,
             word if is_motion(word) && next.is(b'{') => return true,
             // another maker writes END in lower case

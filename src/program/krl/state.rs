@@ -1,4 +1,4 @@
-//! What is known of $TOOL, $BASE, FDAT_ACT and $IPO_MODE at a statement.
+//! What is known of $TOOL, $BASE, `FDAT_ACT` and `$IPO_MODE` at a statement.
 
 use super::notes::{Fdat, Index, Ipo};
 use super::tokens::Place;
@@ -77,7 +77,7 @@ impl Slot {
     }
 }
 
-/// Tool, base, mode, FDAT_ACT.
+/// Tool, base, mode, `FDAT_ACT`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct State(pub [Slot; 4]);
 

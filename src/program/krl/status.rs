@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(update_turn(&before, &after, present), 0b1010_1011);
         assert_eq!(update_status(&before, &after, 0b1_0010), 0b1_0010);
         let mut flipped = after;
-        flipped.joints_rad[4] = -1.0 * DEG;
+        flipped.joints_rad[4] = -DEG;
         assert_eq!(update_status(&before, &flipped, 0b1_0010), 0b1_0110);
     }
 
