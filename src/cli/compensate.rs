@@ -33,7 +33,7 @@ pub struct Compensate {
     /// Write even when targets cannot be compensated; these stay as they are, and the status is 1
     #[arg(long)]
     keep_going: bool,
-    /// Compensate files that already are
+    /// Compensate files that already are, and targets that the controller corrects itself (KRL: S with bit 4)
     #[arg(long)]
     force: bool,
     /// Write at least so many decimals of a millimetre (default: as many as the file has)
@@ -131,6 +131,7 @@ impl Compensate {
             given,
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
+            accept_absolutely_accurate: self.force,
         })
     }
 

@@ -48,6 +48,8 @@ pub struct Options {
     pub correct_joint_targets: bool,
     /// At least so many decimals of a millimetre, and as many of other units as that is worth.
     pub decimals: Option<usize>,
+    /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
+    pub accept_absolutely_accurate: bool,
 }
 
 /// Why nothing could be compensated.
@@ -187,6 +189,7 @@ pub fn compensate(
 ) -> Result<Compensation, CompensateError> {
     let settings = Settings {
         pulses_per_deg: profile.pulses_per_deg,
+        accept_absolutely_accurate: options.accept_absolutely_accurate,
     };
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();

@@ -10,6 +10,7 @@ mod edit;
 mod error;
 pub mod fanuc;
 pub mod inform;
+pub mod krl;
 mod marker;
 pub mod number;
 pub mod rapid;
@@ -26,7 +27,13 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid, &fanuc::Fanuc, &inform::Inform, &csv::Csv];
+pub const LANGUAGES: &[&dyn Language] = &[
+    &rapid::Rapid,
+    &krl::Krl,
+    &fanuc::Fanuc,
+    &inform::Inform,
+    &csv::Csv,
+];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]
@@ -158,6 +165,8 @@ pub struct Layout {
 pub struct Settings {
     /// Encoder pulses of one degree of each joint, where programs count in pulses.
     pub pulses_per_deg: Option<[f64; 6]>,
+    /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
+    pub accept_absolutely_accurate: bool,
 }
 
 /// What one number of a target is.
