@@ -11,6 +11,7 @@ mod marker;
 pub mod number;
 pub mod rapid;
 mod source;
+pub mod urscript;
 
 pub use edit::Edits;
 pub use error::ReadError;
@@ -23,7 +24,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid];
+pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid, &urscript::UrScript];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]
