@@ -66,14 +66,14 @@ fn kinematics(criterion: &mut Criterion) {
         b.iter(|| {
             work.joints.iter().for_each(|q| {
                 black_box(work.controller.forward(q, &conditions));
-            })
+            });
         });
     });
     group.bench_function("calibrated forward", |b| {
         b.iter(|| {
             work.joints.iter().for_each(|q| {
                 black_box(work.inverse.real.forward(q, &conditions));
-            })
+            });
         });
     });
     group.bench_function("calibrated forward, batch", |b| {

@@ -1,5 +1,32 @@
 //! Makes an offline-programmed robot path land where the simulation wanted it.
-#![allow(missing_docs)]
+//!
+//! An industrial arm repeats to hundredths of a millimetre but misses by millimetres, because its controller computes with a
+//! nominal model. This library rewrites each target of a robot program into a *fake target* with which the nominal
+//! controller brings the real tool to the wanted pose:
+//!
+//! ```text
+//! program bytes → targets → (profile, frames) → fake targets → findings → edits + report
+//! ```
+//!
+//! [`compensate()`](compensate::compensate) is the main job; [`program`] reads and rewrites programs, [`model`] says where
+//! the real tool is, [`inverse`] finds joints for a pose, [`geometry`] is what they compute with.
+//!
+//! Lengths are metres and angles radians everywhere but in files and printed text.
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::model::{Conditions, profile::Profile};
+//!
+//! let profile = Profile::from_yaml(include_str!("../robots/abb_irb120_thesis.yaml"))?;
+//! let tool = profile.tool("artifact").expect("a tool of this profile");
+//! let q = [0.0, 0.3, 0.2, 0.0, 1.0, 0.0];
+//! let controller = profile.controller_model(&tool).forward(&q, &Conditions::default());
+//! let real = profile.real_model(&tool, &Conditions::default()).forward(&q, &Conditions::default());
+//! assert!(real.separation(&controller).distance_m > 0.5e-3);
+//! # Ok::<(), poseshift::model::profile::ProfileError>(())
+//! ```
+
 pub mod cli;
 pub mod compensate;
 pub mod finding;

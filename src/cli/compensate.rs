@@ -382,6 +382,10 @@ fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             None => Failure::with_hint(unknown.to_string(), unknown.hint()),
         },
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
+        CompensateError::NothingInReach { .. } => Failure::with_hint(
+            error.to_string(),
+            "check the tool and the work frame, too; nothing is written",
+        ),
     }
 }
 
@@ -403,7 +407,7 @@ fn tell(
     }
     match header.outputs.as_slice() {
         [] => {
-            text += "nothing is written: not every target could be compensated (--keep-going leaves those as they are)\n"
+            text += "nothing is written: not every target could be compensated (--keep-going leaves those as they are)\n";
         }
         _ if output.quiet => {}
         [one] => text += &format!("written to {one}\n"),

@@ -54,6 +54,7 @@ impl Failure {
     }
 
     /// Standard output that could not be written.
+    #[allow(clippy::needless_pass_by_value)]
     pub fn output(error: std::io::Error) -> Self {
         if error.kind() == std::io::ErrorKind::BrokenPipe {
             Self::Pipe

@@ -30,7 +30,7 @@ pub struct Fk {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
-    /// Joint angles (CSV with q1_deg…q6_deg, optional dir1…dir6 and fx_n,fy_n,fz_n)
+    /// Joint angles (CSV with `q1_deg…q6_deg`, optional dir1…dir6 and `fx_n,fy_n,fz_n`)
     #[arg(long, value_name = "FILE")]
     joints: PathBuf,
     /// Which arm
@@ -47,7 +47,7 @@ pub struct Ik {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
-    /// Poses (CSV with x_mm,y_mm,z_mm,qw,qx,qy,qz and branch, 0 to 7, or near1_deg…near6_deg)
+    /// Poses (CSV with `x_mm,y_mm,z_mm,qw,qx,qy,qz` and branch, 0 to 7, or `near1_deg…near6_deg`)
     #[arg(long, value_name = "FILE")]
     poses: PathBuf,
     /// Which arm

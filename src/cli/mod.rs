@@ -85,10 +85,9 @@ pub fn run() -> ExitCode {
         Command::Man(command) => command.run(),
     };
     match answer {
-        Ok(Answer::Yes) => ExitCode::SUCCESS,
+        // whoever reads the output may have gone: nothing to tell
+        Ok(Answer::Yes) | Err(Failure::Pipe) => ExitCode::SUCCESS,
         Ok(Answer::No) => ExitCode::from(1),
-        // whoever reads the output has gone: nothing to tell
-        Err(Failure::Pipe) => ExitCode::SUCCESS,
         Err(failure) => {
             anstream::eprintln!("{}", failure.render());
             ExitCode::from(2)

@@ -74,7 +74,7 @@ fn new(robot: &str, file: Option<&PathBuf>, output: Output) -> Result<Answer, Fa
     })?;
     match file {
         None if output.json => {
-            print_json(&json!({"poseshift": "new-profile/1", "robot": name, "profile": text}))?
+            print_json(&json!({"poseshift": "new-profile/1", "robot": name, "profile": text}))?;
         }
         None => print(text)?,
         Some(path) => {

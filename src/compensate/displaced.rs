@@ -1,8 +1,8 @@
 //! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction along; here is told how far
 //! from their own wanted poses they land.
 
+use super::outcome::TargetReport;
 use super::placement::name_of;
-use super::rewrite::Rewritten;
 use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
@@ -16,17 +16,15 @@ const LIMIT_M: f64 = 0.05 * MM;
 pub(super) fn check(
     job: &Job,
     tasks: &[Task],
-    rewritten: &[Rewritten],
+    reports: &[TargetReport],
     findings: &mut Vec<Finding>,
 ) {
     let displaced = |motion: &&Move| motion.displacement != Displacement::None;
     for motion in job.program.moves.iter().filter(displaced) {
-        let task = tasks.binary_search_by_key(&motion.target, |task| task.target);
-        let one = rewritten.binary_search_by_key(&motion.target, |one| one.target);
-        let (Ok(task), Ok(one)) = (task, one) else {
+        let Ok(task) = tasks.binary_search_by_key(&motion.target, |task| task.target) else {
             continue;
         };
-        let (task, Some(fake)) = (&tasks[task], rewritten[one].report.fake) else {
+        let (task, Some(fake)) = (&tasks[task], reports[motion.target].fake) else {
             continue;
         };
         let name = name_of(job, motion.target);
@@ -75,9 +73,9 @@ fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Optio
     let Displacement::By(shift) = &motion.displacement else {
         return None;
     };
-    let wanted =
-        task.world_from_frame * shift.apply(&(task.world_from_frame.inverse() * task.wanted));
-    let given = task.world_from_frame * shift.apply(fake_in_frame);
+    let wanted = *job.world_from_frame(task.frame)
+        * shift.apply(&(job.world_from_frame(task.frame).inverse() * task.wanted));
+    let given = *job.world_from_frame(task.frame) * shift.apply(fake_in_frame);
     let equipped = job.equipped(task.tool);
     let solution = equipped
         .arm

@@ -9,9 +9,9 @@
 //! fake target = world_from_frame⁻¹ · F
 //! ```
 //!
-//! Each step is one file: [`placement`] finds the tool and frame of each target, [`posture`] the branch of the inverse that
-//! the program means, [`rewrite`] puts the new numbers in the place of the old ones and reads them back to tell what
-//! rounding costs, [`displaced`] tells what a correction does to points that the program derives from a target.
+//! Each step is one file: `placement` finds the tool and frame of each target, `posture` the branch of the inverse that
+//! the program means, `rewrite` puts the new numbers in the place of the old ones and reads them back to tell what
+//! rounding costs, `displaced` tells what a correction does to points that the program derives from a target.
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
@@ -24,13 +24,15 @@ mod rewrite;
 
 pub use outcome::{Compensation, Summary, TargetReport, meaning};
 pub use placement::{Given, PlacementError};
+use placement::{Place, Setting};
+use rewrite::Portion;
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::inverse::{Arm, Branch, Inverse, Outcome, Targets, Unsupported, solve_batch};
+use crate::inverse::{Arm, Branch, Inverse, Targets, Unsupported, solve_batch};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
-use crate::program::{Language, Program, ReadError, Settings, Source};
+use crate::program::{Edits, Language, Program, ReadError, Settings, Source};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -60,7 +62,16 @@ pub enum CompensateError {
     /// The arm has no closed-form inverse.
     #[error(transparent)]
     Arm(#[from] Unsupported),
+    /// Not one of several targets can be reached.
+    #[error("none of the {targets} targets is within reach: is this the profile of this robot?")]
+    NothingInReach {
+        /// How many there are.
+        targets: usize,
+    },
 }
+
+/// Where fewer targets than this are all out of reach, each is told on its own.
+const FEW: usize = 3;
 
 /// What every step looks at.
 struct Job<'a> {
@@ -70,6 +81,7 @@ struct Job<'a> {
     sources: &'a [Source],
     profile: &'a Profile,
     options: &'a Options,
+    setting: Setting,
     /// The arm with each of the program's tools that a target needs.
     arms: Vec<Option<Equipped>>,
 }
@@ -91,7 +103,8 @@ struct Task {
     target: usize,
     /// Index of its tool.
     tool: usize,
-    world_from_frame: Pose,
+    /// Index of its work frame.
+    frame: usize,
     /// Where the simulation wants the tool, in the world.
     wanted: Pose,
     branch: Branch,
@@ -106,6 +119,12 @@ impl Job<'_> {
         self.arms[tool]
             .as_ref()
             .expect("an arm was made for each tool that a target needs")
+    }
+
+    fn world_from_frame(&self, frame: usize) -> &Pose {
+        self.setting.frames[frame]
+            .as_ref()
+            .expect("a placed target has a known frame")
     }
 
     /// The conditions of one task.
@@ -168,7 +187,9 @@ pub fn compensate(
         pulses_per_deg: profile.pulses_per_deg,
     };
     let mut program = language.read(sources, &settings)?;
+    program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
+    let setting = Setting::of(&program, profile, &options.given);
     let mut job = Job {
         language,
         settings: &settings,
@@ -176,16 +197,25 @@ pub fn compensate(
         sources,
         profile,
         options,
+        setting,
         arms: Vec::new(),
     };
     let places = placement::place(&job, &mut findings)?;
     job.arms = equip(&job, &places)?;
     let tasks = posture::choose(&job, &places, &mut findings);
+    let placed = places.iter().flatten().count();
+    let out_of_reach = findings
+        .iter()
+        .filter(|finding| finding.id == posture::OUT_OF_REACH)
+        .count();
+    if placed >= FEW && out_of_reach == placed {
+        return Err(CompensateError::NothingInReach { targets: placed });
+    }
     drop(places);
-    let solved = solve(&job, &tasks);
-    displaced::check(&job, &tasks, &solved, &mut findings);
+    let (mut targets, edits) = solve(&job, &tasks, &mut findings);
+    displaced::check(&job, &tasks, &targets, &mut findings);
     drop(tasks);
-    let (targets, edits, compensated, summary) = outcome::assemble(&job, solved, &mut findings);
+    let (compensated, summary) = outcome::sum_up(&job, &mut targets, &mut findings);
     Ok(Compensation {
         program,
         settings,
@@ -198,16 +228,14 @@ pub fn compensate(
 }
 
 /// The arm with each tool that a placed target needs.
-fn equip(
-    job: &Job,
-    places: &[Option<placement::Place>],
-) -> Result<Vec<Option<Equipped>>, Unsupported> {
-    let mut arms: Vec<Option<Equipped>> = job.program.tools.iter().map(|_| None).collect();
-    // the last place is for targets that no move uses but the user gave a tool for
-    arms.push(None);
-    for place in places.iter().flatten() {
-        if arms[place.tool].is_none() {
-            arms[place.tool] = Some(mount(job.profile, &place.mounted)?);
+fn equip(job: &Job, places: &[Option<Place>]) -> Result<Vec<Option<Equipped>>, Unsupported> {
+    let mut arms: Vec<Option<Equipped>> = job.setting.tools.iter().map(|_| None).collect();
+    for Place { tool, .. } in places.iter().flatten() {
+        if arms[*tool].is_none() {
+            let mounted = job.setting.tools[*tool]
+                .as_ref()
+                .expect("a placed target has a known tool");
+            arms[*tool] = Some(mount(job.profile, mounted)?);
         }
     }
     Ok(arms)
@@ -236,9 +264,13 @@ fn mount(profile: &Profile, tool: &Mounted) -> Result<Equipped, Unsupported> {
     })
 }
 
-/// Solves and rewrites all tasks, those with the same tool and conditions side by side, on all processors; in the order of
-/// the targets.
-fn solve(job: &Job, tasks: &[Task]) -> Vec<rewrite::Rewritten> {
+/// Solves and rewrites all tasks, those with the same tool and conditions side by side, on all processors. Returns a report
+/// for each of the program's targets and the edits of each source.
+fn solve(
+    job: &Job,
+    tasks: &[Task],
+    findings: &mut Vec<Finding>,
+) -> (Vec<TargetReport>, Vec<Edits>) {
     let mut alike: BTreeMap<(usize, [i8; 6]), Vec<usize>> = BTreeMap::new();
     for (index, task) in tasks.iter().enumerate() {
         alike
@@ -251,7 +283,7 @@ fn solve(job: &Job, tasks: &[Task]) -> Vec<rewrite::Rewritten> {
         .values()
         .flat_map(|indices| indices.chunks(CHUNK))
         .collect();
-    let solved = chunks.par_iter().map(|chunk| {
+    let solve_chunk = |chunk: &&[usize]| {
         let first = &tasks[chunk[0]];
         let inverse = Inverse {
             conditions: job.conditions(first),
@@ -268,12 +300,23 @@ fn solve(job: &Job, tasks: &[Task]) -> Vec<rewrite::Rewritten> {
                 near: &near,
             },
         );
-        let rewrite = |(&index, outcome): (&usize, &Outcome)| {
-            rewrite::rewrite(job, &tasks[index], outcome, &fractions)
-        };
-        chunk.iter().zip(&outcomes).map(rewrite).collect::<Vec<_>>()
-    });
-    let mut solved: Vec<_> = solved.collect::<Vec<_>>().into_iter().flatten().collect();
-    solved.sort_by_key(|rewritten| rewritten.target);
-    solved
+        let mut portion = Portion::default();
+        for (&index, outcome) in chunk.iter().zip(&outcomes) {
+            portion.add(job, &tasks[index], outcome, &fractions);
+        }
+        portion
+    };
+    let portions: Vec<Portion> = chunks.par_iter().map(solve_chunk).collect();
+    let mut reports = vec![TargetReport::new(None); job.program.targets.len()];
+    let mut edits: Vec<Edits> = job.sources.iter().map(|_| Edits::default()).collect();
+    for portion in portions {
+        for (target, report) in portion.reports {
+            reports[target] = report;
+        }
+        for (source, changes) in &portion.edits {
+            edits[*source as usize].append(changes);
+        }
+        findings.extend(portion.findings);
+    }
+    (reports, edits)
 }

@@ -1,6 +1,5 @@
 //! What compensating a program gave.
 
-use super::rewrite::Rewritten;
 use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
@@ -86,8 +85,7 @@ pub struct TargetReport {
 }
 
 impl TargetReport {
-    pub(super) fn new(program: &Program, target: usize, solved: Option<(&Task, &Outcome)>) -> Self {
-        debug_assert!(target < program.targets.len());
+    pub(super) fn new(solved: Option<(&Task, &Outcome)>) -> Self {
         let none = Separation::default();
         Self {
             tool: None,
@@ -105,32 +103,14 @@ impl TargetReport {
     }
 }
 
-/// Puts the rewritten targets together: a report a target, edits a source, which sources are compensated, the numbers of
-/// the whole. Adds the targets' findings and brings all into the order of the files.
-pub(super) fn assemble(
+/// Brings all findings into the order of the files, names each target's tool and frame, and counts: which sources have
+/// compensated targets, and the numbers of the whole.
+pub(super) fn sum_up(
     job: &Job,
-    rewritten: Vec<Rewritten>,
-    findings: &mut Vec<Finding>,
-) -> (Vec<TargetReport>, Vec<Edits>, Vec<bool>, Summary) {
+    reports: &mut [TargetReport],
+    findings: &mut [Finding],
+) -> (Vec<bool>, Summary) {
     let program = job.program;
-    let mut reports: Vec<_> = (0..program.targets.len())
-        .map(|index| TargetReport::new(program, index, None))
-        .collect();
-    let mut edits: Vec<Edits> = job.sources.iter().map(|_| Edits::default()).collect();
-    for one in rewritten {
-        let target = &program.targets[one.target];
-        let numbers = program.numbers_of(target);
-        let mut start = 0;
-        for (index, end) in one.changes {
-            let number = &numbers[usize::from(index)];
-            let span = number.start as usize..number.start as usize + usize::from(number.length);
-            let digits = &one.text[start..usize::from(end)];
-            edits[target.file as usize].replace(span, |out| out.extend_from_slice(digits));
-            start = usize::from(end);
-        }
-        findings.extend(one.findings);
-        reports[one.target] = one.report;
-    }
     for motion in program.moves.iter().rev() {
         let report = &mut reports[motion.target];
         (report.tool, report.frame) = (Some(small(motion.tool)), Some(small(motion.frame)));
@@ -168,7 +148,7 @@ pub(super) fn assemble(
     if summary.compensated > 0 {
         summary.mean_shift_m = shifts / summary.compensated as f64;
     }
-    (reports, edits, compensated, summary)
+    (compensated, summary)
 }
 
 fn small(index: usize) -> u32 {

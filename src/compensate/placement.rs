@@ -3,8 +3,8 @@
 use super::Job;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::model::profile::Mounted;
-use crate::program::Shape;
+use crate::model::profile::{Mounted, Profile};
+use crate::program::{Frame, Move, Program, Shape, Tool};
 use std::collections::BTreeMap;
 
 /// Two values of one tool or frame that differ by less than this are the same, metres and radians.
@@ -61,12 +61,53 @@ impl PlacementError {
 }
 
 /// The tool and frame of one target.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// Index of the tool in the program, or one past the last for a tool that the user gave for unused targets.
+    /// Index in [`Setting::tools`].
     pub tool: usize,
-    pub mounted: Mounted,
-    pub world_from_frame: Pose,
+    /// Index in [`Setting::frames`].
+    pub frame: usize,
+}
+
+/// The tools and work frames of a program as far as anybody knows them.
+pub(super) struct Setting {
+    /// The program's, and one more: what the user gave for targets that no move uses.
+    pub tools: Vec<Option<Mounted>>,
+    /// The program's, and two more: what the user gave for targets that no move uses, and the world for joint targets.
+    pub frames: Vec<Option<Pose>>,
+}
+
+impl Setting {
+    pub fn of(program: &Program, profile: &Profile, given: &Given) -> Self {
+        let mut tools: Vec<_> = program
+            .tools
+            .iter()
+            .map(|tool| tool_of(tool, profile, given))
+            .collect();
+        tools.push(given.tools.get(&None).cloned());
+        let mut frames: Vec<_> = program
+            .frames
+            .iter()
+            .map(|frame| frame_of(frame, given))
+            .collect();
+        frames.extend([given.frames.get(&None).copied(), Some(Pose::identity())]);
+        Self { tools, frames }
+    }
+
+    /// Whether two places have tools and frames of the same values.
+    fn is_same(&self, a: Place, b: Place) -> bool {
+        let same_tool = match (&self.tools[a.tool], &self.tools[b.tool]) {
+            (Some(a), Some(b)) => {
+                same_pose(&a.flange_from_tool, &b.flange_from_tool) && a.load == b.load
+            }
+            _ => false,
+        };
+        let same_frame = match (&self.frames[a.frame], &self.frames[b.frame]) {
+            (Some(a), Some(b)) => same_pose(a, b),
+            _ => false,
+        };
+        (a.tool == b.tool || same_tool) && (a.frame == b.frame || same_frame)
+    }
 }
 
 /// The place of each target; `None` where it stays as it is.
@@ -75,121 +116,117 @@ pub(super) fn place(
     findings: &mut Vec<Finding>,
 ) -> Result<Vec<Option<Place>>, PlacementError> {
     let program = job.program;
-    let mut uses: Vec<Vec<usize>> = vec![Vec::new(); program.targets.len()];
-    for (index, motion) in program.moves.iter().enumerate() {
-        uses[motion.target].push(index);
-    }
-    let tools: Vec<_> = (0..program.tools.len())
-        .map(|tool| tool_of(job, tool))
-        .collect();
-    let frames: Vec<_> = (0..program.frames.len())
-        .map(|frame| frame_of(job, frame))
-        .collect();
-    let mut places = Vec::with_capacity(uses.len());
-    for (index, target) in program.targets.iter().enumerate() {
-        let left_alone = target.blocked
-            || (target.layout.shape == Shape::Joints && !job.options.correct_joint_targets);
-        let place = if left_alone {
-            None
-        } else {
-            place_target(job, index, &uses[index], &tools, &frames, findings)?
-        };
-        places.push(place);
-    }
-    Ok(places)
-}
-
-fn place_target(
-    job: &Job,
-    index: usize,
-    uses: &[usize],
-    tools: &[Option<Mounted>],
-    frames: &[Option<Pose>],
-    findings: &mut Vec<Finding>,
-) -> Result<Option<Place>, PlacementError> {
-    let program = job.program;
-    let is_joints = program.targets[index].layout.shape == Shape::Joints;
-    let Some((&first, others)) = uses.split_first() else {
-        return Ok(place_unused(job, index, findings));
+    let is_joints = |target: usize| program.targets[target].layout.shape == Shape::Joints;
+    let stays = |target: usize| {
+        program.targets[target].blocked || (is_joints(target) && !job.options.correct_joint_targets)
     };
-    let known = |use_: usize| -> Result<(usize, &Mounted, Pose), PlacementError> {
-        let motion = &program.moves[use_];
-        let unknown = |what, name: &str| {
-            let source = &job.sources[motion.file as usize];
-            let (line, column) = source.line_column(motion.offset as usize);
-            PlacementError {
-                file: source.name.clone(),
-                line,
-                column,
-                what,
-                name: name.into(),
+    // the first move to each target, and whether another one contradicts it
+    let mut first: Vec<Option<(usize, bool)>> = vec![None; program.targets.len()];
+    let place_of = |motion: &Move| {
+        let world = job.setting.frames.len() - 1;
+        Place {
+            tool: motion.tool,
+            frame: if is_joints(motion.target) {
+                world
+            } else {
+                motion.frame
+            },
+        }
+    };
+    for (index, motion) in program
+        .moves
+        .iter()
+        .enumerate()
+        .filter(|(_, motion)| !stays(motion.target))
+    {
+        let place = place_of(motion);
+        if job.setting.tools[place.tool].is_none() {
+            return Err(unknown(
+                job,
+                motion,
+                "tool",
+                &program.tools[motion.tool].name,
+            ));
+        }
+        if job.setting.frames[place.frame].is_none() {
+            return Err(unknown(
+                job,
+                motion,
+                "work frame",
+                &program.frames[motion.frame].name,
+            ));
+        }
+        match &mut first[motion.target] {
+            None => first[motion.target] = Some((index, false)),
+            Some((other, contradicted)) => {
+                let before = &program.moves[*other];
+                if !*contradicted && !job.setting.is_same(place_of(before), place) {
+                    *contradicted = true;
+                    findings.push(shared(job, before, motion));
+                }
             }
-        };
-        let tool = tools[motion.tool]
-            .as_ref()
-            .ok_or_else(|| unknown("tool", &program.tools[motion.tool].name))?;
-        // joint targets have no work frame
-        let frame = if is_joints {
-            Some(Pose::identity())
-        } else {
-            frames[motion.frame]
-        };
-        let frame =
-            frame.ok_or_else(|| unknown("work frame", &program.frames[motion.frame].name))?;
-        Ok((motion.tool, tool, frame))
-    };
-    let (tool, mounted, world_from_frame) = known(first)?;
-    for &other in others {
-        let (_, other_mounted, other_frame) = known(other)?;
-        let same = same_pose(&mounted.flange_from_tool, &other_mounted.flange_from_tool)
-            && mounted.load == other_mounted.load
-            && same_pose(&world_from_frame, &other_frame);
-        if !same {
-            let line = |use_: usize| {
-                let motion = &program.moves[use_];
-                job.sources[motion.file as usize]
-                    .line_column(motion.offset as usize)
-                    .0
-            };
-            let message = format!(
-                "{} is used with different tools or work frames (lines {} and {}): one fake target cannot serve both",
-                name_of(job, index),
-                line(first),
-                line(other)
-            );
-            let hint = "give each use a target of its own";
-            findings.push(job.at_target("target-shared", Severity::Error, index, message, hint));
-            return Ok(None);
         }
     }
-    Ok(Some(Place {
-        tool,
-        mounted: mounted.clone(),
-        world_from_frame,
-    }))
+    let place = |(target, first): (usize, Option<(usize, bool)>)| match first {
+        _ if stays(target) => None,
+        Some((index, false)) => Some(place_of(&program.moves[index])),
+        Some((_, true)) => None,
+        None => place_unused(job, target, findings),
+    };
+    Ok(first.into_iter().enumerate().map(place).collect())
+}
+
+fn unknown(job: &Job, motion: &Move, what: &'static str, name: &str) -> PlacementError {
+    let source = &job.sources[motion.file as usize];
+    let (line, column) = source.line_column(motion.offset as usize);
+    PlacementError {
+        file: source.name.clone(),
+        line,
+        column,
+        what,
+        name: name.into(),
+    }
+}
+
+fn shared(job: &Job, a: &Move, b: &Move) -> Finding {
+    let line = |motion: &Move| {
+        job.sources[motion.file as usize]
+            .line_column(motion.offset as usize)
+            .0
+    };
+    let message = format!(
+        "{} is used with different tools or work frames (lines {} and {}): one fake target cannot serve both",
+        name_of(job, a.target),
+        line(a),
+        line(b)
+    );
+    job.at_target(
+        "target-shared",
+        Severity::Error,
+        a.target,
+        message,
+        "give each use a target of its own",
+    )
 }
 
 /// A target that no move in these files uses: its tool and frame are what the user gives for unknown names.
-fn place_unused(job: &Job, index: usize, findings: &mut Vec<Finding>) -> Option<Place> {
-    if job.program.targets[index].layout.shape == Shape::Joints {
+fn place_unused(job: &Job, target: usize, findings: &mut Vec<Finding>) -> Option<Place> {
+    if job.program.targets[target].layout.shape == Shape::Joints {
         return None;
     }
-    let given = &job.options.given;
-    if let (Some(mounted), Some(&world_from_frame)) =
-        (given.tools.get(&None), given.frames.get(&None))
-    {
-        return Some(Place {
-            tool: job.program.tools.len(),
-            mounted: mounted.clone(),
-            world_from_frame,
-        });
+    let place = Place {
+        tool: job.program.tools.len(),
+        frame: job.program.frames.len(),
+    };
+    if job.setting.tools[place.tool].is_some() && job.setting.frames[place.frame].is_some() {
+        return Some(place);
     }
     let message = format!(
         "no move in these files uses {}: its tool and work frame are unknown",
-        name_of(job, index)
+        name_of(job, target)
     );
     let hint = "give the files that use it together, or --tool and --frame for it, or --keep-going to leave it as it is";
-    findings.push(job.at_target("target-unused", Severity::Error, index, message, hint));
+    findings.push(job.at_target("target-unused", Severity::Error, target, message, hint));
     None
 }
 
@@ -208,43 +245,37 @@ fn same_pose(a: &Pose, b: &Pose) -> bool {
 }
 
 /// The tool as the files have it, else as the command line or the profile does; the load likewise.
-fn tool_of(job: &Job, index: usize) -> Option<Mounted> {
-    let tool = &job.program.tools[index];
-    let given = &job.options.given.tools;
-    let of_profile = job.profile.tool(&tool.name);
-    let elsewhere = || {
-        let named = given.get(&Some(tool.name.clone())).cloned();
-        named
-            .or_else(|| of_profile.clone())
-            .or_else(|| given.get(&None).cloned())
-    };
-    match tool.flange_from_tool {
+fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
+    let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
+    let of_profile = profile.tool(&tool.name);
+    let found = match tool.flange_from_tool {
         Some(flange_from_tool) => {
-            let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
-            let load = load.or_else(|| of_profile.as_ref().and_then(|tool| tool.load));
+            let load = of_profile.and_then(|tool| tool.load);
             Some(Mounted {
                 name: tool.name.clone(),
                 flange_from_tool,
                 load,
             })
         }
-        None => elsewhere().map(|found| Mounted {
-            load: tool
-                .load
-                .map(|load| (load.mass_kg, load.cog_m))
-                .or(found.load),
-            ..found
-        }),
-    }
+        None => {
+            let named = given.tools.get(&Some(tool.name.clone())).cloned();
+            named
+                .or(of_profile)
+                .or_else(|| given.tools.get(&None).cloned())
+        }
+    };
+    found.map(|found| Mounted {
+        load: load.or(found.load),
+        ..found
+    })
 }
 
-fn frame_of(job: &Job, index: usize) -> Option<Pose> {
-    let frame = &job.program.frames[index];
-    let given = &job.options.given.frames;
+fn frame_of(frame: &Frame, given: &Given) -> Option<Pose> {
     let elsewhere = || {
         given
+            .frames
             .get(&Some(frame.name.clone()))
-            .or_else(|| given.get(&None))
+            .or_else(|| given.frames.get(&None))
             .copied()
     };
     frame.world_from_frame.or_else(elsewhere)

@@ -9,7 +9,8 @@ use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
 use crate::model::effects::Need;
-use crate::program::{Configuration, Decoded, Move, Shape, Value};
+use crate::model::Conditions;
+use crate::program::{Configuration, Decoded, Value};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
 const BORDER_RAD: f64 = 0.05 * DEG;
@@ -17,6 +18,9 @@ const BORDER_RAD: f64 = 0.05 * DEG;
 const LIMIT_RAD: f64 = 2.0 * DEG;
 /// A joint that moves less than this keeps the direction in which it moved before.
 const STANDSTILL_RAD: f64 = 1e-6;
+
+/// Name of the finding about a target that the nominal arm does not reach.
+pub(super) const OUT_OF_REACH: &str = "out-of-reach";
 
 /// A way to reach a target with the nominal arm.
 #[derive(Clone, Copy)]
@@ -62,205 +66,127 @@ pub(super) fn choose(
         .effects
         .iter()
         .any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions));
-    let mut chosen: Vec<Option<Task>> = vec![None; places.len()];
-    let mut tried = vec![false; places.len()];
+    let mut tasks: Vec<Task> = Vec::with_capacity(places.iter().flatten().count());
+    // where the task of each target is in the list, once its first move is seen
+    let mut seen: Vec<Option<Option<usize>>> = vec![None; places.len()];
     let mut path = Path::default();
     for motion in &job.program.moves {
         if motion.file != path.file {
-            path = Path {
-                file: motion.file,
-                ..Path::default()
-            };
+            path = Path { file: motion.file, ..Path::default() };
         }
         let target = motion.target;
-        if !tried[target] {
-            tried[target] = true;
-            chosen[target] = task(
-                job,
-                target,
-                Some(motion),
-                places[target].as_ref(),
-                &path,
-                findings,
-            );
-        }
-        match (
-            &mut chosen[target],
-            job.program.targets[target].layout.shape,
-        ) {
-            (Some(task), _) => {
+        let index = seen[target].unwrap_or_else(|| {
+            let start = motion.near.as_deref().copied().or(path.joints);
+            let task = task(job, target, places[target], motion.configured && motion.near.is_none(), start, findings)?;
+            tasks.push(task);
+            Some(tasks.len() - 1)
+        });
+        seen[target] = Some(index);
+        match index.map(|index| &mut tasks[index]) {
+            Some(task) => {
                 path.go(task.nominal_q);
                 if directed && task.direction == [0; 6] {
                     task.direction = path.direction;
                 }
             }
-            (None, Shape::Joints) => match decoded(job, target).map(|decoded| decoded.value) {
+            None => match decoded(job, target).map(|decoded| decoded.value) {
                 Some(Value::Joints(q)) => path.go(q),
-                _ => path.joints = None,
+                // where the robot is after a target that nobody understands is unknown
+                _ => path = Path { file: motion.file, ..Path::default() },
             },
-            // where the robot is after a target that nobody understands is unknown
-            (None, Shape::Pose) => {
-                path = Path {
-                    file: motion.file,
-                    ..Path::default()
-                }
-            }
         }
     }
-    for (target, place) in places
-        .iter()
-        .enumerate()
-        .filter(|(target, _)| !tried[*target])
-    {
-        chosen[target] = task(
-            job,
-            target,
-            None,
-            place.as_ref(),
-            &Path::default(),
-            findings,
-        );
+    for target in (0..places.len()).filter(|target| seen[*target].is_none()) {
+        tasks.extend(task(job, target, places[target], true, None, findings));
     }
-    chosen.into_iter().flatten().collect()
+    tasks.sort_unstable_by_key(|task| task.target);
+    tasks
 }
 
 fn decoded(job: &Job, target: usize) -> Option<Decoded> {
     meaning(job.language, job.program, job.settings, target)
 }
 
+/// The task of one target. `honoured`: the controller uses its configuration data. `start`: the joints from which the robot
+/// comes, or from which its inverse starts.
 fn task(
     job: &Job,
     target: usize,
-    motion: Option<&Move>,
-    place: Option<&Place>,
-    path: &Path,
+    place: Option<Place>,
+    honoured: bool,
+    start: Option<[f64; 6]>,
     findings: &mut Vec<Finding>,
 ) -> Option<Task> {
-    let place = place?;
-    let equipped = job.equipped(place.tool);
-    let arm = &equipped.arm;
-    let Decoded {
-        value,
-        configuration,
-    } = decoded(job, target)?;
+    let Place { tool, frame } = place?;
+    let equipped = job.equipped(tool);
+    let Decoded { value, configuration } = decoded(job, target)?;
     let (wanted, branch, nominal_q) = match value {
-        Value::Joints(q) => (
-            equipped
-                .controller
-                .forward(&q, &crate::model::Conditions::default()),
-            arm.posture(&q).0,
-            q,
-        ),
+        Value::Joints(q) => {
+            (equipped.controller.forward(&q, &Conditions::default()), equipped.arm.posture(&q).0, q)
+        }
         Value::Pose(frame_from_tool) => {
-            let wanted = place.world_from_frame * frame_from_tool;
-            let honoured = motion.is_none_or(|motion| motion.configured);
-            let way = choose_way(
-                job,
-                target,
-                arm,
-                &wanted,
-                &configuration,
-                honoured,
-                path,
-                findings,
-            )?;
+            let wanted = *job.world_from_frame(frame) * frame_from_tool;
+            let asked = Asked { target, arm: &equipped.arm, wanted, configuration, honoured, start };
+            let way = choose_way(job, &asked, findings)?;
             (wanted, way.branch, way.q)
         }
     };
-    let direction = [0; 6];
-    let world_from_frame = place.world_from_frame;
-    Some(Task {
-        target,
-        tool: place.tool,
-        world_from_frame,
-        wanted,
-        branch,
-        nominal_q,
-        direction,
-    })
+    Some(Task { target, tool, frame, wanted, branch, nominal_q, direction: [0; 6] })
 }
 
-#[allow(clippy::too_many_arguments)]
-fn choose_way(
-    job: &Job,
+/// A target whose branch is to be found.
+struct Asked<'a> {
     target: usize,
-    arm: &Arm,
-    wanted: &Pose,
-    configuration: &Configuration,
+    arm: &'a Arm,
+    wanted: Pose,
+    configuration: Configuration,
     honoured: bool,
-    path: &Path,
-    findings: &mut Vec<Finding>,
-) -> Option<Way> {
+    start: Option<[f64; 6]>,
+}
+
+fn choose_way(job: &Job, asked: &Asked, findings: &mut Vec<Finding>) -> Option<Way> {
+    let Asked { target, arm, wanted, configuration, honoured, start } = asked;
     // along a path the next posture is mostly on the branch of the last one; the others are tried where it does not fit
-    let middle = std::array::from_fn(|i| {
-        let joint = &arm.mechanism().joints[i];
-        0.0_f64.clamp(joint.min_rad, joint.max_rad)
-    });
-    let near = path.joints.unwrap_or(middle);
-    if let Some(before) = path.joints {
-        let way = way(arm, wanted, arm.posture(&before).0, &before, configuration);
-        if let Some(way) = way.filter(|way| way.configured && is_close(&way.q, &before)) {
+    if let Some(before) = start {
+        let way = way(arm, wanted, arm.posture(before).0, before, configuration);
+        if let Some(way) = way.filter(|way| way.configured && is_close(&way.q, before)) {
             return Some(way);
         }
     }
-    let ways: Vec<Way> = Branch::ALL
-        .iter()
-        .filter_map(|&branch| way(arm, wanted, branch, &near, configuration))
-        .collect();
+    let middle = arm.mechanism().joints.map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
+    let near = start.unwrap_or(middle);
+    let ways: Vec<Way> = Branch::ALL.iter().filter_map(|&branch| way(arm, wanted, branch, &near, configuration)).collect();
     let nearest = |accept: &dyn Fn(&Way) -> bool| {
-        let distance = |way: &Way| {
-            (0..6)
-                .map(|i| (way.q[i] - near[i]).abs())
-                .fold(0.0, f64::max)
-        };
+        let distance = |way: &Way| (0..6).map(|i| (way.q[i] - near[i]).abs()).fold(0.0, f64::max);
         let accepted = ways.iter().filter(|way| accept(way)).copied();
         accepted.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
-    let name = || name_of(job, target);
     if ways.is_empty() {
-        return out_of_reach(job, target, arm, wanted, &near, findings);
+        return out_of_reach(job, asked, &near, findings);
     }
-    if !honoured && path.joints.is_some() {
+    if !honoured && start.is_some() {
         return nearest(&|_| true);
     }
     if let Some(way) = nearest(&|way| way.configured).or_else(|| nearest(&|way| way.in_ranges)) {
         return Some(way);
     }
-    let shown = nearest(&|_| true)?
-        .q
-        .map(|q| format!("{:.1}", q / DEG))
-        .join(", ");
-    if path.joints.is_some() {
+    let name = name_of(job, *target);
+    let shown = nearest(&|_| true)?.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+    if start.is_some() {
         let message = format!(
-            "no solution at {} has the configuration that the file gives; the one nearest to the target before is taken \
-             (joints {shown} deg)",
-            name()
+            "no solution at {name} has the configuration that the file gives; the one nearest to the target before is taken \
+             (joints {shown} deg)"
         );
-        let hint =
-            "check the configuration data, and that robot, tool and frame are those of the program";
-        findings.push(job.at_target(
-            "configuration-mismatch",
-            Severity::Warning,
-            target,
-            message,
-            hint,
-        ));
+        let hint = "check the configuration data, and that robot, tool and frame are those of the program";
+        findings.push(job.at_target("configuration-mismatch", Severity::Warning, *target, message, hint));
         return nearest(&|_| true);
     }
     let message = format!(
-        "no solution at {} has the configuration that the file gives, and no target before tells how the robot comes here \
-         (nearest: joints {shown} deg)",
-        name()
+        "no solution at {name} has the configuration that the file gives, and no target before tells how the robot comes here \
+         (nearest: joints {shown} deg)"
     );
-    let hint =
-        "check that robot, tool and frame are those of the program; start with a joint target";
-    findings.push(job.at_target(
-        "configuration-unknown",
-        Severity::Error,
-        target,
-        message,
-        hint,
-    ));
+    let hint = "check that robot, tool and frame are those of the program; start with a joint target";
+    findings.push(job.at_target("configuration-unknown", Severity::Error, *target, message, hint));
     None
 }
 
@@ -293,12 +219,11 @@ fn way(
         let asked =
             configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
         let turned = |range: (f64, f64)| turned_into(q[i], range, limits);
-        match asked.and_then(turned) {
-            Some(angle) => q[i] = angle,
-            None => {
-                in_ranges &= asked.is_none();
-                q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
-            }
+        if let Some(angle) = asked.and_then(turned) {
+            q[i] = angle;
+        } else {
+            in_ranges &= asked.is_none();
+            q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
         }
     }
     let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);
@@ -331,14 +256,8 @@ fn turned_into(angle: f64, range: (f64, f64), limits: (f64, f64)) -> Option<f64>
 
 /// A pose that the nominal arm does not reach within its limits: the real one may, so the branch of the posture before or of
 /// the stretched arm goes on; with neither it is an error.
-fn out_of_reach(
-    job: &Job,
-    target: usize,
-    arm: &Arm,
-    wanted: &Pose,
-    near: &[f64; 6],
-    findings: &mut Vec<Finding>,
-) -> Option<Way> {
+fn out_of_reach(job: &Job, asked: &Asked, near: &[f64; 6], findings: &mut Vec<Finding>) -> Option<Way> {
+    let Asked { target, arm, wanted, .. } = asked;
     let branch = arm.posture(near).0;
     let stretched = arm.solve_branch(wanted, branch, near);
     // squared cosine of the elbow beyond 1: a few millimetres at full stretch
@@ -353,7 +272,7 @@ fn out_of_reach(
     let message = if stretched.beyond > 0.0 {
         format!(
             "{} is out of the nominal robot's reach",
-            name_of(job, target)
+            name_of(job, *target)
         )
     } else {
         let q = stretched.q;
@@ -361,7 +280,7 @@ fn out_of_reach(
         let limits = &arm.mechanism().joints[joint];
         format!(
             "{} is reachable on no branch within the joint limits (nearest: joint {} at {:.2} deg, limits {:.2} to {:.2})",
-            name_of(job, target),
+            name_of(job, *target),
             joint + 1,
             q[joint] / DEG,
             limits.min_rad / DEG,
@@ -369,6 +288,6 @@ fn out_of_reach(
         )
     };
     let hint = "check that robot, tool and frame are those of the program";
-    findings.push(job.at_target("out-of-reach", Severity::Error, target, message, hint));
+    findings.push(job.at_target(OUT_OF_REACH, Severity::Error, *target, message, hint));
     None
 }

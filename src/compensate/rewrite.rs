@@ -9,7 +9,8 @@ use crate::geometry::{Pose, Separation};
 use crate::inverse::{Arm, Outcome, Status};
 use crate::model::Conditions;
 use crate::program::number::{self, Fraction, Style};
-use crate::program::{Number, Posture, Role, Shape, Target, Value};
+use crate::program::{Edits, Number, Posture, Role, Shape, Target, Value};
+use std::collections::BTreeMap;
 
 /// A shift below this is none: the target's text stays as it is.
 const NO_SHIFT: Separation = Separation {
@@ -22,15 +23,14 @@ const ROUNDING_LIMIT_M: f64 = 0.01 * MM;
 const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
 const NEAR_AXIS_1_M: f64 = 5.0 * MM;
 
-/// One target, solved, and its new text.
-pub(super) struct Rewritten {
-    /// Index in the program's targets.
-    pub target: usize,
-    pub report: TargetReport,
+/// What became of some of the targets.
+#[derive(Default)]
+pub(super) struct Portion {
+    /// Target by index, and its report.
+    pub reports: Vec<(usize, TargetReport)>,
+    /// Changes to sources by index.
+    pub edits: BTreeMap<u32, Edits>,
     pub findings: Vec<Finding>,
-    /// Which of its numbers change, by index, with the end of each one's text in `text`.
-    pub changes: Vec<(u8, u16)>,
-    pub text: Vec<u8>,
 }
 
 /// How each source writes magnitudes below one.
@@ -51,112 +51,115 @@ pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
         .collect()
 }
 
-/// Writes the new text of one target, where it converged, and reports on it.
-pub(super) fn rewrite(
-    job: &Job,
-    task: &Task,
-    outcome: &Outcome,
-    fractions: &[Fraction],
-) -> Rewritten {
-    let report = TargetReport::new(job.program, task.target, Some((task, outcome)));
-    let mut rewritten = Rewritten {
-        target: task.target,
-        report,
-        findings: Vec::new(),
-        changes: Vec::new(),
-        text: Vec::new(),
-    };
-    if outcome.status != Status::Converged {
-        rewritten.findings.push(failure(job, task, outcome));
-        return rewritten;
-    }
-    let controller_pose = job
-        .equipped(task.tool)
-        .controller
-        .forward(&outcome.q, &Conditions::default());
-    let shift = task.wanted.separation(&controller_pose);
-    rewritten.report.fake = Some(task.world_from_frame.inverse() * controller_pose);
-    rewritten.report.shift = shift;
-    rewritten.findings.extend(singularity(job, task, outcome));
-    if shift.distance_m >= NO_SHIFT.distance_m || shift.angle_rad >= NO_SHIFT.angle_rad {
-        let written = write(job, task, outcome, fractions, &mut rewritten);
-        let rounding = landing(job, task, outcome, &written);
-        rewritten.report.rounding = rounding;
-        rewritten.report.changed = !rewritten.changes.is_empty();
-        if rounding.distance_m > ROUNDING_LIMIT_M && rounding.distance_m > 0.1 * shift.distance_m {
-            rewritten
-                .findings
-                .push(rounding_finding(job, task, rounding, shift));
+impl Portion {
+    /// Writes the new text of one target, where it converged, and reports on it.
+    pub fn add(&mut self, job: &Job, task: &Task, outcome: &Outcome, fractions: &[Fraction]) {
+        let mut report = TargetReport::new(Some((task, outcome)));
+        if outcome.status == Status::Converged {
+            self.add_converged(job, task, outcome, fractions, &mut report);
+        } else {
+            self.findings.push(failure(job, task, outcome));
         }
+        self.reports.push((task.target, report));
     }
-    rewritten
-}
 
-/// Puts the new numbers' text into `rewritten`; returns the numbers as they are written.
-fn write(
-    job: &Job,
-    task: &Task,
-    outcome: &Outcome,
-    fractions: &[Fraction],
-    rewritten: &mut Rewritten,
-) -> Vec<f64> {
-    let target = &job.program.targets[task.target];
-    let numbers = job.program.numbers_of(target);
-    let roles = job.language.roles(target.layout);
-    let arm = &job.equipped(task.tool).arm;
-    let value = match (target.layout.shape, rewritten.report.fake) {
-        (Shape::Pose, Some(fake)) => Value::Pose(fake),
-        _ => Value::Joints(outcome.q),
-    };
-    let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-    let mut new = old.clone();
-    let (before, after) = (
-        posture_of(arm, &task.nominal_q),
-        posture_of(arm, &outcome.q),
-    );
-    job.language.encode(
-        target.layout,
-        &value,
-        &before,
-        &after,
-        job.settings,
-        &mut new,
-    );
-    let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
-    if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
-        rewritten
-            .findings
-            .push(configuration_finding(job, task, roles, &old, &new));
-    }
-    for (index, number) in numbers.iter().enumerate() {
-        if new[index] == old[index] {
-            continue;
+    fn add_converged(
+        &mut self,
+        job: &Job,
+        task: &Task,
+        outcome: &Outcome,
+        fractions: &[Fraction],
+        report: &mut TargetReport,
+    ) {
+        let controller_pose = job
+            .equipped(task.tool)
+            .controller
+            .forward(&outcome.q, &Conditions::default());
+        let fake = job.world_from_frame(task.frame).inverse() * controller_pose;
+        let shift = task.wanted.separation(&controller_pose);
+        (report.fake, report.shift) = (Some(fake), shift);
+        self.findings.extend(singularity(job, task, outcome));
+        if shift.distance_m < NO_SHIFT.distance_m && shift.angle_rad < NO_SHIFT.angle_rad {
+            return;
         }
-        let (old_text, start) = (text(job, target, number), rewritten.text.len());
-        if roles[index] == Role::Configuration {
-            job.language.write_configuration(
-                target.layout,
-                index,
-                new[index],
-                old_text,
-                &mut rewritten.text,
-            );
-        } else {
-            styles[roles[index] as usize].write(old_text, new[index], &mut rewritten.text);
-            let digits = rewritten.text[start..].trim_ascii_start();
-            new[index] = number::parse(digits).expect("a written number is a number");
-        }
-        if new[index] == old[index] {
-            rewritten.text.truncate(start);
-        } else {
-            // a target has a dozen numbers of a few bytes
-            #[allow(clippy::cast_possible_truncation)]
-            rewritten
-                .changes
-                .push((index as u8, rewritten.text.len() as u16));
+        let (written, changed) = self.write(job, task, outcome, &fake, fractions);
+        report.changed = changed;
+        report.rounding = landing(job, task, outcome, &written);
+        let beside = report.rounding.distance_m;
+        if beside > ROUNDING_LIMIT_M && beside > 0.1 * shift.distance_m {
+            self.findings
+                .push(rounding_finding(job, task, report.rounding, shift));
         }
     }
-    new
+
+    /// Puts the new numbers' text into the edits; returns the numbers as they are written and whether any changed.
+    fn write(
+        &mut self,
+        job: &Job,
+        task: &Task,
+        outcome: &Outcome,
+        fake: &Pose,
+        fractions: &[Fraction],
+    ) -> (Vec<f64>, bool) {
+        let target = &job.program.targets[task.target];
+        let numbers = job.program.numbers_of(target);
+        let roles = job.language.roles(target.layout);
+        let arm = &job.equipped(task.tool).arm;
+        let value = match target.layout.shape {
+            Shape::Pose => Value::Pose(*fake),
+            Shape::Joints => Value::Joints(outcome.q),
+        };
+        let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
+        let mut new = old.clone();
+        let (before, after) = (
+            posture_of(arm, &task.nominal_q),
+            posture_of(arm, &outcome.q),
+        );
+        job.language.encode(
+            target.layout,
+            &value,
+            &before,
+            &after,
+            job.settings,
+            &mut new,
+        );
+        let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
+        if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
+            self.findings
+                .push(configuration_finding(job, task, roles, &old, &new));
+        }
+        let edits = self.edits.entry(target.file).or_default();
+        let mut digits = Vec::with_capacity(32);
+        let mut changed = false;
+        for (index, number) in numbers.iter().enumerate() {
+            if new[index] == old[index] {
+                continue;
+            }
+            let old_text = text(job, target, number);
+            digits.clear();
+            if roles[index] == Role::Configuration {
+                job.language.write_configuration(
+                    target.layout,
+                    index,
+                    new[index],
+                    old_text,
+                    &mut digits,
+                );
+            } else {
+                styles[roles[index] as usize].write(old_text, new[index], &mut digits);
+                new[index] =
+                    number::parse(digits.trim_ascii_start()).expect("a written number is a number");
+            }
+            if new[index] != old[index] {
+                changed = true;
+                let start = number.start as usize;
+                edits.replace(start..start + usize::from(number.length), |out| {
+                    out.extend_from_slice(&digits)
+                });
+            }
+        }
+        (new, changed)
+    }
 }
 
 /// The style of each role's numbers in one target.
@@ -199,7 +202,7 @@ fn landing(job: &Job, task: &Task, outcome: &Outcome, written: &[f64]) -> Separa
         Value::Pose(frame_from_tool) => controller_joints(
             job,
             task,
-            &(task.world_from_frame * frame_from_tool),
+            &(*job.world_from_frame(task.frame) * frame_from_tool),
             outcome,
         ),
     };

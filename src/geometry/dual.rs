@@ -131,6 +131,10 @@ impl<const N: usize> Scalar for Dual<N> {
         }
     }
     #[inline(always)]
+    fn every_below(self, limit: f64) -> bool {
+        self.value < limit
+    }
+    #[inline(always)]
     fn round(self) -> Self {
         Self::constant(self.value.round())
     }
@@ -144,10 +148,8 @@ mod tests {
     fn by_peer(x: f64, y: f64) -> (f64, [f64; 2]) {
         let (value, slope) = num_dual::gradient(
             |v| {
-                let (x, y) = (v[0].clone(), v[1].clone());
-                (x.clone() * y.clone()).sin() / (x.clone() * x.clone() + y.clone()).sqrt()
-                    + (-x).exp()
-                    - y.cos()
+                let (x, y) = (v[0], v[1]);
+                (x * y).sin() / (x * x + y).sqrt() + (-x).exp() - y.cos()
             },
             &nalgebra::vector![x, y],
         );

@@ -1,5 +1,10 @@
 //! Several numbers side by side.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
+
 use super::{Scalar, scalar::elementary};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -112,6 +117,13 @@ impl<const N: usize> Scalar for Lanes<N> {
             };
         }
         Self(out)
+    }
+    #[inline(always)]
+    fn every_below(self, limit: f64) -> bool {
+        // all lanes without a branch
+        #[allow(clippy::needless_bitwise_bool)]
+        let below = self.0.iter().fold(true, |all, x| all & (*x < limit));
+        below
     }
     #[inline(always)]
     fn round(self) -> Self {

@@ -8,6 +8,7 @@ mod lanes;
 mod pose;
 mod rotation;
 mod scalar;
+mod turn;
 pub mod units;
 
 pub use dual::Dual;
@@ -15,6 +16,7 @@ pub use lanes::Lanes;
 pub use pose::{Pose, Separation};
 pub use rotation::{Quaternion, Rotation};
 pub use scalar::Scalar;
+pub use turn::Turn;
 
 /// A vector or point of three coordinates.
 pub type Vector<S = f64> = [S; 3];
@@ -62,5 +64,5 @@ pub fn norm<S: Scalar>(a: Vector<S>) -> S {
 /// A vector of plain numbers as a vector of `S`.
 #[inline(always)]
 pub fn constant<S: Scalar>(a: Vector<f64>) -> Vector<S> {
-    a.map(S::constant)
+    [S::constant(a[0]), S::constant(a[1]), S::constant(a[2])]
 }

@@ -1,6 +1,6 @@
 //! Rigid motions.
 
-use super::{Quaternion, Rotation, Scalar, Vector, add, norm, scale, sub};
+use super::{Quaternion, Rotation, Scalar, Turn, Vector, add, constant, norm, scale, sub};
 use std::ops::Mul;
 
 /// A rigid motion `a_from_b`: rotation and translation (metres) that map coordinates in b to coordinates in a.
@@ -74,6 +74,21 @@ impl<S: Scalar> Pose<S> {
         }
     }
 
+    /// This motion after a turn about the z axis of b: only two columns change.
+    #[inline(always)]
+    #[must_use]
+    pub fn turned(&self, turn: Turn<S>) -> Self {
+        let Turn { sine, cosine } = turn;
+        let mut rotation = self.rotation;
+        for [x, y, _] in &mut rotation.0 {
+            (*x, *y) = (cosine * *x + sine * *y, cosine * *y - sine * *x);
+        }
+        Self {
+            rotation,
+            translation: self.translation,
+        }
+    }
+
     /// Maps a point of b to coordinates in a.
     #[inline(always)]
     #[must_use]
@@ -98,7 +113,7 @@ impl Pose {
     pub fn cast<S: Scalar>(&self) -> Pose<S> {
         Pose {
             rotation: self.rotation.cast(),
-            translation: self.translation.map(S::constant),
+            translation: constant(self.translation),
         }
     }
 

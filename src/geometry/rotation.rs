@@ -1,6 +1,6 @@
 //! Rotations, named by their shape: each maker's angle names are translated in its own language folder.
 
-use super::{Scalar, Vector, dot, norm};
+use super::{Scalar, Vector, constant, dot, norm};
 use std::ops::Mul;
 
 /// A rotation matrix, rows first.
@@ -100,7 +100,8 @@ impl Rotation {
     #[inline(always)]
     #[must_use]
     pub fn cast<S: Scalar>(&self) -> Rotation<S> {
-        Rotation(self.0.map(|row| row.map(S::constant)))
+        let [a, b, c] = self.0;
+        Rotation([constant(a), constant(b), constant(c)])
     }
 
     /// `Rz(a) · Ry(b) · Rx(c)`, radians: `[a, b, c]` (A B C of KRL, R P W of FANUC, Rz Ry Rx of INFORM).

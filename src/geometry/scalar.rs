@@ -6,7 +6,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// A real number: a plain `f64`, a dual number that carries derivatives, or several `f64` side by side.
 ///
 /// An equation written once over `Scalar` gives its value, its exact derivatives and its vectorised batch form.
-/// There is no comparison that returns `bool`: lanes may disagree. Use [`Scalar::choose_less`].
+/// No comparison says which of two ways to go, since lanes may disagree: use [`Scalar::choose_less`]. Only a way that is
+/// right for all may be cut short, by [`Scalar::every_below`].
 pub trait Scalar:
     Copy
     + Debug
@@ -37,6 +38,8 @@ pub trait Scalar:
     /// `then` where `self < limit`, `otherwise` elsewhere.
     #[must_use]
     fn choose_less(self, limit: Self, then: Self, otherwise: Self) -> Self;
+    /// Whether the value is below `limit` in every lane.
+    fn every_below(self, limit: f64) -> bool;
 
     /// The nearest whole number, |self| < 2^51; its derivative is zero.
     #[must_use]
@@ -100,6 +103,10 @@ impl Scalar for f64 {
     #[inline(always)]
     fn choose_less(self, limit: Self, then: Self, otherwise: Self) -> Self {
         if self < limit { then } else { otherwise }
+    }
+    #[inline(always)]
+    fn every_below(self, limit: f64) -> bool {
+        self < limit
     }
     #[inline(always)]
     fn round(self) -> Self {

@@ -1,8 +1,9 @@
 //! Many targets at once, four side by side in vector registers.
 
 use super::branch::Branch;
+use super::closed_form::Stance;
 use super::pose_shift::{Inverse, Outcome, step, within};
-use crate::geometry::{Pose, Rotation, Separation};
+use crate::geometry::{Pose, Separation};
 use crate::model::Model;
 use crate::model::batch::{Four, WIDTH, side_by_side};
 use pulp::Arch;
@@ -70,8 +71,8 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
             // past the end the last target is repeated and its outcome dropped
             let lanes: [usize; WIDTH] = std::array::from_fn(|lane| (start + lane).min(count - 1));
             let wanted = gather(lanes.map(|i| &targets.wanted[i]));
-            let near = side_by_side(lanes.map(|i| targets.near[i]));
-            let signs = side_by_side(lanes.map(|i| targets.branches[i].signs()));
+            let near = side_by_side(lanes.map(|i| &targets.near[i]));
+            let signs = side_by_side(lanes.map(|i| targets.branches[i].signs()).each_ref());
             let mut given = wanted;
             let mut iterations = 0;
             let last = loop {
@@ -91,6 +92,9 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
                 }
                 given = now.next;
             };
+            let angles = inverse.arm.angles(&last.turns, &near);
+            let q = inverse.arm.mechanism().controller(&angles);
+            let stance = inverse.arm.stance(&last.turns);
             for (lane, &target) in lanes.iter().enumerate().take(count - start) {
                 let residual = Separation {
                     distance_m: last.distance.0[lane],
@@ -100,7 +104,12 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
                     && last.beyond.0[lane] == 0.0
                 {
                     inverse.finish(
-                        last.q.map(|q| q.0[lane]),
+                        q.map(|q| q.0[lane]),
+                        &Stance {
+                            wrist_rad: stance.wrist_rad.0[lane],
+                            elbow_rad: stance.elbow_rad.0[lane],
+                            shoulder_m: stance.shoulder_m.0[lane],
+                        },
                         residual,
                         iterations,
                         targets.branches[target],
@@ -120,10 +129,10 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
 
 #[inline(always)]
 fn gather(poses: [&Pose; WIDTH]) -> Pose<Four> {
-    Pose {
-        rotation: Rotation(std::array::from_fn(|i| {
-            side_by_side(poses.map(|p| p.rotation.0[i]))
-        })),
-        translation: side_by_side(poses.map(|p| p.translation)),
+    let mut four = Pose::identity();
+    for i in 0..3 {
+        four.rotation.0[i] = side_by_side(poses.map(|p| &p.rotation.0[i]));
     }
+    four.translation = side_by_side(poses.map(|p| &p.translation));
+    four
 }

@@ -3,8 +3,13 @@
 //! Both kinds of arm share the shoulder (axis 1 turns the arm's plane) and the planar pair of links; they differ in the
 //! wrist. Every step is written over [`Scalar`] without branches, so that several targets are solved side by side.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
+
 use super::branch::Branch;
-use crate::geometry::{Pose, Rotation, Scalar, Vector, add};
+use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add};
 use crate::model::{Geometry, Link, Mechanism};
 
 /// How far an angle or length of the chain may be from what the closed form needs, radians or metres.
@@ -80,7 +85,7 @@ pub struct Arm {
     wrist: Wrist,
     mechanism: Mechanism,
     /// θ of each row plus the controller's offset.
-    home: [f64; 6],
+    home: [Turn; 6],
     sign: [f64; 6],
     /// From the world to the frame that axis 1 turns, and from the tool to the last row's frame without its d.
     turning_from_world: Pose,
@@ -98,7 +103,7 @@ pub struct Arm {
     a3_m: f64,
     /// The forearm in frame 3: its length and its direction.
     forearm_m: f64,
-    forearm_rad: f64,
+    forearm: Turn,
     a5_m: f64,
     d5_m: f64,
     /// Sign that turns "in front of the lower arm" into the sine of the elbow.
@@ -114,6 +119,42 @@ pub struct Solution<S = f64> {
     pub q: [S; 6],
     /// Zero where the pose is in reach; else how far it is beyond (squared cosine or relative lengths, not metres).
     pub beyond: S,
+}
+
+/// A solution by its sines and cosines.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turned<S = f64> {
+    /// Turns of the mechanical joints in the controller's sense.
+    pub turns: [Turn<S>; 6],
+    /// As [`Solution::beyond`].
+    pub beyond: S,
+}
+
+/// [`Margins`] with the sign of the side of each singularity: negative behind axis 1, behind the lower arm, and where joint
+/// 5 is negative.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stance<S = f64> {
+    pub wrist_rad: S,
+    pub elbow_rad: S,
+    pub shoulder_m: S,
+}
+
+impl Stance {
+    pub fn branch(&self) -> Branch {
+        Branch {
+            behind_axis_1: self.shoulder_m < 0.0,
+            behind_lower_arm: self.elbow_rad < 0.0,
+            joint_5_negative: self.wrist_rad < 0.0,
+        }
+    }
+
+    pub fn margins(&self) -> Margins {
+        Margins {
+            wrist_rad: self.wrist_rad.abs(),
+            elbow_rad: self.elbow_rad.abs(),
+            shoulder_m: self.shoulder_m.abs(),
+        }
+    }
 }
 
 /// How near a posture is to the three singularities.
@@ -233,7 +274,7 @@ impl Arm {
         Ok(Self {
             wrist,
             mechanism: mechanism.clone(),
-            home,
+            home: home.map(Turn::of),
             sign,
             turning_from_world: (geometry.world_from_base * base_from_turning).inverse(),
             tool_from_link6: link6_from_tool.inverse() * back,
@@ -247,7 +288,7 @@ impl Arm {
             a2_m: l[1].a_m,
             a3_m: l[2].a_m,
             forearm_m,
-            forearm_rad: forearm[1].atan2(forearm[0]),
+            forearm: Turn::toward(forearm[1], forearm[0]),
             a5_m: l[4].a_m,
             d5_m: l[4].d_m,
             elbow_sign: -e2 * s3 * l[2].a_m.signum(),
@@ -288,23 +329,72 @@ impl Arm {
         signs: [S; 3],
         near: &[S; 6],
     ) -> Solution<S> {
+        let Turned { turns, beyond } = self.solve_turns(world_from_tool, signs, near);
+        Solution {
+            q: self.mechanism.controller(&self.angles(&turns, near)),
+            beyond,
+        }
+    }
+
+    /// [`Arm::solve`] as far as sines and cosines.
+    #[inline(always)]
+    pub(super) fn solve_turns<S: Scalar>(
+        &self,
+        world_from_tool: &Pose<S>,
+        signs: [S; 3],
+        near: &[S; 6],
+    ) -> Turned<S> {
         // the frame of the last row without its d, seen from the frame that axis 1 turns
         let target =
             self.turning_from_world.cast() * *world_from_tool * self.tool_from_link6.cast();
-        let near = self.mechanism.commanded(near);
-        let (angles, beyond) = match self.wrist {
-            Wrist::Spherical => self.solve_spherical(&target, signs, &near),
-            Wrist::Parallel => self.solve_parallel(&target, signs, &near),
+        let (mut turns, beyond) = match self.wrist {
+            Wrist::Spherical => self.solve_spherical(&target, signs, near),
+            Wrist::Parallel => self.solve_parallel(&target, signs, near),
         };
+        for i in 0..6 {
+            let home = self.home[i].cast();
+            turns[i] = (turns[i] * home.inverse()).signed(S::constant(self.sign[i]));
+        }
+        Turned { turns, beyond }
+    }
+
+    /// Mechanical joint angles of these turns, by whole turns nearest to the controller's angles `near`.
+    #[inline(always)]
+    pub(super) fn angles<S: Scalar>(&self, turns: &[Turn<S>; 6], near: &[S; 6]) -> [S; 6] {
         let turn = S::constant(std::f64::consts::TAU);
         let per_turn = S::constant(std::f64::consts::TAU.recip());
-        let u = std::array::from_fn(|i| {
-            let u = S::constant(self.sign[i]) * (angles[i] - S::constant(self.home[i]));
-            u + turn * ((near[i] - u) * per_turn).round()
-        });
-        Solution {
-            q: self.mechanism.controller(&u),
-            beyond,
+        let near = self.mechanism.commanded(near);
+        let mut angles = near;
+        for i in 0..6 {
+            let angle = turns[i].angle();
+            angles[i] = angle + turn * ((near[i] - angle) * per_turn).round();
+        }
+        angles
+    }
+
+    /// Turn of a row of the chain with this turn of its mechanical joint.
+    #[inline(always)]
+    fn row<S: Scalar>(&self, index: usize, turn: Turn<S>) -> Turn<S> {
+        turn.signed(S::constant(self.sign[index])) * self.home[index].cast()
+    }
+
+    /// `found` where the wrist is clear of alignment, else the turn of row `index` in the posture `near`.
+    #[inline(always)]
+    fn unless_aligned<S: Scalar>(
+        &self,
+        sine: S,
+        found: Turn<S>,
+        index: usize,
+        near: &[S; 6],
+    ) -> Turn<S> {
+        let clear = S::constant(WRIST_SINE) - sine.abs();
+        if clear.every_below(0.0) {
+            return found;
+        }
+        let given = self.row(index, Turn::of(self.mechanism.commanded(near)[index]));
+        Turn {
+            sine: clear.choose_less(S::zero(), found.sine, given.sine),
+            cosine: clear.choose_less(S::zero(), found.cosine, given.cosine),
         }
     }
 
@@ -319,22 +409,20 @@ impl Arm {
         self.solve(world_from_tool, branch.signs(), near)
     }
 
-    /// Sine and cosine of joint 1 and the distance of the wrist centre from axis 1 within the arm's plane.
+    /// Turn of row 1 and the distance of the wrist centre from axis 1 within the arm's plane.
     #[inline(always)]
-    fn shoulder<S: Scalar>(&self, p: Vector<S>, front: S) -> ([S; 2], S, S) {
+    fn shoulder<S: Scalar>(&self, p: Vector<S>, front: S) -> (Turn<S>, S, S) {
         let b = S::constant(self.lateral_m);
         let squared = p[0] * p[0] + p[1] * p[1];
         let beyond = (b * b - squared).max(S::zero());
         let r = front * (squared - b * b).max(S::zero()).sqrt();
-        let scale = S::one() / (r * r + b * b).max(squared).max(S::constant(1e-300));
-        let sine = (r * p[1] - b * p[0]) * scale;
-        let cosine = (r * p[0] + b * p[1]) * scale;
-        ([sine, cosine], r, beyond)
+        let first = Turn::toward(r * p[1] - b * p[0], r * p[0] + b * p[1]);
+        (first, r, beyond)
     }
 
-    /// Sines and cosines of joints 2 and 3 that bring the end of the forearm to (u, v) in the arm's plane.
+    /// Turns of rows 2 and 3 that bring the end of the forearm to (u, v) in the arm's plane.
     #[inline(always)]
-    fn planar<S: Scalar>(&self, u: S, v: S, before: S) -> ([S; 2], [S; 2], S) {
+    fn planar<S: Scalar>(&self, u: S, v: S, before: S) -> (Turn<S>, Turn<S>, S) {
         let (upper, fore) = (S::constant(self.a3_m), S::constant(self.forearm_m));
         let squared = u * u + v * v;
         let inverse = S::constant((2.0 * self.a3_m * self.forearm_m).recip());
@@ -346,18 +434,9 @@ impl Arm {
             before * S::constant(self.elbow_sign) * (one - cosine * cosine).max(S::zero()).sqrt();
         let along = upper + fore * cosine;
         let across = S::constant(self.s3) * fore * sine;
-        let length = ((along * along + across * across) * squared)
-            .max(S::constant(1e-300))
-            .sqrt();
-        let scale = one / length;
-        let second = [
-            (along * v - across * u) * scale,
-            (along * u + across * v) * scale,
-        ];
-        // joint 3 is the elbow's angle less the direction of the forearm in its frame
-        let (s, c) = self.forearm_rad.sin_cos();
-        let (s, c) = (S::constant(s), S::constant(c));
-        let third = [sine * c - cosine * s, cosine * c + sine * s];
+        let second = Turn::toward(along * v - across * u, along * u + across * v);
+        // row 3 turns by the elbow's angle less the direction of the forearm in its frame
+        let third = Turn { sine, cosine } * self.forearm.cast().inverse();
         (second, third, beyond)
     }
 
@@ -367,44 +446,47 @@ impl Arm {
         target: &Pose<S>,
         [front, before, positive]: [S; 3],
         near: &[S; 6],
-    ) -> ([S; 6], S) {
+    ) -> ([Turn<S>; 6], S) {
         let p = target.translation;
         let (first, r, beyond_1) = self.shoulder(p, front);
         let v = S::constant(self.e2) * p[2];
         let (second, third, beyond_2) = self.planar(r - S::constant(self.a2_m), v, before);
         // rotation of row 3 seen from the turning frame: Rz(1) · Rx(α2) · Rz(2 ± 3) · Rx(α3)
         let s3 = S::constant(self.s3);
-        let sum = [
-            second[0] * third[1] + s3 * second[1] * third[0],
-            second[1] * third[1] - s3 * second[0] * third[0],
-        ];
+        let sum = second * third.signed(s3);
         let third_from_turning = arm_rotation(first, sum, S::constant(self.e2), s3).transpose();
         let n = self.link4_from_wrist.cast() * (third_from_turning * target.rotation);
         let m = &n.0;
         let (e5, e6) = (S::constant(self.e5), S::constant(self.e6));
         let side = positive * S::constant(self.wrist_sign);
-        let sine = side * (m[0][2] * m[0][2] + m[1][2] * m[1][2]).sqrt();
-        let cosine = -(e5 * e6) * m[2][2];
-        let fifth = sine.atan2(cosine);
-        let fourth = (side * e6 * m[1][2]).atan2(side * e6 * m[0][2]);
-        let given = S::constant(self.sign[3]) * near[3] + S::constant(self.home[3]);
-        let limit = S::constant(WRIST_SINE);
-        let fourth = sine.abs().choose_less(limit, given, fourth);
-        // Rz(−4) · n = M · Rz(6); the row of M with cosine of joint 5, or the last row, whichever is not small
-        let (s4, c4) = fourth.sin_cos();
-        let row: [S; 2] = std::array::from_fn(|j| c4 * m[0][j] + s4 * m[1][j]);
-        let c6 = cosine * row[0] + e5 * sine * m[2][0];
-        let s6 = -(cosine * row[1] + e5 * sine * m[2][1]);
-        let sixth = s6.atan2(c6);
-        let angles = [
-            first[0].atan2(first[1]),
-            second[0].atan2(second[1]),
-            third[0].atan2(third[1]),
-            fourth,
-            fifth,
-            sixth,
-        ];
-        (angles, beyond_1 + beyond_2)
+        let length = (m[0][2] * m[0][2] + m[1][2] * m[1][2]).sqrt();
+        let fifth = Turn {
+            sine: side * length,
+            cosine: -(e5 * e6) * m[2][2],
+        };
+        let scale = side * e6 / length.max(S::constant(f64::MIN_POSITIVE));
+        let fourth = Turn {
+            sine: scale * m[1][2],
+            cosine: scale * m[0][2],
+        };
+        let fourth = self.unless_aligned(length, fourth, 3, near);
+        // Rz(−4) · n = M · Rz(6): the first row of M, which has the cosine of row 5, and the last, which has its sine
+        let Turn {
+            sine: s4,
+            cosine: c4,
+        } = fourth;
+        let Turn {
+            sine: s5,
+            cosine: c5,
+        } = fifth;
+        let sixth = Turn {
+            sine: -(c5 * (c4 * m[0][1] + s4 * m[1][1]) + e5 * s5 * m[2][1]),
+            cosine: c5 * (c4 * m[0][0] + s4 * m[1][0]) + e5 * s5 * m[2][0],
+        };
+        (
+            [first, second, third, fourth, fifth, sixth],
+            beyond_1 + beyond_2,
+        )
     }
 
     #[inline(always)]
@@ -413,7 +495,7 @@ impl Arm {
         target: &Pose<S>,
         [front, before, positive]: [S; 3],
         near: &[S; 6],
-    ) -> ([S; 6], S) {
+    ) -> ([Turn<S>; 6], S) {
         let p = target.translation;
         let (first, r, beyond_1) = self.shoulder(p, front);
         let (e2, e5, e6) = (
@@ -423,43 +505,41 @@ impl Arm {
         );
         let (s3, s34) = (S::constant(self.s3), S::constant(self.s3 * self.s4));
         // axis 4 in the last frame: (s5·e5·c6, −s5·e5·s6, −e5·e6·c5)
-        let axis_4 = [s34 * e2 * first[0], -(s34 * e2 * first[1]), S::zero()];
+        let axis_4 = [s34 * e2 * first.sine, -(s34 * e2 * first.cosine), S::zero()];
         let m = target.rotation.transpose() * axis_4;
         let side = positive * S::constant(self.wrist_sign);
-        let sine = side * (m[0] * m[0] + m[1] * m[1]).sqrt();
-        let cosine = -(e5 * e6) * m[2];
-        let fifth = sine.atan2(cosine);
-        let given = S::constant(self.sign[5]) * near[5] + S::constant(self.home[5]);
-        let sixth = (-(side * e5) * m[1]).atan2(side * e5 * m[0]);
-        let sixth = sine
-            .abs()
-            .choose_less(S::constant(WRIST_SINE), given, sixth);
-        let wrist = Rotation([
+        let length = (m[0] * m[0] + m[1] * m[1]).sqrt();
+        let fifth = Turn {
+            sine: side * length,
+            cosine: -(e5 * e6) * m[2],
+        };
+        let scale = side * e5 / length.max(S::constant(f64::MIN_POSITIVE));
+        let sixth = Turn {
+            sine: -(scale * m[1]),
+            cosine: scale * m[0],
+        };
+        let sixth = self.unless_aligned(length, sixth, 5, near);
+        let Turn { sine, cosine } = fifth;
+        let wrist = Pose::from_rotation(Rotation([
             [cosine, S::zero(), e6 * sine],
             [S::zero(), -(e5 * e6), S::zero()],
             [e5 * sine, S::zero(), -(e5 * e6) * cosine],
-        ]) * Rotation::about_z(sixth);
+        ]))
+        .turned(sixth)
+        .rotation;
         let fourth_in_turning = target.rotation * wrist.transpose();
         // into the plane: Rx(−α2) · Rz(−1)
-        let turned = arm_rotation(first, [S::zero(), S::one()], e2, S::one()).transpose()
-            * fourth_in_turning;
+        let turned =
+            arm_rotation(first, Turn::none(), e2, S::one()).transpose() * fourth_in_turning;
         let k = &turned.0;
-        let sum = k[1][0].atan2(k[0][0]);
+        let sum = Turn::toward(k[1][0], k[0][0]);
         let (a5, d5) = (S::constant(self.a5_m), S::constant(self.d5_m));
         let end = turned * [a5, -(d5 * e5), S::zero()];
         let [u, v] = [r - S::constant(self.a2_m) - end[0], e2 * p[2] - end[1]];
         let (second, third, beyond_2) = self.planar(u, v, before);
-        let (second, third) = (second[0].atan2(second[1]), third[0].atan2(third[1]));
-        let fourth = s34 * (sum - second - s3 * third);
+        let fourth = (sum * (second * third.signed(s3)).inverse()).signed(s34);
         (
-            [
-                first[0].atan2(first[1]),
-                second,
-                third,
-                fourth,
-                fifth,
-                sixth,
-            ],
+            [first, second, third, fourth, fifth, sixth],
             beyond_1 + beyond_2,
         )
     }
@@ -479,38 +559,38 @@ impl Arm {
     /// The branch of a posture and its distances from the singularities.
     #[must_use]
     pub fn posture(&self, q: &[f64; 6]) -> (Branch, Margins) {
-        let u = self.mechanism.commanded(q);
-        let angle: [f64; 6] = std::array::from_fn(|i| self.sign[i] * u[i] + self.home[i]);
-        let elbow = angle[2] + self.forearm_rad;
-        let (sine, cosine) = elbow.sin_cos();
-        let along = self.a3_m + self.forearm_m * cosine;
-        let across = self.s3 * self.forearm_m * sine;
-        let (s2, c2) = angle[1].sin_cos();
-        let mut reach = self.a2_m + c2 * along - s2 * across;
+        let stance = self.stance(&Turn::of_each(&self.mechanism.commanded(q)));
+        (stance.branch(), stance.margins())
+    }
+
+    /// On which side of each singularity the mechanical joints stand, and how far from it.
+    #[inline(always)]
+    pub(super) fn stance<S: Scalar>(&self, turns: &[Turn<S>; 6]) -> Stance<S> {
+        let [second, third] = [1, 2].map(|i| self.row(i, turns[i]));
+        let k = S::constant;
+        let elbow = third * self.forearm.cast();
+        let along = k(self.a3_m) + k(self.forearm_m) * elbow.cosine;
+        let across = k(self.s3 * self.forearm_m) * elbow.sine;
+        let mut reach = k(self.a2_m) + second.cosine * along - second.sine * across;
         if self.wrist == Wrist::Parallel {
-            let sum = angle[1] + self.s3 * angle[2] + self.s3 * self.s4 * angle[3];
-            let (s, c) = sum.sin_cos();
-            let across = -self.d5_m * self.e5 * self.s3 * self.s4;
-            reach += c * self.a5_m - s * across;
+            let fourth = self.row(3, turns[3]);
+            let sum = second * third.signed(k(self.s3)) * fourth.signed(k(self.s3 * self.s4));
+            let across = k(-self.d5_m * self.e5 * self.s3 * self.s4);
+            reach += sum.cosine * k(self.a5_m) - sum.sine * across;
         }
-        let wrist = angle[4].sin() * self.wrist_sign;
-        let branch = Branch {
-            behind_axis_1: reach < 0.0,
-            behind_lower_arm: sine * self.elbow_sign < 0.0,
-            joint_5_negative: wrist < 0.0,
-        };
-        let margins = Margins {
-            wrist_rad: wrist.abs().asin(),
-            elbow_rad: sine.abs().asin(),
-            shoulder_m: reach.abs(),
-        };
-        (branch, margins)
+        let fifth = self.row(4, turns[4]);
+        Stance {
+            wrist_rad: (k(self.wrist_sign) * fifth.sine).atan2(fifth.cosine.abs()),
+            elbow_rad: (k(self.elbow_sign) * elbow.sine).atan2(elbow.cosine.abs()),
+            shoulder_m: reach,
+        }
     }
 }
 
-/// `Rz(first) · Rx(±90°) · Rz(sum) · Rx(0 or 180°)` from sines and cosines.
+/// `Rz(first) · Rx(±90°) · Rz(sum) · Rx(0 or 180°)`.
 #[inline(always)]
-fn arm_rotation<S: Scalar>([s1, c1]: [S; 2], [s, c]: [S; 2], e2: S, flip: S) -> Rotation<S> {
+fn arm_rotation<S: Scalar>(first: Turn<S>, sum: Turn<S>, e2: S, flip: S) -> Rotation<S> {
+    let (s1, c1, s, c) = (first.sine, first.cosine, sum.sine, sum.cosine);
     // Rx(±90°) takes (x, y, z) to (x, −e2 z, e2 y)
     Rotation([
         [c1 * c, -(flip * c1 * s), flip * e2 * s1],

@@ -13,9 +13,9 @@
 //! serial robots", Trans. CSME 38 (2014), after N. Chen, G. A. Parker (1994).
 
 use super::branch::Branch;
-use super::closed_form::{Arm, Margins};
+use super::closed_form::{Arm, Margins, Stance, Turned};
 use super::newton;
-use crate::geometry::{Pose, Scalar, Separation, norm, sub};
+use crate::geometry::{Pose, Scalar, Separation, Turn, norm, sub};
 use crate::model::{Conditions, Model};
 
 /// How near the real tool must come: 1e-6 mm.
@@ -85,7 +85,8 @@ pub struct Inverse {
 /// One evaluation of the pose shift.
 #[derive(Clone, Copy)]
 pub(super) struct Step<S> {
-    pub q: [S; 6],
+    /// Turns of the mechanical joints.
+    pub turns: [Turn<S>; 6],
     /// The pose to give to the nominal inverse next.
     pub next: Pose<S>,
     pub distance: S,
@@ -105,8 +106,13 @@ pub(super) fn step<S: Scalar>(
     signs: [S; 3],
     near: &[S; 6],
 ) -> Step<S> {
-    let solution = arm.solve(given, signs, near);
-    let reached = real.forward(&solution.q, conditions);
+    let Turned { turns, beyond } = arm.solve_turns(given, signs, near);
+    let angles = if real.reads_angles() {
+        arm.angles(&turns, near)
+    } else {
+        [S::zero(); 6]
+    };
+    let reached = real.forward_turned(&angles, &turns, conditions);
     let missing = *wanted * reached.inverse();
     let sine = norm(missing.rotation.sine_axis());
     let angle = missing
@@ -114,11 +120,11 @@ pub(super) fn step<S: Scalar>(
         .cosine()
         .choose_less(S::zero(), S::constant(2.0), sine);
     Step {
-        q: solution.q,
+        turns,
         next: missing * *given,
         distance: norm(sub(wanted.translation, reached.translation)),
         angle,
-        beyond: solution.beyond,
+        beyond,
     }
 }
 
@@ -129,6 +135,7 @@ pub(super) fn within(distance_m: f64, angle_rad: f64) -> bool {
 impl Inverse {
     /// The joint angles with which the real arm brings its tool to `wanted`, on one branch, by whole turns nearest to `near`.
     #[must_use]
+    #[allow(clippy::missing_panics_doc)]
     pub fn solve(&self, wanted: &Pose, branch: Branch, near: &[f64; 6]) -> Outcome {
         let signs = branch.signs();
         let mut given = *wanted;
@@ -144,8 +151,10 @@ impl Inverse {
                 near,
             );
             if within(now.distance, now.angle) && now.beyond == 0.0 {
+                let angles = self.arm.angles(&now.turns, near);
                 return self.finish(
-                    now.q,
+                    self.arm.mechanism().controller(&angles),
+                    &self.arm.stance(&now.turns),
                     Separation {
                         distance_m: now.distance,
                         angle_rad: now.angle,
@@ -162,13 +171,13 @@ impl Inverse {
                 let start = best
                     .filter(|_| now.distance + now.angle > last)
                     .unwrap_or(now);
-                return self.solve_by_newton(wanted, branch, near, &start.q, iteration);
+                return self.solve_by_newton(wanted, branch, near, &start.turns, iteration);
             }
             given = now.next;
             best = Some(now);
         }
         let start = best.expect("there is at least one iteration");
-        self.solve_by_newton(wanted, branch, near, &start.q, MOST_ITERATIONS)
+        self.solve_by_newton(wanted, branch, near, &start.turns, MOST_ITERATIONS)
     }
 
     /// Goes on from a posture that the pose shift could not improve.
@@ -177,28 +186,32 @@ impl Inverse {
         wanted: &Pose,
         branch: Branch,
         near: &[f64; 6],
-        start: &[f64; 6],
+        start: &[Turn; 6],
         spent: u32,
     ) -> Outcome {
         let nominal = self.arm.solve_branch(wanted, branch, near);
-        let found = newton::solve(self, wanted, branch, near, start);
+        let start = self.arm.angles(start, near);
+        let start = self.arm.mechanism().controller(&start);
+        let found = newton::solve(self, wanted, branch, near, &start);
         let iterations = spent + found.iterations;
         let q = self.arm.mechanism().nearest_turns(&found.q, near);
+        let stance = self
+            .arm
+            .stance(&Turn::of_each(&self.arm.mechanism().commanded(&q)));
         if within(found.residual.distance_m, found.residual.angle_rad) {
-            return self.finish(q, found.residual, iterations, branch);
+            return self.finish(q, &stance, found.residual, iterations, branch);
         }
         let status = if nominal.beyond > 0.0 {
             Status::OutOfReach
         } else {
             Status::NotConverged
         };
-        let (_, margins) = self.arm.posture(&q);
         Outcome {
             q,
             status,
             residual: found.residual,
             iterations,
-            margins,
+            margins: stance.margins(),
         }
     }
 
@@ -206,11 +219,12 @@ impl Inverse {
     pub(super) fn finish(
         &self,
         q: [f64; 6],
+        stance: &Stance,
         residual: Separation,
         iterations: u32,
         wanted: Branch,
     ) -> Outcome {
-        let (branch, margins) = self.arm.posture(&q);
+        let (branch, margins) = (stance.branch(), stance.margins());
         let left = |is: bool, was: bool, margin: f64| is != was && margin > ON_THE_BORDER;
         let lost = left(
             branch.behind_axis_1,

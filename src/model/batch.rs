@@ -1,7 +1,7 @@
 //! Many postures at once, four side by side in vector registers.
 
 use super::{Conditions, Model};
-use crate::geometry::{Lanes, Pose, Rotation};
+use crate::geometry::{Lanes, Pose, Scalar};
 use pulp::Arch;
 
 /// Postures or targets side by side.
@@ -38,25 +38,36 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
         let count = self.q.len();
         for start in (0..count).step_by(WIDTH) {
             // past the end the last posture is repeated and its pose dropped
-            let rows: [[f64; 6]; WIDTH] =
-                std::array::from_fn(|lane| self.q[(start + lane).min(count - 1)]);
-            let pose = self.model.forward(&side_by_side(rows), self.conditions);
-            self.poses
-                .extend((0..WIDTH.min(count - start)).map(|lane| lane_of(&pose, lane)));
+            let lanes: [usize; WIDTH] = std::array::from_fn(|lane| (start + lane).min(count - 1));
+            let q = side_by_side(lanes.map(|i| &self.q[i]));
+            let pose = self.model.forward(&q, self.conditions);
+            for lane in 0..WIDTH.min(count - start) {
+                self.poses.push(lane_of(&pose, lane));
+            }
         }
     }
 }
 
 /// Rows of numbers as numbers of rows.
 #[inline(always)]
-pub(crate) fn side_by_side<const N: usize>(rows: [[f64; N]; WIDTH]) -> [Four; N] {
-    std::array::from_fn(|i| Lanes(rows.map(|row| row[i])))
+pub(crate) fn side_by_side<const N: usize>(rows: [&[f64; N]; WIDTH]) -> [Four; N] {
+    let mut columns = [Four::zero(); N];
+    for (lane, row) in rows.iter().enumerate() {
+        for i in 0..N {
+            columns[i].0[lane] = row[i];
+        }
+    }
+    columns
 }
 
 #[inline(always)]
 fn lane_of(pose: &Pose<Four>, lane: usize) -> Pose {
-    Pose {
-        rotation: Rotation(pose.rotation.0.map(|row| row.map(|x| x.0[lane]))),
-        translation: pose.translation.map(|x| x.0[lane]),
+    let mut one = Pose::identity();
+    for i in 0..3 {
+        for j in 0..3 {
+            one.rotation.0[i][j] = pose.rotation.0[i][j].0[lane];
+        }
+        one.translation[i] = pose.translation[i].0[lane];
     }
+    one
 }

@@ -1,20 +1,29 @@
 //! The chain of six links, with everything that does not move folded into constants.
 
-use super::effects::Deflection;
-use super::geometry::{Body, Geometry, Link};
-use crate::geometry::{Pose, Rotation, Scalar, Vector, add, cross, scale, sub};
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
 
-/// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(c1) · F1 · Rz(c2) · … · Rz(c6) · F6`.
+use super::effects::Deflection;
+use super::geometry::{Body, Geometry, Link, Mechanism};
+use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, scale, sub};
+
+/// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(u1) · F1 · Rz(u2) · … · Rz(u6) · F6`, with
+/// the mechanical joint angles u in the controller's sense.
 ///
-/// `F0` is `world_from_base · X1`, `Fi` is `Trans(0, 0, di) · X(i+1)` and `F6` is `Trans(0, 0, d6) · link6_from_flange ·
-/// flange_from_tool`, where `Xi = Rot(x, αi) · Trans(ai, 0, 0) · Rot(y, βi)`.
+/// Row i of the chain is `Xi · Rz(homei ± ui) · Trans(0, 0, di)` with `Xi = Rot(x, αi) · Trans(ai, 0, 0) · Rot(y, βi)`, and a
+/// joint that turns in the negative sense is turned over: `Rz(−u) = D · Rz(u) · D` with `D = Rot(x, 180°)`. So `F0` is
+/// `world_from_base · X1 · Rz(home1) · D1`, `Fi` is `Di · Trans(0, 0, di) · X(i+1) · Rz(home(i+1)) · D(i+1)`, and `F6` is
+/// `D6 · Trans(0, 0, d6) · link6_from_flange · flange_from_tool`.
 ///
 /// # Source
 /// Thesis, Annex I, regrouped.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<S = f64> {
     fixed: [Pose<S>; 7],
-    d_m: [S; 6],
+    /// `Di · Trans(0, 0, di)`: the frame after each row, seen from the frame that its joint turns.
+    turning_from_link: [Pose<S>; 6],
 }
 
 /// The links at one posture, without deflections.
@@ -26,45 +35,62 @@ pub struct Frames<S> {
     pub moments: [Vector<S>; 6],
 }
 
-impl<S: Scalar> Frames<S> {
-    /// Moment about each joint's axis in the sense of the chain, N·m.
-    #[inline(always)]
-    #[must_use]
-    pub fn torque(&self, joint: usize) -> S {
-        crate::geometry::dot(self.moments[joint], self.links[joint].rotation.axis(2))
+/// What a field of acceleration acts on: the mass on each link and all links farther out.
+#[derive(Clone, Copy, Debug)]
+struct Hanging<S = f64> {
+    mass_kg: [S; 6],
+    /// First moment of that mass about the origin of the turning frame, in that frame, as far as no joint farther out moves
+    /// it, kg·m.
+    fixed_moment: [Vector<S>; 6],
+}
+
+/// What hangs on the chain: masses that gravity pulls, and the point where an external force acts.
+#[derive(Clone, Copy, Debug)]
+pub struct Loads<S = f64> {
+    masses: Hanging<S>,
+    gravity_m_s2: Vector<S>,
+    /// One kilogram at the controller's tool: a field of so many m/s² pulls it with so many newton.
+    unit_mass: Hanging<S>,
+}
+
+impl<S: Scalar> Hanging<S> {
+    fn of(chain: &Chain<S>, bodies: &[Body<S>]) -> Self {
+        let mut mass_kg = [S::zero(); 6];
+        let mut fixed_moment = [[S::zero(); 3]; 6];
+        for i in (0..6).rev() {
+            if i < 5 {
+                mass_kg[i] = mass_kg[i + 1];
+                fixed_moment[i] = scale(mass_kg[i], chain.fixed[i + 1].translation);
+            }
+            for body in bodies.iter().filter(|body| body.link == i) {
+                let cog = chain.turning_from_link[i].transform(body.cog_m);
+                mass_kg[i] += body.mass_kg;
+                fixed_moment[i] = add(fixed_moment[i], scale(body.mass_kg, cog));
+            }
+        }
+        Self {
+            mass_kg,
+            fixed_moment,
+        }
     }
 }
 
-/// What hangs on the chain, as gravity sees it.
-#[derive(Clone, Debug)]
-pub struct Loads<S = f64> {
-    /// Bodies from the last link to the first, the tool's mass among the last link's; centres of gravity in link frames.
-    bodies: Vec<Body<S>>,
-    /// Where an external force acts, in the last link's frame, metres.
-    force_point: Vector<S>,
-    gravity_m_s2: Vector<S>,
-}
-
 impl<S: Scalar> Loads<S> {
-    /// The masses of a geometry.
-    pub fn of(geometry: &Geometry<S>) -> Self {
-        let flange = geometry.link6_from_flange;
-        let mut bodies = geometry.bodies.clone();
-        bodies.extend(geometry.load.map(|(mass_kg, cog)| Body {
+    /// The masses of a geometry, on its chain.
+    pub fn of(geometry: &Geometry<S>, chain: &Chain<S>) -> Self {
+        let on_flange = |mass_kg, point| Body {
             link: 5,
             mass_kg,
-            cog_m: flange.transform(cog),
-        }));
-        bodies.sort_by_key(|body| std::cmp::Reverse(body.link));
+            cog_m: geometry.link6_from_flange.transform(point),
+        };
+        let mut bodies = geometry.bodies.clone();
+        bodies.extend(geometry.load.map(|(mass_kg, cog)| on_flange(mass_kg, cog)));
+        let tool = geometry.flange_from_nominal_tool.translation;
+        let unit_mass = on_flange(S::one(), tool.map(S::constant));
         Self {
-            bodies,
-            force_point: flange.transform(
-                geometry
-                    .flange_from_nominal_tool
-                    .translation
-                    .map(S::constant),
-            ),
+            masses: Hanging::of(chain, &bodies),
             gravity_m_s2: geometry.gravity_m_s2.map(S::constant),
+            unit_mass: Hanging::of(chain, &[unit_mass]),
         }
     }
 }
@@ -78,113 +104,148 @@ fn crossing<S: Scalar>(link: &Link<S>) -> Pose<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// Folds a geometry into a chain; the angles of [`Chain::forward`] then include the rows' θ.
+    /// Folds a geometry and the controller's way to count its joints into a chain.
     #[must_use]
-    pub fn of(geometry: &Geometry<S>) -> Self {
-        let along_z = |d: S| Pose::from_translation(S::zero(), S::zero(), d);
+    pub fn of(geometry: &Geometry<S>, mechanism: &Mechanism) -> Self {
         let links = &geometry.links;
+        let turned_over = |i: usize| {
+            let (zero, sign) = (S::zero(), S::constant(mechanism.joints[i].sign));
+            Rotation([
+                [S::one(), zero, zero],
+                [zero, sign, zero],
+                [zero, zero, sign],
+            ])
+        };
+        let turning_from_link: [Pose<S>; 6] = std::array::from_fn(|i| {
+            Pose::from_rotation(turned_over(i))
+                * Pose::from_translation(S::zero(), S::zero(), links[i].d_m)
+        });
+        let link_from_turning = |i: usize| {
+            let home = links[i].theta_rad + S::constant(mechanism.joints[i].offset_rad);
+            crossing(&links[i]) * Pose::from_rotation(Rotation::about_z(home) * turned_over(i))
+        };
         let fixed = std::array::from_fn(|i| match i {
-            0 => geometry.world_from_base * crossing(&links[0]),
-            6 => along_z(links[5].d_m) * geometry.link6_from_flange * geometry.flange_from_tool,
-            _ => along_z(links[i - 1].d_m) * crossing(&links[i]),
+            0 => geometry.world_from_base * link_from_turning(0),
+            6 => turning_from_link[5] * geometry.link6_from_flange * geometry.flange_from_tool,
+            _ => turning_from_link[i - 1] * link_from_turning(i),
         });
         Self {
             fixed,
-            d_m: links.map(|l| l.d_m),
+            turning_from_link,
         }
     }
 
-    /// `world_from_tool` at these chain angles, radians.
+    /// `world_from_tool` with these turns of the mechanical joints.
     #[inline(always)]
     #[must_use]
-    pub fn forward(&self, angles: &[S; 6]) -> Pose<S> {
+    pub fn forward(&self, turns: &[Turn<S>; 6]) -> Pose<S> {
         let mut pose = self.fixed[0];
         for i in 0..6 {
-            pose = turned(pose, angles[i]) * self.fixed[i + 1];
+            pose = pose.turned(turns[i]) * self.fixed[i + 1];
         }
         pose
     }
 
-    /// `world_from_tool` with rotations of the links, the base and the tool on top of the joint angles.
+    /// `world_from_tool` with rotations of the links, the base and the tool on top of the turns of the joints.
     #[inline(always)]
     #[must_use]
-    pub fn forward_deflected(&self, angles: &[S; 6], deflection: &Deflection<S>) -> Pose<S> {
+    pub fn forward_deflected(&self, turns: &[Turn<S>; 6], deflection: &Deflection<S>) -> Pose<S> {
         let mut pose = Pose::from_xyz_rxryrz(deflection.world) * self.fixed[0];
         for i in 0..6 {
             let [x, y, z] = deflection.links[i];
             let bend = Rotation::about_x(x) * Rotation::about_y(y) * Rotation::about_z(z);
-            pose = turned(pose, angles[i]);
-            // the bend turns about the link's origin, which lies d along z
-            let along = [S::zero(), S::zero(), self.d_m[i]];
-            let about = Pose {
-                rotation: bend,
-                translation: sub(along, bend * along),
-            };
-            pose = pose * about * self.fixed[i + 1];
+            let turning_from_link = self.turning_from_link[i];
+            let bent = turning_from_link
+                * Pose::from_rotation(bend)
+                * turning_from_link.inverse()
+                * self.fixed[i + 1];
+            pose = pose.turned(turns[i]) * bent;
         }
         pose * Pose::from_xyz_rxryrz(deflection.tool)
     }
 
-    /// The links' frames and the moments that gravity and a force at the tool exert about their origins.
+    /// Torque of gravity and an external force about each joint in the controller's sense, N·m.
+    ///
+    /// The field is carried outward and the first moment inward, from frame to frame; no pose is needed. The torque about
+    /// a joint is the z component of `first moment × field` in the frame that it turns.
     ///
     /// # Source
-    /// Thesis, eqs. I.5–I.10.
+    /// Thesis, eqs. I.5–I.10, by the recursion of J. Luh, M. Walker, R. Paul, "On-line computational scheme for mechanical
+    /// manipulators" (1980).
     #[inline(always)]
     #[must_use]
-    pub fn frames(&self, angles: &[S; 6], loads: &Loads<S>, force_n: Vector) -> Frames<S> {
-        let mut links = [self.fixed[0]; 6];
+    pub fn torques(&self, turns: &[Turn<S>; 6], loads: &Loads<S>, force_n: Vector) -> [S; 6] {
+        let mut torques = [S::zero(); 6];
+        self.pull(
+            turns,
+            &loads.masses,
+            loads.gravity_m_s2,
+            |i, moment, field| {
+                torques[i] = moment[0] * field[1] - moment[1] * field[0];
+            },
+        );
+        if force_n != [0.0; 3] {
+            let force = force_n.map(S::constant);
+            self.pull(turns, &loads.unit_mass, force, |i, moment, field| {
+                torques[i] += moment[0] * field[1] - moment[1] * field[0];
+            });
+        }
+        torques
+    }
+
+    /// The links' frames and the moments that gravity and a force at the tool exert about their origins.
+    #[must_use]
+    pub fn frames(&self, turns: &[Turn<S>; 6], loads: &Loads<S>, force_n: Vector) -> Frames<S> {
         let mut pose = self.fixed[0];
+        let mut turning = [pose; 6];
         for i in 0..6 {
-            pose = turned(pose, angles[i]);
-            links[i] = Pose {
-                rotation: pose.rotation,
-                translation: add(pose.translation, scale(self.d_m[i], pose.rotation.axis(2))),
-            };
-            if i < 5 {
-                pose = pose * self.fixed[i + 1];
-            }
+            turning[i] = pose.turned(turns[i]);
+            pose = turning[i] * self.fixed[i + 1];
         }
         let mut moments = [[S::zero(); 3]; 6];
-        let mut mass = S::zero();
-        let mut first_moment = [S::zero(); 3];
-        let mut bodies = loads.bodies.iter().peekable();
-        for i in (0..6).rev() {
-            while let Some(body) = bodies.next_if(|b| b.link == i) {
-                mass += body.mass_kg;
-                first_moment = add(
-                    first_moment,
-                    scale(body.mass_kg, links[i].transform(body.cog_m)),
-                );
-            }
-            let lever = sub(first_moment, scale(mass, links[i].translation));
-            moments[i] = cross(lever, loads.gravity_m_s2);
-        }
-        if force_n != [0.0; 3] {
-            let point = links[5].transform(loads.force_point);
-            for i in 0..6 {
-                let moment = cross(sub(point, links[i].translation), force_n.map(S::constant));
+        for (hanging, field) in [
+            (&loads.masses, loads.gravity_m_s2),
+            (&loads.unit_mass, force_n.map(S::constant)),
+        ] {
+            self.pull(turns, hanging, field, |i, moment, field| {
+                let origin = self.turning_from_link[i].translation;
+                let about_link = sub(moment, scale(hanging.mass_kg[i], origin));
+                let moment = turning[i].rotation * cross(about_link, field);
                 moments[i] = add(moments[i], moment);
-            }
+            });
         }
-        Frames { links, moments }
+        Frames {
+            links: std::array::from_fn(|i| turning[i] * self.turning_from_link[i]),
+            moments,
+        }
     }
-}
 
-/// `pose · Rot(z, angle)`: only two columns change.
-#[inline(always)]
-fn turned<S: Scalar>(pose: Pose<S>, angle: S) -> Pose<S> {
-    let (s, c) = angle.sin_cos();
-    let m = &pose.rotation.0;
-    let rotation = Rotation(std::array::from_fn(|i| {
-        [
-            c * m[i][0] + s * m[i][1],
-            c * m[i][1] - s * m[i][0],
-            m[i][2],
-        ]
-    }));
-    Pose {
-        rotation,
-        translation: pose.translation,
+    /// Calls `each` with the index of a joint, the first moment of all that hangs on it and the field, both in the frame
+    /// that it turns, from the last joint to the first.
+    #[inline(always)]
+    fn pull(
+        &self,
+        turns: &[Turn<S>; 6],
+        hanging: &Hanging<S>,
+        field_in_world: Vector<S>,
+        mut each: impl FnMut(usize, Vector<S>, Vector<S>),
+    ) {
+        let mut field = field_in_world;
+        let mut fields = [field; 6];
+        for i in 0..6 {
+            let [x, y, z] = self.fixed[i].rotation.transpose() * field;
+            let Turn { sine, cosine } = turns[i];
+            field = [cosine * x + sine * y, cosine * y - sine * x, z];
+            fields[i] = field;
+        }
+        let mut moment = [S::zero(); 3];
+        for i in (0..6).rev() {
+            moment = add(hanging.fixed_moment[i], moment);
+            each(i, moment, fields[i]);
+            let Turn { sine, cosine } = turns[i];
+            let [x, y, z] = moment;
+            moment = self.fixed[i].rotation * [cosine * x - sine * y, sine * x + cosine * y, z];
+        }
     }
 }
 
@@ -194,7 +255,16 @@ impl Chain {
     pub fn cast<S: Scalar>(&self) -> Chain<S> {
         Chain {
             fixed: self.fixed.map(|p| p.cast()),
-            d_m: self.d_m.map(S::constant),
+            turning_from_link: self.turning_from_link.map(|p| p.cast()),
+        }
+    }
+}
+
+impl Hanging {
+    fn cast<S: Scalar>(&self) -> Hanging<S> {
+        Hanging {
+            mass_kg: self.mass_kg.map(S::constant),
+            fixed_moment: self.fixed_moment.map(|v| v.map(S::constant)),
         }
     }
 }
@@ -204,17 +274,62 @@ impl Loads {
     #[must_use]
     pub fn cast<S: Scalar>(&self) -> Loads<S> {
         Loads {
-            bodies: self
-                .bodies
-                .iter()
-                .map(|b| Body {
-                    link: b.link,
-                    mass_kg: S::constant(b.mass_kg),
-                    cog_m: b.cog_m.map(S::constant),
-                })
-                .collect(),
-            force_point: self.force_point.map(S::constant),
+            masses: self.masses.cast(),
             gravity_m_s2: self.gravity_m_s2.map(S::constant),
+            unit_mass: self.unit_mass.cast(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dot;
+    use crate::model::profile::Profile;
+
+    /// Rounding of moments of some hundred newton metres.
+    const TOLERANCE_N_M: f64 = 1e-11;
+
+    #[test]
+    fn torques_and_moments_are_those_of_every_mass_about_every_origin() {
+        let text = include_str!("../../tests/data/forward/hanging_compliance.profile.yaml");
+        let profile = Profile::from_yaml(text).expect("a profile of the oracle");
+        let name = profile.tools.keys().next().expect("it has a tool");
+        let tool = profile.tool(name).expect("its own tool");
+        let geometry = profile.geometry(&tool);
+        let mechanism = &profile.mechanism;
+        let chain = Chain::of(&geometry, mechanism);
+        let loads = Loads::of(&geometry, &chain);
+        let force = [30.0, -20.0, 50.0];
+        for k in 0..100_i32 {
+            let q = std::array::from_fn(|i| (f64::from(k) * (0.7 + i as f64)).sin() * 3.0);
+            let turns = Turn::of_each(&mechanism.commanded(&q));
+            let torques = chain.torques(&turns, &loads, force);
+            let frames = chain.frames(&turns, &loads, force);
+            let last = frames.links[5] * geometry.link6_from_flange;
+            let mut pulls: Vec<(usize, Vector, Vector)> = vec![(
+                5,
+                last.transform(geometry.flange_from_nominal_tool.translation),
+                force,
+            )];
+            for body in &geometry.bodies {
+                let point = frames.links[body.link].transform(body.cog_m);
+                pulls.push((body.link, point, scale(body.mass_kg, geometry.gravity_m_s2)));
+            }
+            if let Some((mass, cog)) = geometry.load {
+                pulls.push((5, last.transform(cog), scale(mass, geometry.gravity_m_s2)));
+            }
+            for (i, link) in frames.links.iter().enumerate() {
+                let mut moment = [0.0; 3];
+                for (_, point, pull) in pulls.iter().filter(|pull| pull.0 >= i) {
+                    moment = add(moment, cross(sub(*point, link.translation), *pull));
+                }
+                let torque = mechanism.joints[i].sign * dot(moment, link.rotation.axis(2));
+                assert!((torques[i] - torque).abs() < TOLERANCE_N_M, "joint {i}");
+                for (a, b) in moment.iter().zip(frames.moments[i]) {
+                    assert!((a - b).abs() < TOLERANCE_N_M, "link {i}");
+                }
+            }
         }
     }
 }

@@ -1,10 +1,15 @@
 //! The real arm: a chain with the effects on it.
 
-use super::chain::{Chain, Frames, Loads};
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays"
+)]
+
+use super::chain::{Chain, Loads};
 use super::conditions::Conditions;
 use super::effects::{Deflection, Effect, State};
 use super::geometry::{Geometry, Mechanism};
-use crate::geometry::{Dual, Pose, Scalar};
+use crate::geometry::{Dual, Pose, Scalar, Turn};
 
 /// An arm with one tool, ready to be evaluated: joint angles in the controller's sense in, tool pose in the world out.
 ///
@@ -15,13 +20,11 @@ pub struct Model<S = f64> {
     chain: Chain<S>,
     loads: Loads<S>,
     mechanism: Mechanism,
-    /// θ of each row plus the controller's offset, radians.
-    home: [S; 6],
-    sign: [S; 6],
     /// The effects that depend on the posture.
     deflecting: Vec<Effect<S>>,
     loaded: bool,
     bends: bool,
+    reads_angles: bool,
 }
 
 impl<S: Scalar> Model<S> {
@@ -42,16 +45,14 @@ impl<S: Scalar> Model<S> {
             .filter(|e| e.definition().deflects)
             .cloned()
             .collect();
+        let chain = Chain::of(&real, mechanism);
         Self {
-            chain: Chain::of(&real),
-            loads: Loads::of(&real),
+            loads: Loads::of(&real, &chain),
+            chain,
             mechanism: mechanism.clone(),
-            home: std::array::from_fn(|i| {
-                real.links[i].theta_rad + S::constant(mechanism.joints[i].offset_rad)
-            }),
-            sign: std::array::from_fn(|i| S::constant(mechanism.joints[i].sign)),
             loaded: deflecting.iter().any(|e| e.definition().needs_masses()),
             bends: deflecting.iter().any(|e| e.definition().bends),
+            reads_angles: deflecting.iter().any(Effect::reads_angles),
             deflecting,
         }
     }
@@ -67,65 +68,83 @@ impl<S: Scalar> Model<S> {
     #[must_use]
     pub fn forward(&self, q: &[S; 6], conditions: &Conditions) -> Pose<S> {
         let commanded = self.mechanism.commanded(q);
-        if self.deflecting.is_empty() {
-            return self.chain.forward(&self.chain_angles(&commanded));
+        self.forward_turned(&commanded, &Turn::of_each(&commanded), conditions)
+    }
+
+    /// [`Model::forward`] from the mechanical angles in the controller's sense and their sines and cosines. The angles
+    /// themselves are not looked at unless [`Model::reads_angles`].
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn forward_turned(
+        &self,
+        commanded: &[S; 6],
+        turns: &[Turn<S>; 6],
+        conditions: &Conditions,
+    ) -> Pose<S> {
+        let mut real = *turns;
+        if !self.deflecting.is_empty() {
+            let mut deflection = Deflection::none();
+            self.deflect(commanded, turns, conditions, &mut deflection);
+            for i in 0..6 {
+                real[i] = real[i].and(deflection.joints[i]);
+            }
+            if self.bends {
+                return self.chain.forward_deflected(&real, &deflection);
+            }
         }
-        let deflection = self.deflection_of(commanded, conditions);
-        let real = std::array::from_fn(|i| commanded[i] + deflection.joints[i]);
-        let angles = self.chain_angles(&real);
-        if self.bends {
-            self.chain.forward_deflected(&angles, &deflection)
-        } else {
-            self.chain.forward(&angles)
-        }
+        self.chain.forward(&real)
+    }
+
+    /// Whether some effect depends on the joint angles themselves, not only on their sines and cosines.
+    pub(crate) fn reads_angles(&self) -> bool {
+        self.reads_angles
     }
 
     /// What the posture does to joints, links, base and tool at the controller's joint angles `q`, radians.
     #[must_use]
     pub fn deflection(&self, q: &[S; 6], conditions: &Conditions) -> Deflection<S> {
-        self.deflection_of(self.mechanism.commanded(q), conditions)
+        let commanded = self.mechanism.commanded(q);
+        let turns = Turn::of_each(&commanded);
+        let mut deflection = Deflection::none();
+        self.deflect(&commanded, &turns, conditions, &mut deflection);
+        deflection
     }
 
     /// Torque of gravity and external force about each joint in the controller's sense, N·m.
     #[must_use]
     pub fn torques(&self, q: &[S; 6], conditions: &Conditions) -> [S; 6] {
-        let angles = self.chain_angles(&self.mechanism.commanded(q));
-        let frames = self.chain.frames(&angles, &self.loads, conditions.force_n);
-        self.torques_of(&frames)
+        let turns = Turn::of_each(&self.mechanism.commanded(q));
+        self.chain.torques(&turns, &self.loads, conditions.force_n)
     }
 
     #[inline(always)]
-    fn torques_of(&self, frames: &Frames<S>) -> [S; 6] {
-        std::array::from_fn(|i| self.sign[i] * frames.torque(i))
-    }
-
-    #[inline(always)]
-    fn deflection_of(&self, commanded: [S; 6], conditions: &Conditions) -> Deflection<S> {
-        let mut state = State {
-            commanded,
-            torques: [S::zero(); 6],
-            frames: None,
-            conditions: *conditions,
-        };
+    fn deflect(
+        &self,
+        commanded: &[S; 6],
+        turns: &[Turn<S>; 6],
+        conditions: &Conditions,
+        deflection: &mut Deflection<S>,
+    ) {
+        let mut torques = [S::zero(); 6];
         if self.loaded {
-            let frames = self.chain.frames(
-                &self.chain_angles(&commanded),
-                &self.loads,
-                conditions.force_n,
-            );
-            state.torques = self.torques_of(&frames);
-            state.frames = self.bends.then_some(frames);
+            torques = self.chain.torques(turns, &self.loads, conditions.force_n);
         }
-        let mut deflection = Deflection::none();
+        let bent;
+        let frames = if self.bends {
+            bent = self.chain.frames(turns, &self.loads, conditions.force_n);
+            Some(&bent)
+        } else {
+            None
+        };
+        let state = State {
+            commanded,
+            torques: &torques,
+            frames,
+            conditions,
+        };
         for effect in &self.deflecting {
-            effect.deflect(&state, &mut deflection);
+            effect.deflect(&state, deflection);
         }
-        deflection
-    }
-
-    #[inline(always)]
-    fn chain_angles(&self, mechanical: &[S; 6]) -> [S; 6] {
-        std::array::from_fn(|i| self.sign[i] * mechanical[i] + self.home[i])
     }
 }
 
@@ -137,11 +156,10 @@ impl Model {
             chain: self.chain.cast(),
             loads: self.loads.cast(),
             mechanism: self.mechanism.clone(),
-            home: self.home.map(S::constant),
-            sign: self.sign.map(S::constant),
             deflecting: self.deflecting.iter().map(Effect::cast).collect(),
             loaded: self.loaded,
             bends: self.bends,
+            reads_angles: self.reads_angles,
         }
     }
 

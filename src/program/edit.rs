@@ -5,16 +5,47 @@ use std::ops::Range;
 /// Replacements of byte ranges of one file; everything outside them stays.
 #[derive(Debug, Default)]
 pub struct Edits {
-    spans: Vec<(Range<usize>, Range<usize>)>,
+    spans: Vec<Span>,
     text: Vec<u8>,
+}
+
+/// A replaced range and the range of its new text in [`Edits::text`]; files are smaller than 4 GiB.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    start: u32,
+    end: u32,
+    text: (u32, u32),
+}
+
+fn short(offset: usize) -> u32 {
+    u32::try_from(offset).expect("program files are smaller than 4 GiB")
 }
 
 impl Edits {
     /// Replaces the bytes of `span` with what `write` appends. An empty span inserts.
+    ///
+    /// # Panics
+    /// If the file or all new text together has 4 GiB or more.
     pub fn replace(&mut self, span: Range<usize>, write: impl FnOnce(&mut Vec<u8>)) {
         let start = self.text.len();
         write(&mut self.text);
-        self.spans.push((span, start..self.text.len()));
+        let text = (short(start), short(self.text.len()));
+        self.spans.push(Span {
+            start: short(span.start),
+            end: short(span.end),
+            text,
+        });
+    }
+
+    /// Adds the replacements of another list for the same file.
+    pub fn append(&mut self, other: &Self) {
+        let by = short(self.text.len());
+        self.text.extend_from_slice(&other.text);
+        let moved = |span: &Span| Span {
+            text: (span.text.0 + by, span.text.1 + by),
+            ..*span
+        };
+        self.spans.extend(other.spans.iter().map(moved));
     }
 
     /// Whether nothing is replaced.
@@ -29,18 +60,15 @@ impl Edits {
     /// If two spans overlap or one lies outside the file: the caller's bug.
     #[must_use]
     pub fn apply(mut self, bytes: &[u8]) -> Vec<u8> {
-        self.spans.sort_by_key(|(span, _)| (span.start, span.end));
+        self.spans.sort_by_key(|span| (span.start, span.end));
         let mut out = Vec::with_capacity(bytes.len() + self.text.len());
         let mut done = 0;
-        for (span, text) in &self.spans {
-            assert!(
-                span.start >= done,
-                "two changes of one span at byte {}",
-                span.start
-            );
-            out.extend_from_slice(&bytes[done..span.start]);
-            out.extend_from_slice(&self.text[text.clone()]);
-            done = span.end;
+        for span in &self.spans {
+            let start = span.start as usize;
+            assert!(start >= done, "two changes of one span at byte {start}");
+            out.extend_from_slice(&bytes[done..start]);
+            out.extend_from_slice(&self.text[span.text.0 as usize..span.text.1 as usize]);
+            done = span.end as usize;
         }
         out.extend_from_slice(&bytes[done..]);
         out

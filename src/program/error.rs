@@ -90,7 +90,7 @@ impl ReadError {
             }
             Self::NotThisLanguage {
                 language, missing, ..
-            } => format!("not a {language} program: {missing} is missing"),
+            } => format!("no program in {language}: it has no {missing}"),
             Self::Unclosed { what, .. } => format!("{what} is not closed"),
             Self::Unexpected {
                 found, expected, ..

@@ -3,7 +3,7 @@
 //! A [`Language`] reads program files into a [`Program`]: which numbers at which bytes make a target, and which moves drive
 //! to it with which tool in which work frame. It never evaluates kinematics. Writing is the reverse: the new numbers of a
 //! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
-//! stays as it was ([`edit`]).
+//! stays as it was ([`Edits`]).
 
 mod edit;
 mod error;
@@ -50,7 +50,7 @@ pub fn language_of(source: &Source) -> Option<&'static dyn Language> {
     let both = LANGUAGES
         .iter()
         .filter(ends)
-        .find(|language| shows(&language));
+        .find(|language| shows(language));
     both.copied()
         .or_else(|| only(Box::new(LANGUAGES.iter().filter(shows))))
         .or_else(|| only(Box::new(LANGUAGES.iter().filter(ends))))
@@ -314,7 +314,7 @@ pub struct Move {
     pub displacement: Displacement,
     /// The controller honours the target's configuration data in this move.
     pub configured: bool,
-    /// Joints, radians, that the controller's inverse starts from where the move names them (URScript `qnear`).
+    /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
     pub near: Option<Box<[f64; 6]>>,
 }
 
@@ -365,6 +365,13 @@ pub struct Program {
 }
 
 impl Program {
+    /// Gives back the memory that lists of unknown length took too much.
+    pub fn shrink_to_fit(&mut self) {
+        self.targets.shrink_to_fit();
+        self.numbers.shrink_to_fit();
+        self.moves.shrink_to_fit();
+    }
+
     /// The numbers of one target.
     #[must_use]
     pub fn numbers_of(&self, target: &Target) -> &[Number] {

@@ -147,7 +147,7 @@ impl Style {
         let text = trimmed(old);
         match exponent_at(text) {
             Some(at) if value != 0.0 && value.abs() < EXPONENT_BELOW => {
-                write_exponent(&text[..at], &text[at..], value, &mut digits)
+                write_exponent(&text[..at], &text[at..], value, &mut digits);
             }
             _ => write_fixed(value, self.decimals, &mut digits),
         }
@@ -174,10 +174,10 @@ fn trimmed(text: &[u8]) -> &[u8] {
 }
 
 fn unsigned(text: &[u8]) -> &[u8] {
-    match trimmed(text) {
-        [b'+' | b'-', rest @ ..] => rest,
-        rest => rest,
-    }
+    let text = trimmed(text);
+    text.strip_prefix(b"+")
+        .or_else(|| text.strip_prefix(b"-"))
+        .unwrap_or(text)
 }
 
 fn exponent_at(text: &[u8]) -> Option<usize> {
@@ -276,7 +276,7 @@ mod tests {
             (".193", 0.0, "0.000"),
             (".193", 1.5, "1.500"),
             ("+12.50", 12.625, "+12.63"),
-            ("0.70710678118654757", 0.707_106_78, "0.70710678000000005"),
+            ("0.60710678118654757", 0.607_106_78, "0.60710677999999996"),
             ("1.0", 99_999_999.96, "100000000.0"),
         ] {
             assert_eq!(written(old, &[], value), new, "{old} becomes {value}");

@@ -1,5 +1,8 @@
 //! The tests that look at the program from outside, in one binary.
 
+mod architecture;
+mod cli;
+mod golden;
 mod laws;
 mod oracle;
 mod support;

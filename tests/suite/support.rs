@@ -1,7 +1,7 @@
 //! Reading test data, and comparing poses without the code under test.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A path below the repository's top.
 pub fn repository(path: &str) -> PathBuf {
@@ -108,7 +108,7 @@ pub fn shipped_profiles() -> Vec<(String, poseshift::model::profile::Profile)> {
                 .into_string()
                 .expect("a plain name")
         })
-        .filter(|name| name.ends_with(".yaml"))
+        .filter(|name| Path::new(name).extension().is_some_and(|e| e == "yaml"))
         .collect();
     names.sort();
     let read = |name: String| {
@@ -130,4 +130,28 @@ pub fn random_joints(
         .mechanism
         .joints
         .map(|joint| random.random_range(joint.min_rad..joint.max_rad))
+}
+
+/// The program under test.
+pub fn poseshift() -> assert_cmd::Command {
+    assert_cmd::Command::new(env!("CARGO_BIN_EXE_poseshift"))
+}
+
+/// A new empty folder that is gone at the end of the test.
+pub fn scratch() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder for scratch files")
+}
+
+/// Every file below a folder, relative to it, in order.
+pub fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let below = |entry: Result<walkdir::DirEntry, walkdir::Error>| {
+        let entry = entry.expect("a readable folder");
+        let relative = entry.path().strip_prefix(folder).expect("below").to_owned();
+        entry.file_type().is_file().then_some(relative)
+    };
+    walkdir::WalkDir::new(folder)
+        .sort_by_file_name()
+        .into_iter()
+        .filter_map(below)
+        .collect()
 }

@@ -68,6 +68,7 @@ impl EntryError {
 
     /// The way out.
     #[must_use]
+    #[allow(clippy::missing_panics_doc)]
     pub fn hint(&self) -> String {
         match self {
             Self::NoEffect | Self::UnknownEffect { .. } => {
@@ -130,10 +131,10 @@ impl Effect {
                 }
                 (Place::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
                 (Place::Link | Place::Joint, Some(value)) => {
-                    site.index = whole(definition, *place, value)? as usize - 1
+                    site.index = whole(definition, *place, value)? as usize - 1;
                 }
                 (Place::On, Some(value)) => {
-                    site.on = whole(definition, *place, value)? as usize - 1
+                    site.on = whole(definition, *place, value)? as usize - 1;
                 }
                 (Place::Order, Some(value)) => site.order = whole(definition, *place, value)?,
             }
@@ -148,7 +149,7 @@ impl Effect {
         for (slot, parameter) in parameters.iter_mut().zip(definition.parameters) {
             match entry.get(parameter.key) {
                 Some(value) => {
-                    *slot = number(definition, parameter, value)? * parameter.unit.in_si()
+                    *slot = number(definition, parameter, value)? * parameter.unit.in_si();
                 }
                 None if optional(definition) => {}
                 None => {

@@ -19,6 +19,7 @@ impl Equation for JointCompliance {
         deflects: true,
         bends: false,
     };
+    const READS_ANGLES: bool = false;
 
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {

@@ -1,6 +1,6 @@
 //! The registry of effects: each physical cause of error is one file that states its equation once.
 //!
-//! An effect's file has a type that implements [`Equation`]: its [`Definition`] (name, equation, source, parameters with
+//! An effect's file has a type that implements `Equation`: its [`Definition`] (name, equation, source, parameters with
 //! units and priors, what it needs) and one or both of its two functions. Profile keys, JSON Schema, help, identification,
 //! diagnosis and the law tests follow from the list in [`registry!`](self); nothing else names an effect.
 //!
@@ -27,6 +27,9 @@ pub const MOST_PARAMETERS: usize = 6;
 trait Equation {
     /// Everything about the effect but its equation.
     const DEFINITION: Definition;
+
+    /// Whether it reads [`State::commanded`]; where no effect does, an inverse need not know the angles on its way.
+    const READS_ANGLES: bool = true;
 
     /// Changes the arm's geometry, before any posture is known.
     fn change_geometry<S: Scalar>(
@@ -72,6 +75,12 @@ macro_rules! registry {
         }
 
         impl<S: Scalar> Effect<S> {
+            /// Whether it depends on the joint angles themselves, not only on their sines and cosines.
+            #[must_use]
+            pub const fn reads_angles(&self) -> bool {
+                match self.kind { $(Kind::$name => $file::$name::READS_ANGLES,)+ }
+            }
+
             /// Changes the arm's geometry where this effect does.
             pub fn change_geometry(&self, conditions: &Conditions, geometry: &mut Geometry<S>) {
                 match self.kind {
@@ -164,15 +173,15 @@ impl Effect {
 
 /// The posture that effects are evaluated at.
 #[derive(Clone, Debug)]
-pub struct State<S> {
+pub struct State<'a, S> {
     /// Commanded angle of each mechanical joint in the controller's sense, radians.
-    pub commanded: [S; 6],
+    pub commanded: &'a [S; 6],
     /// Torque about each joint in the controller's sense, N·m; zero unless an effect needs masses.
-    pub torques: [S; 6],
+    pub torques: &'a [S; 6],
     /// Frames and moments of the links; present where an effect bends links or moves the base or the tool.
-    pub frames: Option<Frames<S>>,
+    pub frames: Option<&'a Frames<S>>,
     /// Direction, force, temperature, time.
-    pub conditions: Conditions,
+    pub conditions: &'a Conditions,
 }
 
 /// What a posture does to the arm, small.
@@ -200,5 +209,44 @@ impl<S: Scalar> Deflection<S> {
             world: [zero; 6],
             tool: [zero; 6],
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_effect_that_does_not_read_angles_is_the_same_at_all() {
+        let conditions = Conditions {
+            direction: [1.0; 6],
+            ..Conditions::default()
+        };
+        let mut found = 0;
+        for &kind in REGISTRY {
+            let effect = Effect {
+                kind,
+                site: Site::default(),
+                parameters: [0.5; MOST_PARAMETERS],
+            };
+            if !effect.definition().deflects || effect.reads_angles() {
+                continue;
+            }
+            found += 1;
+            let at = |angle: f64| {
+                let state = State {
+                    commanded: &[angle; 6],
+                    torques: &[2.0; 6],
+                    frames: None,
+                    conditions: &conditions,
+                };
+                let mut deflection = Deflection::none();
+                effect.deflect(&state, &mut deflection);
+                deflection
+            };
+            assert_eq!(at(0.3), at(-1.1), "{}", effect.definition().id);
+            assert_ne!(at(0.3), Deflection::none());
+        }
+        assert!(found >= 2);
     }
 }

@@ -1,4 +1,4 @@
-//! Arguments of instructions: names, targets written out, Offs and RelTool around them.
+//! Arguments of instructions: names, targets written out, Offs and `RelTool` around them.
 
 use super::aggregate::{self, JOINTTARGET, Leaf, ROBTARGET};
 use super::reader::{Reader, index};
@@ -47,7 +47,7 @@ impl Reader<'_> {
         )
     }
 
-    /// A name, a target, or Offs and RelTool of one. `None` where it is something else; then the place is lost.
+    /// A name, a target, or Offs and `RelTool` of one. `None` where it is something else; then the place is lost.
     fn point(&mut self, of: Option<(Verb, usize)>, depth: usize) -> Result<Option<Base>, Fault> {
         let first = self.token;
         if first.is(b'[') {

@@ -1,4 +1,4 @@
-//! What Offs and RelTool add to a target.
+//! What Offs and `RelTool` add to a target.
 
 use super::names::{Context, Meaning};
 use super::syntax::{Amount, Part, Step, Stored, indices};
@@ -8,7 +8,7 @@ use crate::geometry::{Pose, add};
 use crate::program::{Displacement, Shift};
 
 impl World {
-    /// What these steps add; Offs shifts in the work object and RelTool in the tool, so their order among each other does not
+    /// What these steps add; Offs shifts in the work object and `RelTool` in the tool, so their order among each other does not
     /// matter.
     pub fn displacement(&self, steps: Part, context: Context) -> Displacement {
         let steps = &self.notes.steps[indices(steps)];

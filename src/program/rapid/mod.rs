@@ -19,7 +19,7 @@
 //! | `held-work-piece` | error | the robot holds the work object |
 //! | `stationary-tool` | error | the tool does not hang on the robot |
 //! | `moving-frame` | error | a conveyor or another mechanical unit moves the work object |
-//! | `displacement-active` | error | PDispOn, PDispSet, EOffsOn or EOffsSet may be active |
+//! | `displacement-active` | error | `PDispOn`, `PDispSet`, `EOffsOn` or `EOffsSet` may be active |
 //! | `computed-target` | warning | a move goes to a position that only the running program knows |
 //! | `target-not-in-files` | warning | a move goes to a target that the files do not declare |
 //! | `target-copied` | warning | another target is computed from this one |
@@ -122,7 +122,7 @@ impl Language for Rapid {
                 return Err(ReadError::NotThisLanguage {
                     file: source.name.clone(),
                     language: ABOUT.name,
-                    missing: "a module, data of robots, a routine or a move",
+                    missing: "module, data of robots, routine or move",
                 });
             }
         }

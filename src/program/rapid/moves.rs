@@ -326,7 +326,7 @@ impl<'a> Moves<'a> {
                     }
                     Base::Named { name, index } => {
                         let index = self.world.notes.index(index);
-                        self.use_name(statement, name, index, displacement, with, true);
+                        self.use_name(statement, name, index, &displacement, with, true);
                     }
                 }
             }
@@ -335,7 +335,7 @@ impl<'a> Moves<'a> {
                 let mut any = false;
                 for &name in &world.notes.mentions[indices(part)] {
                     let unknown = Displacement::Unknown;
-                    any |= self.use_name(statement, name, Index::Whole, unknown, with, false);
+                    any |= self.use_name(statement, name, Index::Whole, &unknown, with, false);
                 }
                 if !any {
                     self.not_written_out(statement, "a position");
@@ -362,7 +362,7 @@ impl<'a> Moves<'a> {
         statement: &Statement,
         name: Symbol,
         index: Index,
-        displacement: Displacement,
+        displacement: &Displacement,
         with: &With,
         wanted: bool,
     ) -> bool {
@@ -370,7 +370,7 @@ impl<'a> Moves<'a> {
         let spelled = world.notes.symbols.spelling(name);
         match world.points(name, index, statement.context) {
             Points::Elements { datum, elements } => {
-                if elements.1 - elements.0 > 1 && !self.first_use(datum, &displacement, with) {
+                if elements.1 - elements.0 > 1 && !self.first_use(datum, displacement, with) {
                     return true;
                 }
                 for element in indices(elements) {

@@ -354,8 +354,7 @@ impl<'a> Reader<'a> {
                 self.crooked();
                 self.advance()
             }
-            Kind::Assign => self.assignment(first.start, name),
-            Kind::Sign(b'{' | b'.') => self.assignment(first.start, name),
+            Kind::Assign | Kind::Sign(b'{' | b'.') => self.assignment(first.start, name),
             _ => {
                 let verb = self.verbs.of(name, self.text(first));
                 let arguments = self.arguments(verb)?;

@@ -26,7 +26,7 @@ pub struct Notes {
     pub leaves: Vec<Leaf>,
     /// Names in expressions.
     pub mentions: Vec<Symbol>,
-    /// Calls of Offs and RelTool.
+    /// Calls of Offs and `RelTool`.
     pub steps: Vec<Step>,
     /// Indices of names in arguments.
     pub indices: Vec<Index>,
@@ -192,7 +192,7 @@ pub enum Expression {
     Computed(Part),
 }
 
-/// What Offs and RelTool start from.
+/// What Offs and `RelTool` start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
     /// A name, perhaps with an index: see [`Notes::index`].
@@ -201,7 +201,7 @@ pub enum Base {
     Target(u32),
 }
 
-/// One call of Offs or RelTool: amounts x, y, z in mm and about x, y, z in degrees.
+/// One call of Offs or `RelTool`: amounts x, y, z in mm and about x, y, z in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     Offs([Amount; 3]),
@@ -278,21 +278,21 @@ pub enum Verb {
         /// The tool stands after targets, speed and zone, before other arguments.
         tool_inside: bool,
     },
-    /// ConfL
+    /// `ConfL`
     ConfL,
-    /// ConfJ
+    /// `ConfJ`
     ConfJ,
-    /// PDispOn, PDispSet
+    /// `PDispOn`, `PDispSet`
     ProgramDisplacement,
-    /// PDispOff
+    /// `PDispOff`
     ProgramDisplacementOff,
-    /// EOffsOn, EOffsSet
+    /// `EOffsOn`, `EOffsSet`
     ExternalOffset,
-    /// EOffsOff
+    /// `EOffsOff`
     ExternalOffsetOff,
     /// Measures and writes the tool in its arguments.
     WritesTool,
-    /// GripLoad
+    /// `GripLoad`
     GripLoad,
     /// An instruction of the language that moves nothing and changes no target.
     Harmless,

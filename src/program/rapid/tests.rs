@@ -121,7 +121,7 @@ fn every_kind_of_declaration_and_array_is_a_target() {
     let names: Vec<_> = program
         .targets
         .iter()
-        .flat_map(|t| t.name.as_deref())
+        .filter_map(|t| t.name.as_deref())
         .collect();
     assert_eq!(
         names,

@@ -137,6 +137,7 @@ enum Class {
     Control,
 }
 
+#[allow(clippy::cast_possible_truncation)]
 const CLASSES: [Class; 256] = {
     let mut classes = [Class::Other; 256];
     let mut byte = 0;
@@ -194,6 +195,8 @@ impl<'a> Scanner<'a> {
             Class::Letter => (Kind::Name, name_end(bytes, at)),
             Class::Digit => (Kind::Number, number_end(bytes, at)),
             Class::Quote => (Kind::Text, text_end(bytes, at)?),
+            // files are smaller than 4 GiB
+            #[allow(clippy::cast_possible_truncation)]
             Class::Control => return Err(Fault::Binary { at: at as u32 }),
             _ => match (first, bytes.get(at + 1)) {
                 (b'.', Some(b'0'..=b'9')) => (Kind::Number, number_end(bytes, at)),

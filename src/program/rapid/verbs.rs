@@ -3,7 +3,7 @@
 use super::names::Symbol;
 use super::syntax::{Path, Verb};
 
-/// First parts of the names of instructions that move; J, L, C or AbsJ follows.
+/// First parts of the names of instructions that move; J, L, C or `AbsJ` follows.
 const MOVING: [&[u8]; 16] = [
     b"move", b"arc", b"trigg", b"search", b"egmmove", b"cap", b"disp", b"spot", b"paint", b"cut",
     b"laser", b"clad", b"weld", b"glue", b"seal", b"process",

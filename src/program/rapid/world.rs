@@ -62,6 +62,7 @@ impl World {
         world
     }
 
+    #[allow(clippy::option_option)]
     /// The routine that a statement calls: `Some(None)` for one outside the files, `None` where it is an instruction.
     fn callee(&self, statement: usize, name: Option<Symbol>) -> Option<Option<u32>> {
         let statement = &self.notes.statements[statement];
@@ -161,9 +162,9 @@ impl World {
         &self.calls[routine as usize]
     }
 
-    /// For each statement, the PDispOn, PDispSet, EOffsOn or EOffsSet that may be active there.
+    /// For each statement, the `PDispOn`, `PDispSet`, `EOffsOn` or `EOffsSet` that may be active there.
     ///
-    /// In a routine that runs from top to bottom a displacement lasts to its PDispOff; in any other one its whole text is
+    /// In a routine that runs from top to bottom a displacement lasts to its `PDispOff`; in any other one its whole text is
     /// displaced. Routines that are called meanwhile are displaced, and everything is where a routine ends displaced.
     pub fn displacements(&self) -> Vec<Option<Place>> {
         let statements = &self.notes.statements;

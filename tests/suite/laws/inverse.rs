@@ -190,7 +190,7 @@ fn calibrated_inverse_converges_on_9999_of_10_000_random_targets() {
 fn a_wrist_a_tenth_of_a_degree_from_alignment_converges_on_its_branch() {
     let (profile, inverse) = thesis();
     let targets = reachable(&profile, &inverse, 2_000, 4, |q| {
-        q[4] = 0.1_f64.to_radians() * q[4].signum()
+        q[4] = 0.1_f64.to_radians() * q[4].signum();
     });
     let failed = failures(&inverse, &targets);
     assert!(failed.len() <= 10, "{} {failed:?}", failed.len());
@@ -202,7 +202,7 @@ fn an_elbow_a_fifth_of_a_degree_from_stretched_converges() {
     // stretched: the forearm (70, 302) in line with the upper arm
     let straight = -(302.0_f64).atan2(70.0);
     let targets = reachable(&profile, &inverse, 2_000, 5, |q| {
-        q[2] = straight + 0.2_f64.to_radians() * q[2].signum()
+        q[2] = straight + 0.2_f64.to_radians() * q[2].signum();
     });
     let near = targets
         .iter()

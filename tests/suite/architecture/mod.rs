@@ -1,0 +1,119 @@
+//! The direction in which the modules use each other.
+
+use crate::support::{files_below, repository};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Component, Path};
+
+/// Who may use whom. A module not named here is used by nobody it should not be.
+const ALLOWED: &[(&str, &[&str])] = &[
+    ("finding", &[]),
+    ("geometry", &[]),
+    ("model", &["geometry"]),
+    ("inverse", &["geometry", "model"]),
+    ("program", &["geometry", "finding"]),
+    (
+        "compensate",
+        &["finding", "geometry", "inverse", "model", "program"],
+    ),
+    (
+        "report",
+        &[
+            "compensate",
+            "finding",
+            "geometry",
+            "inverse",
+            "model",
+            "program",
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "compensate",
+            "finding",
+            "geometry",
+            "inverse",
+            "model",
+            "program",
+            "report",
+        ],
+    ),
+    ("main", &["cli"]),
+    ("lib", &[]),
+];
+
+/// The top modules that a file's code names after `crate::`, tests in it left out.
+fn used_by(text: &str) -> BTreeSet<String> {
+    let code = text.split("#[cfg(test)]").next().unwrap_or(text);
+    let code: String = code
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    let names = code.split("crate::").skip(1);
+    names
+        .map(|rest| {
+            rest.chars()
+                .take_while(|c| c.is_ascii_lowercase() || *c == '_')
+                .collect()
+        })
+        .collect()
+}
+
+#[test]
+fn modules_use_each_other_in_one_direction() {
+    let allowed: BTreeMap<&str, BTreeSet<&str>> = ALLOWED
+        .iter()
+        .map(|(name, uses)| (*name, uses.iter().copied().collect()))
+        .collect();
+    let source = repository("src");
+    let mut seen = 0;
+    for file in files_below(&source) {
+        let first = file.components().next().expect("a path");
+        let Component::Normal(top) = first else {
+            panic!("{}", file.display())
+        };
+        let top = Path::new(top)
+            .file_stem()
+            .and_then(|s| s.to_str())
+            .expect("a plain name");
+        let is_test = file
+            .components()
+            .any(|c| matches!(Path::new(&c).file_stem(), Some(s) if s == "tests" || s == "laws"));
+        let may = allowed
+            .get(top)
+            .unwrap_or_else(|| panic!("{} is in no module of the list", file.display()));
+        let text = std::fs::read_to_string(source.join(&file)).expect("source");
+        for used in used_by(&text)
+            .into_iter()
+            .filter(|used| used != top && !used.is_empty() && !is_test)
+        {
+            assert!(
+                may.contains(used.as_str()),
+                "{} uses {used}",
+                file.display()
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen > 20, "{seen} uses seen");
+}
+
+#[test]
+fn every_shipped_profile_is_built_in() {
+    let files: BTreeSet<String> = files_below(&repository("robots"))
+        .iter()
+        .filter(|path| path.extension().is_some_and(|e| e == "yaml"))
+        .map(|path| {
+            path.file_stem()
+                .and_then(|s| s.to_str())
+                .expect("a plain name")
+                .to_owned()
+        })
+        .collect();
+    let built_in: BTreeSet<String> = poseshift::model::profile::SHIPPED
+        .iter()
+        .map(|(name, _)| (*name).to_owned())
+        .collect();
+    assert_eq!(files, built_in);
+}

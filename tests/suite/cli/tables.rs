@@ -1,0 +1,200 @@
+//! `fk`, `ik`, `profile`, `robots`, `effects`, `languages`, `completions`, `man`.
+
+use crate::support::{poseshift, repository, scratch};
+
+const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
+
+fn stdout(arguments: &[&str]) -> String {
+    let output = poseshift()
+        .current_dir(repository(""))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    assert!(
+        output.status.success(),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// Runs and returns the exit status and standard error; standard output must be empty.
+fn refused(arguments: &[&str]) -> String {
+    let output = poseshift()
+        .current_dir(repository(""))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    assert!(output.stdout.is_empty());
+    String::from_utf8(output.stderr).expect("UTF-8")
+}
+
+#[test]
+fn joints_go_to_poses_and_back() {
+    let folder = scratch();
+    let joints = folder.path().join("joints with space.csv");
+    std::fs::write(&joints, "# a comment\nid,note,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\nA,x,10,-20,30,40,50,-300\n").expect("scratch");
+    let poses = stdout(&[
+        "fk",
+        "--profile",
+        PROFILE,
+        "--joints",
+        joints.to_str().expect("UTF-8"),
+    ]);
+    assert!(poses.starts_with("id,x_mm,y_mm,z_mm,qw,qx,qy,qz\nA,"));
+    let (header, row) = poses.trim_end().split_once('\n').expect("two lines");
+    let file = folder.path().join("poses.csv");
+    let near = "near1_deg,near2_deg,near3_deg,near4_deg,near5_deg,near6_deg";
+    std::fs::write(
+        &file,
+        format!("{header},{near}\n{row},9,-19,29,39,49,-299\n"),
+    )
+    .expect("scratch");
+    let solved = stdout(&[
+        "ik",
+        "--profile",
+        PROFILE,
+        "--poses",
+        file.to_str().expect("UTF-8"),
+    ]);
+    let cells: Vec<&str> = solved.lines().nth(1).expect("a row").split(',').collect();
+    for (cell, want) in cells[2..8]
+        .iter()
+        .zip([10.0, -20.0, 30.0, 40.0, 50.0, -300.0])
+    {
+        assert!(
+            (cell.parse::<f64>().expect("a number") - want).abs() < 1e-6,
+            "{solved}"
+        );
+    }
+    assert!(solved.trim_end().ends_with("converged"));
+}
+
+#[test]
+fn a_bad_cell_names_line_and_column() {
+    let folder = scratch();
+    let joints = folder.path().join("j.csv");
+    for (row, column) in [
+        ("1,2,3,4,5,x", "2:11"),
+        ("1,2,,4,5,6", "2:5"),
+        ("1,2,inf,4,5,6", "2:5"),
+    ] {
+        std::fs::write(
+            &joints,
+            format!("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n{row}\n"),
+        )
+        .expect("scratch");
+        let told = refused(&[
+            "fk",
+            "--profile",
+            PROFILE,
+            "--joints",
+            joints.to_str().expect("UTF-8"),
+        ]);
+        assert!(told.contains(&format!("j.csv:{column}")), "{told}");
+    }
+    std::fs::write(&joints, "q1_deg,q2_deg\n1,2\n").expect("scratch");
+    let told = refused(&[
+        "fk",
+        "--profile",
+        PROFILE,
+        "--joints",
+        joints.to_str().expect("UTF-8"),
+    ]);
+    assert!(told.contains("q3_deg, q4_deg, q5_deg, q6_deg"), "{told}");
+}
+
+#[test]
+fn profile_faults_name_the_place_and_the_way_out() {
+    let good = std::fs::read_to_string(repository(PROFILE)).expect("a profile");
+    let folder = scratch();
+    let file = folder.path().join("bad.yaml");
+    let cases: &[(&str, &str, &str)] = &[
+        ("d_mm: 290", "d_mm: .nan", "not a finite number"),
+        ("d_mm: 290", "d_mm: .inf", "not a finite number"),
+        ("d_mm: 290", "d_mm: 290 mm", "invalid"),
+        ("d_mm: 290, ", "", "missing field"),
+        ("d_mm: 290", "d_m: 0.290", "unknown field"),
+        ("poseshift: profile/1", "poseshift: profile/2", "profile/1"),
+        (
+            "joint: 2, rad_per_n_m",
+            "joint: 7, rad_per_n_m",
+            "whole number from 1 to 6",
+        ),
+        ("joint: 3, rad_per_n_m", "joint: 2, rad_per_n_m", "twice"),
+        (
+            "effect: base_frame",
+            "effect: base_shift",
+            "effects are: base_frame",
+        ),
+        (
+            "effect: joint_compliance, joint: 2, rad_per_n_m",
+            "effect: joint_compliance, joint: 2, rad_per_nm",
+            "keys of",
+        ),
+        (
+            "min_deg: -165, max_deg: 165",
+            "min_deg: 165, max_deg: -165",
+            "not below",
+        ),
+        ("mass_kg: 2.6", "mass_kg: -2.6", "mass_kg is -2.6"),
+    ];
+    for (from, to, told) in cases {
+        assert!(good.contains(from), "{from}");
+        std::fs::write(&file, good.replacen(from, to, 1)).expect("scratch");
+        let stderr = refused(&["profile", "show", file.to_str().expect("UTF-8")]);
+        assert!(
+            stderr.contains(told) && stderr.contains("bad.yaml:"),
+            "{to}: {stderr}"
+        );
+    }
+    let five = good
+        .lines()
+        .filter(|line| !line.contains("d_mm: 72"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    std::fs::write(&file, five).expect("scratch");
+    assert!(refused(&["profile", "show", file.to_str().expect("UTF-8")]).contains("5 joints"));
+}
+
+#[test]
+fn a_new_profile_is_the_built_in_one_and_is_not_written_over() {
+    let folder = scratch();
+    let file = folder.path().join("new.yaml");
+    let path = file.to_str().expect("UTF-8");
+    stdout(&["profile", "new", "--robot", "abb_irb120", "-o", path]);
+    assert!(refused(&["profile", "new", "--robot", "abb_irb120", "-o", path]).contains("exists"));
+    assert_eq!(
+        stdout(&["profile", "diff", path, "robots/abb_irb120.yaml"]),
+        ""
+    );
+    assert!(refused(&["profile", "new", "--robot", "r2d2"]).contains("abb_irb120"));
+    let output = poseshift()
+        .current_dir(repository(""))
+        .args(["profile", "diff", path, PROFILE])
+        .output()
+        .expect("starts");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("link_geometry link 4"));
+}
+
+#[test]
+fn catalogues_list_everything_and_json_is_json() {
+    for (command, word) in [
+        ("robots", "abb_irb120_thesis"),
+        ("effects", "joint_compliance"),
+        ("languages", "ABB RAPID"),
+    ] {
+        assert!(stdout(&[command]).contains(word));
+        let json: serde_json::Value =
+            serde_json::from_str(&stdout(&[command, "--json"])).expect("JSON");
+        assert_eq!(json["poseshift"], format!("{command}/1"));
+    }
+    let schema: serde_json::Value =
+        serde_json::from_str(&stdout(&["profile", "schema"])).expect("JSON");
+    assert!(schema.to_string().contains("joint_harmonic"));
+    assert!(stdout(&["profile", "show", PROFILE]).contains("the real tool is"));
+    assert!(stdout(&["completions", "bash"]).contains("compensate"));
+    assert!(stdout(&["man"]).contains("poseshift"));
+}

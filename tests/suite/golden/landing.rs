@@ -1,0 +1,155 @@
+//! Where the real tool lands with the written samples, by an inverse that is not the program's own.
+
+use super::{cases, run};
+use crate::support::scratch;
+use nalgebra::{Matrix6, Vector6};
+use poseshift::geometry::{Pose, sub};
+use poseshift::model::profile::{Mounted, Profile};
+use poseshift::model::{Conditions, Model};
+use poseshift::program::{self, Settings, Source, Value};
+use rs_opw_kinematics::glam::{DMat3, DQuat, DVec3};
+use rs_opw_kinematics::kinematic_traits::Kinematics;
+use rs_opw_kinematics::kinematics_impl::OPWKinematics;
+use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
+use rs_opw_kinematics::pose::Pose as PeerPose;
+use std::path::Path;
+
+/// What the search may leave.
+const TOLERANCE_MM: f64 = 1e-6;
+
+/// Joints that bring the controller's model to `wanted`: Newton with central differences, from joints nearby.
+fn search(controller: &Model, wanted: &Pose, near: [f64; 6]) -> [f64; 6] {
+    let missing = |q: &[f64; 6]| {
+        let is = controller.forward(q, &Conditions::default());
+        let d = sub(wanted.translation, is.translation);
+        let r = (wanted.rotation * is.rotation.transpose()).vector();
+        Vector6::new(d[0], d[1], d[2], r[0], r[1], r[2])
+    };
+    let mut q = near;
+    for _ in 0..20 {
+        let error = missing(&q);
+        let step = 1e-6;
+        let mut jacobian = Matrix6::zeros();
+        for j in 0..6 {
+            let moved = |by: f64| {
+                let mut q = q;
+                q[j] += by;
+                missing(&q)
+            };
+            jacobian.set_column(j, &((moved(-step) - moved(step)) / (2.0 * step)));
+        }
+        let change = jacobian
+            .lu()
+            .solve(&error)
+            .expect("samples keep away from singularities");
+        q = std::array::from_fn(|i| q[i] + change[i]);
+    }
+    assert!(missing(&q).norm() < 1e-11);
+    q
+}
+
+/// The joints by an independent closed form of the IRB 120, nearest to `near`.
+fn closed_form(world_from_tool: &Pose, tool: &Mounted, near: &[f64; 6]) -> [f64; 6] {
+    let flange = *world_from_tool * tool.flange_from_tool.inverse();
+    let m = flange.rotation.0;
+    let columns = [0, 1, 2].map(|j| DVec3::new(m[0][j], m[1][j], m[2][j]));
+    let rotation = DQuat::from_mat3(&DMat3::from_cols(columns[0], columns[1], columns[2]));
+    let peer = OPWKinematics::new(Parameters::irb120_3_58());
+    let pose = PeerPose::from_parts(DVec3::from(flange.translation), rotation);
+    let turned = |q: [f64; 6]| {
+        let turn = std::f64::consts::TAU;
+        std::array::from_fn(|i| q[i] + turn * ((near[i] - q[i]) / turn).round())
+    };
+    let distance = |q: &[f64; 6]| (0..6).map(|i| (q[i] - near[i]).abs()).fold(0.0, f64::max);
+    let solutions = peer.inverse(&pose).into_iter().map(turned);
+    solutions
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .expect("the fake target is in the nominal reach")
+}
+
+fn sources(folder: &Path) -> Vec<Source> {
+    let read = |file| {
+        Source::new(
+            format!("{}", folder.join(&file).display()),
+            std::fs::read(folder.join(file)).expect("a file"),
+        )
+    };
+    crate::support::files_below(folder)
+        .into_iter()
+        .map(read)
+        .collect()
+}
+
+#[test]
+fn written_samples_bring_the_real_tool_where_it_was_wanted() {
+    let mut landed = 0;
+    for (folder, case) in cases() {
+        let scratch = scratch();
+        let out = scratch.path().join("out");
+        let report: serde_json::Value =
+            serde_json::from_slice(&run(&folder, &case, &out, &["--json"])).expect("JSON");
+        let text = std::fs::read_to_string(folder.join(&case.profile)).expect("a profile");
+        let profile = Profile::from_yaml(&text).expect("a valid profile");
+        let is_irb120 = profile.model.starts_with("IRB 120");
+        let written = sources(&out);
+        let language = program::language_of(&written[0]).expect("a known language");
+        let settings = Settings {
+            pulses_per_deg: profile.pulses_per_deg,
+        };
+        let after = language.read(&written, &settings).expect("a program");
+        let before = language
+            .read(&sources(&folder.join("in")), &settings)
+            .expect("a program");
+        let targets = report["targets"].as_array().expect("a list");
+        assert_eq!(targets.len(), after.targets.len());
+        for motion in &after.moves {
+            let told = &targets[motion.target];
+            if told["status"] != "converged" || told["fake"].is_null() {
+                continue;
+            }
+            let (tool, frame) = (&after.tools[motion.tool], &after.frames[motion.frame]);
+            let (Some(flange_from_tool), Some(world_from_frame)) =
+                (tool.flange_from_tool, frame.world_from_frame)
+            else {
+                continue;
+            };
+            let value = |program: &program::Program| {
+                let target = &program.targets[motion.target];
+                let numbers: Vec<f64> =
+                    program.numbers_of(target).iter().map(|n| n.value).collect();
+                language.decode(target.layout, &numbers, &settings).value
+            };
+            let (Value::Pose(wanted), Value::Pose(fake)) = (value(&before), value(&after)) else {
+                continue;
+            };
+            let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
+            let load = load.or_else(|| profile.tools.get(&tool.name).and_then(|tool| tool.load));
+            let mounted = Mounted {
+                name: tool.name.clone(),
+                flange_from_tool,
+                load,
+            };
+            let near: Vec<f64> =
+                serde_json::from_value(told["joints_deg"].clone()).expect("joints");
+            let near = std::array::from_fn(|i| near[i].to_radians());
+            let given = world_from_frame * fake;
+            let q = if is_irb120 {
+                closed_form(&given, &mounted, &near)
+            } else {
+                search(&profile.controller_model(&mounted), &given, near)
+            };
+            let real = profile
+                .real_model(&mounted, &Conditions::default())
+                .forward(&q, &Conditions::default());
+            let beside_mm = 1e3 * real.separation(&(world_from_frame * wanted)).distance_m;
+            let rounding_mm = told["rounding_mm"].as_f64().expect("a number");
+            assert!(
+                (beside_mm - rounding_mm).abs() < TOLERANCE_MM,
+                "{}: {told} {beside_mm}",
+                folder.display()
+            );
+            landed += 1;
+        }
+    }
+    assert!(landed > 5000, "{landed} targets");
+}

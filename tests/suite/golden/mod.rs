@@ -1,0 +1,151 @@
+//! Sample programs: each folder `programs/<language>/<case>` has `in/`, `out/` and `case.yaml`.
+//!
+//! `POSESHIFT_BLESS=1 cargo test golden` writes the present output into `out/`: look at the difference before it is kept.
+
+mod landing;
+
+use crate::support::{files_below, poseshift, repository, scratch};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// What a sample says of itself.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// One sentence.
+    pub about: String,
+    /// Profile, relative to the sample's folder.
+    pub profile: String,
+    /// More words of the command line.
+    pub options: Vec<String>,
+    /// The command's exit status.
+    #[serde(default)]
+    pub status: i32,
+}
+
+/// Every sample's folder with what it says.
+pub fn cases() -> Vec<(PathBuf, Case)> {
+    let top = repository("programs");
+    let found = files_below(&top)
+        .into_iter()
+        .filter(|path| path.file_name().is_some_and(|name| name == "case.yaml"));
+    let read = |path: PathBuf| {
+        let folder = top.join(path.parent().expect("a case has a folder"));
+        let text = std::fs::read_to_string(folder.join("case.yaml")).expect("a readable case");
+        let case: Case = serde_yaml::from_str(&text)
+            .unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+        (folder, case)
+    };
+    found.map(read).collect()
+}
+
+/// Runs the command of a case into `out`; returns its standard output.
+pub fn run(folder: &Path, case: &Case, out: &Path, more: &[&str]) -> Vec<u8> {
+    let mut command = poseshift();
+    command
+        .current_dir(folder)
+        .args(["compensate", "in", "--profile", &case.profile, "-o"])
+        .arg(out);
+    let output = command
+        .args(&case.options)
+        .args(more)
+        .output()
+        .expect("the program starts");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(
+        output.status.code(),
+        Some(case.status),
+        "{}: {told}{}",
+        folder.display(),
+        String::from_utf8_lossy(&output.stdout)
+    );
+    output.stdout
+}
+
+#[test]
+fn every_sample_gives_its_golden_output() {
+    let bless = std::env::var_os("POSESHIFT_BLESS").is_some();
+    let cases = cases();
+    assert!(cases.len() >= 4, "{} samples", cases.len());
+    for (folder, case) in cases {
+        assert!(!case.about.is_empty());
+        let scratch = scratch();
+        let written = if bless {
+            folder.join("out")
+        } else {
+            scratch.path().join("out")
+        };
+        run(&folder, &case, &written, &[]);
+        let golden = folder.join("out");
+        assert_eq!(
+            files_below(&written),
+            files_below(&golden),
+            "{}",
+            folder.display()
+        );
+        for file in files_below(&golden) {
+            let (is, should) = (
+                std::fs::read(written.join(&file)),
+                std::fs::read(golden.join(&file)),
+            );
+            let same = is.expect("written") == should.expect("golden");
+            assert!(
+                same,
+                "{}: {} differs from out/ (POSESHIFT_BLESS=1 writes it anew)",
+                folder.display(),
+                file.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_profile_without_effects_changes_nothing_but_the_header() {
+    for (folder, case) in cases() {
+        let scratch = scratch();
+        let profile = std::fs::read_to_string(folder.join(&case.profile)).expect("a profile");
+        let plain = without_effects(&profile);
+        std::fs::write(scratch.path().join("plain.yaml"), plain).expect("scratch");
+        let case = Case {
+            profile: scratch.path().join("plain.yaml").display().to_string(),
+            ..case
+        };
+        let out = scratch.path().join("out");
+        run(&folder, &case, &out, &[]);
+        for file in files_below(&folder.join("in")) {
+            let Ok(after) = std::fs::read(out.join(&file)) else {
+                continue;
+            };
+            let before = std::fs::read(folder.join("in").join(&file)).expect("a sample");
+            assert_eq!(
+                unmarked(&after),
+                before,
+                "{} {}",
+                folder.display(),
+                file.display()
+            );
+        }
+    }
+}
+
+/// A profile's text with an empty list of effects.
+fn without_effects(profile: &str) -> String {
+    let start = profile.find("calibration:").expect("a calibrated profile");
+    format!("{}calibration: {{effects: []}}\n", &profile[..start])
+}
+
+/// The file without the lines of its marker: the one that says so and the two hashes behind it.
+fn unmarked(bytes: &[u8]) -> Vec<u8> {
+    let lines: Vec<&[u8]> = bytes.split_inclusive(|b| *b == b'\n').collect();
+    let word = b"poseshift compensated this file";
+    let marker = lines
+        .iter()
+        .position(|line| line.windows(word.len()).any(|window| window == word));
+    let is_marker = |index: usize| marker.is_some_and(|at| (at..at + 3).contains(&index));
+    lines
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| !is_marker(*index))
+        .flat_map(|(_, line)| line.iter().copied())
+        .collect()
+}
