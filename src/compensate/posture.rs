@@ -8,8 +8,8 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
-use crate::model::effects::Need;
 use crate::model::Conditions;
+use crate::model::effects::Need;
 use crate::program::{Configuration, Decoded, Value};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
@@ -72,12 +72,22 @@ pub(super) fn choose(
     let mut path = Path::default();
     for motion in &job.program.moves {
         if motion.file != path.file {
-            path = Path { file: motion.file, ..Path::default() };
+            path = Path {
+                file: motion.file,
+                ..Path::default()
+            };
         }
         let target = motion.target;
         let index = seen[target].unwrap_or_else(|| {
             let start = motion.near.as_deref().copied().or(path.joints);
-            let task = task(job, target, places[target], motion.configured && motion.near.is_none(), start, findings)?;
+            let task = task(
+                job,
+                target,
+                places[target],
+                motion.configured && motion.near.is_none(),
+                start,
+                findings,
+            )?;
             tasks.push(task);
             Some(tasks.len() - 1)
         });
@@ -92,7 +102,12 @@ pub(super) fn choose(
             None => match decoded(job, target).map(|decoded| decoded.value) {
                 Some(Value::Joints(q)) => path.go(q),
                 // where the robot is after a target that nobody understands is unknown
-                _ => path = Path { file: motion.file, ..Path::default() },
+                _ => {
+                    path = Path {
+                        file: motion.file,
+                        ..Path::default()
+                    }
+                }
             },
         }
     }
@@ -119,19 +134,39 @@ fn task(
 ) -> Option<Task> {
     let Place { tool, frame } = place?;
     let equipped = job.equipped(tool);
-    let Decoded { value, configuration } = decoded(job, target)?;
+    let Decoded {
+        value,
+        configuration,
+    } = decoded(job, target)?;
     let (wanted, branch, nominal_q) = match value {
-        Value::Joints(q) => {
-            (equipped.controller.forward(&q, &Conditions::default()), equipped.arm.posture(&q).0, q)
-        }
+        Value::Joints(q) => (
+            equipped.controller.forward(&q, &Conditions::default()),
+            equipped.arm.posture(&q).0,
+            q,
+        ),
         Value::Pose(frame_from_tool) => {
             let wanted = *job.world_from_frame(frame) * frame_from_tool;
-            let asked = Asked { target, arm: &equipped.arm, wanted, configuration, honoured, start };
+            let asked = Asked {
+                target,
+                arm: &equipped.arm,
+                wanted,
+                configuration,
+                honoured,
+                start,
+            };
             let way = choose_way(job, &asked, findings)?;
             (wanted, way.branch, way.q)
         }
     };
-    Some(Task { target, tool, frame, wanted, branch, nominal_q, direction: [0; 6] })
+    Some(Task {
+        target,
+        tool,
+        frame,
+        wanted,
+        branch,
+        nominal_q,
+        direction: [0; 6],
+    })
 }
 
 /// A target whose branch is to be found.
@@ -145,7 +180,14 @@ struct Asked<'a> {
 }
 
 fn choose_way(job: &Job, asked: &Asked, findings: &mut Vec<Finding>) -> Option<Way> {
-    let Asked { target, arm, wanted, configuration, honoured, start } = asked;
+    let Asked {
+        target,
+        arm,
+        wanted,
+        configuration,
+        honoured,
+        start,
+    } = asked;
     // along a path the next posture is mostly on the branch of the last one; the others are tried where it does not fit
     if let Some(before) = start {
         let way = way(arm, wanted, arm.posture(before).0, before, configuration);
@@ -153,11 +195,21 @@ fn choose_way(job: &Job, asked: &Asked, findings: &mut Vec<Finding>) -> Option<W
             return Some(way);
         }
     }
-    let middle = arm.mechanism().joints.map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
+    let middle = arm
+        .mechanism()
+        .joints
+        .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
     let near = start.unwrap_or(middle);
-    let ways: Vec<Way> = Branch::ALL.iter().filter_map(|&branch| way(arm, wanted, branch, &near, configuration)).collect();
+    let ways: Vec<Way> = Branch::ALL
+        .iter()
+        .filter_map(|&branch| way(arm, wanted, branch, &near, configuration))
+        .collect();
     let nearest = |accept: &dyn Fn(&Way) -> bool| {
-        let distance = |way: &Way| (0..6).map(|i| (way.q[i] - near[i]).abs()).fold(0.0, f64::max);
+        let distance = |way: &Way| {
+            (0..6)
+                .map(|i| (way.q[i] - near[i]).abs())
+                .fold(0.0, f64::max)
+        };
         let accepted = ways.iter().filter(|way| accept(way)).copied();
         accepted.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
@@ -171,22 +223,39 @@ fn choose_way(job: &Job, asked: &Asked, findings: &mut Vec<Finding>) -> Option<W
         return Some(way);
     }
     let name = name_of(job, *target);
-    let shown = nearest(&|_| true)?.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+    let shown = nearest(&|_| true)?
+        .q
+        .map(|q| format!("{:.1}", q / DEG))
+        .join(", ");
     if start.is_some() {
         let message = format!(
             "no solution at {name} has the configuration that the file gives; the one nearest to the target before is taken \
              (joints {shown} deg)"
         );
-        let hint = "check the configuration data, and that robot, tool and frame are those of the program";
-        findings.push(job.at_target("configuration-mismatch", Severity::Warning, *target, message, hint));
+        let hint =
+            "check the configuration data, and that robot, tool and frame are those of the program";
+        findings.push(job.at_target(
+            "configuration-mismatch",
+            Severity::Warning,
+            *target,
+            message,
+            hint,
+        ));
         return nearest(&|_| true);
     }
     let message = format!(
         "no solution at {name} has the configuration that the file gives, and no target before tells how the robot comes here \
          (nearest: joints {shown} deg)"
     );
-    let hint = "check that robot, tool and frame are those of the program; start with a joint target";
-    findings.push(job.at_target("configuration-unknown", Severity::Error, *target, message, hint));
+    let hint =
+        "check that robot, tool and frame are those of the program; start with a joint target";
+    findings.push(job.at_target(
+        "configuration-unknown",
+        Severity::Error,
+        *target,
+        message,
+        hint,
+    ));
     None
 }
 
@@ -256,8 +325,18 @@ fn turned_into(angle: f64, range: (f64, f64), limits: (f64, f64)) -> Option<f64>
 
 /// A pose that the nominal arm does not reach within its limits: the real one may, so the branch of the posture before or of
 /// the stretched arm goes on; with neither it is an error.
-fn out_of_reach(job: &Job, asked: &Asked, near: &[f64; 6], findings: &mut Vec<Finding>) -> Option<Way> {
-    let Asked { target, arm, wanted, .. } = asked;
+fn out_of_reach(
+    job: &Job,
+    asked: &Asked,
+    near: &[f64; 6],
+    findings: &mut Vec<Finding>,
+) -> Option<Way> {
+    let Asked {
+        target,
+        arm,
+        wanted,
+        ..
+    } = asked;
     let branch = arm.posture(near).0;
     let stretched = arm.solve_branch(wanted, branch, near);
     // squared cosine of the elbow beyond 1: a few millimetres at full stretch
