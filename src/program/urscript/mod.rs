@@ -30,6 +30,8 @@
 //!
 //! Each file stands for itself. The pendant opens .urp, not .script: a compensated script is sent or run as a script.
 
+mod calls;
+mod expressions;
 mod findings;
 mod flow;
 mod literals;
