@@ -195,7 +195,11 @@ fn refuse_doubtful(profile: &Profile, path: &Path) -> Result<(), Failure> {
             "{}: the controller is calibrated itself, and the profile has no effects to apply",
             path.display()
         );
-        let hint = "a calibrated controller needs the effects that it applies and those that remain; see `poseshift effects`";
+        let hint = if profile.own_effects.is_some() {
+            "the profile tells what the controller computes with, but not how the arm really is: calibrate it"
+        } else {
+            "a calibrated controller needs the effects that it applies and those that remain; see `poseshift effects`"
+        };
         return Err(Failure::with_hint(message, hint));
     }
     Ok(())
