@@ -1,6 +1,7 @@
 //! Rows of the chain from six axes that are given in any other way.
 
 use super::geometry::{Link, Mechanism};
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation, Vector};
 use std::f64::consts::{PI, TAU};
 
@@ -9,8 +10,8 @@ const TOLERANCE: f64 = 1e-9;
 /// Consecutive nominal axes with a smaller sine between them count as parallel.
 const PARALLEL_SINE: f64 = 0.1;
 /// Differences from the nominal rows that no arm of this type has.
-const LARGEST_M: f64 = 0.02;
-const LARGEST_RAD: f64 = 0.1;
+const LARGEST_MM: f64 = 20.0;
+const LARGEST_DEG: f64 = 5.0;
 
 /// Six axes: `base_from_flange = steps[0] · Rz(q1) · steps[1] · Rz(q2) · … · steps[5] · Rz(q6) · last`.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +43,7 @@ pub enum RowsError {
     },
     /// Nothing of this arm.
     #[error(
-        "{key} of row {row} differs by {found} {unit} from the nominal one, more than {limit} {unit}"
+        "{key} of row {row} differs by {found:.3} {unit} from the nominal one, more than {limit} {unit}"
     )]
     TooDifferent {
         /// Which number.
@@ -105,7 +106,7 @@ impl Axes {
         let (mut at, beside) = crossing(&self.steps[0], 0.0);
         if beside.abs() > TOLERANCE {
             return Err(RowsError::FirstAxis {
-                distance_mm: 1e3 * beside,
+                distance_mm: mm_from_m(beside),
             });
         }
         take(&mut links[0], &at);
@@ -130,8 +131,8 @@ impl Axes {
         let distance = x.hypot(y);
         if angle > TOLERANCE || distance > TOLERANCE {
             return Err(RowsError::Flange {
-                angle_deg: angle.to_degrees(),
-                distance_mm: 1e3 * distance,
+                angle_deg: angle / DEG,
+                distance_mm: mm_from_m(distance),
             });
         }
         let forward = rest.rotation.axis(0);
@@ -163,18 +164,18 @@ impl Crossing {
 /// The crossing whose z axis has the direction of this frame's, and how far beside the x axis the line passes at height z.
 fn crossing(axis: &Pose, z: f64) -> (Crossing, f64) {
     let [x, y, along] = axis.rotation.axis(2);
-    let point = if along.abs() > PARALLEL_SINE {
-        at_height(axis, z)
+    let (point, beta) = if along.abs() > PARALLEL_SINE {
+        (at_height(axis, z), x.clamp(-1.0, 1.0).asin())
     } else {
-        // the line lies across: its point nearest to the x axis
+        // the line lies across, on the common normal: its point nearest to the x axis
         let p = axis.translation;
         let by = -(p[1] * y + p[2] * along) / (y * y + along * along);
-        [p[0] + by * x, p[1] + by * y, p[2] + by * along]
+        ([p[0] + by * x, p[1] + by * y, p[2] + by * along], 0.0)
     };
     let crossing = Crossing {
         alpha: (-y).atan2(along),
         a: point[0],
-        beta: x.clamp(-1.0, 1.0).asin(),
+        beta,
     };
     (crossing, point[1].hypot(point[2] - z))
 }
@@ -225,34 +226,35 @@ fn near(angle: f64, to: f64) -> f64 {
 /// Rows of the same type of arm differ by little.
 fn compare(links: &[Link; 6], nominal: &[Link; 6]) -> Result<(), RowsError> {
     for (i, (link, nominal)) in links.iter().zip(nominal).enumerate() {
-        for (key, by, limit, unit) in [
-            (
-                "alpha",
-                link.alpha_rad - nominal.alpha_rad,
-                LARGEST_RAD,
-                "rad",
-            ),
-            ("a", link.a_m - nominal.a_m, LARGEST_M, "m"),
-            ("beta", link.beta_rad - nominal.beta_rad, LARGEST_RAD, "rad"),
-            (
-                "theta",
-                link.theta_rad - nominal.theta_rad,
-                LARGEST_RAD,
-                "rad",
-            ),
-            ("d", link.d_m - nominal.d_m, LARGEST_M, "m"),
+        for (key, by) in [
+            ("alpha", link.alpha_rad - nominal.alpha_rad),
+            ("beta", link.beta_rad - nominal.beta_rad),
+            ("theta", link.theta_rad - nominal.theta_rad),
         ] {
-            let wrong = by.is_nan() || by.abs() > limit;
-            if wrong {
-                return Err(RowsError::TooDifferent {
-                    key,
-                    row: i + 1,
-                    found: by,
-                    unit,
-                    limit,
-                });
-            }
+            within(key, i, by / DEG, LARGEST_DEG, "deg")?;
+        }
+        for (key, by) in [("a", link.a_m - nominal.a_m), ("d", link.d_m - nominal.d_m)] {
+            within(key, i, mm_from_m(by), LARGEST_MM, "mm")?;
         }
     }
     Ok(())
+}
+
+fn within(
+    key: &'static str,
+    index: usize,
+    found: f64,
+    limit: f64,
+    unit: &'static str,
+) -> Result<(), RowsError> {
+    if found.abs() <= limit {
+        return Ok(());
+    }
+    Err(RowsError::TooDifferent {
+        key,
+        row: index + 1,
+        found,
+        unit,
+        limit,
+    })
 }
