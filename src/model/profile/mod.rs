@@ -462,3 +462,6 @@ fn effects(entries: Vec<file::EffectFile>) -> Result<Vec<Effect>, ProfileError> 
     }
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests;

@@ -206,3 +206,55 @@ fn the_command_writes_a_profile_that_fk_reads_and_compensation_waits_for() {
         .code(2);
     assert!(!out.exists());
 }
+
+#[test]
+fn the_effects_of_the_controller_are_told_and_counted_as_a_difference() {
+    let folder = scratch();
+    let out = folder.path().join("ur5.yaml");
+    let ur5 = repository("robots/universal_robots_ur5.yaml");
+    poseshift()
+        .args(["profile", "import-ur", "--json"])
+        .arg(repository(&format!("{FOLDER}/ur5_tilted.kinematics.yaml")))
+        .arg("--profile")
+        .arg(&ur5)
+        .arg("-o")
+        .arg(&out)
+        .assert()
+        .success();
+    let told = |arguments: &[&std::ffi::OsStr]| -> serde_json::Value {
+        let output = poseshift()
+            .arg("profile")
+            .args(arguments)
+            .arg("--json")
+            .output()
+            .expect("the program starts");
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    let facts = told(&["show".as_ref(), out.as_ref()]);
+    assert!(
+        facts["facts"]["controller effect link_geometry link 3"].is_string(),
+        "{facts}"
+    );
+    assert_eq!(facts["deviation"]["max_mm"], 0.0);
+    let diff = told(&["diff".as_ref(), ur5.as_ref(), out.as_ref()]);
+    let keys: Vec<_> = diff["differences"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .collect();
+    let is_of_controller = |row: &&serde_json::Value| {
+        row["key"]
+            .as_str()
+            .is_some_and(|key| key.starts_with("controller"))
+    };
+    assert!(
+        keys.len() >= 6 && keys.iter().all(is_of_controller),
+        "{diff}"
+    );
+    let schema = Profile::schema();
+    assert!(schema.to_string().contains("\"link_geometry\""));
+    assert!(
+        schema["$defs"]["ControllerFile"]["properties"]["effects"].is_object(),
+        "{schema}"
+    );
+}
