@@ -12,7 +12,7 @@ const MOST_LOOKED_INTO: u32 = 8;
 /// The value of everything that is not looked into.
 pub(super) const OTHER: ExprId = 0;
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     /// One token of an expression; a call with its arguments, a bracket with what is in it.
     pub(super) fn part(&mut self, token: Token) -> Read<()> {
         match token.kind {

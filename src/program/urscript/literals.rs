@@ -39,23 +39,22 @@ pub fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) ->
         let sign = usize::from(matches!(rest.first(), Some(b'+' | b'-')));
         let fits = |length: usize| length >= sign + number_length(&rest[sign..]);
         let quick = parse_start(rest).filter(|(_, length)| fits(*length));
-        let (value, length) = match quick {
-            Some(found) => found,
-            None => {
-                let length = sign + number_length(&rest[sign..]);
-                let Some(value) = parse(&rest[..length]) else {
-                    numbers.truncate(first);
-                    let text = std::str::from_utf8(&rest[..length]).ok();
-                    let digits = rest[sign..length].first().is_some_and(u8::is_ascii_digit);
-                    let value = text.and_then(|text| text.parse::<f64>().ok());
-                    return if digits && value.is_some_and(f64::is_infinite) {
-                        Found::TooLarge(at, at + length)
-                    } else {
-                        Found::Else
-                    };
+        let (value, length) = if let Some(found) = quick {
+            found
+        } else {
+            let length = sign + number_length(&rest[sign..]);
+            let Some(value) = parse(&rest[..length]) else {
+                numbers.truncate(first);
+                let text = std::str::from_utf8(&rest[..length]).ok();
+                let digits = rest[sign..length].first().is_some_and(u8::is_ascii_digit);
+                let value = text.and_then(|text| text.parse::<f64>().ok());
+                return if digits && value.is_some_and(f64::is_infinite) {
+                    Found::TooLarge(at, at + length)
+                } else {
+                    Found::Else
                 };
-                (value, length)
-            }
+            };
+            (value, length)
         };
         let Ok(short) = u16::try_from(length) else {
             numbers.truncate(first);

@@ -1,4 +1,4 @@
-//! Universal Robots URScript: .script, .urscript.
+//! Universal Robots `URScript`: .script, .urscript.
 //!
 //! A pose is `p[x, y, z, rx, ry, rz]`, metres and a rotation vector in radians; joints are `[q0, …, q5]`, radians, or
 //! `d2r(…)` of degrees. The pose is that of the tool of the last `set_tcp` in the controller's base; `pose_trans(feature,
@@ -24,7 +24,7 @@
 //! | `streamed-motion` | error | servoj or servoc to a pose |
 //! | `moving-frame` | error | conveyor tracking, path offsets, parts that move |
 //! | `target-copied` | warning | a value is computed from a target |
-//! | `motion-without-target` | note | speedl, force_mode and their like |
+//! | `motion-without-target` | note | `speedl`, `force_mode` and their like |
 //!
 //! # Limits
 //!
@@ -52,7 +52,7 @@ use crate::geometry::units::DEG;
 use moves::Moves;
 use reader::Reader;
 
-/// Universal Robots URScript.
+/// Universal Robots `URScript`.
 #[derive(Debug)]
 pub struct UrScript;
 
