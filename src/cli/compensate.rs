@@ -189,12 +189,15 @@ fn refuse_doubtful(profile: &Profile, path: &Path) -> Result<(), Failure> {
         .effects
         .iter()
         .all(crate::model::effects::Effect::is_zero);
-    if profile.controller == ControllerModel::Calibrated && nothing {
+    // with its own effects the real arm is taken as the controller's: nothing changes
+    if profile.controller == ControllerModel::Calibrated && profile.own_effects.is_none() && nothing
+    {
         let message = format!(
             "{}: the controller is calibrated itself, and the profile has no effects to apply",
             path.display()
         );
-        let hint = "a calibrated controller needs the effects that it applies and those that remain; see `poseshift effects`";
+        let hint = "a calibrated controller needs the effects that it applies (`controller.effects`; of a UR, `poseshift profile \
+                    import-ur`) and those of the real arm";
         return Err(Failure::with_hint(message, hint));
     }
     Ok(())

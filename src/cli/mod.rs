@@ -4,6 +4,7 @@ mod catalogue;
 mod compensate;
 mod failure;
 mod files;
+mod import_ur;
 mod kinematics;
 mod profile;
 mod shell;

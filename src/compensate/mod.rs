@@ -29,7 +29,7 @@ use rewrite::Portion;
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::inverse::{Arm, Branch, Inverse, Targets, Unsupported, solve_batch};
+use crate::inverse::{Arm, Branch, Inverse, Status, Targets, Unsupported, solve_batch};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use crate::program::{Edits, Language, Program, ReadError, Settings, Source};
@@ -96,6 +96,28 @@ struct Equipped {
     calibrated_controller: Option<Inverse>,
     /// The real arm without conditions.
     inverse: Inverse,
+}
+
+impl Equipped {
+    /// The joints that the controller computes for `world_from_tool` near others, and whether they reach it.
+    fn controller_joints(
+        &self,
+        world_from_tool: &Pose,
+        branch: Branch,
+        near: &[f64; 6],
+    ) -> ([f64; 6], bool) {
+        match &self.calibrated_controller {
+            None => {
+                let solution = self.arm.solve_branch(world_from_tool, branch, near);
+                (solution.q, solution.beyond == 0.0)
+            }
+            Some(controller) => {
+                let outcome = controller.solve(world_from_tool, branch, near);
+                let missed = matches!(outcome.status, Status::OutOfReach | Status::NotConverged);
+                (outcome.q, !missed)
+            }
+        }
+    }
 }
 
 /// A target whose tool, frame and branch are known.

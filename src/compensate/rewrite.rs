@@ -2,7 +2,7 @@
 
 use super::outcome::TargetReport;
 use super::placement::name_of;
-use super::{Equipped, Job, Task};
+use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
@@ -207,12 +207,12 @@ fn landing(job: &Job, task: &Task, outcome: &Outcome, written: &[f64]) -> Separa
         .value
     {
         Value::Joints(q) => q,
-        Value::Pose(frame_from_tool) => controller_joints(
-            job,
-            task,
-            &(*job.world_from_frame(task.frame) * frame_from_tool),
-            outcome,
-        ),
+        Value::Pose(frame_from_tool) => {
+            let given = *job.world_from_frame(task.frame) * frame_from_tool;
+            let equipped = job.equipped(task.tool);
+            let (q, _) = equipped.controller_joints(&given, task.branch, &outcome.q);
+            q
+        }
     };
     job.equipped(task.tool)
         .inverse
@@ -235,19 +235,6 @@ fn rounding_finding(job: &Job, task: &Task, rounding: Separation, shift: Separat
         message,
         "--decimals 3 writes more",
     )
-}
-
-/// The joints that the controller computes for a pose near the one found.
-fn controller_joints(job: &Job, task: &Task, given: &Pose, outcome: &Outcome) -> [f64; 6] {
-    let Equipped {
-        arm,
-        calibrated_controller,
-        ..
-    } = job.equipped(task.tool);
-    match calibrated_controller {
-        None => arm.solve_branch(given, task.branch, &outcome.q).q,
-        Some(controller) => controller.solve(given, task.branch, &outcome.q).q,
-    }
 }
 
 fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {

@@ -15,6 +15,7 @@ mod marker;
 pub mod number;
 pub mod rapid;
 mod source;
+pub mod urscript;
 
 pub use edit::Edits;
 pub use error::ReadError;
@@ -31,6 +32,7 @@ pub const LANGUAGES: &[&dyn Language] = &[
     &rapid::Rapid,
     &krl::Krl,
     &fanuc::Fanuc,
+    &urscript::UrScript,
     &inform::Inform,
     &csv::Csv,
 ];
