@@ -142,7 +142,7 @@ impl Language for Fanuc {
                 });
             }
         }
-        let mut program = resolve::resolve(sources, &listings, &values);
+        let mut program = resolve::resolve(sources, &mut listings, &values);
         program
             .findings
             .extend(rounded.into_iter().map(frames_rounded));
@@ -256,6 +256,7 @@ fn listing(source: &Source, file: u32, sections: &Sections) -> Result<Listing, F
     while let Some(point) = points.next()? {
         listing.points.push(point);
     }
+    listing.numbers = points.numbers;
     Ok(listing)
 }
 
