@@ -101,7 +101,7 @@ fn same(a: f64, b: f64) -> bool {
 /// Writes one of the numbers: a letter, or a whole number with the blanks before it that it had.
 pub fn write(k: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
     if let Some([zero, one]) = LETTERS.get(k) {
-        out.push(if same(value, 0.0) { *zero } else { *one })
+        out.push(if same(value, 0.0) { *zero } else { *one });
     } else {
         let text = format!("{value:.0}");
         let text = if same(value, 0.0) { "0" } else { &text };
