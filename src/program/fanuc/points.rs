@@ -397,6 +397,7 @@ fn group_number(key: &[u8]) -> Option<u32> {
 
 /// Group 1 of a point while it is read.
 #[derive(Default)]
+#[allow(clippy::struct_excessive_bools, clippy::option_option)]
 struct Group {
     there: bool,
     uninitialised: bool,
@@ -493,24 +494,21 @@ fn flags(text: &[u8], start: usize) -> Option<[Number; 6]> {
             at += 1;
         }
         let rest = text.get(at..).filter(|rest| !rest.is_empty())?;
-        let (value, length) = match super::config::LETTERS.get(k) {
-            Some([zero, one]) => {
-                let letter = rest[0];
-                let value = if letter == *zero {
-                    0.0
-                } else if letter == *one {
-                    1.0
-                } else {
-                    return None;
-                };
-                (value, 1)
-            }
-            None => {
-                let sign = usize::from(matches!(rest[0], b'-' | b'+'));
-                let digits = rest[sign..].iter().take_while(|b| b.is_ascii_digit());
-                let length = sign + digits.take(3).count();
-                (number::parse(&rest[..length])?, length)
-            }
+        let (value, length) = if let Some([zero, one]) = super::config::LETTERS.get(k) {
+            let letter = rest[0];
+            let value = if letter == *zero {
+                0.0
+            } else if letter == *one {
+                1.0
+            } else {
+                return None;
+            };
+            (value, 1)
+        } else {
+            let sign = usize::from(matches!(rest[0], b'-' | b'+'));
+            let digits = rest[sign..].iter().take_while(|b| b.is_ascii_digit());
+            let length = sign + digits.take(3).count();
+            (number::parse(&rest[..length])?, length)
         };
         *number = Number {
             start: offset(start + at),

@@ -426,8 +426,7 @@ impl<'a> Resolver<'a> {
             (point.frame, state.frame, &self.frames, "user frame")
         };
         let number = match (selected, active) {
-            (Selected::Number(number), _) => number,
-            (Selected::Active, Active::Number(number)) => number,
+            (Selected::Number(number), _) | (Selected::Active, Active::Number(number)) => number,
             (Selected::Active, Active::Start) => ACTIVE,
             (Selected::Active, Active::Unknown) => {
                 self.block(first_target + index, Cause::FrameUnknown, Some(place));
