@@ -3,7 +3,7 @@
 #[path = "../tests/suite/path.rs"]
 mod path;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use poseshift::compensate::{Given, Options, compensate};
 use poseshift::model::profile::Profile;
 use poseshift::program::{LANGUAGES, Settings, Source};
@@ -33,14 +33,17 @@ fn read_and_write(criterion: &mut Criterion) {
             given,
             ..Options::default()
         };
-        let edits = compensate(language, &sources, &profile, &options)
-            .expect("compensated")
-            .edits;
+        let compensated = compensate(language, &sources, &profile, &options);
+        let edits = compensated.expect("compensated").edits;
         group.bench_function(*id, |b| {
-            b.iter(|| {
-                let program = language.read(&sources, &settings).expect("a program");
-                (program.targets.len(), edits[0].apply(&sources[0].bytes))
-            });
+            b.iter_batched(
+                || edits[0].clone(),
+                |edits| {
+                    let program = language.read(&sources, &settings).expect("a program");
+                    (program.targets.len(), edits.apply(&sources[0].bytes))
+                },
+                BatchSize::LargeInput,
+            );
         });
     }
     group.finish();

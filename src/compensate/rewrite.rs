@@ -255,7 +255,9 @@ pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {
 /// because the language cannot write them for one target alone.
 fn kept_configuration(job: &Job, task: &Task, outcome: &Outcome, new: &[f64]) -> Option<usize> {
     let target = &job.program.targets[task.target];
-    if !task.honoured || target.layout.shape != Shape::Pose {
+    let roles = job.language.roles(target.layout);
+    let writes_its_own = roles.contains(&Role::Configuration);
+    if !task.honoured || target.layout.shape != Shape::Pose || writes_its_own {
         return None;
     }
     let decoded = job.language.decode(target.layout, new, job.settings);
