@@ -220,12 +220,16 @@ fn text(found: &Calibration, all: bool) -> String {
     }
     for dropped in &found.solution.identifiable.dropped {
         let with: Vec<&str> = dropped.confounded_with.iter().take(3).map(|i| names[*i].key.as_str()).collect();
+        let weak = dropped.weak.map(|w| {
+            let p = &names[dropped.parameter];
+            format!("sigma would be {:.3} {}; ", w * p.scale / p.unit.in_si(), p.unit.symbol())
+        });
         let why = if with.is_empty() {
             "does nothing to what was measured".to_owned()
         } else {
             format!("like {}", with.join(", "))
         };
-        out += &wrapped(&format!("  {}: {why}", names[dropped.parameter].key));
+        out += &wrapped(&format!("  {}: {}{why}", names[dropped.parameter].key, weak.unwrap_or_default()));
     }
     let strong = u.strong_correlations(STRONG_CORRELATION);
     if !strong.is_empty() {

@@ -1,7 +1,7 @@
 //! What the data can tell apart, and how well: rank, confounding, observability.
 
 use super::normal::Normal;
-use super::parameters::Parameter;
+use super::parameters::{FIRST_PHYSICAL, Parameter};
 use nalgebra::{DMatrix, DVector};
 
 /// A column is redundant where less than this part of it is left when earlier columns have explained the rest.
@@ -18,6 +18,8 @@ pub struct Dropped {
     pub parameter: usize,
     /// Parameters that do the same to the data together, strongest first; empty where it does nothing.
     pub confounded_with: Vec<usize>,
+    /// Its standard deviation in its typical sizes, where it is seen but known less well than before.
+    pub weak: Option<f64>,
 }
 
 /// Which parameters the data determine.
@@ -30,12 +32,17 @@ pub struct Identifiable {
 }
 
 /// Finds redundant columns in the order of the parameters, earlier ones are kept: a Cholesky factorisation of the scaled
-/// normal matrix that leaves out every column whose pivot vanishes.
+/// normal matrix that leaves out every column whose pivot vanishes. With the residuals' size `noise` in standard
+/// deviations, a column is left out as well whose parameter the data would tell less well than its typical size does.
 ///
 /// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it, the limit is
 /// [`REDUNDANT`] squared.
 #[must_use]
-pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
+pub fn identifiable(
+    normal: &Normal,
+    parameters: &[Parameter],
+    noise: Option<f64>,
+) -> Identifiable {
     let count = parameters.len();
     let mut found = Identifiable::default();
     // rows of the factor for the kept columns
@@ -46,6 +53,7 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
             found.dropped.push(Dropped {
                 parameter: j,
                 confounded_with: Vec::new(),
+                weak: None,
             });
             continue;
         }
@@ -55,7 +63,10 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
             row.push((normal.matrix[(j, *other)] - known) / factor[k][k]);
         }
         let left = length - row.iter().map(|x| x * x).sum::<f64>();
-        if left > REDUNDANT * REDUNDANT * length {
+        let known = noise.map_or(0.0, |noise| noise / left.max(0.0).sqrt());
+        let weak = parameters[j].rank >= FIRST_PHYSICAL && known > 1.0;
+        let redundant = left <= REDUNDANT * REDUNDANT * length;
+        if !redundant && !weak {
             row.push(left.sqrt());
             factor.push(row);
             found.kept.push(j);
@@ -80,6 +91,7 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
         found.dropped.push(Dropped {
             parameter: j,
             confounded_with: parts.into_iter().map(|(_, other)| other).collect(),
+            weak: (!redundant).then_some(known),
         });
     }
     found

@@ -6,7 +6,9 @@ pub mod normal;
 pub mod observation;
 pub mod parameters;
 pub mod problem;
+pub mod random;
 pub mod robust;
+pub mod simulate;
 pub mod solver;
 pub mod start;
 
@@ -15,6 +17,7 @@ pub mod calibration;
 pub mod screening;
 pub mod statistics;
 pub mod uncertainty;
+pub mod validation;
 
 pub use calibration::{BasePolicy, Calibration, Options, calibrate};
 pub use error::{IdentifyError, SelectionError};

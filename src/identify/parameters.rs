@@ -7,6 +7,8 @@ use crate::model::{JOINTS, Slot};
 
 /// Axes are parallel where the sine of the angle between them is below this: there β stands for the d it makes redundant.
 const PARALLEL: f64 = 0.1;
+/// Parameters of this rank and above have a typical size; base, tool and points may be anywhere.
+pub const FIRST_PHYSICAL: u32 = 2;
 /// How far a measured point may be from where it is believed, one standard deviation, metres.
 const POINT_SIGMA_M: f64 = 0.01;
 

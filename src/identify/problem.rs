@@ -14,7 +14,9 @@ pub const DEFAULT_SIGMA_M: f64 = 1e-4;
 /// An orientation weighs as much as a position at this distance from the tool, metres.
 pub const LEVER_M: f64 = 0.3;
 /// A joint's torque must change by this part of the largest change to tell its compliance.
-const TORQUE_PART: f64 = 0.02;
+const TORQUE_PART: f64 = 1e-3;
+/// And that of joint 1, which carries none where the arm stands upright: 1 % is half a degree of tilt.
+const UPRIGHT_PART: f64 = 0.02;
 
 /// Where the measured point of a row is in the tool frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,7 +180,10 @@ fn loaded(profile: &Profile, tools: &[Mounted], rows: &[Row], gravity_known: boo
     let spread: [f64; 6] =
         std::array::from_fn(|i| (squares[i] / count - (sum[i] / count).powi(2)).max(0.0).sqrt());
     let largest = spread.iter().copied().fold(0.0, f64::max);
-    spread.map(|s| s > TORQUE_PART * largest)
+    std::array::from_fn(|i| {
+        let part = if i == 0 { UPRIGHT_PART } else { TORQUE_PART };
+        spread[i] > part * largest
+    })
 }
 
 impl Problem {

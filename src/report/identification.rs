@@ -96,7 +96,9 @@ pub fn parameters(calibration: &Calibration) -> Vec<Value> {
                 .map(|d| d.confounded_with.iter().map(|other| names[*other].key.as_str()).collect())
                 .unwrap_or_default();
             let unit = parameter.unit.in_si();
+            let weak = dropped.and_then(|d| d.weak).map(|w| w * parameter.scale / unit);
             json!({
+                "sigma_if_identified": weak,
                 "key": parameter.key, "value": value / unit, "unit": parameter.unit.symbol(),
                 "sigma": sigma.map(|s| s / unit), "identifiable": sigma.is_some(), "confounded_with": confounded,
             })
@@ -171,7 +173,11 @@ pub fn profile_quality(calibration: &Calibration) -> Value {
     let rows: Vec<Vec<f64>> = (0..parameters.len())
         .map(|i| (0..=i).map(|j| u.covariance[(i, j)] * unit(i) * unit(j)).collect())
         .collect();
+    let seen: Vec<[f64; 3]> = calibration.problem.rows.iter().filter_map(|r| r.observed.point_m()).collect();
+    let middle = seen.iter().fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
+    let middle = middle.map(|x| mm_from_m(x / seen.len().max(1) as f64));
     json!({
+        "middle_mm": middle,
         "before": quality(&calibration.before),
         "frames_only": quality(&calibration.frames_only_quality),
         "after": quality(&calibration.after),
