@@ -5,6 +5,7 @@ pub mod measurements;
 pub mod normal;
 pub mod observation;
 pub mod parameters;
+pub mod plan;
 pub mod problem;
 pub mod random;
 pub mod robust;
