@@ -8,6 +8,8 @@ use nalgebra::{DMatrix, DVector};
 pub const REDUNDANT: f64 = 1e-4;
 /// A column shows nothing where a typical size of its parameter moves all rows together by fewer standard deviations.
 const INVISIBLE: f64 = 1e-3;
+/// A parameter is hardly seen that the data would tell with a standard deviation of more than this many typical sizes.
+pub const WEAK: f64 = 3.0;
 /// The part of a redundant column that another parameter must explain to be named.
 const NAMED: f64 = 0.1;
 
@@ -33,7 +35,7 @@ pub struct Identifiable {
 
 /// Finds redundant columns in the order of the parameters, earlier ones are kept: a Cholesky factorisation of the scaled
 /// normal matrix that leaves out every column whose pivot vanishes. With the residuals' size `noise` in standard
-/// deviations, a column is left out as well whose parameter the data would tell less well than its typical size does.
+/// deviations, a column is left out as well whose parameter the data would tell less well than [`WEAK`] times its typical size.
 ///
 /// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it, the limit is
 /// [`REDUNDANT`] squared.
@@ -64,7 +66,7 @@ pub fn identifiable(
         }
         let left = length - row.iter().map(|x| x * x).sum::<f64>();
         let known = noise.map_or(0.0, |noise| noise / left.max(0.0).sqrt());
-        let weak = parameters[j].rank >= FIRST_PHYSICAL && known > 1.0;
+        let weak = parameters[j].rank >= FIRST_PHYSICAL && known > WEAK;
         let redundant = left <= REDUNDANT * REDUNDANT * length;
         if !redundant && !weak {
             row.push(left.sqrt());

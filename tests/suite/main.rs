@@ -5,4 +5,5 @@ mod cli;
 mod golden;
 mod laws;
 mod oracle;
+mod recover;
 mod support;
