@@ -38,7 +38,10 @@ fn measured(count: usize) -> Measurements {
     let mut random = Random::new(1);
     let commands: Vec<Command> = (0..count)
         .map(|_| Command {
-            q: profile.mechanism.joints.map(|j| random.between(j.min_rad, j.max_rad)),
+            q: profile
+                .mechanism
+                .joints
+                .map(|j| random.between(j.min_rad, j.max_rad)),
             conditions: None,
         })
         .collect();
@@ -58,39 +61,62 @@ fn identification(criterion: &mut Criterion) {
     let profile = nominal();
     for count in [50, 9905] {
         let seen = measured(count);
-        let (problem, start) =
-            Problem::new(&profile, &seen, &selection(), profile.world_from_base).expect("a problem");
+        let (problem, start) = Problem::new(&profile, &seen, &selection(), profile.world_from_base)
+            .expect("a problem");
         assert_eq!(problem.parameters.len(), 30);
-        group.bench_function(format!("30 parameters from {count} positions, solve"), |b| {
-            b.iter(|| {
-                let solved = solve(&problem, start.clone(), Shape::Squares, true).expect("solved");
-                let counts = vec![3; count];
-                black_box(Uncertainty::of(&solved.normal, &solved.parameters, &counts, solved.loss, false))
-            });
-        });
+        group.bench_function(
+            format!("30 parameters from {count} positions, solve"),
+            |b| {
+                b.iter(|| {
+                    let solved =
+                        solve(&problem, start.clone(), Shape::Squares, true).expect("solved");
+                    let counts = vec![3; count];
+                    black_box(Uncertainty::of(
+                        &solved.normal,
+                        &solved.parameters,
+                        &counts,
+                        solved.loss,
+                        false,
+                    ))
+                });
+            },
+        );
         let options = Options {
             selection: selection(),
             shape: Shape::Huber,
             base: BasePolicy::Profile,
         };
-        group.bench_function(format!("30 parameters from {count} positions, all of calibrate"), |b| {
-            b.iter(|| black_box(calibrate(&profile, &seen, &options).expect("solved")));
-        });
+        group.bench_function(
+            format!("30 parameters from {count} positions, all of calibrate"),
+            |b| {
+                b.iter(|| black_box(calibrate(&profile, &seen, &options).expect("solved")));
+            },
+        );
     }
     group.finish();
 }
 
 fn all_pairs(criterion: &mut Criterion) {
     let mut random = Random::new(2);
-    let measured: Vec<[f64; 3]> = (0..9905).map(|_| [0.0; 3].map(|_: f64| random.between(-600.0, 600.0))).collect();
-    let expected: Vec<[f64; 3]> = measured.iter().map(|p| p.map(|x| x + 0.1 * random.normal())).collect();
+    let measured: Vec<[f64; 3]> = (0..9905)
+        .map(|_| [0.0; 3].map(|_: f64| random.between(-600.0, 600.0)))
+        .collect();
+    let expected: Vec<[f64; 3]> = measured
+        .iter()
+        .map(|p| p.map(|x| x + 0.1 * random.normal()))
+        .collect();
     let mut group = criterion.benchmark_group("distances");
     group.sample_size(20);
-    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let one = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
     group.bench_function("49 million pairs, one core", |b| {
         b.iter(|| one.install(|| black_box(pairs(&measured, &expected))));
     });
-    group.bench_function("49 million pairs, all cores", |b| b.iter(|| black_box(pairs(&measured, &expected))));
+    group.bench_function("49 million pairs, all cores", |b| {
+        b.iter(|| black_box(pairs(&measured, &expected)))
+    });
     group.finish();
 }
 
@@ -111,9 +137,14 @@ fn choosing(criterion: &mut Criterion) {
     group.sample_size(20);
     for starts in [1, 10] {
         let found = plan(&profile, &tool, &selection(), &request(starts)).expect("a plan");
-        println!("50 of 5000, {starts} starts: O1 {:.4} ({:?})", found.observability.o1, found.starts_o1);
+        println!(
+            "50 of 5000, {starts} starts: O1 {:.4} ({:?})",
+            found.observability.o1, found.starts_o1
+        );
         group.bench_function(format!("50 of 5000, {starts} starts"), |b| {
-            b.iter(|| black_box(plan(&profile, &tool, &selection(), &request(starts)).expect("a plan")));
+            b.iter(|| {
+                black_box(plan(&profile, &tool, &selection(), &request(starts)).expect("a plan"))
+            });
         });
     }
     group.finish();

@@ -81,16 +81,25 @@ pub struct PlanCommand {
 }
 
 fn metres<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
-    let parsed: Option<Vec<f64>> =
-        text.split(',').map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite())).collect();
+    let parsed: Option<Vec<f64>> = text
+        .split(',')
+        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
+        .collect();
     let numbers: Option<[f64; N]> = parsed.and_then(|n| n.try_into().ok());
-    let numbers = numbers.ok_or_else(|| Failure::new(format!("{option} {text}: expected {N} numbers with commas between")))?;
+    let numbers = numbers.ok_or_else(|| {
+        Failure::new(format!(
+            "{option} {text}: expected {N} numbers with commas between"
+        ))
+    })?;
     Ok(numbers.map(m_from_mm))
 }
 
 fn metres_box(option: &str, text: &str) -> Result<[[f64; 3]; 2], Failure> {
     let [a, b, c, d, e, f] = metres::<6>(option, text)?;
-    Ok([[a.min(d), b.min(e), c.min(f)], [a.max(d), b.max(e), c.max(f)]])
+    Ok([
+        [a.min(d), b.min(e), c.min(f)],
+        [a.max(d), b.max(e), c.max(f)],
+    ])
 }
 
 impl PlanCommand {
@@ -100,18 +109,27 @@ impl PlanCommand {
             Some(path) => {
                 let table = Table::read(path)?;
                 table.require(&JOINTS)?;
-                let rows = table.rows().map(|row| Ok(row.numbers(JOINTS)?.map(|q| q * DEG)));
+                let rows = table
+                    .rows()
+                    .map(|row| Ok(row.numbers(JOINTS)?.map(|q| q * DEG)));
                 rows.collect::<Result<Vec<_>, Failure>>()?
             }
         };
         for (option, value) in [("--sigma-mm", self.sigma_mm), ("--cone-deg", self.cone_deg)] {
             if value.is_nan() || value <= 0.0 {
-                return Err(Failure::new(format!("{option} is {value}; it must be greater than 0")));
+                return Err(Failure::new(format!(
+                    "{option} is {value}; it must be greater than 0"
+                )));
             }
         }
-        for (option, value) in [("--margin-deg", self.margin_deg), ("--approach-deg", self.approach_deg)] {
+        for (option, value) in [
+            ("--margin-deg", self.margin_deg),
+            ("--approach-deg", self.approach_deg),
+        ] {
             if !(0.0..=90.0).contains(&value) {
-                return Err(Failure::new(format!("{option} is {value}; it must be from 0 to 90")));
+                return Err(Failure::new(format!(
+                    "{option} is {value}; it must be from 0 to 90"
+                )));
             }
         }
         if self.count == 0 || self.candidates < self.count || self.candidates > 1_000_000 {
@@ -120,8 +138,15 @@ impl PlanCommand {
                 self.count, self.candidates
             )));
         }
-        let keep_out = self.keep_out_mm.iter().map(|t| metres_box("--keep-out-mm", t));
-        let device = self.device_mm.as_deref().map(|t| metres::<3>("--device-mm", t)).transpose()?;
+        let keep_out = self
+            .keep_out_mm
+            .iter()
+            .map(|t| metres_box("--keep-out-mm", t));
+        let device = self
+            .device_mm
+            .as_deref()
+            .map(|t| metres::<3>("--device-mm", t))
+            .transpose()?;
         Ok(Request {
             count: self.count,
             candidates: self.candidates,
@@ -133,7 +158,11 @@ impl PlanCommand {
             constraints: Constraints {
                 margin_rad: self.margin_deg * DEG,
                 approach_rad: self.approach_deg * DEG,
-                inside: self.inside_mm.as_deref().map(|t| metres_box("--inside-mm", t)).transpose()?,
+                inside: self
+                    .inside_mm
+                    .as_deref()
+                    .map(|t| metres_box("--inside-mm", t))
+                    .transpose()?,
                 keep_out: keep_out.collect::<Result<_, _>>()?,
                 sight: device.map(|at| (at, self.cone_deg * DEG)),
             },
@@ -156,7 +185,8 @@ impl PlanCommand {
             priors: false,
         };
         let name = self.profile.display().to_string();
-        let found = plan(&profile, &tool, &selection, &request).map_err(|error| identify_failure(&name, &error))?;
+        let found = plan(&profile, &tool, &selection, &request)
+            .map_err(|error| identify_failure(&name, &error))?;
         let mut table = format!("id,{}\n", JOINTS.join(","));
         for (i, q) in found.joints.iter().enumerate() {
             let cells: Vec<String> = q.iter().map(|q| cell(q / DEG)).collect();
@@ -167,19 +197,27 @@ impl PlanCommand {
             written.push((path.clone(), table.clone().into_bytes()));
         }
         if let Some(path) = &self.program {
-            let language = self.language.as_deref().or(profile.language.as_deref()).unwrap_or_default();
-            let text = approach::program(language, &found.joints, self.approach_deg * DEG).ok_or_else(|| {
-                Failure::with_hint(
-                    format!("no program can be written in `{language}`"),
-                    format!("--language is one of: {}", approach::LANGUAGES.join(", ")),
-                )
-            })?;
+            let language = self
+                .language
+                .as_deref()
+                .or(profile.language.as_deref())
+                .unwrap_or_default();
+            let text = approach::program(language, &found.joints, self.approach_deg * DEG)
+                .ok_or_else(|| {
+                    Failure::with_hint(
+                        format!("no program can be written in `{language}`"),
+                        format!("--language is one of: {}", approach::LANGUAGES.join(", ")),
+                    )
+                })?;
             written.push((path.clone(), text.into_bytes()));
         }
         files::write_all(&written)?;
         if output.json {
             let mut report = report(&found);
-            let names: Vec<String> = written.iter().map(|(p, _)| p.display().to_string()).collect();
+            let names: Vec<String> = written
+                .iter()
+                .map(|(p, _)| p.display().to_string())
+                .collect();
             report["output"] = json!(names);
             return print_json(&report).map(|()| Answer::Yes);
         }
@@ -207,11 +245,19 @@ fn report(found: &Plan) -> Value {
         .dropped
         .iter()
         .map(|d| {
-            let with: Vec<&str> = d.confounded_with.iter().map(|i| found.parameters[*i].key.as_str()).collect();
+            let with: Vec<&str> = d
+                .confounded_with
+                .iter()
+                .map(|i| found.parameters[*i].key.as_str())
+                .collect();
             json!({"key": found.parameters[d.parameter].key, "confounded_with": with})
         })
         .collect();
-    report["joints_deg"] = found.joints.iter().map(|q| json!(q.map(|q| q / DEG))).collect();
+    report["joints_deg"] = found
+        .joints
+        .iter()
+        .map(|q| json!(q.map(|q| q / DEG)))
+        .collect();
     report["starts_o1"] = json!(found.starts_o1);
     report["exchanges"] = json!(found.exchanges);
     report["admitted"] = json!(found.admitted);
@@ -225,17 +271,30 @@ fn text(found: &Plan, sigma_mm: f64) -> String {
         found.joints.len(),
         100.0 * found.admitted
     );
-    out += &format!("O1 {:.4}, condition number {:.3e}, rank {}\n", o.o1, o.condition_number, o.rank);
-    out += &format!("O2 {:.3e}, O3 {:.3e}, O4 {:.3e}, O5 {:.3e}\n\n", o.o2, o.o3, o.o4, o.o5);
+    out += &format!(
+        "O1 {:.4}, condition number {:.3e}, rank {}\n",
+        o.o1, o.condition_number, o.rank
+    );
+    out += &format!(
+        "O2 {:.3e}, O3 {:.3e}, O4 {:.3e}, O5 {:.3e}\n\n",
+        o.o2, o.o3, o.o4, o.o5
+    );
     out += &format!("expected standard deviations with {sigma_mm} mm a coordinate\n");
     let mut rows = vec![["parameter", "sigma", "unit"].map(str::to_owned).to_vec()];
     for (i, sigma) in found.identifiable.kept.iter().zip(&found.sigma) {
         let p = &found.parameters[*i];
-        rows.push(vec![p.key.clone(), format!("{:.3e}", sigma / p.unit.in_si()), p.unit.symbol().into()]);
+        rows.push(vec![
+            p.key.clone(),
+            format!("{:.3e}", sigma / p.unit.in_si()),
+            p.unit.symbol().into(),
+        ]);
     }
     out += &aligned(&rows);
     for dropped in &found.identifiable.dropped {
-        out += &format!("not determined: {}\n", found.parameters[dropped.parameter].key);
+        out += &format!(
+            "not determined: {}\n",
+            found.parameters[dropped.parameter].key
+        );
     }
     out
 }

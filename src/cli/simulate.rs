@@ -5,7 +5,8 @@ use super::table::{JOINTS, Table, cell};
 use super::{Answer, Output, files, print, print_json, values};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::identify::measurements::{
-    DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Observed, POSITION_COLUMNS, QUATERNION_COLUMNS,
+    DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Observed, POSITION_COLUMNS,
+    QUATERNION_COLUMNS,
 };
 use crate::identify::simulate::{Command, Device, Session, simulate};
 use crate::model::Conditions;
@@ -69,11 +70,15 @@ pub struct Simulate {
 }
 
 fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
-    let parsed: Option<Vec<f64>> =
-        text.split(',').map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite())).collect();
-    parsed
-        .and_then(|n| n.try_into().ok())
-        .ok_or_else(|| Failure::new(format!("{option} {text}: expected {N} numbers with commas between")))
+    let parsed: Option<Vec<f64>> = text
+        .split(',')
+        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
+        .collect();
+    parsed.and_then(|n| n.try_into().ok()).ok_or_else(|| {
+        Failure::new(format!(
+            "{option} {text}: expected {N} numbers with commas between"
+        ))
+    })
 }
 
 impl Simulate {
@@ -86,10 +91,15 @@ impl Simulate {
         ];
         for (option, value, most) in sizes {
             if !(0.0..=most).contains(&value) || !value.is_finite() {
-                return Err(Failure::new(format!("{option} is {value}; it must be from 0 to {most}")));
+                return Err(Failure::new(format!(
+                    "{option} is {value}; it must be from 0 to {most}"
+                )));
             }
         }
-        let from = self.from.iter().map(|t| Ok(numbers::<3>("--from", t)?.map(m_from_mm)));
+        let from = self
+            .from
+            .iter()
+            .map(|t| Ok(numbers::<3>("--from", t)?.map(m_from_mm)));
         let from: Vec<[f64; 3]> = from.collect::<Result<_, Failure>>()?;
         if (self.kind == Kind::Distance) == from.is_empty() {
             return Err(Failure::new("--kind distance and --from belong together"));
@@ -104,7 +114,11 @@ impl Simulate {
             noise_rad: self.noise_deg * DEG,
             outliers: self.outliers,
             outlier_m: m_from_mm(self.outlier_mm),
-            temperature_c: self.temperature_c.as_deref().map(|t| numbers("--temperature-c", t)).transpose()?,
+            temperature_c: self
+                .temperature_c
+                .as_deref()
+                .map(|t| numbers("--temperature-c", t))
+                .transpose()?,
             interval_s: self.interval_s,
             seed: self.seed,
         })
@@ -132,8 +146,11 @@ impl Simulate {
                 conditions: (directions || forces).then_some(conditions),
             });
         }
-        let mut points: Vec<(Option<String>, [f64; 3])> =
-            profile.points.iter().map(|(name, p)| (Some(name.clone()), *p)).collect();
+        let mut points: Vec<(Option<String>, [f64; 3])> = profile
+            .points
+            .iter()
+            .map(|(name, p)| (Some(name.clone()), *p))
+            .collect();
         if points.is_empty() {
             points.push((None, [0.0; 3]));
         }
@@ -142,9 +159,15 @@ impl Simulate {
         if let Some(path) = &self.output {
             files::write_all(&[(path.clone(), text.into_bytes())])?;
             if output.json {
-                print_json(&json!({"poseshift": "simulation/1", "rows": rows.len(), "output": path.display().to_string()}))?;
+                print_json(
+                    &json!({"poseshift": "simulation/1", "rows": rows.len(), "output": path.display().to_string()}),
+                )?;
             } else if !output.quiet {
-                print(&format!("{} rows written to {}\n", rows.len(), path.display()))?;
+                print(&format!(
+                    "{} rows written to {}\n",
+                    rows.len(),
+                    path.display()
+                ))?;
             }
         } else if output.json {
             print_json(&json!({"poseshift": "simulation/1", "rows": rows.len(), "csv": text}))?;
@@ -176,7 +199,12 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
         (first.conditions.time_s.is_some(), "time_s"),
         (first.sigma_m.is_some(), "sigma_mm"),
     ];
-    header.extend(optional.iter().filter(|(there, _)| *there).map(|(_, name)| *name));
+    header.extend(
+        optional
+            .iter()
+            .filter(|(there, _)| *there)
+            .map(|(_, name)| *name),
+    );
     let mut out = header.join(",") + "\n";
     let quoted = |text: &str| {
         if text.contains([',', '"', '\n']) {

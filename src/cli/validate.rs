@@ -34,7 +34,10 @@ impl Validate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let (profile, hash) = files::read_profile(&self.profile)?;
         let (mut measurements, hashes) = self.measurements.read()?;
-        let marked = measurements.rows.iter().any(|row| row.purpose == Some(Purpose::Validate));
+        let marked = measurements
+            .rows
+            .iter()
+            .any(|row| row.purpose == Some(Purpose::Validate));
         if marked && !self.all_sets {
             measurements = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
         }
@@ -112,17 +115,35 @@ fn text(found: &Validation, all: bool) -> String {
     let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
     for (_, name, judged) in models(found) {
         let q = &judged.quality;
-        for (what, spread) in [("position mm", q.position), ("orientation deg", q.orientation), ("distance mm", q.range)] {
+        for (what, spread) in [
+            ("position mm", q.position),
+            ("orientation deg", q.orientation),
+            ("distance mm", q.range),
+        ] {
             rows.extend(spread.map(|s| spread_row(&format!("{name}, {what}"), &s)));
         }
     }
     if let Some((count, full, alone)) = &found.folds {
         for (name, q) in [("frames only", alone), ("real", full)] {
-            rows.extend(q.main().map(|s| spread_row(&format!("{name}, {count} folds"), &s)));
+            rows.extend(
+                q.main()
+                    .map(|s| spread_row(&format!("{name}, {count} folds"), &s)),
+            );
         }
     }
     out += &aligned(&rows);
-    let mut rows = vec![["distance of pairs, mm", "pairs", "mean", "std", "mean + 3 std", "max"].map(str::to_owned).to_vec()];
+    let mut rows = vec![
+        [
+            "distance of pairs, mm",
+            "pairs",
+            "mean",
+            "std",
+            "mean + 3 std",
+            "max",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
     for (_, name, judged) in models(found) {
         rows.extend(judged.distance.map(|p| {
             let numbers = [p.mean, p.std, p.mean_plus_3std(), p.max].map(|v| format!("{v:.3}"));
@@ -137,7 +158,12 @@ fn text(found: &Validation, all: bool) -> String {
     if !found.parts.is_empty() {
         let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
         rows[0][0] = "real model by part, mm".into();
-        rows.extend(found.parts.iter().map(|p| spread_row(&format!("{} {}", p.by, p.name), &p.spread)));
+        rows.extend(
+            found
+                .parts
+                .iter()
+                .map(|p| spread_row(&format!("{} {}", p.by, p.name), &p.spread)),
+        );
         out += &format!("\n{}", aligned(&rows));
     }
     if let Some(rms) = found.normalised_rms {
@@ -154,7 +180,8 @@ fn text(found: &Validation, all: bool) -> String {
                 r.count.to_string(),
                 format!("{:.4}", r.accuracy_mm),
                 format!("{:.4}", r.repeatability_mm),
-                r.variation_mm.map_or_else(|| "-".into(), |v| format!("{v:.4}")),
+                r.variation_mm
+                    .map_or_else(|| "-".into(), |v| format!("{v:.4}")),
             ]);
         }
         out += &aligned(&rows);

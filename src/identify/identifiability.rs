@@ -40,11 +40,7 @@ pub struct Identifiable {
 /// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it, the limit is
 /// [`REDUNDANT`] squared.
 #[must_use]
-pub fn identifiable(
-    normal: &Normal,
-    parameters: &[Parameter],
-    noise: Option<f64>,
-) -> Identifiable {
+pub fn identifiable(normal: &Normal, parameters: &[Parameter], noise: Option<f64>) -> Identifiable {
     let count = parameters.len();
     let mut found = Identifiable::default();
     // rows of the factor for the kept columns
@@ -86,7 +82,12 @@ pub fn identifiable(
             .kept
             .iter()
             .zip(&weights)
-            .map(|(other, w)| (w.abs() * (normal.matrix[(*other, *other)] / length).sqrt(), *other))
+            .map(|(other, w)| {
+                (
+                    w.abs() * (normal.matrix[(*other, *other)] / length).sqrt(),
+                    *other,
+                )
+            })
             .filter(|(part, _)| *part > NAMED)
             .collect();
         parts.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -211,7 +212,9 @@ impl Normal {
     #[must_use]
     pub fn gain(&self, present: &[usize], new: &[usize]) -> Option<(f64, DVector<f64>)> {
         let block = |rows: &[usize], columns: &[usize]| {
-            DMatrix::from_fn(rows.len(), columns.len(), |i, j| self.matrix[(rows[i], columns[j])])
+            DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
+                self.matrix[(rows[i], columns[j])]
+            })
         };
         let take = |rows: &[usize]| DVector::from_fn(rows.len(), |i, _| self.gradient[rows[i]]);
         let mut rest = block(new, new);
@@ -224,7 +227,11 @@ impl Normal {
             rest -= across.transpose() * factor.solve(&across);
         }
         // what the present columns explain already is no candidate
-        let seen = rest.diagonal().iter().zip(&before).all(|(now, then)| *now > REDUNDANT * REDUNDANT * then);
+        let seen = rest
+            .diagonal()
+            .iter()
+            .zip(&before)
+            .all(|(now, then)| *now > REDUNDANT * REDUNDANT * then);
         if !seen {
             return None;
         }
@@ -240,7 +247,11 @@ mod tests {
     #[test]
     fn singular_values_agree_with_the_eigenvalues_of_the_product() {
         let a = DMatrix::from_fn(7, 7, |i, j| ((3 * i + 5 * j * j + 1) as f64).sin());
-        let mut peer: Vec<f64> = (a.transpose() * &a).symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
+        let mut peer: Vec<f64> = (a.transpose() * &a)
+            .symmetric_eigenvalues()
+            .iter()
+            .map(|v| v.max(0.0).sqrt())
+            .collect();
         peer.sort_by(|a, b| b.total_cmp(a));
         for (mine, peer) in singular_values(&a).iter().zip(&peer) {
             assert!((mine - peer).abs() < 1e-7, "{mine} {peer}");

@@ -264,7 +264,10 @@ impl Cells<'_> {
     fn error(&self, column: &'static str, fault: MeasurementFault) -> MeasurementError {
         let index = self.reader.index(column).unwrap_or(0);
         let lines = self.reader.bytes.split(|b| *b == b'\n');
-        let line = lines.skip(self.line.saturating_sub(1)).next().unwrap_or_default();
+        let line = lines
+            .skip(self.line.saturating_sub(1))
+            .next()
+            .unwrap_or_default();
         let commas = line.iter().enumerate().filter(|(_, b)| **b == b',');
         let starts = std::iter::once(0).chain(commas.map(|(at, _)| at + 1));
         MeasurementError {
@@ -310,7 +313,14 @@ impl Cells<'_> {
             (Some(_), None) => {
                 let found = "an empty cell".to_owned();
                 let allowed = "a name";
-                Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }))
+                Err(self.error(
+                    column,
+                    MeasurementFault::NotAllowed {
+                        column,
+                        found,
+                        allowed,
+                    },
+                ))
             }
         }
     }
@@ -335,7 +345,14 @@ impl Cells<'_> {
             if distance < 0.0 {
                 let (column, allowed) = ("distance_mm", "zero or more");
                 let found = distance.to_string();
-                return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+                return Err(self.error(
+                    column,
+                    MeasurementFault::NotAllowed {
+                        column,
+                        found,
+                        allowed,
+                    },
+                ));
             }
             return Ok(Observed::Distance {
                 distance_m: m_from_mm(distance),
@@ -352,7 +369,10 @@ impl Cells<'_> {
         if (norm - 1.0).abs() > UNIT_TOLERANCE {
             return Err(self.error("qw", MeasurementFault::NotUnit { norm }));
         }
-        Ok(Observed::Pose(Pose::from_parts(position, quaternion.normalized())))
+        Ok(Observed::Pose(Pose::from_parts(
+            position,
+            quaternion.normalized(),
+        )))
     }
 
     fn measurement(&self, number: usize, kinds: Kinds) -> Result<Measurement, MeasurementError> {
@@ -374,7 +394,14 @@ impl Cells<'_> {
                 *slot = self.number(column)?;
                 if ![-1.0, 0.0, 1.0].contains(slot) {
                     let (found, allowed) = (slot.to_string(), "-1, 0 or 1");
-                    return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+                    return Err(self.error(
+                        column,
+                        MeasurementFault::NotAllowed {
+                            column,
+                            found,
+                            allowed,
+                        },
+                    ));
                 }
             }
         }
@@ -385,7 +412,14 @@ impl Cells<'_> {
         if sigma_m.is_some_and(|sigma| sigma <= 0.0) {
             let (column, allowed) = ("sigma_mm", "greater than zero");
             let found = self.text(column).unwrap_or_default().to_owned();
-            return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+            return Err(self.error(
+                column,
+                MeasurementFault::NotAllowed {
+                    column,
+                    found,
+                    allowed,
+                },
+            ));
         }
         let purpose = match self.name("set")?.as_deref() {
             None => None,
@@ -393,12 +427,21 @@ impl Cells<'_> {
             Some("validate") => Some(Purpose::Validate),
             Some(found) => {
                 let (column, allowed, found) = ("set", "fit or validate", format!("`{found}`"));
-                return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+                return Err(self.error(
+                    column,
+                    MeasurementFault::NotAllowed {
+                        column,
+                        found,
+                        allowed,
+                    },
+                ));
             }
         };
         Ok(Measurement {
             line: self.line,
-            id: self.text("id").map_or_else(|| number.to_string(), str::to_owned),
+            id: self
+                .text("id")
+                .map_or_else(|| number.to_string(), str::to_owned),
             q,
             observed: self.observed(kinds)?,
             tool: self.name("tool")?,
@@ -469,7 +512,15 @@ impl Measurements {
             directions: reader.group(&DIRECTION_COLUMNS)?,
             force: reader.group(&FORCE_COLUMNS)?,
         };
-        for single in ["id", "tool", "point", "temperature_c", "time_s", "sigma_mm", "set"] {
+        for single in [
+            "id",
+            "tool",
+            "point",
+            "temperature_c",
+            "time_s",
+            "sigma_mm",
+            "set",
+        ] {
             reader.group(&[single])?;
         }
         if !kinds.position && (!kinds.distance || kinds.quaternion) {
@@ -508,7 +559,11 @@ impl Measurements {
     /// Those rows that `keep` wants.
     #[must_use]
     pub fn filtered(&self, mut keep: impl FnMut(usize, &Measurement) -> bool) -> Self {
-        let kept = self.rows.iter().enumerate().filter(|(i, row)| keep(*i, row));
+        let kept = self
+            .rows
+            .iter()
+            .enumerate()
+            .filter(|(i, row)| keep(*i, row));
         Self {
             rows: kept.map(|(_, row)| row.clone()).collect(),
             columns: self.columns.clone(),
@@ -553,7 +608,13 @@ mod tests {
         let columns = "x_mm,y_mm,z_mm,qw,qx,qy,qz,distance_mm,from_x_mm,from_y_mm,from_z_mm";
         let rows = ["1,2,3,,,,,,,,", "1,2,3,1,0,0,0,,,,", ",,,,,,,500,1,2,3"];
         let all = read(columns, &rows).expect("a mixed file");
-        assert_eq!(all.rows.iter().map(|r| r.observed.count()).collect::<Vec<_>>(), [3, 6, 1]);
+        assert_eq!(
+            all.rows
+                .iter()
+                .map(|r| r.observed.count())
+                .collect::<Vec<_>>(),
+            [3, 6, 1]
+        );
         assert_eq!(all.rows[0].q[1], 2.0 * DEG);
         assert_eq!(all.rows[2].line, 5);
         let both = fault(columns, &["1,2,3,,,,,500,1,2,3"]);
@@ -575,7 +636,10 @@ mod tests {
             ("x_mm,y_mm,z_mm,sigma_mm", "1,2,3,0"),
             ("x_mm,y_mm,z_mm,set", "1,2,3,other"),
             ("x_mm,y_mm,z_mm,point", "1,2,3,"),
-            ("x_mm,y_mm,z_mm,dir1,dir2,dir3,dir4,dir5,dir6", "1,2,3,1,1,1,1,1,2"),
+            (
+                "x_mm,y_mm,z_mm,dir1,dir2,dir3,dir4,dir5,dir6",
+                "1,2,3,1,1,1,1,1,2",
+            ),
             ("x_mm,y_mm,z_mm,qw,qx,qy,qz", "1,2,3,1,1,0,0"),
             ("distance_mm,from_x_mm,from_y_mm,from_z_mm", "-1,0,0,0"),
             ("sigma_mm", "1"),
@@ -587,7 +651,10 @@ mod tests {
 
     #[test]
     fn named_points_may_have_no_coordinates() {
-        let all = read("x_mm,y_mm,z_mm,point,px_mm,py_mm,pz_mm", &["1,2,3,a,,,", "1,2,3,b,4,5,6"]);
+        let all = read(
+            "x_mm,y_mm,z_mm,point,px_mm,py_mm,pz_mm",
+            &["1,2,3,a,,,", "1,2,3,b,4,5,6"],
+        );
         let all = all.expect("a file of two points");
         assert_eq!(all.rows[0].point_in_tool_m, None);
         assert_eq!(all.rows[1].point_in_tool_m, Some([0.004, 0.005, 0.006]));

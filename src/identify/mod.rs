@@ -13,8 +13,8 @@ pub mod simulate;
 pub mod solver;
 pub mod start;
 
-mod error;
 pub mod calibration;
+mod error;
 pub mod screening;
 pub mod statistics;
 pub mod uncertainty;

@@ -1,7 +1,9 @@
 //! Which configurations to measure, before anything is measured.
 
 use super::error::IdentifyError;
-use super::identifiability::{Identifiable, Observability, identifiable, observability, singular_values};
+use super::identifiability::{
+    Identifiable, Observability, identifiable, observability, singular_values,
+};
 use super::measurements::{Measurement, Measurements, Observed};
 use super::normal::Normal;
 use super::observation::Observation;
@@ -108,25 +110,41 @@ pub fn candidates(
         let high = joint.max_rad - constraints.margin_rad;
         if low >= high {
             return Err(IdentifyError::Suspicious {
-                message: format!("joint {} has no room between its limits for the margin and the approach", i + 1),
+                message: format!(
+                    "joint {} has no room between its limits for the margin and the approach",
+                    i + 1
+                ),
                 hint: "a smaller --margin-deg or --approach-deg".into(),
             });
         }
         range[i] = [low, high];
     }
-    let checks = constraints.inside.is_some() || !constraints.keep_out.is_empty() || constraints.sight.is_some();
+    let checks = constraints.inside.is_some()
+        || !constraints.keep_out.is_empty()
+        || constraints.sight.is_some();
     let mut found = Vec::with_capacity(count);
     let mut draws = 0;
     while found.len() < count {
         draws += 1;
         if draws > DRAWS * (found.len() + 1) {
             return Err(IdentifyError::Suspicious {
-                message: format!("of {draws} random configurations {} meet the constraints; {count} are needed", found.len()),
+                message: format!(
+                    "of {draws} random configurations {} meet the constraints; {count} are needed",
+                    found.len()
+                ),
                 hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates".into(),
             });
         }
         let q: [f64; 6] = std::array::from_fn(|i| random.between(range[i][0], range[i][1]));
-        if !checks || admitted(&to_tool.forward(&q, &nothing), profile, tool, &q, constraints) {
+        if !checks
+            || admitted(
+                &to_tool.forward(&q, &nothing),
+                profile,
+                tool,
+                &q,
+                constraints,
+            )
+        {
             found.push(q);
         }
     }
@@ -159,7 +177,8 @@ fn admitted(
     let turns = crate::geometry::Turn::of_each(&profile.mechanism.commanded(q));
     let places = chain.link_frames(&turns);
     let arm = places[2..].iter().map(|frame| frame.translation);
-    arm.chain([tip]).all(|p| constraints.keep_out.iter().all(|b| !within(b, p)))
+    arm.chain([tip])
+        .all(|p| constraints.keep_out.iter().all(|b| !within(b, p)))
 }
 
 /// A problem whose rows are these configurations, to take derivatives of.
@@ -179,7 +198,10 @@ fn imagined(
         } else {
             Observed::Position([0.0; 3])
         },
-        tool: profile.tools.contains_key(&tool.name).then(|| tool.name.clone()),
+        tool: profile
+            .tools
+            .contains_key(&tool.name)
+            .then(|| tool.name.clone()),
         point: point.cloned(),
         point_in_tool_m: None,
         conditions: Conditions::default(),
@@ -195,7 +217,9 @@ fn imagined(
     }
     let measurements = Measurements {
         rows,
-        columns: super::measurements::DIRECTION_COLUMNS.map(str::to_owned).to_vec(),
+        columns: super::measurements::DIRECTION_COLUMNS
+            .map(str::to_owned)
+            .to_vec(),
     };
     Problem::new(profile, &measurements, selection, profile.world_from_base)
 }
@@ -231,7 +255,10 @@ impl pulp::NullaryFnOnce for Update<'_> {
     type Output = ();
 
     #[inline(always)]
-    #[allow(clippy::cast_possible_truncation, reason = "what is chosen by it is checked in double precision")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "what is chosen by it is checked in double precision"
+    )]
     fn call(self) {
         let (height, width, lanes) = (self.rows.height, self.rows.width, self.rows.lanes);
         // scratch[r * height + s] = Σ J[r][c] U[c][s]
@@ -288,11 +315,20 @@ impl Chooser<'_> {
 
     /// `log det` by Cholesky; minus infinity where it is singular.
     fn log_determinant(m: &DMatrix<f64>) -> f64 {
-        m.clone().cholesky().map_or(f64::NEG_INFINITY, |f| 2.0 * f.l_dirty().diagonal().map(f64::ln).sum())
+        m.clone().cholesky().map_or(f64::NEG_INFINITY, |f| {
+            2.0 * f.l_dirty().diagonal().map(f64::ln).sum()
+        })
     }
 
     /// Adds or removes (`sign` −1) one candidate: inverse and blocks by rank-3 (or 6) updates.
-    fn change(&self, inverse: &mut DMatrix<f64>, blocks: &mut [Vec<f32>], scratch: &mut [Vec<f32>], k: usize, sign: f64) -> Option<f64> {
+    fn change(
+        &self,
+        inverse: &mut DMatrix<f64>,
+        blocks: &mut [Vec<f32>],
+        scratch: &mut [Vec<f32>],
+        k: usize,
+        sign: f64,
+    ) -> Option<f64> {
         let j = &self.jacobians[k];
         let direction = &*inverse * j.transpose();
         let height = j.nrows();
@@ -370,7 +406,10 @@ impl Chooser<'_> {
                 for (r, line) in scratch.iter_mut().take(height).enumerate() {
                     line.fill(0.0);
                     for c in 0..self.rows.width {
-                        #[allow(clippy::cast_possible_truncation, reason = "checked in double precision")]
+                        #[allow(
+                            clippy::cast_possible_truncation,
+                            reason = "checked in double precision"
+                        )]
                         let u = direction[c] as f32;
                         for (into, j) in line.iter_mut().zip(self.rows.at(r, c)) {
                             *into += u * j;
@@ -390,18 +429,28 @@ impl Chooser<'_> {
         }
         while exchanges < EXCHANGES {
             let add = self.ratios(&blocks, 1.0);
-            let entering = (0..total).filter(|i| !used[*i]).max_by(|a, b| add[*a].total_cmp(&add[*b]));
+            let entering = (0..total)
+                .filter(|i| !used[*i])
+                .max_by(|a, b| add[*a].total_cmp(&add[*b]));
             let Some(entering) = entering else { break };
-            if self.change(&mut inverse, &mut blocks, &mut scratch, entering, 1.0).is_none() {
+            if self
+                .change(&mut inverse, &mut blocks, &mut scratch, entering, 1.0)
+                .is_none()
+            {
                 break;
             }
             let lose = self.ratios(&blocks, -1.0);
             let inside = set.iter().copied().chain([entering]);
-            let leaving = inside.max_by(|a, b| lose[*a].total_cmp(&lose[*b])).expect("one entered");
+            let leaving = inside
+                .max_by(|a, b| lose[*a].total_cmp(&lose[*b]))
+                .expect("one entered");
             if leaving == entering {
                 break;
             }
-            if self.change(&mut inverse, &mut blocks, &mut scratch, leaving, -1.0).is_none() {
+            if self
+                .change(&mut inverse, &mut blocks, &mut scratch, leaving, -1.0)
+                .is_none()
+            {
                 break;
             }
             let mut next = set.clone();
@@ -430,7 +479,10 @@ fn jacobians(
     sigma_m: f64,
 ) -> Vec<DMatrix<f64>> {
     let models = problem.models(estimate, parameters);
-    let effects = parameters.iter().filter(|p| matches!(p.subject, Subject::Effect(_))).count();
+    let effects = parameters
+        .iter()
+        .filter(|p| matches!(p.subject, Subject::Effect(_)))
+        .count();
     let mut motions = vec![Motion::default(); effects];
     let each = problem.rows.len() / configurations.max(1);
     problem
@@ -473,15 +525,27 @@ pub fn plan(
     selection: &Selection,
     request: &Request,
 ) -> Result<Plan, IdentifyError> {
-    let (pool, admitted) = candidates(profile, tool, &request.constraints, request.candidates, request.seed)?;
+    let (pool, admitted) = candidates(
+        profile,
+        tool,
+        &request.constraints,
+        request.candidates,
+        request.seed,
+    )?;
     let mut all = request.given.clone();
     all.extend(&pool);
     let (problem, estimate) = imagined(profile, tool, selection, &all, request.poses)?;
     let normal = Normal::of(&problem, &estimate, &problem.parameters, Loss::squares());
     let known = identifiable(&normal, &problem.parameters, None);
-    let parameters: Vec<Parameter> = known.kept.iter().map(|i| problem.parameters[*i].clone()).collect();
+    let parameters: Vec<Parameter> = known
+        .kept
+        .iter()
+        .map(|i| problem.parameters[*i].clone())
+        .collect();
     let per_row = problem.numbers() / all.len().max(1);
-    if (request.count + request.given.len()) * per_row < parameters.len() || request.count > pool.len() {
+    if (request.count + request.given.len()) * per_row < parameters.len()
+        || request.count > pool.len()
+    {
         return Err(IdentifyError::TooFew {
             numbers: (request.count + request.given.len()) * per_row,
             rows: request.count.min(pool.len()) + request.given.len(),
@@ -505,7 +569,10 @@ pub fn plan(
     for (lane, j) in free.iter().enumerate() {
         for r in 0..height {
             for c in 0..width {
-                #[allow(clippy::cast_possible_truncation, reason = "what is chosen by it is checked in double precision")]
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    reason = "what is chosen by it is checked in double precision"
+                )]
                 {
                     rows.cells[(r * width + c) * rows.lanes + lane] = j[(r, c)] as f32;
                 }
@@ -519,7 +586,10 @@ pub fn plan(
     };
     let count = request.count + request.given.len();
     // O1 in SI units: the scales and the standard deviation are taken out again
-    let scales: f64 = parameters.iter().map(|p| (p.scale / request.sigma_m).ln()).sum();
+    let scales: f64 = parameters
+        .iter()
+        .map(|p| (p.scale / request.sigma_m).ln())
+        .sum();
     let o1 = |log_determinant: f64| {
         ((0.5 * log_determinant - scales) / width as f64).exp() / (count as f64).sqrt()
     };
@@ -542,7 +612,11 @@ pub fn plan(
         });
     };
     let covariance = factor.inverse();
-    let sigma = parameters.iter().enumerate().map(|(i, p)| p.scale * covariance[(i, i)].sqrt()).collect();
+    let sigma = parameters
+        .iter()
+        .enumerate()
+        .map(|(i, p)| p.scale * covariance[(i, i)].sqrt())
+        .collect();
     let mut r = factor.l().transpose();
     for (i, p) in parameters.iter().enumerate() {
         let by = request.sigma_m / p.scale;
@@ -570,7 +644,8 @@ mod tests {
 
     #[test]
     fn an_exchanged_set_is_better_than_random_ones_and_meets_the_limits() {
-        let profile = Profile::from_yaml(include_str!("../../robots/abb_irb120_thesis.yaml")).expect("a shipped profile");
+        let profile = Profile::from_yaml(include_str!("../../robots/abb_irb120_thesis.yaml"))
+            .expect("a shipped profile");
         let tool = profile.tool("artifact").expect("its tool");
         let mut selection = Selection::level(Level::Compliance);
         selection.fix = super::super::parameters::Pick::parse_list("tool_frame").expect("a word");
@@ -589,19 +664,38 @@ mod tests {
         };
         let one = plan(&profile, &tool, &selection, &request(1)).expect("a plan");
         let random: f64 = {
-            let (pool, _) = candidates(&profile, &tool, &request(1).constraints, 400, 3).expect("a pool");
-            let (problem, estimate) = imagined(&profile, &tool, &selection, &pool[..20], false).expect("rows");
-            let kept: Vec<Parameter> = one.identifiable.kept.iter().map(|i| one.parameters[*i].clone()).collect();
-            let mut r = Normal::of(&problem, &estimate, &kept, Loss::squares()).factor().expect("full rank");
+            let (pool, _) =
+                candidates(&profile, &tool, &request(1).constraints, 400, 3).expect("a pool");
+            let (problem, estimate) =
+                imagined(&profile, &tool, &selection, &pool[..20], false).expect("rows");
+            let kept: Vec<Parameter> = one
+                .identifiable
+                .kept
+                .iter()
+                .map(|i| one.parameters[*i].clone())
+                .collect();
+            let mut r = Normal::of(&problem, &estimate, &kept, Loss::squares())
+                .factor()
+                .expect("full rank");
             for (i, p) in kept.iter().enumerate() {
-                r.column_mut(i).scale_mut(super::super::problem::DEFAULT_SIGMA_M / p.scale);
+                r.column_mut(i)
+                    .scale_mut(super::super::problem::DEFAULT_SIGMA_M / p.scale);
             }
             observability(singular_values(&r), 20).o1
         };
-        assert!(one.observability.o1 > 1.1 * random, "{} {random}", one.observability.o1);
+        assert!(
+            one.observability.o1 > 1.1 * random,
+            "{} {random}",
+            one.observability.o1
+        );
         assert!((one.observability.o1 / one.starts_o1[0] - 1.0).abs() < 1e-6);
         for q in &one.joints {
-            assert!(profile.mechanism.beyond_limit(&q.map(|x| x - 0.09), 1e-9).is_none());
+            assert!(
+                profile
+                    .mechanism
+                    .beyond_limit(&q.map(|x| x - 0.09), 1e-9)
+                    .is_none()
+            );
         }
         let several = plan(&profile, &tool, &selection, &request(4)).expect("a plan");
         assert!(several.observability.o1 >= one.observability.o1);
@@ -611,6 +705,12 @@ mod tests {
         grown.count = 5;
         let grown = plan(&profile, &tool, &selection, &grown).expect("a plan");
         assert_eq!(grown.joints.len(), 25);
-        assert!(grown.sigma.iter().zip(&one.sigma).all(|(new, old)| new < old));
+        assert!(
+            grown
+                .sigma
+                .iter()
+                .zip(&one.sigma)
+                .all(|(new, old)| new < old)
+        );
     }
 }

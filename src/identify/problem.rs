@@ -118,11 +118,13 @@ pub struct Problem {
 fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyError> {
     let known = || profile.tools.keys().cloned().collect::<Vec<_>>();
     match &row.tool {
-        Some(name) => profile.tool(name).ok_or_else(|| IdentifyError::UnknownTool {
-            line: row.line,
-            tool: name.clone(),
-            known: known(),
-        }),
+        Some(name) => profile
+            .tool(name)
+            .ok_or_else(|| IdentifyError::UnknownTool {
+                line: row.line,
+                tool: name.clone(),
+                known: known(),
+            }),
         None => match profile.tools.len() {
             0 => Ok(Mounted::flange()),
             1 => Ok(profile.tool(&known()[0]).expect("a key of the map")),
@@ -177,8 +179,11 @@ fn loaded(profile: &Profile, tools: &[Mounted], rows: &[Row], gravity_known: boo
         }
     }
     let count = rows.len() as f64;
-    let spread: [f64; 6] =
-        std::array::from_fn(|i| (squares[i] / count - (sum[i] / count).powi(2)).max(0.0).sqrt());
+    let spread: [f64; 6] = std::array::from_fn(|i| {
+        (squares[i] / count - (sum[i] / count).powi(2))
+            .max(0.0)
+            .sqrt()
+    });
     let largest = spread.iter().copied().fold(0.0, f64::max);
     std::array::from_fn(|i| {
         let part = if i == 0 { UPRIGHT_PART } else { TORQUE_PART };
@@ -232,15 +237,17 @@ impl Problem {
             PointRef::Named(_) => true,
         };
         let turning = |tool: usize| {
-            rows.iter().filter(|row| row.tool == tool).any(|row| {
-                matches!(row.observed, Observed::Pose(_)) || somewhere(row)
-            })
+            rows.iter()
+                .filter(|row| row.tool == tool)
+                .any(|row| matches!(row.observed, Observed::Pose(_)) || somewhere(row))
         };
         let all_points_unknown = rows.iter().all(|row| match row.point {
             PointRef::Named(i) => !points[i].known,
             PointRef::Known(_) => false,
         });
-        let pose = rows.iter().any(|row| matches!(row.observed, Observed::Pose(_)));
+        let pose = rows
+            .iter()
+            .any(|row| matches!(row.observed, Observed::Pose(_)));
         let seen = Seen {
             tools: tools
                 .iter()
@@ -291,8 +298,15 @@ impl Problem {
                 continue;
             };
             let definition = effects[slot.effect].definition();
-            let asked = selection.identify.iter().any(|p| p.kind == Some(effects[slot.effect].kind));
-            for need in definition.needs.iter().filter(|_| asked || definition.needs_masses()) {
+            let asked = selection
+                .identify
+                .iter()
+                .any(|p| p.kind == Some(effects[slot.effect].kind));
+            for need in definition
+                .needs
+                .iter()
+                .filter(|_| asked || definition.needs_masses())
+            {
                 let met = match need {
                     Need::Masses => masses,
                     Need::Directions => measurements.has(&super::measurements::DIRECTION_COLUMNS),
@@ -328,7 +342,11 @@ impl Problem {
                 Conditions::default()
             };
             let bits = |value: Option<f64>| value.map_or(u64::MAX, f64::to_bits);
-            let key = (row.tool, bits(conditions.temperature_c), bits(conditions.time_s));
+            let key = (
+                row.tool,
+                bits(conditions.temperature_c),
+                bits(conditions.time_s),
+            );
             row.rig = *known.entry(key).or_insert_with(|| {
                 self.rigs.push(Rig {
                     tool: row.tool,

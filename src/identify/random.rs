@@ -42,7 +42,11 @@ impl Random {
     }
 
     /// A whole number below `count`.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to count")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 to count"
+    )]
     pub fn below(&mut self, count: usize) -> usize {
         (self.even() * count as f64) as usize
     }

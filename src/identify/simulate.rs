@@ -109,7 +109,11 @@ pub fn simulate(
             );
             let direction = noise(&mut random, 1.0);
             let wrong = random.even() < session.outliers;
-            let size = if wrong { session.outlier_m / norm(direction).max(1e-9) } else { 0.0 };
+            let size = if wrong {
+                session.outlier_m / norm(direction).max(1e-9)
+            } else {
+                0.0
+            };
             let shift = add(shift, direction.map(|x| x * size));
             let seen = add(pose.transform(*point), shift);
             let observed = match &session.device {

@@ -42,9 +42,9 @@ impl Stop {
             Self::Step(step) => format!(
                 "the last step was {step:.1e} of the parameters' typical sizes (limit {STEP_LIMIT:.0e})"
             ),
-            Self::Fall(part) => format!(
-                "the sum of squares fell by {part:.1e} of itself (limit {FALL_LIMIT:.0e})"
-            ),
+            Self::Fall(part) => {
+                format!("the sum of squares fell by {part:.1e} of itself (limit {FALL_LIMIT:.0e})")
+            }
         }
     }
 }
@@ -78,8 +78,13 @@ fn moved(estimate: &Estimate, parameters: &[Parameter], step: &DVector<f64>) -> 
 
 /// Moves the deviation of the base into its place, so that its angles stay small.
 pub fn absorb_base(estimate: &mut Estimate) {
-    for effect in estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame) {
-        estimate.world_from_base = estimate.world_from_base * Pose::from_xyz_rxryrz(effect.parameters);
+    for effect in estimate
+        .effects
+        .iter_mut()
+        .filter(|e| e.kind == Kind::BaseFrame)
+    {
+        estimate.world_from_base =
+            estimate.world_from_base * Pose::from_xyz_rxryrz(effect.parameters);
         effect.parameters = [0.0; MOST_PARAMETERS];
     }
 }
@@ -225,7 +230,11 @@ pub fn solve(
             passes,
             free_base,
         };
-        let most = if rounds == 0 { FIRST_PASSES } else { MOST_PASSES };
+        let most = if rounds == 0 {
+            FIRST_PASSES
+        } else {
+            MOST_PASSES
+        };
         let rested = iteration.run(&mut estimate, &mut normal, most);
         passes = iteration.passes;
         // far from the start columns may have become redundant; and only now the noise is known

@@ -43,7 +43,11 @@ impl Spread {
         Some(Self {
             n,
             mean,
-            std: if n > 1 { (about / (count - 1.0)).sqrt() } else { 0.0 },
+            std: if n > 1 {
+                (about / (count - 1.0)).sqrt()
+            } else {
+                0.0
+            },
             rms: (sizes.iter().map(|s| s * s).sum::<f64>() / count).sqrt(),
             p95: quantile(&sorted, 0.95),
             p997: quantile(&sorted, 0.997),
@@ -65,7 +69,11 @@ pub fn quantile(sorted: &[f64], part: f64) -> f64 {
         return 0.0;
     };
     let at = part * last as f64;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the length")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 to the length"
+    )]
     let low = at.floor() as usize;
     let high = (low + 1).min(last);
     sorted[low] + (at - low as f64) * (sorted[high] - sorted[low])
@@ -109,7 +117,8 @@ fn miss(row: &Row, seen: &Observation) -> Miss {
     Miss {
         gap,
         length_m: norm(first),
-        angle_rad: matches!(row.observed, Observed::Pose(_)).then(|| norm([gap[3], gap[4], gap[5]])),
+        angle_rad: matches!(row.observed, Observed::Pose(_))
+            .then(|| norm([gap[3], gap[4], gap[5]])),
         normalised: (squared / count as f64).sqrt(),
         expected_m: seen.expected_m(),
     }
@@ -132,10 +141,18 @@ impl Quality {
     pub fn of(rows: &[Row], misses: &[Miss]) -> Self {
         let is_range = |row: &Row| matches!(row.observed, Observed::Distance { .. });
         let lengths = |ranges: bool| {
-            let both = rows.iter().zip(misses).filter(|(row, _)| is_range(row) == ranges);
-            both.map(|(_, miss)| mm_from_m(miss.length_m)).collect::<Vec<_>>()
+            let both = rows
+                .iter()
+                .zip(misses)
+                .filter(|(row, _)| is_range(row) == ranges);
+            both.map(|(_, miss)| mm_from_m(miss.length_m))
+                .collect::<Vec<_>>()
         };
-        let angles: Vec<f64> = misses.iter().filter_map(|m| m.angle_rad).map(|a| a / DEG).collect();
+        let angles: Vec<f64> = misses
+            .iter()
+            .filter_map(|m| m.angle_rad)
+            .map(|a| a / DEG)
+            .collect();
         Self {
             position: Spread::of(&lengths(false)),
             orientation: Spread::of(&angles),
@@ -226,8 +243,10 @@ impl pulp::NullaryFnOnce for PairKernel<'_> {
                     let whole = (end - start) / WIDTH;
                     for k in 0..whole {
                         let j = start + k * WIDTH;
-                        let (px, py, pz) = (&ax[j..j + WIDTH], &ay[j..j + WIDTH], &az[j..j + WIDTH]);
-                        let (rx, ry, rz) = (&bx[j..j + WIDTH], &by[j..j + WIDTH], &bz[j..j + WIDTH]);
+                        let (px, py, pz) =
+                            (&ax[j..j + WIDTH], &ay[j..j + WIDTH], &az[j..j + WIDTH]);
+                        let (rx, ry, rz) =
+                            (&bx[j..j + WIDTH], &by[j..j + WIDTH], &bz[j..j + WIDTH]);
                         let mut difference = [0.0_f32; WIDTH];
                         let mut both = [0.0_f32; WIDTH];
                         for l in 0..WIDTH {
@@ -236,7 +255,10 @@ impl pulp::NullaryFnOnce for PairKernel<'_> {
                             // |p|² − |r|² without cancellation, and their sum
                             let d = (x - u) * (x + u) + (y - v) * (y + v) + (z - w) * (z + w);
                             let s = (x * x + y * y + z * z) + (u * u + v * v + w * w);
-                            #[allow(clippy::cast_possible_truncation, reason = "a quotient of them is taken")]
+                            #[allow(
+                                clippy::cast_possible_truncation,
+                                reason = "a quotient of them is taken"
+                            )]
                             {
                                 difference[l] = d as f32;
                                 both[l] = s as f32;
@@ -244,7 +266,8 @@ impl pulp::NullaryFnOnce for PairKernel<'_> {
                         }
                         for l in 0..WIDTH {
                             // |p| − |r| = d / (|p| + |r|), and (|p| + |r|)² = 2s − (|p| − |r|)²
-                            let first = difference[l] / (both[l] + both[l] + f32::MIN_POSITIVE).sqrt();
+                            let first =
+                                difference[l] / (both[l] + both[l] + f32::MIN_POSITIVE).sqrt();
                             let part = first * first / (both[l] + both[l] + f32::MIN_POSITIVE);
                             let error = first.abs() * (1.0 + 0.5 * part);
                             sums[l] += error;
@@ -290,7 +313,8 @@ pub fn pairs(measured: &[Vector], expected: &[Vector]) -> Option<Pairs> {
     if count < 2 {
         return None;
     }
-    let axis = |points: &[Vector], k: usize| points[..count].iter().map(|p| p[k]).collect::<Vec<_>>();
+    let axis =
+        |points: &[Vector], k: usize| points[..count].iter().map(|p| p[k]).collect::<Vec<_>>();
     let cloud = Cloud {
         axes: std::array::from_fn(|k| {
             if k < 3 {
@@ -327,7 +351,11 @@ pub fn pairs(measured: &[Vector], expected: &[Vector]) -> Option<Pairs> {
     Some(Pairs {
         pairs,
         mean,
-        std: if pairs > 1 { (about / (n - 1.0)).sqrt() } else { 0.0 },
+        std: if pairs > 1 {
+            (about / (n - 1.0)).sqrt()
+        } else {
+            0.0
+        },
         max: total.max,
     })
 }
@@ -338,11 +366,19 @@ mod tests {
 
     fn cloud(count: usize, error: f64) -> (Vec<Vector>, Vec<Vector>) {
         let wave = |k: usize, f: f64| (k as f64 * f).sin();
-        let measured: Vec<Vector> = (0..count).map(|k| [wave(k, 1.3), wave(k, 2.1), wave(k, 0.7)]).collect();
+        let measured: Vec<Vector> = (0..count)
+            .map(|k| [wave(k, 1.3), wave(k, 2.1), wave(k, 0.7)])
+            .collect();
         let expected = measured
             .iter()
             .enumerate()
-            .map(|(k, p)| [p[0] + error * wave(k, 5.1), p[1] + error * wave(k, 3.3), p[2] - error * wave(k, 9.7)])
+            .map(|(k, p)| {
+                [
+                    p[0] + error * wave(k, 5.1),
+                    p[1] + error * wave(k, 3.3),
+                    p[2] - error * wave(k, 9.7),
+                ]
+            })
             .collect();
         (measured, expected)
     }
@@ -366,7 +402,10 @@ mod tests {
             let mine = pairs(&measured, &expected).expect("some pairs");
             assert_eq!(mine.pairs as usize, peer.n);
             assert!((mine.mean / peer.mean - 1.0).abs() < 2e-6, "{count}");
-            assert!((mine.std - peer.std).abs() < 2e-6 * (peer.std + peer.mean), "{count}");
+            assert!(
+                (mine.std - peer.std).abs() < 2e-6 * (peer.std + peer.mean),
+                "{count}"
+            );
             assert!((mine.max / peer.max - 1.0).abs() < 2e-6, "{count}");
         }
     }
@@ -374,7 +413,9 @@ mod tests {
     #[test]
     fn points_that_coincide_have_the_error_of_their_distance() {
         let measured = vec![[0.5, 0.5, 0.5]; 20];
-        let expected: Vec<Vector> = (0..20).map(|k| [0.5 + 1e-5 * f64::from(k), 0.5, 0.5]).collect();
+        let expected: Vec<Vector> = (0..20)
+            .map(|k| [0.5 + 1e-5 * f64::from(k), 0.5, 0.5])
+            .collect();
         let mine = pairs(&measured, &expected).expect("some pairs");
         assert!((mine.max - 19e-5).abs() < 1e-12);
     }

@@ -118,7 +118,10 @@ pub fn validate(
     let selection = Selection::level(Level::Frames);
     let unknown = measurements.rows.iter().find(|row| {
         row.point_in_tool_m.is_none()
-            && row.point.as_ref().is_some_and(|name| !profile.points.contains_key(name))
+            && row
+                .point
+                .as_ref()
+                .is_some_and(|name| !profile.points.contains_key(name))
     });
     if let Some(row) = unknown.filter(|_| !refit) {
         return Err(IdentifyError::Suspicious {
@@ -131,7 +134,9 @@ pub fn validate(
         });
     }
     let controller = controller_profile(profile);
-    let at_rest = |profile: &Profile| Problem::new(profile, measurements, &selection, profile.world_from_base);
+    let at_rest = |profile: &Profile| {
+        Problem::new(profile, measurements, &selection, profile.world_from_base)
+    };
     let (_, nominal) = at_rest(&controller)?;
     let (problem, own) = at_rest(profile)?;
     // the controller knows nothing of fitted frames: the effects that the selection added are zero
@@ -149,7 +154,10 @@ pub fn validate(
     };
     let judged_real = judged(&real_problem, &real);
     let given = !real_problem.sigma_assumed;
-    let squares = judged_real.misses.iter().map(|m| m.normalised * m.normalised);
+    let squares = judged_real
+        .misses
+        .iter()
+        .map(|m| m.normalised * m.normalised);
     let normalised = (squares.sum::<f64>() / judged_real.misses.len() as f64).sqrt();
     let folds = match folds {
         Some(count) => Some(cross_validate(profile, measurements, count)?),
@@ -170,12 +178,21 @@ pub fn validate(
 
 fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec<Part> {
     let mut groups: BTreeMap<(&'static str, String), Vec<f64>> = BTreeMap::new();
-    let seen: Vec<Vector> = measurements.rows.iter().filter_map(|r| r.observed.point_m()).collect();
+    let seen: Vec<Vector> = measurements
+        .rows
+        .iter()
+        .filter_map(|r| r.observed.point_m())
+        .collect();
     let middle = calibration_middle(profile).unwrap_or_else(|| {
-        let sum = seen.iter().fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
+        let sum = seen
+            .iter()
+            .fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
         sum.map(|x| x / seen.len().max(1) as f64)
     });
-    let far = seen.iter().map(|p| norm(sub(*p, middle))).fold(0.0, f64::max);
+    let far = seen
+        .iter()
+        .map(|p| norm(sub(*p, middle)))
+        .fold(0.0, f64::max);
     for (row, miss) in measurements.rows.iter().zip(misses) {
         let error = mm_from_m(miss.length_m);
         let mut add = |by, name: String| groups.entry((by, name)).or_default().push(error);
@@ -183,7 +200,10 @@ fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec
             add("point", point.clone());
         }
         if let Some(tool) = &row.tool {
-            let mass = profile.tool(tool).and_then(|t| t.load).map_or(0.0, |(mass, _)| mass);
+            let mass = profile
+                .tool(tool)
+                .and_then(|t| t.load)
+                .map_or(0.0, |(mass, _)| mass);
             add("tool", format!("{tool} ({mass} kg)"));
         }
         if let Some(purpose) = row.purpose {
@@ -191,10 +211,20 @@ fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec
         }
         if let Some(point) = row.observed.point_m().filter(|_| far > 0.0) {
             let width = far / REGIONS as f64;
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to REGIONS")]
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "0 to REGIONS"
+            )]
             let ring = ((norm(sub(point, middle)) / width) as usize).min(REGIONS - 1);
-            let (from, to) = (mm_from_m(width) * ring as f64, mm_from_m(width) * (ring + 1) as f64);
-            add("region", format!("{}: {from:.0} to {to:.0} mm from the middle", ring + 1));
+            let (from, to) = (
+                mm_from_m(width) * ring as f64,
+                mm_from_m(width) * (ring + 1) as f64,
+            );
+            add(
+                "region",
+                format!("{}: {from:.0} to {to:.0} mm from the middle", ring + 1),
+            );
         }
     }
     let several = |by: &str| groups.keys().filter(|(b, _)| *b == by).count() > 1;
@@ -214,7 +244,10 @@ fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec
 /// The middle of the points that the profile was calibrated with, metres, where it says so.
 fn calibration_middle(profile: &Profile) -> Option<Vector> {
     let middle = profile.quality.as_ref()?.get("middle_mm")?.as_array()?;
-    let numbers: Vec<f64> = middle.iter().filter_map(serde_json::Value::as_f64).collect();
+    let numbers: Vec<f64> = middle
+        .iter()
+        .filter_map(serde_json::Value::as_f64)
+        .collect();
     let [x, y, z]: [f64; 3] = numbers.try_into().ok()?;
     Some([x, y, z].map(crate::geometry::units::m_from_mm))
 }
@@ -225,17 +258,23 @@ fn repeated(measurements: &Measurements, misses: &[Miss]) -> Vec<Repeated> {
     let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
     for (i, row) in measurements.rows.iter().enumerate() {
         if row.observed.point_m().is_some() {
-            let key = (row.q.iter().map(|q| q.to_bits()).collect(), row.point.clone());
+            let key = (
+                row.q.iter().map(|q| q.to_bits()).collect(),
+                row.point.clone(),
+            );
             groups.entry(key).or_default().push(i);
         }
     }
     let mean = |of: &[Vector]| {
-        let sum = of.iter().fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
+        let sum = of
+            .iter()
+            .fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
         sum.map(|x| x / of.len().max(1) as f64)
     };
     let mut found = Vec::new();
     for rows in groups.values().filter(|rows| rows.len() >= 3) {
-        let gap = |i: &usize| [misses[*i].gap[0], misses[*i].gap[1], misses[*i].gap[2]].map(mm_from_m);
+        let gap =
+            |i: &usize| [misses[*i].gap[0], misses[*i].gap[1], misses[*i].gap[2]].map(mm_from_m);
         let gaps: Vec<Vector> = rows.iter().map(gap).collect();
         let middle = mean(&gaps);
         let about: Vec<f64> = gaps.iter().map(|g| norm(sub(*g, middle))).collect();
@@ -243,11 +282,17 @@ fn repeated(measurements: &Measurements, misses: &[Miss]) -> Vec<Repeated> {
         let mut ways: BTreeMap<Vec<i64>, Vec<Vector>> = BTreeMap::new();
         for (i, g) in rows.iter().zip(&gaps) {
             #[allow(clippy::cast_possible_truncation, reason = "-1, 0 or 1")]
-            let way = measurements.rows[*i].conditions.direction.map(|d| d as i64).to_vec();
+            let way = measurements.rows[*i]
+                .conditions
+                .direction
+                .map(|d| d as i64)
+                .to_vec();
             ways.entry(way).or_default().push(*g);
         }
         let means: Vec<Vector> = ways.values().map(|g| mean(g)).collect();
-        let apart = means.iter().flat_map(|a| means.iter().map(move |b| norm(sub(*a, *b))));
+        let apart = means
+            .iter()
+            .flat_map(|a| means.iter().map(move |b| norm(sub(*a, *b))));
         found.push(Repeated {
             line: measurements.rows[rows[0]].line,
             count: rows.len(),
@@ -271,18 +316,28 @@ fn cross_validate(
     let configurations = measurements.configurations();
     let total = configurations.last().map_or(0, |last| last + 1);
     let count = count.clamp(2, total.max(2));
-    let free = measurements.rows.iter().any(|row| row.point.is_some() && row.point_in_tool_m.is_none());
+    let free = measurements
+        .rows
+        .iter()
+        .any(|row| row.point.is_some() && row.point_in_tool_m.is_none());
     let mut selection = Selection::level(Level::Frames);
     if free {
-        selection.identify = super::parameters::Pick::parse_list("points").expect("a word of the list");
+        selection.identify =
+            super::parameters::Pick::parse_list("points").expect("a word of the list");
     }
     let guess = start::find(profile, measurements);
-    let base = guess.as_ref().map_or(profile.world_from_base, |s| s.world_from_base);
+    let base = guess
+        .as_ref()
+        .map_or(profile.world_from_base, |s| s.world_from_base);
     let (mut problem, mut begun) = Problem::new(profile, measurements, &selection, base)?;
     let frames = problem.parameters.clone();
     problem.parameters.extend(present(&begun, &frames));
     problem.parameters.sort_by_key(|p| p.rank);
-    begun.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame).for_each(|e| e.parameters = [0.0; 6]);
+    begun
+        .effects
+        .iter_mut()
+        .filter(|e| e.kind == Kind::BaseFrame)
+        .for_each(|e| e.parameters = [0.0; 6]);
     if let Some(guess) = &guess {
         begin(&problem, &mut begun, guess);
     }

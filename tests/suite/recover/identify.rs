@@ -19,7 +19,8 @@ const DEG: f64 = std::f64::consts::PI / 180.0;
 
 /// The thesis's robot without its calibration.
 fn nominal() -> Profile {
-    let text = std::fs::read_to_string(repository("robots/abb_irb120_thesis.yaml")).expect("a shipped profile");
+    let text = std::fs::read_to_string(repository("robots/abb_irb120_thesis.yaml"))
+        .expect("a shipped profile");
     let mut profile = Profile::from_yaml(&text).expect("a shipped profile");
     profile.effects.clear();
     profile
@@ -48,14 +49,25 @@ fn hidden(random: &mut StdRng, length_m: f64, angle_rad: f64, compliant: bool) -
         // axes 2 and 3 are parallel: d of link 2 is that of link 3
         let d = if link == 1 { 0.0 } else { even(length_m) };
         let values = [even(angle_rad), even(length_m), beta, even(angle_rad), d];
-        profile.effects.push(effect(Kind::LinkGeometry, link, &values));
+        profile
+            .effects
+            .push(effect(Kind::LinkGeometry, link, &values));
     }
-    let base = [even(length_m), even(length_m), even(length_m), even(angle_rad), even(angle_rad), even(angle_rad)];
+    let base = [
+        even(length_m),
+        even(length_m),
+        even(length_m),
+        even(angle_rad),
+        even(angle_rad),
+        even(angle_rad),
+    ];
     profile.effects.push(effect(Kind::BaseFrame, 0, &base));
     if compliant {
         let c = [0.032e-3, 0.130e-3, 0.605e-3, 0.419e-3, 0.647e-3];
         for (joint, c) in c.into_iter().enumerate() {
-            profile.effects.push(effect(Kind::JointCompliance, joint + 1, &[c]));
+            profile
+                .effects
+                .push(effect(Kind::JointCompliance, joint + 1, &[c]));
         }
     }
     profile
@@ -74,7 +86,11 @@ fn measure(truth: &Profile, commands: &[Command], session: &Session) -> Measurem
     let points: Vec<_> = if truth.points.is_empty() {
         vec![(None, [0.0; 3])]
     } else {
-        truth.points.iter().map(|(name, p)| (Some(name.clone()), *p)).collect()
+        truth
+            .points
+            .iter()
+            .map(|(name, p)| (Some(name.clone()), *p))
+            .collect()
     };
     Measurements {
         rows: simulate(truth, &tool, &points, commands, session),
@@ -99,7 +115,8 @@ fn true_value(truth: &Profile, key: &str) -> f64 {
         .iter()
         .find_map(|e| {
             let all = e.definition().parameters.iter().zip(e.parameters);
-            all.into_iter().find_map(|(p, value)| (format!("{} {}", e.label(), p.key) == key).then_some(value))
+            all.into_iter()
+                .find_map(|(p, value)| (format!("{} {}", e.label(), p.key) == key).then_some(value))
         })
         .unwrap_or(0.0)
 }
@@ -118,8 +135,13 @@ fn without_noise_nothing_is_left_of_five_millimetres() {
     let mut random = StdRng::seed_from_u64(1);
     for _ in 0..5 {
         let truth = hidden(&mut random, 2.0 * MM, 0.3 * DEG, true);
-        let seen = measure(&truth, &commands(&mut random, &truth, 50), &Session::default());
-        let found = calibrate(&nominal(), &seen, &known_tool(Level::Compliance)).expect("an answer");
+        let seen = measure(
+            &truth,
+            &commands(&mut random, &truth, 50),
+            &Session::default(),
+        );
+        let found =
+            calibrate(&nominal(), &seen, &known_tool(Level::Compliance)).expect("an answer");
         assert!(found.before.position.expect("positions").max > 3.0);
         let (_, max) = worst_mm(&found.profile(), &truth, 300);
         assert!(max < 1e-6, "{max} mm");
@@ -193,7 +215,11 @@ fn a_device_anywhere_and_an_unknown_tool_do_not_matter() {
         truth.world_from_base = Pose::from_xyz_rxryrz(pose);
         truth.points.insert("a".into(), [0.03, 0.05, 0.02]);
         truth.points.insert("b".into(), [-0.06, 0.01, 0.04]);
-        let seen = measure(&truth, &commands(&mut random, &truth, 60), &Session::default());
+        let seen = measure(
+            &truth,
+            &commands(&mut random, &truth, 60),
+            &Session::default(),
+        );
         let options = Options {
             shape: Shape::Squares,
             ..Options::default()
@@ -211,14 +237,20 @@ fn poses_and_distances_tell_as_positions_do() {
     let mut random = StdRng::seed_from_u64(8);
     let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, true);
     let commands = commands(&mut random, &truth, 120);
-    let from = vec![[1.0, 1.0, 0.2], [1.2, -0.9, 0.1], [-0.8, 0.9, 1.5], [-1.0, -1.0, 0.0]];
+    let from = vec![
+        [1.0, 1.0, 0.2],
+        [1.2, -0.9, 0.1],
+        [-0.8, 0.9, 1.5],
+        [-1.0, -1.0, 0.0],
+    ];
     for device in [Device::Pose, Device::Distance(from)] {
         let session = Session {
             device,
             ..Session::default()
         };
         let seen = measure(&truth, &commands, &session);
-        let found = calibrate(&nominal(), &seen, &known_tool(Level::Compliance)).expect("an answer");
+        let found =
+            calibrate(&nominal(), &seen, &known_tool(Level::Compliance)).expect("an answer");
         let (_, max) = worst_mm(&found.profile(), &truth, 200);
         assert!(max < 1e-5, "{max} mm");
     }
@@ -237,7 +269,12 @@ fn wrong_rows_are_listed_and_do_not_bend_the_answer() {
     session.outliers = 0.05;
     session.outlier_m = 3.0 * MM;
     let seen = measure(&truth, &commands, &session);
-    let wrong = clean.rows.iter().zip(&seen.rows).filter(|(a, b)| a.observed != b.observed).count();
+    let wrong = clean
+        .rows
+        .iter()
+        .zip(&seen.rows)
+        .filter(|(a, b)| a.observed != b.observed)
+        .count();
     assert!(wrong >= 2);
     for (shape, most) in [(Shape::Huber, 0.06), (Shape::Tukey, 0.05)] {
         let options = Options {
@@ -258,7 +295,11 @@ fn wrong_rows_are_listed_and_do_not_bend_the_answer() {
 fn what_cannot_be_told_apart_is_named_and_stays_nominal() {
     let mut random = StdRng::seed_from_u64(13);
     let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, false);
-    let seen = measure(&truth, &commands(&mut random, &truth, 60), &Session::default());
+    let seen = measure(
+        &truth,
+        &commands(&mut random, &truth, 60),
+        &Session::default(),
+    );
     let mut options = known_tool(Level::Geometry);
     options.selection.identify = Pick::parse_list("link_geometry").expect("a word");
     let found = calibrate(&nominal(), &seen, &options).expect("an answer");
@@ -270,11 +311,19 @@ fn what_cannot_be_told_apart_is_named_and_stays_nominal() {
         .map(|d| found.problem.parameters[d.parameter].key.as_str())
         .collect();
     // joint 1 turns about the base's own axis, and its offset along it is the base's height
-    for key in ["link_geometry link 1 theta_deg", "link_geometry link 1 d_mm", "link_geometry link 2 d_mm"] {
+    for key in [
+        "link_geometry link 1 theta_deg",
+        "link_geometry link 1 d_mm",
+        "link_geometry link 2 d_mm",
+    ] {
         assert!(names.contains(&key), "{key} is not among {names:?}");
     }
     for (parameter, value, sigma) in found.parameters() {
-        assert!(sigma.is_some() || value == 0.0, "{} wandered to {value}", parameter.key);
+        assert!(
+            sigma.is_some() || value == 0.0,
+            "{} wandered to {value}",
+            parameter.key
+        );
     }
     let (_, max) = worst_mm(&found.profile(), &truth, 200);
     assert!(max < 1e-6, "{max} mm");
@@ -284,7 +333,11 @@ fn what_cannot_be_told_apart_is_named_and_stays_nominal() {
 fn files_that_are_read_wrongly_are_found_out() {
     let mut random = StdRng::seed_from_u64(17);
     let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, false);
-    let good = measure(&truth, &commands(&mut random, &truth, 40), &Session::default());
+    let good = measure(
+        &truth,
+        &commands(&mut random, &truth, 40),
+        &Session::default(),
+    );
     let options = Options::default();
     let told = |change: &dyn Fn(usize, &mut poseshift::identify::measurements::Measurement)| {
         let mut bad = good.clone();
@@ -302,15 +355,23 @@ fn files_that_are_read_wrongly_are_found_out() {
         }
     };
     assert!(told(&|_, row| row.q = row.q.map(|q| q * DEG)).contains("radians"));
-    assert!(told(&|_, row| moved(&mut row.observed, &|p| p.map(|x| x / 1000.0))).contains("metres"));
+    assert!(
+        told(&|_, row| moved(&mut row.observed, &|p| p.map(|x| x / 1000.0))).contains("metres")
+    );
     assert!(told(&|_, row| moved(&mut row.observed, &|[x, y, z]| [y, x, z])).contains("swapped"));
     assert!(told(&|_, row| row.q.swap(1, 2)).contains("q2_deg and q3_deg are swapped"));
     assert!(told(&|_, row| row.q[2] = -row.q[2]).contains("joint 3 counts the other way"));
     assert!(told(&|i, row| row.observed = good.rows[(i + 1) % 40].observed).contains("row"));
     assert!(told(&|_, row| row.q = [0.1; 6]).contains("same pose"));
-    assert!(told(&|i, row| row.observed = Observed::Position([i as f64 * 0.01, 0.0, 0.0])).contains("one line"));
+    assert!(
+        told(&|i, row| row.observed = Observed::Position([i as f64 * 0.01, 0.0, 0.0]))
+            .contains("one line")
+    );
     let few = good.filtered(|i, _| i < 6);
-    assert!(matches!(calibrate(&nominal(), &few, &options), Err(IdentifyError::TooFew { .. })));
+    assert!(matches!(
+        calibrate(&nominal(), &few, &options),
+        Err(IdentifyError::TooFew { .. })
+    ));
     let mut twice = good.clone();
     twice.rows.push(good.rows[0].clone());
     let found = calibrate(&nominal(), &twice, &options).expect("an answer");
@@ -319,6 +380,16 @@ fn files_that_are_read_wrongly_are_found_out() {
     still.effects.clear();
     let mut stopped = commands(&mut random, &truth, 60);
     stopped.iter_mut().for_each(|c| c.q[3] = 0.2);
-    let found = calibrate(&nominal(), &measure(&still, &stopped, &Session::default()), &options).expect("an answer");
-    assert!(found.remarks.iter().any(|r| r.id == "joint-never-moved" && r.message.contains("joint 4")));
+    let found = calibrate(
+        &nominal(),
+        &measure(&still, &stopped, &Session::default()),
+        &options,
+    )
+    .expect("an answer");
+    assert!(
+        found
+            .remarks
+            .iter()
+            .any(|r| r.id == "joint-never-moved" && r.message.contains("joint 4"))
+    );
 }
