@@ -168,6 +168,10 @@ fn base_is_sought(selection: &Selection) -> bool {
 ///
 /// # Errors
 /// As [`calibrate`].
+#[allow(
+    clippy::missing_panics_doc,
+    reason = "what is expected holds by construction"
+)]
 pub fn fit_frames(
     profile: &Profile,
     measurements: &Measurements,

@@ -4,8 +4,9 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion, Vector};
 use crate::model::Conditions;
 
-/// How far a quaternion's length may be from 1.
-const UNIT_TOLERANCE: f64 = 1e-3;
+pub use super::fault::{MeasurementError, MeasurementFault};
+
+use super::fault::UNIT_TOLERANCE;
 
 /// Columns of joint angles.
 pub const JOINT_COLUMNS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
@@ -114,94 +115,6 @@ pub struct Measurements {
     pub columns: Vec<String>,
 }
 
-/// A fault at its place in the file.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{fault}")]
-pub struct MeasurementError {
-    /// Line, from 1; 0 is the whole file.
-    pub line: usize,
-    /// Column in bytes, from 1.
-    pub column: usize,
-    /// Length of what is to blame, bytes; 0 where it is not known.
-    pub length: usize,
-    /// What is wrong.
-    pub fault: MeasurementFault,
-}
-
-/// What is wrong with a file of measurements.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum MeasurementFault {
-    /// No CSV.
-    #[error("{message}")]
-    Csv {
-        /// What the parser says.
-        message: String,
-    },
-    /// Columns that must be there are not.
-    #[error("columns are missing: {}", missing.join(", "))]
-    MissingColumns {
-        /// Which.
-        missing: Vec<&'static str>,
-        /// Those that are there.
-        header: Vec<String>,
-    },
-    /// A column of the format that stands twice.
-    #[error("the column {column} stands twice")]
-    TwiceColumn {
-        /// Which.
-        column: &'static str,
-    },
-    /// Nothing was measured.
-    #[error("no rows")]
-    NoRows,
-    /// A cell that is no finite number.
-    #[error("column {column}: {} is not a finite number", if found.is_empty() { "an empty cell".to_owned() } else { format!("`{found}`") })]
-    NotFinite {
-        /// The column.
-        column: &'static str,
-        /// What stands there.
-        found: String,
-    },
-    /// A number outside its range.
-    #[error("column {column}: {found} is not {allowed}")]
-    NotAllowed {
-        /// The column.
-        column: &'static str,
-        /// What stands there.
-        found: String,
-        /// What may stand there.
-        allowed: &'static str,
-    },
-    /// A quaternion that is no rotation.
-    #[error("the quaternion's length is {norm:.6}; it may differ from 1 by {UNIT_TOLERANCE}")]
-    NotUnit {
-        /// Its length.
-        norm: f64,
-    },
-    /// A row with both a position and a distance, or with neither.
-    #[error("the row has {} a position and a distance; it must have one of them", if *both { "both" } else { "neither" })]
-    Kind {
-        /// Both, or neither.
-        both: bool,
-    },
-}
-
-impl MeasurementError {
-    /// The way out; empty where the message says it all.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        match &self.fault {
-            MeasurementFault::MissingColumns { header, .. } => {
-                format!("the header has: {}", header.join(", "))
-            }
-            MeasurementFault::Kind { .. } => {
-                "leave the cells of the other kind empty: x_mm,y_mm,z_mm or distance_mm,from_x_mm,from_y_mm,from_z_mm".into()
-            }
-            _ => String::new(),
-        }
-    }
-}
-
 fn whole_file(fault: MeasurementFault) -> MeasurementError {
     MeasurementError {
         line: 0,
@@ -220,7 +133,7 @@ struct Reader<'a> {
 struct Cells<'a> {
     reader: &'a Reader<'a>,
     line: usize,
-    cells: csv::StringRecord,
+    record: csv::StringRecord,
 }
 
 impl Reader<'_> {
@@ -257,17 +170,14 @@ impl Reader<'_> {
 
 impl Cells<'_> {
     fn text(&self, column: &str) -> Option<&str> {
-        let text = self.cells.get(self.reader.index(column)?)?;
+        let text = self.record.get(self.reader.index(column)?)?;
         (!text.is_empty()).then_some(text)
     }
 
     fn error(&self, column: &'static str, fault: MeasurementFault) -> MeasurementError {
         let index = self.reader.index(column).unwrap_or(0);
-        let lines = self.reader.bytes.split(|b| *b == b'\n');
-        let line = lines
-            .skip(self.line.saturating_sub(1))
-            .next()
-            .unwrap_or_default();
+        let mut lines = self.reader.bytes.split(|b| *b == b'\n');
+        let line = lines.nth(self.line.saturating_sub(1)).unwrap_or_default();
         let commas = line.iter().enumerate().filter(|(_, b)| **b == b',');
         let starts = std::iter::once(0).chain(commas.map(|(at, _)| at + 1));
         MeasurementError {
@@ -456,6 +366,7 @@ impl Cells<'_> {
 
 /// Which groups of columns a file has.
 #[derive(Clone, Copy)]
+#[allow(clippy::struct_excessive_bools, reason = "one a group of columns")]
 struct Kinds {
     position: bool,
     quaternion: bool,
@@ -533,7 +444,7 @@ impl Measurements {
             let cells = Cells {
                 reader: &reader,
                 line: usize::try_from(line).unwrap_or(0),
-                cells: record,
+                record,
             };
             rows.push(cells.measurement(rows.len() + 1, kinds)?);
         }

@@ -60,6 +60,10 @@ impl Pick {
     ///
     /// # Errors
     /// An unknown effect or key, too many places, a number out of range.
+    #[allow(
+        clippy::missing_panics_doc,
+        reason = "what is expected holds by construction"
+    )]
     pub fn parse(text: &str) -> Result<Self, SelectionError> {
         let (head, key) = match text.split_once('.') {
             Some((head, key)) => (head, Some(key)),

@@ -197,6 +197,10 @@ impl Problem {
     ///
     /// # Errors
     /// Unknown tools; an effect asked for that lacks a column or masses; no parameter.
+    #[allow(
+        clippy::missing_panics_doc,
+        reason = "what is expected holds by construction"
+    )]
     pub fn new(
         profile: &Profile,
         measurements: &Measurements,

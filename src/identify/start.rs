@@ -25,6 +25,8 @@ pub(super) struct Sight {
     pub carrier: usize,
 }
 
+/// Tool and name of a measured point.
+pub(super) type CarrierName = (String, Option<String>);
 /// The measured points and where they are believed on the flange; `None` where that is not known.
 pub(super) type Carriers = Vec<Option<Vector>>;
 
@@ -368,7 +370,7 @@ pub(super) fn tool_name(profile: &Profile, tool: Option<&str>) -> String {
 pub(super) fn sights(
     profile: &Profile,
     measurements: &Measurements,
-) -> (Vec<Sight>, Vec<(String, Option<String>)>, Carriers) {
+) -> (Vec<Sight>, Vec<CarrierName>, Carriers) {
     let arm = bare_arm(profile);
     let mut names: Vec<(String, Option<String>, Option<[u64; 3]>)> = Vec::new();
     let mut carriers: Carriers = Vec::new();

@@ -150,7 +150,7 @@ fn without_noise_nothing_is_left_of_five_millimetres() {
 
 #[test]
 fn the_truth_is_within_three_reported_sigmas() {
-    let (mut inside, mut all) = (0, 0);
+    let (mut inside, mut all) = (0_u32, 0_u32);
     for seed in 0..40 {
         let mut random = StdRng::seed_from_u64(seed);
         let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, true);
@@ -168,11 +168,11 @@ fn the_truth_is_within_three_reported_sigmas() {
         for (parameter, value, sigma) in found.parameters() {
             let Some(sigma) = sigma else { continue };
             all += 1;
-            inside += usize::from((value - true_value(&truth, &parameter.key)).abs() < 3.0 * sigma);
+            inside += u32::from((value - true_value(&truth, &parameter.key)).abs() < 3.0 * sigma);
         }
     }
     assert!(all > 1000);
-    let part = f64::from(inside as u32) / f64::from(all as u32);
+    let part = f64::from(inside) / f64::from(all);
     // 99.73 % is expected; with some 1200 values it varies by 0.15 %
     assert!(part > 0.99, "{inside} of {all}");
 }
@@ -379,7 +379,9 @@ fn files_that_are_read_wrongly_are_found_out() {
     let mut still = truth.clone();
     still.effects.clear();
     let mut stopped = commands(&mut random, &truth, 60);
-    stopped.iter_mut().for_each(|c| c.q[3] = 0.2);
+    for command in &mut stopped {
+        command.q[3] = 0.2;
+    }
     let found = calibrate(
         &nominal(),
         &measure(&still, &stopped, &Session::default()),
