@@ -2,8 +2,10 @@
 
 mod architecture;
 mod cli;
+mod documents;
 mod golden;
 mod laws;
 mod oracle;
+mod path;
 mod recover;
 mod support;
