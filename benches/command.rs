@@ -39,7 +39,7 @@ fn read_and_write(criterion: &mut Criterion) {
         group.bench_function(*id, |b| {
             b.iter(|| {
                 let program = language.read(&sources, &settings).expect("a program");
-                (program.targets.len(), edits.swap_remove(0).apply(&sources[0].bytes))
+                (program.targets.len(), edits[0].apply(&sources[0].bytes))
             });
         });
     }

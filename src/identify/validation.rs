@@ -221,10 +221,7 @@ fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec
                 mm_from_m(width) * ring as f64,
                 mm_from_m(width) * (ring + 1) as f64,
             );
-            add(
-                "region",
-                format!("{}: {from:.0} to {to:.0} mm from the middle", ring + 1),
-            );
+            add("region", format!("{}: {from:.0} to {to:.0} mm", ring + 1));
         }
     }
     let several = |by: &str| groups.keys().filter(|(b, _)| *b == by).count() > 1;
