@@ -115,7 +115,7 @@ fn all_pairs(criterion: &mut Criterion) {
         b.iter(|| one.install(|| black_box(pairs(&measured, &expected))));
     });
     group.bench_function("49 million pairs, all cores", |b| {
-        b.iter(|| black_box(pairs(&measured, &expected)))
+        b.iter(|| black_box(pairs(&measured, &expected)));
     });
     group.finish();
 }
