@@ -1,14 +1,19 @@
 //! The command line: the only place with paths, colour and standard output. One file a command.
 
+mod calibrate;
 mod catalogue;
 mod compensate;
 mod failure;
 mod files;
 mod import_ur;
 mod kinematics;
+mod measurements;
+mod plan;
 mod profile;
 mod shell;
+mod simulate;
 mod table;
+mod validate;
 mod values;
 
 use clap::{Args, Parser, Subcommand};
@@ -51,6 +56,10 @@ pub struct Output {
 #[derive(Subcommand)]
 enum Command {
     Compensate(compensate::Compensate),
+    Calibrate(calibrate::Calibrate),
+    Validate(validate::Validate),
+    Plan(plan::PlanCommand),
+    Simulate(simulate::Simulate),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
     Profile(profile::ProfileCommand),
@@ -76,6 +85,10 @@ pub fn run() -> ExitCode {
     let CommandLine { command, output } = CommandLine::parse();
     let answer = match command {
         Command::Compensate(command) => command.run(output),
+        Command::Calibrate(command) => command.run(output),
+        Command::Validate(command) => command.run(output),
+        Command::Plan(command) => command.run(output),
+        Command::Simulate(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),
         Command::Profile(command) => command.run(output),

@@ -12,6 +12,7 @@ mod geometry;
 pub mod profile;
 mod real;
 mod rows;
+mod sensitivity;
 
 pub use batch::forward_batch;
 pub use chain::{Chain, Frames};
@@ -19,6 +20,7 @@ pub use conditions::Conditions;
 pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};
 pub use real::Model;
 pub use rows::{Axes, RowsError};
+pub use sensitivity::{Motion, Sensitivity, Slot};
 
 /// Number of joints of every robot here.
 pub const JOINTS: usize = 6;

@@ -1,7 +1,9 @@
 //! What commands tell: texts for people and JSON for programs.
 
+pub mod approach;
 pub mod compensation;
 pub mod findings;
+pub mod identification;
 pub mod profile;
 
 use crate::geometry::Pose;

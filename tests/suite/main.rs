@@ -7,4 +7,5 @@ mod golden;
 mod laws;
 mod oracle;
 mod path;
+mod recover;
 mod support;

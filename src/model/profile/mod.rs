@@ -5,11 +5,13 @@ mod file;
 mod rewrite;
 mod shipped;
 pub mod universal_robots;
+mod write;
 
 pub use error::{Fault, ProfileError};
 pub use file::{ControllerModel, FORMAT, ProfileFile};
 pub use rewrite::with_controller;
 pub use shipped::SHIPPED;
+pub use write::{WriteError, rewritten};
 
 use super::effects::{Effect, Kind, Need};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};

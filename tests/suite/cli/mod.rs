@@ -2,5 +2,6 @@
 
 mod compensate;
 mod fuzzed;
+mod identify;
 mod jobs_and_tables_of_poses;
 mod tables;
