@@ -34,4 +34,5 @@ pub mod geometry;
 pub mod inverse;
 pub mod model;
 pub mod program;
+pub mod register;
 pub mod report;

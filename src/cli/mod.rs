@@ -1,11 +1,16 @@
 //! The command line: the only place with paths, colour and standard output. One file a command.
 
+mod axes;
 mod catalogue;
 mod compensate;
 mod failure;
 mod files;
+mod icp;
 mod kinematics;
+mod points;
 mod profile;
+mod register;
+mod registration;
 mod shell;
 mod table;
 mod values;
@@ -50,6 +55,8 @@ pub struct Output {
 #[derive(Subcommand)]
 enum Command {
     Compensate(compensate::Compensate),
+    Register(register::Register),
+    Axes(axes::Axes),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
     Profile(profile::ProfileCommand),
@@ -75,6 +82,8 @@ pub fn run() -> ExitCode {
     let CommandLine { command, output } = CommandLine::parse();
     let answer = match command {
         Command::Compensate(command) => command.run(output),
+        Command::Register(command) => command.run(output),
+        Command::Axes(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),
         Command::Profile(command) => command.run(output),

@@ -10,6 +10,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("model", &["geometry"]),
     ("inverse", &["geometry", "model"]),
+    ("register", &["geometry", "inverse", "model"]),
     ("program", &["geometry", "finding"]),
     (
         "compensate",
@@ -35,6 +36,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "inverse",
             "model",
             "program",
+            "register",
             "report",
         ],
     ),
