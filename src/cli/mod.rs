@@ -5,6 +5,8 @@ mod catalogue;
 mod compensate;
 mod failure;
 mod files;
+mod handeye;
+
 mod icp;
 mod kinematics;
 mod points;
@@ -56,6 +58,7 @@ pub struct Output {
 enum Command {
     Compensate(compensate::Compensate),
     Register(register::Register),
+    Handeye(handeye::Handeye),
     Axes(axes::Axes),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
@@ -83,6 +86,7 @@ pub fn run() -> ExitCode {
     let answer = match command {
         Command::Compensate(command) => command.run(output),
         Command::Register(command) => command.run(output),
+        Command::Handeye(command) => command.run(output),
         Command::Axes(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),

@@ -97,7 +97,7 @@ pub enum AxesError {
         error: FeatureError,
     },
     /// Another joint moves.
-    #[error("sweep of joint {joint}: joint {other} moves too, by {moved_deg:.4} deg (limit {limit_deg:.4} deg){}", coupled(*.coupled))]
+    #[error("sweep of joint {joint}: joint {other} moves too, by {moved_deg:.4} deg (limit {limit_deg:.4} deg){}", coupling_hint(*.coupled))]
     Moves {
         /// From 1.
         joint: usize,
@@ -160,7 +160,7 @@ pub enum AxesError {
     },
 }
 
-fn coupled(coupled: bool) -> &'static str {
+fn coupling_hint(coupled: bool) -> &'static str {
     if coupled {
         ": the controller's angle counts the swept joint in; command it so that the mechanical joint stands still"
     } else {

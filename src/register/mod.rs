@@ -13,6 +13,8 @@ pub mod axes;
 pub mod features;
 pub mod frame_file;
 pub mod frames;
+pub mod handeye;
+pub mod hexapod;
 pub mod icp;
 pub mod kabsch;
 mod linear;

@@ -1,0 +1,1 @@
+use clap::Args; #[derive(Args)] pub struct Hexapod{} 
