@@ -6,6 +6,7 @@ mod compensate;
 mod failure;
 mod files;
 mod handeye;
+mod hexapod;
 
 mod icp;
 mod kinematics;
@@ -59,6 +60,7 @@ enum Command {
     Compensate(compensate::Compensate),
     Register(register::Register),
     Handeye(handeye::Handeye),
+    Hexapod(Box<hexapod::Hexapod>),
     Axes(axes::Axes),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
@@ -87,6 +89,7 @@ pub fn run() -> ExitCode {
         Command::Compensate(command) => command.run(output),
         Command::Register(command) => command.run(output),
         Command::Handeye(command) => command.run(output),
+        Command::Hexapod(command) => command.run(output),
         Command::Axes(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),
