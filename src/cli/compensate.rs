@@ -1,10 +1,10 @@
 //! `compensate`: program files in, program files with fake targets out.
 
 use super::failure::Failure;
-use super::{Answer, Output, files, print, print_json, values};
+use super::{Answer, Output, files, json_text, print, values};
 use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use crate::model::profile::{ControllerModel, Profile};
-use crate::program::{Edits, LANGUAGES, Language, Marker, Source};
+use crate::program::{LANGUAGES, Language, Marker, Source};
 use crate::report;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ pub struct Compensate {
     /// Write even when targets cannot be compensated; these stay as they are, and the status is 1
     #[arg(long)]
     keep_going: bool,
-    /// Compensate files that already are
+    /// Compensate files that already are, and targets that the controller corrects itself (KRL: S with bit 4)
     #[arg(long)]
     force: bool,
     /// Write at least so many decimals of a millimetre (default: as many as the file has)
@@ -48,6 +48,13 @@ pub struct Compensate {
     /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
+    /// Where the part stands: a frame file that maps the part as simulated into the part as measured, both in the world;
+    /// moves every target with the part
+    #[arg(long, value_name = "FRAME.yaml")]
+    work_offset: Option<PathBuf>,
+    /// Where a work object stands in the world: a frame file. Like --frame, but a program that declares it elsewhere is refused
+    #[arg(long = "wobj", value_name = "NAME=FRAME.yaml")]
+    wobjs: Vec<String>,
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
@@ -92,30 +99,28 @@ impl Compensate {
             .map_err(|error| explain(&error, &sources))?;
         let refused = compensation.is_refused();
         let writes = !refused || self.keep_going;
-        let mut header = report::compensation::Header {
+        let outputs = found.iter().filter(|_| writes);
+        let header = report::compensation::Header {
             inputs: sources.iter().map(|s| s.name.clone()).collect(),
-            outputs: Vec::new(),
+            outputs: outputs
+                .map(|job| job.output.display().to_string())
+                .collect(),
             sources: &sources,
             language,
             profile_sha256: &profile_sha256,
         };
-        let mut compensation = compensation;
+        let told = tell(&header, &compensation, output);
         if writes {
-            let edits = std::mem::take(&mut compensation.edits);
-            let written = render(language, &sources, edits, &compensation, &profile_sha256)?;
+            let written = render(language, &sources, compensation, &profile_sha256)?;
             let written = written.into_iter().map(|source| source.bytes);
             let outputs: Vec<_> = found
-                .iter()
-                .map(|job| job.output.clone())
+                .into_iter()
+                .map(|job| job.output)
                 .zip(written)
                 .collect();
             files::write_all(&outputs)?;
-            header.outputs = found
-                .iter()
-                .map(|job| job.output.display().to_string())
-                .collect();
         }
-        tell(&header, &compensation, writes, output)?;
+        print(&told)?;
         Ok(if refused { Answer::No } else { Answer::Yes })
     }
 
@@ -129,10 +134,24 @@ impl Compensate {
             let (name, frame) = values::frame(text)?;
             given.frames.insert(name, frame);
         }
+        for text in &self.wobjs {
+            let (name, file) = values::named(text);
+            let name = name.ok_or_else(|| {
+                Failure::new(format!("--wobj {text}: it must be NAME=FRAME.yaml"))
+            })?;
+            let frame = files::read_frame(Path::new(file))?;
+            given.measured_frames.insert(name, frame.to_from_from);
+        }
+        let work_offset = match &self.work_offset {
+            Some(path) => Some(files::read_frame(path)?.to_from_from),
+            None => None,
+        };
         Ok(Options {
             given,
+            work_offset,
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
+            accept_absolutely_accurate: self.force,
         })
     }
 
@@ -190,12 +209,15 @@ fn refuse_doubtful(profile: &Profile, path: &Path) -> Result<(), Failure> {
         .effects
         .iter()
         .all(crate::model::effects::Effect::is_zero);
-    if profile.controller == ControllerModel::Calibrated && nothing {
+    // with its own effects the real arm is taken as the controller's: nothing changes
+    if profile.controller == ControllerModel::Calibrated && profile.own_effects.is_none() && nothing
+    {
         let message = format!(
             "{}: the controller is calibrated itself, and the profile has no effects to apply",
             path.display()
         );
-        let hint = "a calibrated controller needs the effects that it applies and those that remain; see `poseshift effects`";
+        let hint = "a calibrated controller needs the effects that it applies (`controller.effects`; of a UR, `poseshift profile \
+                    import-ur`) and those of the real arm";
         return Err(Failure::with_hint(message, hint));
     }
     Ok(())
@@ -322,19 +344,26 @@ fn same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
-/// The files' new bytes: edits and marker, read again to make sure that they say what was meant.
+/// The files' new bytes: edits and marker, read again to make sure that they say what was meant. Takes the compensation,
+/// so that a long program is not in memory twice.
 fn render(
     language: &dyn Language,
     sources: &[Source],
-    edits: Vec<Edits>,
-    compensation: &Compensation,
+    compensation: Compensation,
     profile_sha256: &str,
 ) -> Result<Vec<Source>, Failure> {
+    let Compensation {
+        program,
+        settings,
+        edits,
+        compensated,
+        ..
+    } = compensation;
+    let before = (program.targets.len(), program.moves.len());
+    drop(program);
     let mut written = Vec::with_capacity(sources.len());
-    for ((source, mut edits), compensated) in
-        sources.iter().zip(edits).zip(&compensation.compensated)
-    {
-        if *compensated {
+    for ((source, mut edits), compensated) in sources.iter().zip(edits).zip(compensated) {
+        if compensated {
             let marker = Marker {
                 version: env!("CARGO_PKG_VERSION").into(),
                 profile_sha256: profile_sha256.into(),
@@ -345,12 +374,9 @@ fn render(
         }
         written.push(Source::new(source.name.clone(), edits.apply(&source.bytes)));
     }
-    let before = &compensation.program;
     let same = language
-        .read(&written, &compensation.settings)
-        .is_ok_and(|after| {
-            (after.targets.len(), after.moves.len()) == (before.targets.len(), before.moves.len())
-        });
+        .read(&written, &settings)
+        .is_ok_and(|after| (after.targets.len(), after.moves.len()) == before);
     if !same {
         let message = "internal error: the rewritten program does not read back as the same program; nothing is written";
         return Err(Failure::new(message));
@@ -381,6 +407,9 @@ fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             ),
             None => Failure::with_hint(unknown.to_string(), unknown.hint()),
         },
+        CompensateError::MeasuredFrame(error) => {
+            Failure::with_hint(format!("--wobj: {error}"), error.hint())
+        }
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
         CompensateError::NothingInReach { .. } => Failure::with_hint(
             error.to_string(),
@@ -389,15 +418,16 @@ fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
     }
 }
 
+/// What is printed when all is done.
 fn tell(
     header: &report::compensation::Header,
     compensation: &Compensation,
-    written: bool,
     output: Output,
-) -> Result<(), Failure> {
+) -> String {
     if output.json {
-        return print_json(&report::compensation::json(header, compensation));
+        return json_text(&report::compensation::json(header, compensation));
     }
+    let written = !header.outputs.is_empty();
     let mut text = String::new();
     if !output.quiet || !written {
         text += &report::findings::text(&compensation.findings, output.verbose);
@@ -413,5 +443,5 @@ fn tell(
         [one] => text += &format!("written to {one}\n"),
         many => text += &format!("{} files written\n", many.len()),
     }
-    print(&text)
+    text
 }

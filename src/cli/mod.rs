@@ -7,8 +7,8 @@ mod failure;
 mod files;
 mod handeye;
 mod hexapod;
-
 mod icp;
+mod import_ur;
 mod kinematics;
 mod points;
 mod profile;
@@ -122,7 +122,11 @@ fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints a JSON document to standard output.
 fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value)
-        .expect("a report holds only finite numbers and text keys");
-    print(&format!("{text}\n"))
+    print(&json_text(value))
+}
+
+/// A JSON document as it is printed.
+fn json_text(value: &impl serde::Serialize) -> String {
+    serde_json::to_string_pretty(value).expect("a report holds only finite numbers and text keys")
+        + "\n"
 }

@@ -2,6 +2,7 @@
 
 mod architecture;
 mod cli;
+mod documents;
 mod golden;
 mod laws;
 mod oracle;

@@ -20,8 +20,9 @@
 //! | `stationary-tool` | error | the tool does not hang on the robot |
 //! | `moving-frame` | error | a conveyor or another mechanical unit moves the work object |
 //! | `displacement-active` | error | `PDispOn`, `PDispSet`, `EOffsOn` or `EOffsSet` may be active |
-//! | `computed-target` | warning | a move goes to a position that only the running program knows |
-//! | `target-not-in-files` | warning | a move goes to a target that the files do not declare |
+//! | `computed-target` | error | a move goes to a position that only the running program knows |
+//! | `target-not-in-files` | error | a move goes to a target that the files do not declare |
+//! | `too-many-uses` | error | elements of arrays are used in more than half a million ways; the rest is not checked |
 //! | `target-copied` | warning | another target is computed from this one |
 //! | `sync-move` | note | the move runs together with one of another robot |
 //! | `grip-load` | note | the robot carries something that is not in the tool's load |
@@ -40,7 +41,7 @@ mod findings;
 mod frames;
 mod instruction;
 mod moves;
-mod names;
+pub(in crate::program) mod names;
 mod reader;
 mod sniff;
 mod syntax;

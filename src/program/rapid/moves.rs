@@ -13,7 +13,7 @@ use crate::program::{Displacement, FrameId, Motion, Move, ReadError, Shift, Targ
 use std::collections::HashSet;
 
 /// The most uses of elements of arrays with indices that only the running program knows.
-const MOST_USES: usize = 2_000_000;
+const MOST_USES: usize = 500_000;
 
 /// Resolves the moves of all files.
 pub(super) struct Moves<'a> {
@@ -24,6 +24,8 @@ pub(super) struct Moves<'a> {
     listed: HashSet<(u32, ToolId, FrameId, Motion, bool, [u64; 3])>,
     /// Parts of the elements that are blocked as a whole.
     blocked: HashSet<(Part, Cause)>,
+    /// More uses than are listed.
+    full: bool,
     conf_l: bool,
     conf_j: bool,
     routine: Option<Context>,
@@ -37,6 +39,7 @@ impl<'a> Moves<'a> {
             uses: Uses::new(world),
             listed: HashSet::new(),
             blocked: HashSet::new(),
+            full: false,
             conf_l: true,
             conf_j: true,
             routine: None,
@@ -370,8 +373,14 @@ impl<'a> Moves<'a> {
         let spelled = world.notes.symbols.spelling(name);
         match world.points(name, index, statement.context) {
             Points::Elements { datum, elements } => {
-                if elements.1 - elements.0 > 1 && !self.first_use(datum, displacement, with) {
-                    return true;
+                if elements.1 - elements.0 > 1 {
+                    if !self.first_use(datum, displacement, with) {
+                        return true;
+                    }
+                    if self.report.program.moves.len() >= MOST_USES {
+                        self.too_many(statement);
+                        return true;
+                    }
                 }
                 for element in indices(elements) {
                     match world.notes.elements[element] {
@@ -425,17 +434,24 @@ impl<'a> Moves<'a> {
             Displacement::By(shift) if **shift == Shift::in_frame(shift.in_frame_m) => {
                 shift.in_frame_m.map(f64::to_bits)
             }
-            Displacement::By(_) => return self.room(),
+            Displacement::By(_) => return true,
             Displacement::Unknown => [u64::MAX; 3],
         };
-        self.room()
-            && self
-                .listed
-                .insert((datum, tool, frame, with.motion, with.configured, by))
+        self.listed
+            .insert((datum, tool, frame, with.motion, with.configured, by))
     }
 
-    fn room(&self) -> bool {
-        self.report.program.moves.len() < MOST_USES
+    fn too_many(&mut self, statement: &Statement) {
+        if std::mem::replace(&mut self.full, true) {
+            return;
+        }
+        self.report.say(
+            "too-many-uses",
+            Severity::Error,
+            statement.place,
+            format!("from here on moves to elements of arrays are not checked: there are more than {MOST_USES}"),
+            "give fewer files in one call",
+        );
     }
 
     fn use_target(

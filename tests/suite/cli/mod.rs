@@ -1,4 +1,5 @@
 //! The command line as a user meets it: files, exit statuses, messages.
 
 mod compensate;
+mod jobs_and_tables_of_poses;
 mod tables;

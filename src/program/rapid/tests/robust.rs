@@ -120,3 +120,19 @@ fn many_uses_of_large_arrays_stay_linear() {
         "each target once for each cause"
     );
 }
+
+#[test]
+fn more_uses_of_arrays_than_are_listed_are_an_error_that_says_so() {
+    let elements = vec![format!("[[1,2,3],[1,0,0,0],{CONF}"); 1000].join(",");
+    let moves: String = (0..600)
+        .map(|z| format!("MoveL Offs(p{{i}},0,0,{z}),v5,z5,t;\n"))
+        .collect();
+    let text = format!(
+        "MODULE m\nPERS robtarget p{{1000}}:=[{elements}];\nPROC a()\n{moves}ENDPROC\nENDMODULE"
+    );
+    let program = read(&text);
+    assert_eq!(program.moves.len(), 500_000);
+    let ids: Vec<_> = program.findings.iter().map(|finding| finding.id).collect();
+    assert_eq!(ids, ["too-many-uses"]);
+    assert_eq!(program.findings[0].line, 4 + 500);
+}

@@ -1,0 +1,162 @@
+//! What the documents say, checked: generated tables, the example, links, commands.
+//!
+//! `POSESHIFT_BLESS=1 cargo test documents` writes the generated tables anew.
+
+use crate::support::{files_below, poseshift, repository, scratch, text};
+use serde_json::Value;
+use std::path::PathBuf;
+
+fn listed(command: &str, key: &str) -> Vec<Value> {
+    let output = poseshift()
+        .args([command, "--json"])
+        .output()
+        .expect("the program starts");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    report[key].as_array().expect("a list").clone()
+}
+
+fn word<'a>(row: &'a Value, key: &str) -> &'a str {
+    row[key].as_str().unwrap_or("")
+}
+
+fn languages() -> String {
+    let mut table = String::from("| language | files | rewritten |\n|---|---|---|\n");
+    for row in listed("languages", "languages") {
+        let list = |key: &str, before: &str, between: &str| {
+            let items = row[key].as_array().expect("a list").iter();
+            let items = items.map(|item| format!("{before}{}", item.as_str().expect("text")));
+            items.collect::<Vec<_>>().join(between)
+        };
+        table += &format!(
+            "| {} (`{}`) | {} | {} |\n",
+            word(&row, "name"),
+            word(&row, "id"),
+            list("extensions", ".", " "),
+            list("rewrites", "", "; ")
+        );
+    }
+    table + "\n`poseshift languages` also lists what each leaves alone and refuses.\n"
+}
+
+fn robots() -> String {
+    let mut table = String::from("| robot | profile | closed-form inverse |\n|---|---|---|\n");
+    for row in listed("robots", "robots") {
+        let calibrated = if row["effects"] == 0 {
+            ""
+        } else {
+            ", calibrated"
+        };
+        table += &format!(
+            "| {} {}{calibrated} | `{}` | {} |\n",
+            word(&row, "manufacturer"),
+            word(&row, "model"),
+            word(&row, "name"),
+            word(&row, "closed_form_inverse")
+        );
+    }
+    table
+}
+
+#[test]
+fn tables_of_the_readme_are_those_of_the_program() {
+    let mut readme = text("README.md");
+    for (name, table) in [("languages", languages()), ("robots", robots())] {
+        let head = format!("<!-- generated: {name} -->\n");
+        let start = readme.find(&head).expect("a place for the table") + head.len();
+        let end = start + readme[start..].find("<!-- end -->").expect("its end");
+        if std::env::var_os("POSESHIFT_BLESS").is_some() {
+            readme.replace_range(start..end, &table);
+            std::fs::write(repository("README.md"), &readme).expect("a writable file");
+        } else {
+            let help = "POSESHIFT_BLESS=1 cargo test documents writes it anew";
+            assert_eq!(&readme[start..end], table, "{name}: {help}");
+        }
+    }
+}
+
+#[test]
+fn the_example_of_the_readme_is_the_sample() {
+    let readme = text("README.md");
+    let mut seen = 0;
+    for line in readme.lines() {
+        let file = match line.get(..1) {
+            Some("-") if line.contains("[[") => "programs/rapid/olp/in/Deburr.mod",
+            Some("+") if line.contains("[[") => "programs/rapid/olp/out/Deburr.mod",
+            _ => continue,
+        };
+        let program = text(file);
+        for part in line[1..].split('…') {
+            assert!(
+                program.contains(part.trim_start_matches("],")),
+                "{file} has no {part}"
+            );
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 4);
+}
+
+fn documents() -> Vec<PathBuf> {
+    let docs = files_below(&repository("docs")).into_iter();
+    let mut all: Vec<_> = docs.map(|file| PathBuf::from("docs").join(file)).collect();
+    all.extend(["README.md".into(), "robots/README.md".into()]);
+    all.retain(|file| file.extension().is_some_and(|e| e == "md"));
+    all
+}
+
+#[test]
+fn links_between_documents_lead_somewhere() {
+    let mut links = 0;
+    for document in documents() {
+        let text = text(document.to_str().expect("a plain name"));
+        for rest in text.split("](").skip(1) {
+            let link = rest.split([')', '#']).next().unwrap_or("");
+            if link.is_empty() || link.contains("://") {
+                continue;
+            }
+            let target = repository(".")
+                .join(document.parent().expect("a folder"))
+                .join(link);
+            assert!(target.exists(), "{}: {link}", document.display());
+            links += 1;
+        }
+    }
+    assert!(links > 8);
+}
+
+/// The commands of the README's `console` blocks, run as they stand but for the program's own path.
+#[test]
+fn commands_of_the_readme_do_what_it_says() {
+    let readme = text("README.md");
+    let scratch = scratch();
+    let mut run = 0;
+    for block in readme.split("```console\n").skip(1) {
+        let block = block.split("```").next().expect("a block has an end");
+        for line in block.lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let arguments = match words.as_slice() {
+                ["poseshift", rest @ ..] | ["cargo", "run", "--release", "--", rest @ ..] => rest,
+                ["cargo", ..] => continue,
+                other => panic!("not understood: {other:?}"),
+            };
+            let mut command = poseshift();
+            command.current_dir(scratch.path());
+            for word in arguments {
+                let given = repository(word);
+                if given.exists() {
+                    command.arg(given);
+                } else {
+                    command.arg(word);
+                }
+            }
+            let output = command.output().expect("the program starts");
+            // the difference between two profiles is an answer like that of `diff`
+            let expected = i32::from(arguments.starts_with(&["profile", "diff"]));
+            let told = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(expected), "{line}: {told}");
+            run += 1;
+        }
+    }
+    assert!(run >= 5, "{run} commands");
+    assert!(scratch.path().join("Deburr_compensated.mod").is_file());
+}
