@@ -6,4 +6,5 @@ mod documents;
 mod golden;
 mod laws;
 mod oracle;
+mod register;
 mod support;
