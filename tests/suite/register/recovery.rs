@@ -388,7 +388,7 @@ fn a_wrong_ballbar_length_is_named() {
 #[test]
 fn three_taught_points_and_exact_distances_place_the_base() {
     let mut random = seeded(21);
-    let base_m = [0.3, 0.3002, 0.2999];
+    let base_m: [f64; 3] = [0.3, 0.3002, 0.2999];
     let x = (base_m[0].powi(2) + base_m[2].powi(2) - base_m[1].powi(2)) / (2.0 * base_m[0]);
     let y = (base_m[2].powi(2) - x * x).sqrt();
     let balls = [[0.0; 3], [base_m[0], 0.0, 0.0], [x, y, 0.0]];
