@@ -100,18 +100,17 @@ fn same(a: f64, b: f64) -> bool {
 
 /// Writes one of the numbers: a letter, or a whole number with the blanks before it that it had.
 pub fn write(k: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
-    match LETTERS.get(k) {
-        Some([zero, one]) => out.push(if same(value, 0.0) { *zero } else { *one }),
-        None => {
-            let text = format!("{value:.0}");
-            let text = if same(value, 0.0) { "0" } else { &text };
-            let blanks = old.iter().take_while(|b| b.is_ascii_whitespace()).count();
-            if blanks > 0 {
-                let padding = old.len().saturating_sub(text.len()).max(1);
-                out.extend(std::iter::repeat_n(b' ', padding));
-            }
-            out.extend_from_slice(text.as_bytes());
+    if let Some([zero, one]) = LETTERS.get(k) {
+        out.push(if same(value, 0.0) { *zero } else { *one });
+    } else {
+        let text = format!("{value:.0}");
+        let text = if same(value, 0.0) { "0" } else { &text };
+        let blanks = old.iter().take_while(|b| b.is_ascii_whitespace()).count();
+        if blanks > 0 {
+            let padding = old.len().saturating_sub(text.len()).max(1);
+            out.extend(std::iter::repeat_n(b' ', padding));
         }
+        out.extend_from_slice(text.as_bytes());
     }
 }
 

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 /// Tools and work frames of group 1, by number.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[allow(clippy::struct_field_names)]
 pub struct Frames {
     /// `flange_from_tool`
     pub tools: BTreeMap<u32, Pose>,
@@ -65,7 +66,7 @@ fn starts(line: Option<(usize, &[u8])>, word: &[u8]) -> bool {
 pub fn read(bytes: &[u8], kind: Kind) -> Result<Frames, BadNumber> {
     match kind {
         Kind::Variables => variables(bytes),
-        Kind::List => list(bytes),
+        Kind::List => Ok(list(bytes)),
     }
 }
 
@@ -155,7 +156,7 @@ fn coordinates(text: &[u8], start: usize, values: &mut [Option<f64>; 6]) -> Resu
             .take_while(|b| !b.is_ascii_whitespace() && **b != b',')
             .count();
         // uninitialised: the frame is not known
-        if rest[..length].iter().any(|&b| b == b'*') {
+        if rest[..length].contains(&b'*') {
             continue;
         }
         let value = number::parse(&rest[..length]).filter(|value| value.abs() <= LARGEST);
@@ -166,7 +167,7 @@ fn coordinates(text: &[u8], start: usize, values: &mut [Option<f64>; 6]) -> Resu
 }
 
 /// `Tool Frame`, `Jog Frame`, `User Frame`, then a row of six numbers and a comment for each; rows count from 1.
-fn list(bytes: &[u8]) -> Result<Frames, BadNumber> {
+fn list(bytes: &[u8]) -> Frames {
     let mut frames = Frames {
         rounded: true,
         ..Frames::default()
@@ -197,7 +198,7 @@ fn list(bytes: &[u8]) -> Result<Frames, BadNumber> {
             Section::Other => None,
         };
     }
-    Ok(frames)
+    frames
 }
 
 fn heading(line: &[u8]) -> Option<Section> {

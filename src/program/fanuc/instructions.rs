@@ -29,6 +29,7 @@ pub enum Way {
 
 /// What follows the point in a move, as far as it matters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[allow(clippy::struct_excessive_bools)]
 pub struct Extras {
     /// `Offset`, `Tool_Offset`, `VOFFSET` and the like.
     pub displaced: bool,

@@ -2,7 +2,7 @@
 //!
 //! A listing has no comments but remarks in numbered lines, and COMMENT of 16 characters in `/ATTR`, which is the user's. So
 //! the marker stands behind the last instruction, where it renumbers nothing, as three remarks of at most 32 characters (what
-//! a controller keeps). LINE_COUNT stays: controllers count the lines themselves when they load a listing, and
+//! a controller keeps). `LINE_COUNT` stays: controllers count the lines themselves when they load a listing, and
 //! post-processors write any number there. Of the hashes the first 24 and 16 of 64 digits fit.
 
 use super::sections::{Sections, line_end};

@@ -2,7 +2,7 @@
 //!
 //! A point is `P[n]{ GP1: UF : f, UT : t, CONFIG : '…', X = …, … W = …, P = …, R = … };`, mm and degrees, `Rz(R)·Ry(P)·Rx(W)`;
 //! or J1 to J6 in degrees. It is the pose of tool t in user frame f; both are numbers, and 0 is the flange and the world.
-//! `F` for a number is the one that UTOOL_NUM and UFRAME_NUM select; where the program selects none before, the tool or frame
+//! `F` for a number is the one that `UTOOL_NUM` and `UFRAME_NUM` select; where the program selects none before, the tool or frame
 //! is called `F`, and the user says where it is. Only group 1 is read and written; J3 of joint points is
 //! FANUC's, measured from the horizontal (the profile's coupling). Listings of any dictionary are read: UF, UT and the names
 //! of coordinates are in all of them, the configuration data are the only string in a group.
@@ -126,11 +126,11 @@ impl Language for Fanuc {
             let file = offset(file);
             if let Some(sections) = Sections::of(&source.bytes) {
                 let listing = listing(source, file, &sections);
-                listings.push(listing.map_err(|fault| in_source(fault, source))?);
+                listings.push(listing.map_err(|fault| in_source(&fault, source))?);
             } else if let Some(kind) = frames::kind(&source.bytes) {
                 let found = frames::read(&source.bytes, kind).map_err(|bad| {
                     let (at, length) = (bad.at, bad.length);
-                    in_source(Fault::BadValue { at, length }, source)
+                    in_source(&Fault::BadValue { at, length }, source)
                 })?;
                 rounded.extend(found.rounded.then(|| source.name.clone()));
                 values.add(found);
@@ -142,7 +142,7 @@ impl Language for Fanuc {
                 });
             }
         }
-        let mut program = resolve::resolve(sources, &listings, &values);
+        let mut program = resolve::resolve(sources, &mut listings, &values);
         program
             .findings
             .extend(rounded.into_iter().map(frames_rounded));
@@ -256,6 +256,7 @@ fn listing(source: &Source, file: u32, sections: &Sections) -> Result<Listing, F
     while let Some(point) = points.next()? {
         listing.points.push(point);
     }
+    listing.numbers = points.numbers;
     Ok(listing)
 }
 
@@ -294,12 +295,12 @@ fn frames_rounded(file: String) -> Finding {
 }
 
 /// A fault with its place in words.
-fn in_source(fault: Fault, source: &Source) -> ReadError {
+fn in_source(fault: &Fault, source: &Source) -> ReadError {
     let (Fault::Unclosed { at, .. } | Fault::Unexpected { at, .. } | Fault::BadValue { at, .. }) =
-        fault;
+        *fault;
     let (line, column) = source.line_column(at);
     let file = source.name.clone();
-    match fault {
+    match *fault {
         Fault::Unclosed { what, .. } => ReadError::Unclosed {
             file,
             line,
@@ -327,7 +328,7 @@ fn in_source(fault: Fault, source: &Source) -> ReadError {
 /// What stands at a place, in words.
 fn found(rest: &[u8]) -> String {
     let word = rest
-        .split(|b| b.is_ascii_whitespace())
+        .split(u8::is_ascii_whitespace)
         .next()
         .unwrap_or_default();
     match word {

@@ -52,12 +52,10 @@ pub struct Point {
     pub number: u32,
     /// First byte.
     pub offset: u32,
-    /// `P[1]` or `P[1:"name"]`.
-    pub spelled: Range<usize>,
     /// Group 1; `None` where it has none: another robot or a positioner.
     pub content: Option<Content>,
-    /// Its numbers.
-    pub numbers: Vec<Number>,
+    /// Its numbers among those of its listing.
+    pub numbers: Range<usize>,
     /// Its work frame.
     pub frame: Selected,
     /// Its tool.
@@ -81,12 +79,18 @@ pub enum Fault {
 pub struct Points<'a> {
     bytes: &'a [u8],
     at: usize,
+    /// The numbers of all points so far.
+    pub numbers: Vec<Number>,
 }
 
 impl<'a> Points<'a> {
     /// The points from `at` on.
     pub fn new(bytes: &'a [u8], at: usize) -> Self {
-        Self { bytes, at }
+        Self {
+            bytes,
+            at,
+            numbers: Vec::new(),
+        }
     }
 
     fn byte(&self) -> Option<u8> {
@@ -149,9 +153,8 @@ impl<'a> Points<'a> {
         let mut point = Point {
             number,
             offset: offset(start),
-            spelled: start..self.at,
             content: None,
-            numbers: Vec::new(),
+            numbers: 0..0,
             frame: Selected::Active,
             tool: Selected::Active,
             extended: false,
@@ -240,7 +243,7 @@ impl<'a> Points<'a> {
             }
         }
         if first.there {
-            first.finish(point);
+            first.finish(point, &mut self.numbers);
         }
         Ok(())
     }
@@ -394,6 +397,7 @@ fn group_number(key: &[u8]) -> Option<u32> {
 
 /// Group 1 of a point while it is read.
 #[derive(Default)]
+#[allow(clippy::struct_excessive_bools, clippy::option_option)]
 struct Group {
     there: bool,
     uninitialised: bool,
@@ -443,7 +447,8 @@ impl Group {
         self.flags = Some(flags(text, inside.start));
     }
 
-    fn finish(self, point: &mut Point) {
+    fn finish(self, point: &mut Point, numbers: &mut Vec<Number>) {
+        let start = numbers.len();
         point.extended = self.extended;
         let complete = |numbers: [Option<Number>; 6]| numbers.iter().all(Option::is_some);
         let trouble = if self.uninitialised {
@@ -460,19 +465,19 @@ impl Group {
         point.content = Some(match trouble {
             Some(trouble) => Content::Trouble(trouble),
             None if complete(self.joints) => {
-                point.numbers.extend(self.joints.into_iter().flatten());
+                numbers.extend(self.joints.into_iter().flatten());
                 Content::Joints
             }
             None => {
-                point.numbers.reserve_exact(POSE_NUMBERS);
-                point.numbers.extend(self.pose.into_iter().flatten());
+                numbers.extend(self.pose.into_iter().flatten());
                 let configuration = self.flags.flatten();
-                point.numbers.extend(configuration.into_iter().flatten());
+                numbers.extend(configuration.into_iter().flatten());
                 Content::Pose {
                     configured: configuration.is_some(),
                 }
             }
         });
+        point.numbers = start..numbers.len();
     }
 }
 
@@ -489,24 +494,21 @@ fn flags(text: &[u8], start: usize) -> Option<[Number; 6]> {
             at += 1;
         }
         let rest = text.get(at..).filter(|rest| !rest.is_empty())?;
-        let (value, length) = match super::config::LETTERS.get(k) {
-            Some([zero, one]) => {
-                let letter = rest[0];
-                let value = if letter == *zero {
-                    0.0
-                } else if letter == *one {
-                    1.0
-                } else {
-                    return None;
-                };
-                (value, 1)
-            }
-            None => {
-                let sign = usize::from(matches!(rest[0], b'-' | b'+'));
-                let digits = rest[sign..].iter().take_while(|b| b.is_ascii_digit());
-                let length = sign + digits.take(3).count();
-                (number::parse(&rest[..length])?, length)
-            }
+        let (value, length) = if let Some([zero, one]) = super::config::LETTERS.get(k) {
+            let letter = rest[0];
+            let value = if letter == *zero {
+                0.0
+            } else if letter == *one {
+                1.0
+            } else {
+                return None;
+            };
+            (value, 1)
+        } else {
+            let sign = usize::from(matches!(rest[0], b'-' | b'+'));
+            let digits = rest[sign..].iter().take_while(|b| b.is_ascii_digit());
+            let length = sign + digits.take(3).count();
+            (number::parse(&rest[..length])?, length)
         };
         *number = Number {
             start: offset(start + at),

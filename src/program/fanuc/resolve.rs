@@ -3,12 +3,12 @@
 use super::findings::{Cause, Place, Report};
 use super::frames::Frames;
 use super::instructions::{Event, Extras, Named, Way, Which};
-use super::points::{Content, Point, Selected, Trouble};
+use super::points::{Content, Point, Selected, Trouble, offset};
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::program::{
-    Displacement, Frame, FrameId, Layout, Motion, Move, Program, Shape, Source, TargetId, Tool,
-    ToolId,
+    Displacement, Frame, FrameId, Layout, Motion, Move, Number, Program, Shape, Source, TargetId,
+    Tool, ToolId,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -21,6 +21,8 @@ pub struct Listing {
     pub name: Box<[u8]>,
     /// Its points.
     pub points: Vec<Point>,
+    /// The numbers of its points, until they are the program's.
+    pub numbers: Vec<Number>,
     /// What its instructions do, with their first bytes.
     pub events: Vec<(u32, Event)>,
     /// It follows a conveyor.
@@ -72,7 +74,19 @@ enum Active {
 }
 
 /// Targets, moves, tools and frames of all programs.
-pub fn resolve(sources: &[Source], listings: &[Listing], values: &Frames) -> Program {
+pub fn resolve(sources: &[Source], listings: &mut [Listing], values: &Frames) -> Program {
+    // the numbers are most of what there is: those of a single listing are taken over as they are
+    let mut numbers = Vec::new();
+    let mut first_numbers = Vec::with_capacity(listings.len());
+    for listing in &mut *listings {
+        first_numbers.push(numbers.len());
+        if numbers.is_empty() {
+            numbers = std::mem::take(&mut listing.numbers);
+        } else {
+            numbers.append(&mut listing.numbers);
+        }
+    }
+    let listings = &*listings;
     let mut resolver = Resolver {
         report: Report::new(sources),
         values,
@@ -93,8 +107,9 @@ pub fn resolve(sources: &[Source], listings: &[Listing], values: &Frames) -> Pro
             }
         }
     }
-    for listing in listings {
-        resolver.listing(listing);
+    resolver.report.program.numbers = numbers;
+    for (listing, first_number) in listings.iter().zip(first_numbers) {
+        resolver.listing(listing, first_number);
     }
     resolver.report.finish()
 }
@@ -156,7 +171,7 @@ struct State {
 }
 
 impl<'a> Resolver<'a> {
-    fn listing(&mut self, listing: &'a Listing) {
+    fn listing(&mut self, listing: &'a Listing, first_number: usize) {
         let first_target = self.report.program.targets.len();
         let mut by_number: HashMap<u32, usize> = HashMap::with_capacity(listing.points.len());
         let mut twice = HashSet::new();
@@ -164,7 +179,7 @@ impl<'a> Resolver<'a> {
             if by_number.insert(point.number, index).is_some() {
                 twice.insert(point.number);
             }
-            self.target(listing, point);
+            self.target(listing, point, first_number);
         }
         let mut state = State {
             tool: Active::Start,
@@ -236,11 +251,10 @@ impl<'a> Resolver<'a> {
     }
 
     /// Lists the target of a point; one without group 1 is kept too, so that indices stay the same.
-    fn target(&mut self, listing: &Listing, point: &Point) {
+    fn target(&mut self, listing: &Listing, point: &Point, first_number: usize) {
         let program = &mut self.report.program;
-        let start = u32::try_from(program.numbers.len()).expect("fewer numbers than bytes");
-        program.numbers.extend_from_slice(&point.numbers);
-        let end = u32::try_from(program.numbers.len()).expect("fewer numbers than bytes");
+        let [start, end] =
+            [point.numbers.start, point.numbers.end].map(|at| offset(first_number + at));
         let (shape, variant, blocked) = match point.content {
             Some(Content::Pose { configured }) => (Shape::Pose, u8::from(!configured), false),
             Some(Content::Joints) => (Shape::Joints, 0, false),
@@ -412,8 +426,7 @@ impl<'a> Resolver<'a> {
             (point.frame, state.frame, &self.frames, "user frame")
         };
         let number = match (selected, active) {
-            (Selected::Number(number), _) => number,
-            (Selected::Active, Active::Number(number)) => number,
+            (Selected::Number(number), _) | (Selected::Active, Active::Number(number)) => number,
             (Selected::Active, Active::Start) => ACTIVE,
             (Selected::Active, Active::Unknown) => {
                 self.block(first_target + index, Cause::FrameUnknown, Some(place));

@@ -48,6 +48,7 @@ fn header_lines_hold_until_they_are_set_anew() {
     let moves = "MOVJ C00000 VJ=0.78\n'MOVL C00009\n  MOVL C00001 V=100.0\n//MOVL C00007 V=1\nMOVJ C00002 VJ=5\nMOVL C00003\nMOVL P018 V=5";
     let settings = Settings {
         pulses_per_deg: Some([1000.0; 6]),
+        ..Settings::default()
     };
     let program = read_files(&[&job(&positions, moves)], &settings).expect("a job");
     assert_eq!(ids(&program), ["position-variable"]);
@@ -101,6 +102,7 @@ fn postype_of_rectangular_positions_does_not_matter_to_pulses() {
 fn pulses_and_angles_are_joints() {
     let settings = Settings {
         pulses_per_deg: Some([1000.0, -2000.0, 500.0, 100.0, 200.0, 400.0]),
+        ..Settings::default()
     };
     let decoded = |variant, numbers: &[f64]| {
         let shape = Shape::Joints;
