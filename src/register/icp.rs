@@ -30,6 +30,8 @@ const MIDDLE: usize = 4000;
 const COARSE_STEPS: usize = 25;
 /// Steps of a stage before it is called not converged.
 const STEPS: usize = 150;
+/// Steps after which small steps back and forth are taken for standing still.
+const PATIENT: usize = 25;
 /// The residual may be this many times what the roughness of the surfaces explains.
 const RESIDUAL: f64 = 3.0;
 /// Another start within this factor of the best residual is as good.
@@ -311,7 +313,7 @@ pub fn icp(
         }
         let is_last = index + 1 == stages.len() || points.len() == from.len();
         settled = false;
-        for _ in 0..STEPS {
+        for round in 0..STEPS {
             let Some((better, rms_m)) = step(points, &surface, &pose, options) else {
                 break;
             };
@@ -322,10 +324,12 @@ pub fn icp(
                 moved_m,
             });
             pose = better;
-            // partners change places for ever where the clouds are noisy: well below what the noise does to the pose is enough
-            let noise = 0.2 * rms_m / (points.len() as f64).sqrt();
-            let tolerance = extent.1 * if is_last { 1e-7 } else { 1e-5 };
-            if moved_m < tolerance.max(noise) {
+            // where clouds are noisy partners change places for ever: well below what the noise does to the pose is enough,
+            // and so is just below it where it goes on for long
+            let noise = rms_m / (points.len() as f64).sqrt();
+            let share = if round < PATIENT { 0.2 } else { 4.0 };
+            let tolerance = (extent.1 * if is_last { 1e-7 } else { 1e-5 }).max(share * noise);
+            if moved_m < tolerance {
                 settled = true;
                 break;
             }

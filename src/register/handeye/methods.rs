@@ -29,8 +29,26 @@ fn rodrigues(rotation: &Rotation) -> Vector {
     [2.0 * x, 2.0 * y, 2.0 * z]
 }
 
-/// Tsai and Lenz: `(P_A + P_B) × P' = P_B − P_A`, then the translation.
+/// Rotations outside these say little about the axis, or too much where noise turns half a turn over; radians.
+const TSAI_RANGE_RAD: std::ops::RangeInclusive<f64> = 0.261_8..=2.879_8;
+
+/// Tsai and Lenz: `(P_A + P_B) × P' = P_B − P_A` over pairs that turn neither little nor about half a turn, then the
+/// translation over all. Where too few pairs are left, all are taken.
 pub(super) fn tsai(motions: &[Motion]) -> Option<Pose> {
+    let good = |m: &&Motion| {
+        [m.a, m.b]
+            .iter()
+            .all(|p| TSAI_RANGE_RAD.contains(&p.rotation.angle()))
+    };
+    let chosen: Vec<&Motion> = motions.iter().filter(good).collect();
+    let p = tsai_vector(&chosen).or_else(|| tsai_vector(&motions.iter().collect::<Vec<_>>()))?;
+    // P' = tan(θ/2) axis
+    let cosine = 1.0 / (1.0 + dot(p, p)).sqrt();
+    let [x, y, z] = scale(cosine, p);
+    with_translation(motions, Quaternion([cosine, x, y, z]).rotation())
+}
+
+fn tsai_vector(motions: &[&Motion]) -> Option<Vector> {
     let mut n = Matrix3::zeros();
     let mut r = Vector3::zeros();
     for motion in motions {
@@ -40,11 +58,7 @@ pub(super) fn tsai(motions: &[Motion]) -> Option<Pose> {
         r += rows.transpose() * Vector3::from(sub(b, a));
     }
     let p = n.cholesky()?.solve(&r);
-    // P' = tan(θ/2) axis
-    let tangent = [p[0], p[1], p[2]];
-    let cosine = 1.0 / (1.0 + dot(tangent, tangent)).sqrt();
-    let [x, y, z] = scale(cosine, tangent);
-    with_translation(motions, Quaternion([cosine, x, y, z]).rotation())
+    Some([p[0], p[1], p[2]])
 }
 
 /// Park and Martin: the rotation nearest to `Σ α βᵀ` of the rotation vectors.

@@ -267,7 +267,7 @@ fn fault(all: &[f64; 12], design: &Design, mode: usize) -> HexapodError {
     }
 }
 
-/// The smallest change of one length, mm, with which all spheres meet; none up to half of it.
+/// The smallest change of one length, mm, with which all spheres meet; none short of the whole of it.
 fn smallest_change(all: &[f64; 12], design: &Design, mode: usize, k: usize) -> Option<f64> {
     let works = |by: f64| {
         let mut lengths = *all;
@@ -275,7 +275,7 @@ fn smallest_change(all: &[f64; 12], design: &Design, mode: usize, k: usize) -> O
         build(&lengths, design, mode).1.iter().all(|h| *h > 0.0)
     };
     let mut last = 0.0;
-    for n in 1..=500 {
+    for n in 1..1000 {
         let by = all[k] * 0.001 * f64::from(n);
         for sign in [1.0, -1.0] {
             if works(sign * by) {
