@@ -60,7 +60,7 @@ write("datums.csv", "datum,x_mm,y_mm,z_mm", [[str(d), *place(times(R, turn(2, 0.
 
 
 def height(u, v):
-    return 40 * math.sin(u / 90) * math.cos(v / 70) + 0.1 * u + (30 if u < 60 and v < 60 else 0)
+    return 40 * math.sin(u / 90) * math.cos(v / 70) + 0.1 * u
 
 
 def cloud(count, move):
@@ -70,8 +70,8 @@ def cloud(count, move):
         yield place(R, T, p, 0.05) if move else [c + random.gauss(0, 0.05) for c in p]
 
 
-write("drawing.csv", "x_mm,y_mm,z_mm", cloud(1500, False))
-write("scan.csv", "x_mm,y_mm,z_mm", cloud(1500, True))
+write("drawing.csv", "x_mm,y_mm,z_mm", cloud(2500, False))
+write("scan.csv", "x_mm,y_mm,z_mm", cloud(2500, True))
 
 B, L = [300.01, 299.98, 300.02], [150.01, 149.99, 150.0]
 names = "design,b12_mm,b23_mm,b31_mm,t12_mm,t23_mm,t31_mm,r11_mm,r21_mm,r31_mm,r12_mm,r22_mm,r23_mm,mode"
