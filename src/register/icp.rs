@@ -34,6 +34,8 @@ const STEPS: usize = 150;
 const PATIENT: usize = 25;
 /// The residual may be this many times what the roughness of the surfaces explains.
 const RESIDUAL: f64 = 3.0;
+/// Share of the points' spacing by which point-to-point may be off.
+const DRAWN: f64 = 0.03;
 /// Another start within this factor of the best residual is as good.
 const ALIKE: f64 = 1.3;
 /// Points handed to a thread at a time.
@@ -665,7 +667,12 @@ fn judge(
     let kept = trimmed(all, surface, options.kept);
     let plane_rms = rms(&kept);
     let mut doubts = Vec::new();
-    if plane_rms > RESIDUAL * expected_m {
+    // partners that are no nearer than the points are apart draw points along the surface, too
+    let drawn_m = match options.metric {
+        Metric::PointToPlane => 0.0,
+        Metric::PointToPoint => DRAWN * surface.spacing_m,
+    };
+    if plane_rms > RESIDUAL * expected_m.hypot(drawn_m) {
         doubts.push(Doubt::Residual {
             rms_mm: mm_from_m(plane_rms),
             expected_mm: mm_from_m(expected_m),
