@@ -71,8 +71,10 @@ fn register(criterion: &mut Criterion) {
     let mut cloud = |pose: &Pose| -> Vec<Vector> {
         (0..100_000)
             .map(|_| {
-                let (u, v): (f64, f64) =
-                    (random.random_range(0.0..0.4), random.random_range(0.0..0.25));
+                let (u, v): (f64, f64) = (
+                    random.random_range(0.0..0.4),
+                    random.random_range(0.0..0.25),
+                );
                 let z = 0.04 * (11.0 * u).sin() * (14.0 * v).cos() + 0.1 * u;
                 let n = small(&mut random, 5e-5);
                 pose.transform([u + n[0], v + n[1], z + n[2]])

@@ -29,7 +29,7 @@ const MIDDLE: usize = 4000;
 /// Steps of a coarse run.
 const COARSE_STEPS: usize = 25;
 /// Steps of a stage before it is called not converged.
-const STEPS: usize = 150;
+const STEPS: usize = 300;
 /// Steps after which small steps back and forth are taken for standing still.
 const PATIENT: usize = 25;
 /// The residual may be this many times what the roughness of the surfaces explains.
@@ -330,7 +330,12 @@ pub fn icp(
             // and so is just below it where it goes on for long
             let noise = rms_m / (points.len() as f64).sqrt();
             let share = if round < PATIENT { 0.2 } else { 4.0 };
-            let tolerance = (extent.1 * if is_last { 1e-7 } else { 1e-5 }).max(share * noise);
+            let fine = extent.1 * if is_last { 1e-7 } else { 1e-5 };
+            let tolerance = match options.metric {
+                Metric::PointToPlane => fine.max(share * noise),
+                // creeps along the surface: a small step says little about what is left
+                Metric::PointToPoint => extent.1 * 1e-5,
+            };
             if moved_m < tolerance {
                 settled = true;
                 break;
