@@ -6,5 +6,6 @@ mod documents;
 mod golden;
 mod laws;
 mod oracle;
+mod path;
 mod register;
 mod support;

@@ -25,7 +25,7 @@
 //! | `remote-tool` | error | RTCP, or a point RX RY RZ RW RP RR: the robot holds the work piece |
 //! | `coordinated-move` | error | COORD: a positioner moves the work piece |
 //! | `line-tracking` | error | the program follows a conveyor |
-//! | `frame-assigned-at-run-time` | error | UFRAME[n]=, UTOOL[n]= of the point's frame or tool in any of the programs |
+//! | `frame-assigned-at-run-time` | error | `UFRAME[n]=`, `UTOOL[n]=` of the point's frame or tool in any of the programs |
 //! | `frame-chosen-at-run-time` | error | `UF : F` or `UT : F`, and what the program selects is not certain |
 //! | `frame-number-differs` | warning | another number is selected than the point was taught with |
 //! | `extended-axis` | warning | an axis beside the six of the arm is away from zero |

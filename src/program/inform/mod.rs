@@ -1,7 +1,7 @@
 //! Yaskawa INFORM: jobs (.JBI), with TOOL.CND and UFRAME.CND of a backup.
 //!
 //! A position is `C00000=x,y,z,Rx,Ry,Rz`, mm and degrees, with `R = Rz · Ry · Rx`, or six axes S, L, U, R, B, T in encoder pulses
-//! or degrees. Tool, frame and form stand in header lines above it ([`job`]). C positions belong to their job, P
+//! or degrees. Tool, frame and form stand in header lines above it (`job`). C positions belong to their job, P
 //! positions are variables of the controller. External axes (`BC`, `EC`, `BP`, `EX`), elbow angles and RCONF stay as
 //! they are.
 //!

@@ -1,10 +1,10 @@
 //! KUKA KRL: programs (.src), data lists (.dat), submit programs (.sub).
 //!
 //! A position is `{X ..,Y ..,Z ..,A ..,B ..,C ..,S ..,T ..,E1 ..}`, mm and degrees, `R = Rz(A) · Ry(B) · Rx(C)`; S and T tell
-//! the inverse solution ([`status`]) where the move is a PTP. Axes are `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes
+//! the inverse solution (`status`) where the move is a PTP. Axes are `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes
 //! stay as they are. The pose is that of $TOOL in $BASE, and both are variables of the controller: what they are at a move
-//! is worked out over branches, loops and calls ([`flow`]), from $TOOL and $BASE themselves, BAS, FDAT of inline forms, WITH,
-//! `TOOL_DATA` and `BASE_DATA` ([`places`]). Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere.
+//! is worked out over branches, loops and calls (`flow`), from $TOOL and $BASE themselves, BAS, FDAT of inline forms, WITH,
+//! `TOOL_DATA` and `BASE_DATA` (`places`). Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere.
 //!
 //! # Findings
 //!

@@ -17,7 +17,7 @@ use std::collections::HashMap;
 
 /// Names and calls in turn that are followed.
 const MOST_STEPS: usize = 12;
-/// The name of every tool that set_tcp sets.
+/// The name of every tool that `set_tcp` sets.
 const TOOL: &str = "tcp";
 /// The name of the frame of poses without a feature.
 const BASE: &str = "base";
@@ -318,7 +318,8 @@ impl<'p, 's> Moves<'p, 's> {
                     tcp,
                 } => {
                     near = near.or(seed.and_then(|seed| joints(variables, seed, function)));
-                    tool = tool.or(tcp.and_then(|tcp| inverse_tool(variables, tcp, function)));
+                    tool =
+                        tool.or(tcp.map(|tcp| variables.constant(tcp, function).map_err(|_| ())));
                     value = pose;
                 }
                 Expr::Trans(a, b) => {
@@ -539,16 +540,4 @@ fn joints(variables: &Variables, value: ExprId, function: FunctionId) -> Option<
         1.0
     };
     Some(values.map(|value| value * unit))
-}
-
-/// The tool that an inverse is given; `None` where it is the one that is set.
-fn inverse_tool(
-    variables: &Variables,
-    value: ExprId,
-    function: FunctionId,
-) -> Option<Result<Pose, ()>> {
-    match variables.constant(value, function) {
-        Ok(pose) => Some(Ok(pose)),
-        Err(_) => Some(Err(())),
-    }
 }

@@ -164,8 +164,14 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             b"end" => self.end(first),
-            b"break" => self.leave(Event::Break),
-            b"continue" => self.leave(Event::Continue),
+            b"break" => {
+                self.event(Event::Break);
+                Ok(())
+            }
+            b"continue" => {
+                self.event(Event::Continue);
+                Ok(())
+            }
             b"return" => {
                 let next = self.scanner.peek();
                 let word = next.kind == Kind::Word && verbs::starts_statement(self.text(next));
@@ -173,18 +179,17 @@ impl<'a> Reader<'a> {
                     let next = self.next()?;
                     self.rest(next)?;
                 }
-                self.leave(Event::Return)
+                self.event(Event::Return);
+                Ok(())
             }
-            b"halt" => self.leave(Event::Return),
+            b"halt" => {
+                self.event(Event::Return);
+                Ok(())
+            }
             b"global" => self.declared(Reach::Global),
             b"local" => self.declared(Reach::Local),
             _ => self.plain(first, Reach::Plain),
         }
-    }
-
-    fn leave(&mut self, event: Event) -> Read<()> {
-        self.event(event);
-        Ok(())
     }
 
     fn assigns(&self) -> bool {
@@ -302,7 +307,8 @@ impl<'a> Reader<'a> {
                 return self.rest(next);
             }
             let value = self.value(name.start)?;
-            return self.assign(name, reach, value, false);
+            self.assign(name, reach, value, false);
+            return Ok(());
         }
         if next.is(b'[') {
             self.next()?;
@@ -316,14 +322,15 @@ impl<'a> Reader<'a> {
             if after.is(b'=') && !compared {
                 self.next()?;
                 let value = self.value(name.start)?;
-                return self.assign(name, reach, value, true);
+                self.assign(name, reach, value, true);
+                return Ok(());
             }
             return Ok(());
         }
         self.part(name)
     }
 
-    fn assign(&mut self, name: Token, reach: Reach, value: ExprId, part: bool) -> Read<()> {
+    fn assign(&mut self, name: Token, reach: Reach, value: ExprId, part: bool) {
         let text = self.text(name);
         // `a.b = …` changes a part of a
         let dot = memchr::memchr(b'.', text);
@@ -336,7 +343,6 @@ impl<'a> Reader<'a> {
             offset: index(name.start),
             part: part || dot.is_some(),
         });
-        Ok(())
     }
 
     /// Everything to the end of the line.

@@ -1,4 +1,4 @@
-//! Whether bytes look like URScript, and where the marker goes.
+//! Whether bytes look like `URScript`, and where the marker goes.
 
 use super::tokens::content_start;
 use crate::program::{Marker, Source};
@@ -57,7 +57,7 @@ fn calls(line: &[u8]) -> bool {
     })
 }
 
-/// Whether the bytes look like URScript.
+/// Whether the bytes look like `URScript`.
 pub fn recognises(bytes: &[u8]) -> bool {
     let bytes = &bytes[..bytes.len().min(LOOKED_AT)];
     if memchr::memchr(0, bytes).is_some() {

@@ -212,7 +212,7 @@ fn features_are_frames_and_offsets_of_targets_displacements() {
     assert!(
         frame(0)
             .world_from_frame
-            .is_some_and(|f| (f.rotation.angle() - 1.570_796_326_794_896_6).abs() < 1e-12)
+            .is_some_and(|f| (f.rotation.angle() - std::f64::consts::FRAC_PI_2).abs() < 1e-12)
     );
     assert_eq!(
         (frame(1).name.as_str(), frame(2).name.as_str()),
@@ -258,7 +258,7 @@ fn the_tool_is_the_one_that_is_set_where_the_move_stands() {
     let m = |text: &str| {
         path(
             &text
-                .replace("M", "movel(p[.1,.2,.3,0,0,0])")
+                .replace('M', "movel(p[.1,.2,.3,0,0,0])")
                 .replace("T1", "set_tcp(p[1,0,0,0,0,0])")
                 .replace("T2", "set_tcp(p[2,0,0,0,0,0])"),
         )

@@ -1,4 +1,4 @@
-//! Words, numbers and signs of URScript; comments, annotations and blanks are passed over.
+//! Words, numbers and signs of `URScript`; comments, annotations and blanks are passed over.
 //!
 //! A line end ends a statement except inside brackets. A line that starts with `$` is an annotation of the pendant: no code.
 

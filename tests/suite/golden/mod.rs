@@ -2,6 +2,7 @@
 //!
 //! `POSESHIFT_BLESS=1 cargo test golden` writes the present output into `out/`: look at the difference before it is kept.
 
+mod agree;
 mod landing;
 mod posts;
 

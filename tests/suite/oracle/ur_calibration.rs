@@ -1,4 +1,4 @@
-//! Imported factory calibrations against an independent standard Denavit–Hartenberg model (tests/data/ur_calibration).
+//! Imported factory calibrations against an independent standard Denavit–Hartenberg model (`tests/data/ur_calibration`).
 
 use crate::support::{gap, numbers_of, poseshift, random_joints, repository, scratch, table, text};
 use poseshift::inverse::{Arm, Inverse, Status};
