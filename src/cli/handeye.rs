@@ -18,7 +18,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Find a camera's pose from robot and board poses (AX = XB)
 #[derive(Args)]
@@ -188,7 +188,7 @@ impl Handeye {
 
     fn refine(
         &self,
-        path: &PathBuf,
+        path: &Path,
         setup: Setup,
         robot: &[Pose],
         camera: &Pose,
@@ -247,22 +247,16 @@ impl Handeye {
 
 /// The camera's pose after all refinements, and its uncertainty.
 fn camera_of(result: &Outcome) -> (Pose, Sigma) {
-    match result.corners.as_ref().filter(|c| c.accepted) {
-        Some(corners) => (
-            corners.camera,
-            Sigma::of(&corners.covariance, &corners.camera),
-        ),
-        None => {
-            let camera = result.refined.camera;
-            (
-                camera,
-                Sigma::of(&result.refined.camera_covariance, &camera),
-            )
-        }
+    if let Some(corners) = result.corners.as_ref().filter(|c| c.accepted) {
+        let sigma = Sigma::of(&corners.covariance, &corners.camera);
+        return (corners.camera, sigma);
     }
+    let camera = result.refined.camera;
+    let sigma = Sigma::of(&result.refined.camera_covariance, &camera);
+    (camera, sigma)
 }
 
-fn read_poses(path: &std::path::Path) -> Result<Vec<Pose>, Failure> {
+fn read_poses(path: &Path) -> Result<Vec<Pose>, Failure> {
     let table = Table::read(path)?;
     table.require(&POSE)?;
     let mut poses = Vec::new();

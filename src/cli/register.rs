@@ -226,7 +226,7 @@ impl Register {
             }
         }
         let mut registration = if planes.is_empty() {
-            self.from_points(&touched, &mut findings, &to.name)?
+            self.by_points(&touched, &mut findings, &to.name)?
         } else {
             if self.robust {
                 return Err(Failure::new("--robust takes points only, no planes"));
@@ -271,7 +271,7 @@ impl Register {
         Ok(registration)
     }
 
-    fn from_points(
+    fn by_points(
         &self,
         touched: &[Touched],
         findings: &mut Vec<Finding>,

@@ -6,7 +6,7 @@
 //! motion is left free, and no other start ends as well elsewhere.
 //!
 //! # Source
-//! P. Besl, N. McKay (1992); Y. Chen, G. Medioni (1992) for the tangent planes; D. Chetverikov et al. (2002) for trimming.
+//! P. Besl, N. `McKay` (1992); Y. Chen, G. Medioni (1992) for the tangent planes; D. Chetverikov et al. (2002) for trimming.
 
 use super::kabsch::{kabsch, scatter};
 use super::uncertainty::PoseCovariance;

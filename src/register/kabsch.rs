@@ -95,9 +95,7 @@ impl Sums {
         }
         // added in the order of the points, whatever the number of threads
         let parts: Vec<Self> = (0..chunks).into_par_iter().map(chunk).collect();
-        parts
-            .iter()
-            .fold(Self::default(), |all, part| all.and(part))
+        parts.iter().fold(Self::default(), Sums::and)
     }
 }
 
@@ -287,6 +285,9 @@ impl Fit {
 
     /// The covariance of the motion where each coordinate of a point has standard deviation `sigma_m` (FROM and TO together)
     /// at weight one, metres.
+    ///
+    /// # Panics
+    /// If these are not the points of the fit but others in a line.
     #[must_use]
     pub fn covariance(
         &self,

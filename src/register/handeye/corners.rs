@@ -9,19 +9,19 @@ use crate::register::uncertainty::PoseCovariance;
 /// The refinement and whether it is to be trusted.
 #[derive(Clone, Debug)]
 pub struct Corners {
-    /// `T_new = T_icp · T_init`, or T_init where it is not accepted.
+    /// `T_new = T_icp · T_init`, or `T_init` where it is not accepted.
     pub camera: Pose,
-    /// T_icp, in the frame that the camera's pose maps into.
+    /// `T_icp`, in the frame that the camera's pose maps into.
     pub correction: Pose,
     /// Whether left-out corners improve.
     pub accepted: bool,
-    /// Root mean square distance of the corners with T_init, metres.
+    /// Root mean square distance of the corners with `T_init`, metres.
     pub before_m: f64,
-    /// With T_new fitted to all, metres.
+    /// With `T_new` fitted to all, metres.
     pub after_m: f64,
-    /// Of each corner with T_new fitted to the others, metres.
+    /// Of each corner with `T_new` fitted to the others, metres.
     pub left_out_m: f64,
-    /// Covariance of T_new from the noise of the corners.
+    /// Covariance of `T_new` from the noise of the corners.
     pub covariance: PoseCovariance,
 }
 

@@ -42,7 +42,8 @@ pub fn set_base_frame(taught_m: [Vector; 3], base_m: [f64; 3]) -> Result<BaseFra
     }
     for (k, name) in names.into_iter().enumerate() {
         let taught = norm(sub(taught_m[(k + 1) % 3], taught_m[k]));
-        if !((taught - base_m[k]).abs() <= LIMIT_M) {
+        let gap = (taught - base_m[k]).abs();
+        if gap.is_nan() || gap > LIMIT_M {
             return Err(HexapodError::Taught {
                 name,
                 taught_mm: mm_from_m(taught),

@@ -107,9 +107,7 @@ pub fn reach(
             if in_range {
                 reached.postures.push((branch, solution.q));
             }
-            if (in_range && !reached.measurable)
-                || (!reached.measurable && reached.leg_error_m.is_none_or(|e| error < e))
-            {
+            if !reached.measurable && (in_range || reached.leg_error_m.is_none_or(|e| error < e)) {
                 reached.leg_error_m = Some(error);
             }
             reached.measurable |= in_range;

@@ -251,5 +251,5 @@ fn the_worked_examples_of_the_measuring_page_run_as_printed() {
             }
         }
     }
-    assert!(commands >= 8 && lines >= 20, "{commands} {lines}");
+    assert!(commands >= 11 && lines >= 15, "{commands} {lines}");
 }

@@ -1,4 +1,4 @@
-//! Values of SciPy and OpenCV, and of the thesis.
+//! Values of `SciPy` and `OpenCV`, and of the thesis.
 
 use super::{points, poses};
 use crate::support::{table, text};

@@ -175,7 +175,7 @@ fn clouds_are_laid_on_each_other_from_any_turn() {
                 Metric::PointToPoint => 1e-3,
             };
             assert!(error < limit, "{metric:?} {error}");
-            assert!(found.overlap > 0.95, "{}", found.overlap);
+            assert!(found.overlap > 0.9, "{}", found.overlap);
         }
     }
 }
