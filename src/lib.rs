@@ -35,4 +35,5 @@ pub mod identify;
 pub mod inverse;
 pub mod model;
 pub mod program;
+pub mod register;
 pub mod report;

@@ -73,13 +73,13 @@ pub fn check(id: &str, bytes: &[u8]) {
             profile_sha256: "0".repeat(64),
             source_sha256: "1".repeat(64),
         };
-        let (at, text) = language.mark(&sources[0], &marker);
-        edits.replace(at..at, |out| out.extend(text));
+        let is_marked = compensation.compensated[0];
+        if is_marked {
+            let (at, text) = language.mark(&sources[0], &marker);
+            edits.replace(at..at, |out| out.extend(text));
+        }
         let written = [Source::new(sources[0].name.clone(), edits.apply(bytes))];
-        assert!(
-            Marker::find(&written[0].bytes).is_some(),
-            "the marker is not found"
-        );
+        assert_eq!(Marker::find(&written[0].bytes).is_some(), is_marked || Marker::find(bytes).is_some());
         let again = language
             .read(&written, &settings)
             .expect("what is written is a program");

@@ -48,6 +48,13 @@ pub struct Compensate {
     /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
+    /// Where the part stands: a frame file that maps the part as simulated into the part as measured, both in the world;
+    /// moves every target with the part
+    #[arg(long, value_name = "FRAME.yaml")]
+    work_offset: Option<PathBuf>,
+    /// Where a work object stands in the world: a frame file. Like --frame, but a program that declares it elsewhere is refused
+    #[arg(long = "wobj", value_name = "NAME=FRAME.yaml")]
+    wobjs: Vec<String>,
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
@@ -127,8 +134,21 @@ impl Compensate {
             let (name, frame) = values::frame(text)?;
             given.frames.insert(name, frame);
         }
+        for text in &self.wobjs {
+            let (name, file) = values::named(text);
+            let name = name.ok_or_else(|| {
+                Failure::new(format!("--wobj {text}: it must be NAME=FRAME.yaml"))
+            })?;
+            let frame = files::read_frame(Path::new(file))?;
+            given.measured_frames.insert(name, frame.to_from_from);
+        }
+        let work_offset = match &self.work_offset {
+            Some(path) => Some(files::read_frame(path)?.to_from_from),
+            None => None,
+        };
         Ok(Options {
             given,
+            work_offset,
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
             accept_absolutely_accurate: self.force,
@@ -387,6 +407,9 @@ fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             ),
             None => Failure::with_hint(unknown.to_string(), unknown.hint()),
         },
+        CompensateError::MeasuredFrame(error) => {
+            Failure::with_hint(format!("--wobj: {error}"), error.hint())
+        }
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
         CompensateError::NothingInReach { .. } => Failure::with_hint(
             error.to_string(),

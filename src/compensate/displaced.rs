@@ -73,8 +73,8 @@ fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Optio
     let Displacement::By(shift) = &motion.displacement else {
         return None;
     };
-    let wanted = *job.world_from_frame(task.frame)
-        * shift.apply(&(job.world_from_frame(task.frame).inverse() * task.wanted));
+    let wanted_from_frame = job.on_part(*job.world_from_frame(task.frame));
+    let wanted = wanted_from_frame * shift.apply(&(wanted_from_frame.inverse() * task.wanted));
     let given = *job.world_from_frame(task.frame) * shift.apply(fake_in_frame);
     let equipped = job.equipped(task.tool);
     let (q, reached) = equipped.controller_joints(&given, task.branch, &task.nominal_q);

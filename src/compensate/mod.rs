@@ -4,6 +4,7 @@
 //!
 //! ```text
 //! W = world_from_frame · frame_from_tool              the wanted pose: the target as the file has it
+//!     (work_offset · W where the part stands elsewhere than in the simulation)
 //! q = the joints with which the real arm reaches W    pose shift on the branch that the program means
 //! F = controller_forward(q)                           where the controller believes to be then
 //! fake target = world_from_frame⁻¹ · F
@@ -23,7 +24,7 @@ mod posture;
 mod rewrite;
 
 pub use outcome::{Compensation, Summary, TargetReport, meaning};
-pub use placement::{Given, PlacementError};
+pub use placement::{Given, MeasuredFrameError, PlacementError};
 use placement::{Place, Setting};
 use rewrite::Portion;
 
@@ -44,6 +45,9 @@ const CHUNK: usize = 2048;
 pub struct Options {
     /// Tools and work frames for names that the program files do not tell.
     pub given: Given,
+    /// Where the part really stands: moves every wanted pose in the world, `W' = work_offset · W` (FROM: as simulated; TO: as
+    /// measured). The controller's frames stay what they are.
+    pub work_offset: Option<Pose>,
     /// Shift joint targets too.
     pub correct_joint_targets: bool,
     /// At least so many decimals of a millimetre, and as many of other units as that is worth.
@@ -61,6 +65,9 @@ pub enum CompensateError {
     /// A tool or frame is unknown.
     #[error(transparent)]
     Placement(#[from] PlacementError),
+    /// A measured work frame cannot be meant.
+    #[error(transparent)]
+    MeasuredFrame(#[from] MeasuredFrameError),
     /// The arm has no closed-form inverse.
     #[error(transparent)]
     Arm(#[from] Unsupported),
@@ -153,6 +160,13 @@ impl Job<'_> {
             .expect("a placed target has a known frame")
     }
 
+    /// A pose that the program means, where the part as it stands has it.
+    fn on_part(&self, wanted: Pose) -> Pose {
+        self.options
+            .work_offset
+            .map_or(wanted, |offset| offset * wanted)
+    }
+
     /// The conditions of one task.
     fn conditions(&self, task: &Task) -> Conditions {
         Conditions {
@@ -216,6 +230,7 @@ pub fn compensate(
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
+    placement::check_measured(&program, &options.given)?;
     let setting = Setting::of(language, &program, profile, &options.given);
     let mut job = Job {
         language,

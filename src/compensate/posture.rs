@@ -140,12 +140,12 @@ fn task(
     } = decoded(job, target)?;
     let (wanted, branch, nominal_q) = match value {
         Value::Joints(q) => (
-            equipped.controller.forward(&q, &Conditions::default()),
+            job.on_part(equipped.controller.forward(&q, &Conditions::default())),
             equipped.arm.posture(&q).0,
             q,
         ),
         Value::Pose(frame_from_tool) => {
-            let wanted = *job.world_from_frame(frame) * frame_from_tool;
+            let wanted = job.on_part(*job.world_from_frame(frame) * frame_from_tool);
             let asked = Asked {
                 target,
                 arm: &equipped.arm,

@@ -14,7 +14,7 @@ pub mod units;
 pub use dual::Dual;
 pub use lanes::Lanes;
 pub use pose::{Pose, Separation};
-pub use rotation::{Quaternion, Rotation};
+pub use rotation::{Quaternion, Rotation, wrap};
 pub use scalar::Scalar;
 pub use turn::Turn;
 

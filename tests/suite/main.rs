@@ -8,4 +8,5 @@ mod laws;
 mod oracle;
 mod path;
 mod recover;
+mod register;
 mod support;

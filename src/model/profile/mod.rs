@@ -17,7 +17,7 @@ use super::effects::{Effect, Kind, Need};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion, Vector};
-use file::{Number, PoseFile};
+pub(crate) use file::{Number, PoseFile};
 use serde_yaml::{Location, Spanned};
 use std::collections::BTreeMap;
 
@@ -375,7 +375,7 @@ fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, P
     Ok(ordered)
 }
 
-fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
+pub(crate) fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
     let p = &file.value;
     let translation = metres([p.x_mm, p.y_mm, p.z_mm]);
     match (p.rx_deg, p.ry_deg, p.rz_deg, p.quaternion) {

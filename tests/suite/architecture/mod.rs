@@ -11,6 +11,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("model", &["geometry"]),
     ("inverse", &["geometry", "model"]),
     ("identify", &["geometry", "inverse", "model"]),
+    ("register", &["geometry", "inverse", "model"]),
     ("program", &["geometry", "finding"]),
     (
         "compensate",
@@ -38,6 +39,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "inverse",
             "model",
             "program",
+            "register",
             "report",
         ],
     ),

@@ -29,7 +29,7 @@ fn options() -> Options {
         correct_joint_targets: true,
         ..Options::default()
     };
-    let Given { tools, frames } = &mut options.given;
+    let Given { tools, frames, .. } = &mut options.given;
     tools.insert(Some("1".into()), grip());
     frames.insert(Some("2".into()), Pose::from_translation(0.0, 0.1, 0.0));
     options

@@ -119,7 +119,7 @@ fn an_arm_without_effects_leaves_outputs_of_post_processors_as_they_are() {
         flange_from_tool: pose(&truth["tool"]),
         load: None,
     };
-    let Given { tools, frames } = &mut options.given;
+    let Given { tools, frames, .. } = &mut options.given;
     tools.insert(Some("1".into()), tool);
     frames.insert(Some("2".into()), pose(&truth["frame"]));
     for name in ["Fanuc_R30iA__PGA.LS", "Fanuc_RJ3__PGA.LS"] {
