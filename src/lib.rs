@@ -27,6 +27,7 @@
 //! # Ok::<(), poseshift::model::profile::ProfileError>(())
 //! ```
 
+pub mod check;
 pub mod cli;
 pub mod compensate;
 pub mod finding;
@@ -35,3 +36,4 @@ pub mod inverse;
 pub mod model;
 pub mod program;
 pub mod report;
+pub mod urdf;

@@ -217,7 +217,7 @@ fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
+pub(super) fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
     let known = || {
         LANGUAGES
             .iter()
@@ -235,7 +235,7 @@ fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
 }
 
 /// The language of all these files, by name and content.
-fn common_language(
+pub(super) fn common_language(
     sources: &[Source],
     profile: &Profile,
 ) -> Result<&'static dyn Language, Failure> {
@@ -280,7 +280,7 @@ fn common_language(
 }
 
 /// Program files in a folder and below, with their paths relative to it.
-fn programs_in(
+pub(super) fn programs_in(
     folder: &Path,
     asked: Option<&'static dyn Language>,
 ) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
@@ -360,7 +360,7 @@ fn render(
     Ok(written)
 }
 
-fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
+pub(super) fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
     let source_of = |file: &str| sources.iter().find(|source| source.name == file);
     match error {
         CompensateError::Read(read) => {

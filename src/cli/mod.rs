@@ -1,6 +1,7 @@
 //! The command line: the only place with paths, colour and standard output. One file a command.
 
 mod catalogue;
+mod check;
 mod compensate;
 mod failure;
 mod files;
@@ -50,6 +51,7 @@ pub struct Output {
 #[derive(Subcommand)]
 enum Command {
     Compensate(compensate::Compensate),
+    Check(check::Check),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
     Profile(profile::ProfileCommand),
@@ -75,6 +77,7 @@ pub fn run() -> ExitCode {
     let CommandLine { command, output } = CommandLine::parse();
     let answer = match command {
         Command::Compensate(command) => command.run(output),
+        Command::Check(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),
         Command::Profile(command) => command.run(output),

@@ -11,6 +11,7 @@ pub mod effects;
 mod geometry;
 pub mod profile;
 mod real;
+pub mod shape;
 
 pub use batch::forward_batch;
 pub use chain::{Chain, Frames};

@@ -294,6 +294,15 @@ impl Shift {
     }
 }
 
+/// How fast a move is, and how far from its target the next one may begin, where the program tells.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Pace {
+    /// Programmed speed of the tool, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Radius of the corner, metres; 0 where the robot stops.
+    pub zone_m: Option<f64>,
+}
+
 /// One use of a target by a move instruction, in the order of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
@@ -315,6 +324,8 @@ pub struct Move {
     pub configured: bool,
     /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
     pub near: Option<Box<[f64; 6]>>,
+    /// How fast, and with which corner.
+    pub pace: Pace,
 }
 
 /// A tool that moves name.

@@ -15,9 +15,22 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "compensate",
         &["finding", "geometry", "inverse", "model", "program"],
     ),
+    ("urdf", &["geometry", "model"]),
+    (
+        "check",
+        &[
+            "compensate",
+            "finding",
+            "geometry",
+            "inverse",
+            "model",
+            "program",
+        ],
+    ),
     (
         "report",
         &[
+            "check",
             "compensate",
             "finding",
             "geometry",
@@ -29,6 +42,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "check",
             "compensate",
             "finding",
             "geometry",
@@ -36,6 +50,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "model",
             "program",
             "report",
+            "urdf",
         ],
     ),
     ("main", &["cli"]),
