@@ -135,7 +135,6 @@ impl ToolCourse {
     }
 
     /// Whether it is an arc.
-    #[cfg(test)]
     #[must_use]
     pub fn is_arc(&self) -> bool {
         matches!(self.line, Line::Circle { .. })

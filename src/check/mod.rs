@@ -20,6 +20,7 @@ pub mod limits;
 pub mod mesh;
 mod nominal;
 mod query;
+pub mod refine;
 mod scene;
 mod uncertainty;
 
