@@ -124,7 +124,9 @@ impl Job<'_> {
         let leg = self.walk.leg(index, self.options.turning)?;
         let stop = self.walk.route.stops[index]?;
         let is_pose = program.targets[motion.target].layout.shape == Shape::Pose;
-        let via = (motion.motion == Motion::ArcEnd).then(|| index.checked_sub(1)).flatten();
+        let via = (motion.motion == Motion::ArcEnd)
+            .then(|| index.checked_sub(1))
+            .flatten();
         let start = self.joints_at(via.unwrap_or(index).checked_sub(1)?)?;
         let end = self.joints_at(index)?;
         let arms = self.walk.arms(&stop);
@@ -145,7 +147,8 @@ impl Job<'_> {
         }
         let each = if via.is_some() { 2 } else { 1 };
         // the point of an arc that had a name is a target of its own now
-        let named = via.is_some_and(|via| program.targets[program.moves[via].target].name.is_some());
+        let named =
+            via.is_some_and(|via| program.targets[program.moves[via].target].name.is_some());
         let change = |spans, points: &[Point], findings| Change {
             file: motion.file as usize,
             spans,
@@ -190,7 +193,10 @@ impl Job<'_> {
             return failed("an arc's part cannot be reached");
         };
         let source = &self.subject.sources[motion.file as usize];
-        let written = self.subject.language.insert(source, program, index, &between);
+        let written = self
+            .subject
+            .language
+            .insert(source, program, index, &between);
         match written {
             Some(spans) => Some(change(spans, &points, Vec::new())),
             None => failed("the text of this move cannot be repeated"),
@@ -212,7 +218,10 @@ impl Job<'_> {
         (found.status == Status::Converged).then(|| Point {
             s,
             q: found.q,
-            fake: arms.plain.controller.forward(&found.q, &Conditions::default()),
+            fake: arms
+                .plain
+                .controller
+                .forward(&found.q, &Conditions::default()),
         })
     }
 
@@ -224,7 +233,9 @@ impl Job<'_> {
             (Course::Tool(_), Some(via)) => {
                 Course::Tool(ToolCourse::arc(&a.fake, via.translation, &b.fake, turning))
             }
-            (Course::Tool(_), None) => Course::Tool(ToolCourse::straight(&a.fake, &b.fake, turning)),
+            (Course::Tool(_), None) => {
+                Course::Tool(ToolCourse::straight(&a.fake, &b.fake, turning))
+            }
         };
         Leg {
             equipped: leg.equipped,
@@ -263,7 +274,15 @@ impl Job<'_> {
     }
 
     /// Appends the points behind `a` up to `b`; false where one cannot be reached or too many would be needed.
-    fn split(&self, leg: &Leg, index: usize, a: &Point, b: &Point, depth: u32, out: &mut Vec<Point>) -> bool {
+    fn split(
+        &self,
+        leg: &Leg,
+        index: usize,
+        a: &Point,
+        b: &Point,
+        depth: u32,
+        out: &mut Vec<Point>,
+    ) -> bool {
         let Some(through) = self.via(leg, index, a, b) else {
             return false;
         };
@@ -340,7 +359,14 @@ impl Job<'_> {
         };
         let stop = self.walk.route.stops[index].expect("a leg ends at a stop");
         let (before, after) = (posture(&stop.q), posture(&point.q));
-        language.encode(target.layout, &value, &before, &after, &self.settings, &mut values);
+        language.encode(
+            target.layout,
+            &value,
+            &before,
+            &after,
+            &self.settings,
+            &mut values,
+        );
         let fraction = (0..numbers.len())
             .find_map(|i| Fraction::shown_by(text(i)))
             .unwrap_or(Fraction::Zero);
@@ -352,7 +378,9 @@ impl Job<'_> {
                 } else if roles[i] == Role::Configuration {
                     language.write_configuration(target.layout, i, values[i], text(i), &mut out);
                 } else {
-                    let alike = (0..numbers.len()).filter(|j| roles[*j] == roles[i]).map(text);
+                    let alike = (0..numbers.len())
+                        .filter(|j| roles[*j] == roles[i])
+                        .map(text);
                     let at_least = language.decimals(roles[i], self.decimals);
                     Style::of_group(alike, at_least, fraction).write(text(i), values[i], &mut out);
                 }

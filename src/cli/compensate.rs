@@ -176,11 +176,16 @@ impl Compensate {
             given: options.given.clone(),
             ..crate::check::Options::default()
         };
-        refine(&subject, &checked, limit * MM, options.decimals, compensation).map_err(|error| {
-            match error {
-                CheckError::Program(error) | CheckError::Nominal(error) => explain(&error, sources),
-                CheckError::NoCounterpart { .. } => Failure::new(error.to_string()),
-            }
+        refine(
+            &subject,
+            &checked,
+            limit * MM,
+            options.decimals,
+            compensation,
+        )
+        .map_err(|error| match error {
+            CheckError::Program(error) | CheckError::Nominal(error) => explain(&error, sources),
+            CheckError::NoCounterpart { .. } => Failure::new(error.to_string()),
         })
     }
 

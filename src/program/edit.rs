@@ -40,7 +40,9 @@ impl Edits {
     /// Takes back the replacements inside a range.
     pub fn take_back(&mut self, range: &Range<usize>) {
         let inside = |span: &Span| {
-            span.start as usize >= range.start && span.end as usize <= range.end && span.start < span.end
+            span.start as usize >= range.start
+                && span.end as usize <= range.end
+                && span.start < span.end
         };
         self.spans.retain(|span| !inside(span));
     }

@@ -32,7 +32,11 @@ fn arguments(bytes: &[u8], span: &Range<usize>) -> Vec<Range<usize>> {
     let trimmed = |range: Range<usize>| {
         let part = &text[range.clone()];
         let before = part.iter().take_while(|b| b.is_ascii_whitespace()).count();
-        let behind = part.iter().rev().take_while(|b| b.is_ascii_whitespace()).count();
+        let behind = part
+            .iter()
+            .rev()
+            .take_while(|b| b.is_ascii_whitespace())
+            .count();
         let end = (range.end - behind).max(range.start + before);
         span.start + range.start + before..span.start + end
     };
@@ -74,7 +78,12 @@ fn literal(bytes: &[u8], target: &Target) -> Option<Range<usize>> {
 }
 
 /// The aggregate of a target with other numbers.
-fn with_numbers(bytes: &[u8], program: &Program, target: &Target, texts: &[Vec<u8>]) -> Option<Vec<u8>> {
+fn with_numbers(
+    bytes: &[u8],
+    program: &Program,
+    target: &Target,
+    texts: &[Vec<u8>],
+) -> Option<Vec<u8>> {
     let span = literal(bytes, target)?;
     let mut out = Vec::new();
     let mut done = span.start;
@@ -134,8 +143,15 @@ pub(super) fn insert(
         return None;
     }
     let start = span.start;
-    let line = bytes[..start].iter().rposition(|b| matches!(b, b'\n' | b'\r')).map_or(0, |at| at + 1);
-    let indent: Vec<u8> = bytes[line..start].iter().copied().take_while(|b| b" \t".contains(b)).collect();
+    let line = bytes[..start]
+        .iter()
+        .rposition(|b| matches!(b, b'\n' | b'\r'))
+        .map_or(0, |at| at + 1);
+    let indent: Vec<u8> = bytes[line..start]
+        .iter()
+        .copied()
+        .take_while(|b| b" \t".contains(b))
+        .collect();
     let put = |at: &Range<usize>, with: &[u8], text: &mut Vec<u8>, done: &mut usize| {
         text.extend_from_slice(&bytes[*done..at.start]);
         text.extend_from_slice(with);
