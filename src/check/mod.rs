@@ -214,7 +214,7 @@ impl Arms {
                 controller: plain.controller.cast(),
             },
             reaches: [plain.real.reaches(), plain.controller.reaches()],
-            real_is_nominal: profile.effects.len() == profile.controller_effects().len(),
+            real_is_nominal: profile.real_effects() == profile.controller_effects(),
             spread: Spread::of(profile, tool),
             plain,
         }

@@ -36,14 +36,14 @@ pub struct Compensate {
     /// Write even when targets cannot be compensated; these stay as they are, and the status is 1
     #[arg(long)]
     keep_going: bool,
-    /// Compensate files that already are
+    /// Compensate files that already are, and targets that the controller corrects itself (KRL: S with bit 4)
     #[arg(long)]
     force: bool,
     /// Write at least so many decimals of a millimetre (default: as many as the file has)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=9))]
     decimals: Option<u8>,
     /// Insert targets until the path between targets, too, is within so many mm of the wanted one
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", conflicts_with = "work_offset")]
     max_path_error: Option<f64>,
     /// What to do with joint targets
     #[arg(long, value_enum, default_value = "keep")]
@@ -54,6 +54,13 @@ pub struct Compensate {
     /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
+    /// Where the part stands: a frame file that maps the part as simulated into the part as measured, both in the world;
+    /// moves every target with the part
+    #[arg(long, value_name = "FRAME.yaml")]
+    work_offset: Option<PathBuf>,
+    /// Where a work object stands in the world: a frame file. Like --frame, but a program that declares it elsewhere is refused
+    #[arg(long = "wobj", value_name = "NAME=FRAME.yaml")]
+    wobjs: Vec<String>,
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
@@ -141,10 +148,24 @@ impl Compensate {
             let (name, frame) = values::frame(text)?;
             given.frames.insert(name, frame);
         }
+        for text in &self.wobjs {
+            let (name, file) = values::named(text);
+            let name = name.ok_or_else(|| {
+                Failure::new(format!("--wobj {text}: it must be NAME=FRAME.yaml"))
+            })?;
+            let frame = files::read_frame(Path::new(file))?;
+            given.measured_frames.insert(name, frame.to_from_from);
+        }
+        let work_offset = match &self.work_offset {
+            Some(path) => Some(files::read_frame(path)?.to_from_from),
+            None => None,
+        };
         Ok(Options {
             given,
+            work_offset,
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
+            accept_absolutely_accurate: self.force,
         })
     }
 
@@ -243,12 +264,15 @@ fn refuse_doubtful(profile: &Profile, path: &Path) -> Result<(), Failure> {
         .effects
         .iter()
         .all(crate::model::effects::Effect::is_zero);
-    if profile.controller == ControllerModel::Calibrated && nothing {
+    // with its own effects the real arm is taken as the controller's: nothing changes
+    if profile.controller == ControllerModel::Calibrated && profile.own_effects.is_none() && nothing
+    {
         let message = format!(
             "{}: the controller is calibrated itself, and the profile has no effects to apply",
             path.display()
         );
-        let hint = "a calibrated controller needs the effects that it applies and those that remain; see `poseshift effects`";
+        let hint = "a calibrated controller needs the effects that it applies (`controller.effects`; of a UR, `poseshift profile \
+                    import-ur`) and those of the real arm";
         return Err(Failure::with_hint(message, hint));
     }
     Ok(())
@@ -442,6 +466,9 @@ pub(super) fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             ),
             None => Failure::with_hint(unknown.to_string(), unknown.hint()),
         },
+        CompensateError::MeasuredFrame(error) => {
+            Failure::with_hint(format!("--wobj: {error}"), error.hint())
+        }
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
         CompensateError::NothingInReach { .. } => Failure::with_hint(
             error.to_string(),

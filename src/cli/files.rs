@@ -2,6 +2,8 @@
 
 use super::failure::Failure;
 use crate::model::profile::Profile;
+use crate::program::Source;
+use crate::register::frame_file::Frame;
 use sha2::{Digest, Sha256};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -28,6 +30,23 @@ pub fn read_profile(path: &Path) -> Result<(Profile, String), Failure> {
     let profile =
         Profile::from_yaml(&text).map_err(|error| Failure::profile(path, &text, &error))?;
     Ok((profile, sha256(text.as_bytes())))
+}
+
+/// A frame file.
+pub fn read_frame(path: &Path) -> Result<Frame, Failure> {
+    let text = read_text(path)?;
+    Frame::from_yaml(&text).map_err(|error| {
+        let source = Source::new(path.display().to_string(), text.as_bytes().to_vec());
+        let hint = "a frame file is written by `poseshift register FROM.csv TO.csv -o FRAME.yaml`";
+        Failure::at(
+            &source,
+            error.line,
+            error.column,
+            None,
+            error.message,
+            hint.into(),
+        )
+    })
 }
 
 /// 64 hexadecimal digits.

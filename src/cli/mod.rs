@@ -1,14 +1,27 @@
 //! The command line: the only place with paths, colour and standard output. One file a command.
 
+mod axes;
+mod calibrate;
 mod catalogue;
 mod check;
 mod compensate;
 mod failure;
 mod files;
+mod handeye;
+mod hexapod;
+mod icp;
+mod import_ur;
 mod kinematics;
+mod measurements;
+mod plan;
+mod points;
 mod profile;
+mod register;
+mod registration;
 mod shell;
+mod simulate;
 mod table;
+mod validate;
 mod values;
 
 use clap::{Args, Parser, Subcommand};
@@ -52,6 +65,14 @@ pub struct Output {
 enum Command {
     Compensate(compensate::Compensate),
     Check(check::Check),
+    Calibrate(calibrate::Calibrate),
+    Validate(validate::Validate),
+    Plan(plan::PlanCommand),
+    Simulate(simulate::Simulate),
+    Register(register::Register),
+    Handeye(handeye::Handeye),
+    Hexapod(Box<hexapod::Hexapod>),
+    Axes(axes::Axes),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
     Profile(profile::ProfileCommand),
@@ -78,6 +99,14 @@ pub fn run() -> ExitCode {
     let answer = match command {
         Command::Compensate(command) => command.run(output),
         Command::Check(command) => command.run(output),
+        Command::Calibrate(command) => command.run(output),
+        Command::Validate(command) => command.run(output),
+        Command::Plan(command) => command.run(output),
+        Command::Simulate(command) => command.run(output),
+        Command::Register(command) => command.run(output),
+        Command::Handeye(command) => command.run(output),
+        Command::Hexapod(command) => command.run(output),
+        Command::Axes(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),
         Command::Profile(command) => command.run(output),

@@ -80,3 +80,13 @@ pub fn chosen_tool(name: Option<&str>, profile: &Profile) -> Result<Mounted, Fai
         )),
     }
 }
+
+/// Three numbers `x,y,z` in mm.
+pub fn point(text: &str) -> Option<crate::geometry::Vector> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
+        .collect::<Option<_>>()?;
+    let point: [f64; 3] = numbers.try_into().ok()?;
+    Some(point.map(m_from_mm))
+}

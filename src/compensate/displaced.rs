@@ -73,19 +73,17 @@ fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Optio
     let Displacement::By(shift) = &motion.displacement else {
         return None;
     };
-    let wanted = *job.world_from_frame(task.frame)
-        * shift.apply(&(job.world_from_frame(task.frame).inverse() * task.wanted));
+    let wanted_from_frame = job.on_part(*job.world_from_frame(task.frame));
+    let wanted = wanted_from_frame * shift.apply(&(wanted_from_frame.inverse() * task.wanted));
     let given = *job.world_from_frame(task.frame) * shift.apply(fake_in_frame);
     let equipped = job.equipped(task.tool);
-    let solution = equipped
-        .arm
-        .solve_branch(&given, task.branch, &task.nominal_q);
+    let (q, reached) = equipped.controller_joints(&given, task.branch, &task.nominal_q);
     let landed = || {
         equipped
             .inverse
             .real
-            .forward(&solution.q, &job.conditions(task))
+            .forward(&q, &job.conditions(task))
             .separation(&wanted)
     };
-    (solution.beyond == 0.0).then(landed)
+    reached.then(landed)
 }

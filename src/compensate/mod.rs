@@ -4,6 +4,7 @@
 //!
 //! ```text
 //! W = world_from_frame · frame_from_tool              the wanted pose: the target as the file has it
+//!     (work_offset · W where the part stands elsewhere than in the simulation)
 //! q = the joints with which the real arm reaches W    pose shift on the branch that the program means
 //! F = controller_forward(q)                           where the controller believes to be then
 //! fake target = world_from_frame⁻¹ · F
@@ -24,13 +25,13 @@ mod rewrite;
 pub(crate) mod route;
 
 pub use outcome::{Compensation, Summary, TargetReport, meaning};
-pub use placement::{Given, PlacementError};
+pub use placement::{Given, MeasuredFrameError, PlacementError};
 use placement::{Place, Setting};
 use rewrite::Portion;
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::inverse::{Arm, Branch, Inverse, Targets, Unsupported, solve_batch};
+use crate::inverse::{Arm, Branch, Inverse, Status, Targets, Unsupported, solve_batch};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use crate::program::{Edits, Language, Program, ReadError, Settings, Source};
@@ -45,10 +46,15 @@ const CHUNK: usize = 2048;
 pub struct Options {
     /// Tools and work frames for names that the program files do not tell.
     pub given: Given,
+    /// Where the part really stands: moves every wanted pose in the world, `W' = work_offset · W` (FROM: as simulated; TO: as
+    /// measured). The controller's frames stay what they are.
+    pub work_offset: Option<Pose>,
     /// Shift joint targets too.
     pub correct_joint_targets: bool,
     /// At least so many decimals of a millimetre, and as many of other units as that is worth.
     pub decimals: Option<usize>,
+    /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
+    pub accept_absolutely_accurate: bool,
 }
 
 /// Why nothing could be compensated.
@@ -60,6 +66,9 @@ pub enum CompensateError {
     /// A tool or frame is unknown.
     #[error(transparent)]
     Placement(#[from] PlacementError),
+    /// A measured work frame cannot be meant.
+    #[error(transparent)]
+    MeasuredFrame(#[from] MeasuredFrameError),
     /// The arm has no closed-form inverse.
     #[error(transparent)]
     Arm(#[from] Unsupported),
@@ -97,6 +106,28 @@ pub(crate) struct Equipped {
     pub(crate) inverse: Inverse,
 }
 
+impl Equipped {
+    /// The joints that the controller computes for `world_from_tool` near others, and whether they reach it.
+    fn controller_joints(
+        &self,
+        world_from_tool: &Pose,
+        branch: Branch,
+        near: &[f64; 6],
+    ) -> ([f64; 6], bool) {
+        match &self.calibrated_controller {
+            None => {
+                let solution = self.arm.solve_branch(world_from_tool, branch, near);
+                (solution.q, solution.beyond == 0.0)
+            }
+            Some(controller) => {
+                let outcome = controller.solve(world_from_tool, branch, near);
+                let missed = matches!(outcome.status, Status::OutOfReach | Status::NotConverged);
+                (outcome.q, !missed)
+            }
+        }
+    }
+}
+
 /// A target whose tool, frame and branch are known.
 #[derive(Clone, Copy, Debug)]
 struct Task {
@@ -113,6 +144,8 @@ struct Task {
     nominal_q: [f64; 6],
     /// Direction in which each joint last moved, where an effect depends on it.
     direction: [i8; 6],
+    /// The controller goes by the target's configuration data.
+    honoured: bool,
 }
 
 impl Job<'_> {
@@ -126,6 +159,13 @@ impl Job<'_> {
         self.setting.frames[frame]
             .as_ref()
             .expect("a placed target has a known frame")
+    }
+
+    /// A pose that the program means, where the part as it stands has it.
+    fn on_part(&self, wanted: Pose) -> Pose {
+        self.options
+            .work_offset
+            .map_or(wanted, |offset| offset * wanted)
     }
 
     /// The conditions of one task.
@@ -186,11 +226,13 @@ pub fn compensate(
 ) -> Result<Compensation, CompensateError> {
     let settings = Settings {
         pulses_per_deg: profile.pulses_per_deg,
+        accept_absolutely_accurate: options.accept_absolutely_accurate,
     };
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
-    let setting = Setting::of(&program, profile, &options.given);
+    placement::check_measured(&program, &options.given)?;
+    let setting = Setting::of(language, &program, profile, &options.given);
     let mut job = Job {
         language,
         settings: &settings,

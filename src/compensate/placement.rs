@@ -3,8 +3,9 @@
 use super::Job;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{Mounted, Profile};
-use crate::program::{Frame, Move, Program, Shape, Tool};
+use crate::program::{Frame, Language, Move, Program, Shape, Tool};
 use std::collections::BTreeMap;
 
 /// Two values of one tool or frame that differ by less than this are the same, metres and radians.
@@ -17,6 +18,74 @@ pub struct Given {
     pub tools: BTreeMap<Option<String>, Mounted>,
     /// `world_from_frame` of work frames.
     pub frames: BTreeMap<Option<String>, Pose>,
+    /// `world_from_frame` of work frames as they were measured, by name; the program must not say otherwise.
+    pub measured_frames: BTreeMap<String, Pose>,
+}
+
+/// A measured work frame that cannot be meant.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeasuredFrameError {
+    /// The program has another value.
+    #[error(
+        "the program declares work frame `{name}` {distance_mm:.4} mm and {angle_deg:.5} deg beside the measured one"
+    )]
+    Conflict {
+        /// Its name.
+        name: String,
+        /// Distance of the origins, mm.
+        distance_mm: f64,
+        /// Angle between the axes, degrees.
+        angle_deg: f64,
+    },
+    /// The program does not use it.
+    #[error("no move uses a work frame `{name}`; the programs use: {used}")]
+    Unused {
+        /// Its name.
+        name: String,
+        /// The names that are used.
+        used: String,
+    },
+}
+
+impl MeasuredFrameError {
+    /// The way out.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Conflict { .. } => {
+                "write the measured frame into the program and controller, and leave --wobj out; or keep the declared frame and give the part's displacement with --work-offset"
+            }
+            Self::Unused { .. } => "names are as the program writes them",
+        }
+    }
+}
+
+/// Measured frames must be used, and agree with what the program declares: the controller computes with its own.
+pub(super) fn check_measured(program: &Program, given: &Given) -> Result<(), MeasuredFrameError> {
+    for (name, measured) in &given.measured_frames {
+        let Some(frame) = program.frames.iter().find(|frame| frame.name == *name) else {
+            let used: Vec<_> = program.frames.iter().map(|f| f.name.as_str()).collect();
+            return Err(MeasuredFrameError::Unused {
+                name: name.clone(),
+                used: used.join(", "),
+            });
+        };
+        if let Some(declared) = frame.world_from_frame.filter(|d| !agrees(d, measured)) {
+            let gap = declared.separation(measured);
+            return Err(MeasuredFrameError::Conflict {
+                name: name.clone(),
+                distance_mm: mm_from_m(gap.distance_m),
+                angle_deg: gap.angle_rad / DEG,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The same frame but for the digits of the files: 1 µm and 1e-5 degrees.
+fn agrees(a: &Pose, b: &Pose) -> bool {
+    let gap = a.separation(b);
+    gap.distance_m < 1e-6 && gap.angle_rad < 1e-5 * DEG
 }
 
 /// A tool or frame that nobody knows.
@@ -40,6 +109,11 @@ impl PlacementError {
     #[must_use]
     pub fn message(&self) -> String {
         let Self { what, name, .. } = self;
+        if name.is_empty() {
+            return format!(
+                "neither the program files nor the command line say where the {what} is"
+            );
+        }
         format!(
             "neither the program files nor the profile nor the command line say where {what} `{name}` is"
         )
@@ -53,6 +127,9 @@ impl PlacementError {
         } else {
             "--frame"
         };
+        if self.name.is_empty() {
+            return format!("give `{option} x,y,z,rx,ry,rz` (mm, deg) or its name in the profile");
+        }
         format!(
             "give the file that declares it too, or `{option} {}=x,y,z,rx,ry,rz` (mm, deg)",
             self.name
@@ -78,7 +155,13 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    pub fn of(program: &Program, profile: &Profile, given: &Given) -> Self {
+    pub fn of(
+        language: &dyn Language,
+        program: &Program,
+        profile: &Profile,
+        given: &Given,
+    ) -> Self {
+        let unframed = language.frame_of_unframed();
         let mut tools: Vec<_> = program
             .tools
             .iter()
@@ -88,7 +171,10 @@ impl Setting {
         let mut frames: Vec<_> = program
             .frames
             .iter()
-            .map(|frame| frame_of(frame, given))
+            .map(|frame| {
+                let is_unframed = Some(frame.name.as_str()) == unframed;
+                frame_of(frame, given).or_else(|| is_unframed.then(Pose::identity))
+            })
             .collect();
         frames.extend([given.frames.get(&None).copied(), Some(Pose::identity())]);
         Self { tools, frames }
@@ -246,21 +332,18 @@ fn same_pose(a: &Pose, b: &Pose) -> bool {
 fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
     let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
     let of_profile = profile.tool(&tool.name);
-    let found = match tool.flange_from_tool {
-        Some(flange_from_tool) => {
-            let load = of_profile.and_then(|tool| tool.load);
-            Some(Mounted {
-                name: tool.name.clone(),
-                flange_from_tool,
-                load,
-            })
-        }
-        None => {
-            let named = given.tools.get(&Some(tool.name.clone())).cloned();
-            named
-                .or(of_profile)
-                .or_else(|| given.tools.get(&None).cloned())
-        }
+    let found = if let Some(flange_from_tool) = tool.flange_from_tool {
+        let load = of_profile.and_then(|tool| tool.load);
+        Some(Mounted {
+            name: tool.name.clone(),
+            flange_from_tool,
+            load,
+        })
+    } else {
+        let named = given.tools.get(&Some(tool.name.clone())).cloned();
+        named
+            .or(of_profile)
+            .or_else(|| given.tools.get(&None).cloned())
     };
     found.map(|found| Mounted {
         load: load.or(found.load),
@@ -271,8 +354,9 @@ fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
 fn frame_of(frame: &Frame, given: &Given) -> Option<Pose> {
     let elsewhere = || {
         given
-            .frames
-            .get(&Some(frame.name.clone()))
+            .measured_frames
+            .get(&frame.name)
+            .or_else(|| given.frames.get(&Some(frame.name.clone())))
             .or_else(|| given.frames.get(&None))
             .copied()
     };

@@ -151,7 +151,7 @@ pub(super) fn task(
     } = decoded(job, target)?;
     let (wanted, branch, nominal_q) = match value {
         Value::Joints(q) => (
-            equipped.controller.forward(&q, &Conditions::default()),
+            job.on_part(equipped.controller.forward(&q, &Conditions::default())),
             equipped.arm.posture(&q).0,
             q,
         ),
@@ -161,7 +161,7 @@ pub(super) fn task(
                 Displacement::By(shift) => shift.apply(&frame_from_tool),
                 Displacement::Unknown => return None,
             };
-            let wanted = *job.world_from_frame(frame) * frame_from_tool;
+            let wanted = job.on_part(*job.world_from_frame(frame) * frame_from_tool);
             let asked = Asked {
                 target,
                 arm: &equipped.arm,
@@ -182,6 +182,7 @@ pub(super) fn task(
         branch,
         nominal_q,
         direction: [0; 6],
+        honoured,
     })
 }
 

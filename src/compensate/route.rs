@@ -53,7 +53,7 @@ pub(crate) fn route(
     let options = Options {
         given: given.clone(),
         correct_joint_targets: true,
-        decimals: None,
+        ..Options::default()
     };
     let setting = Setting::of(&program, profile, given);
     let mut job = Job {

@@ -16,7 +16,7 @@ pub use dual::Dual;
 pub use jet::{Ball, Jet};
 pub use lanes::Lanes;
 pub use pose::{Pose, Separation};
-pub use rotation::{Quaternion, Rotation};
+pub use rotation::{Quaternion, Rotation, wrap};
 pub use scalar::Scalar;
 pub use turn::Turn;
 

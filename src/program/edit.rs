@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// Replacements of byte ranges of one file; everything outside them stays.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Edits {
     spans: Vec<Span>,
     text: Vec<u8>,

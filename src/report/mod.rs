@@ -1,8 +1,10 @@
 //! What commands tell: texts for people and JSON for programs.
 
+pub mod approach;
 pub mod check;
 pub mod compensation;
 pub mod findings;
+pub mod identification;
 pub mod profile;
 
 use crate::geometry::Pose;

@@ -7,4 +7,7 @@ mod documents;
 mod golden;
 mod laws;
 mod oracle;
+mod path;
+mod recover;
+mod register;
 mod support;

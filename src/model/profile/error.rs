@@ -140,6 +140,17 @@ pub enum Fault {
         /// Which.
         label: String,
     },
+    /// Effects of a controller that has none.
+    #[error("the controller has effects, but computes with the nominal chain")]
+    EffectsOfNominal,
+    /// An effect that no controller can compute.
+    #[error("`{label}` cannot be part of a controller's own model: it needs {need}")]
+    NotOfController {
+        /// Which.
+        label: String,
+        /// What it needs.
+        need: &'static str,
+    },
 }
 
 impl Fault {
@@ -175,6 +186,8 @@ impl ProfileError {
             }
             Fault::UnknownBody { known, .. } => format!("bodies are: {known}"),
             Fault::MovingPlane { .. } => "a box does the same".into(),
+            Fault::EffectsOfNominal => "set `model: calibrated`, or take the effects away".into(),
+            Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
             Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),
             _ => String::new(),
         }

@@ -42,7 +42,7 @@ mod frames;
 mod insert;
 mod instruction;
 mod moves;
-mod names;
+pub(in crate::program) mod names;
 mod reader;
 mod sniff;
 mod syntax;

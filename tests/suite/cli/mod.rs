@@ -1,4 +1,7 @@
 //! The command line as a user meets it: files, exit statuses, messages.
 
 mod compensate;
+mod fuzzed;
+mod identify;
+mod jobs_and_tables_of_poses;
 mod tables;

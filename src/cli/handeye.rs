@@ -1,0 +1,413 @@
+//! `handeye`: where a camera is.
+
+use super::failure::Failure;
+use super::registration::sigma_json;
+use super::table::{JOINTS, POSE, Table};
+use super::{Answer, Output, files, print, print_json};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::{Pose, Quaternion, Vector};
+use crate::model::Conditions;
+use crate::model::profile::Mounted;
+use crate::register::frame_file::{Frame, Sigma};
+use crate::register::handeye::{
+    Corners, HandEye, Method, Refined, Setup, WEAK_RAD, refine_by_corners,
+};
+use crate::report;
+use clap::{Args, ValueEnum};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Find a camera's pose from robot and board poses (AX = XB)
+#[derive(Args)]
+#[command(
+    after_help = "ROBOT: poses base_from_flange (x_mm,y_mm,z_mm,qw,qx,qy,qz), or joints q1_deg…q6_deg with --profile: then the \
+calibrated model says where the flange is. BOARD: poses camera_from_board, row by row.\nCorners: x_mm,y_mm,z_mm as touched by \
+the robot in its base, cx_mm,cy_mm,cz_mm as seen by the camera; eye in hand also row, the row of ROBOT from which it was seen."
+)]
+pub struct Handeye {
+    /// Robot poses, or joints with --profile
+    #[arg(value_name = "ROBOT.csv")]
+    robot: PathBuf,
+    /// Board poses in the camera
+    #[arg(value_name = "BOARD.csv")]
+    board: PathBuf,
+    /// Where the camera is mounted
+    #[arg(long, value_enum)]
+    setup: SetupArg,
+    /// Robot profile (YAML) for joints
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
+    /// Tool whose load the arm carried (with --profile)
+    #[arg(long, value_name = "NAME", requires = "profile")]
+    tool: Option<String>,
+    /// Corners seen by the camera and touched by the robot: refine the camera's pose if left-out corners improve
+    #[arg(long, value_name = "CORNERS.csv")]
+    corners: Option<PathBuf>,
+    /// Write the camera's pose as a frame file
+    #[arg(short, long, value_name = "FRAME.yaml")]
+    output: Option<PathBuf>,
+}
+
+/// Where the camera is mounted
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SetupArg {
+    /// The camera stands in the cell, the board is on the flange
+    EyeToHand,
+    /// The camera is on the flange, the board stands in the cell
+    EyeInHand,
+}
+
+struct Outcome {
+    problem: HandEye,
+    by_method: Vec<(Method, Option<Pose>)>,
+    refined: Refined,
+    corners: Option<Corners>,
+    findings: Vec<Finding>,
+}
+
+impl Handeye {
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let robot = self.read_robot()?;
+        let board = read_poses(&self.board)?;
+        let setup = match self.setup {
+            SetupArg::EyeToHand => Setup::EyeToHand,
+            SetupArg::EyeInHand => Setup::EyeInHand,
+        };
+        let named = |error: &dyn std::fmt::Display| {
+            Failure::new(format!(
+                "{} and {}: {error}",
+                self.robot.display(),
+                self.board.display()
+            ))
+        };
+        let problem = HandEye::new(setup, &robot, &board).map_err(|error| named(&error))?;
+        let refined = problem.refined().map_err(|error| named(&error))?;
+        let by_method = Method::ALL
+            .iter()
+            .map(|method| (*method, problem.by(*method).ok()))
+            .collect();
+        let mut findings = Vec::new();
+        if problem.spread_rad[1] < WEAK_RAD {
+            findings.push(self.finding(
+                "weak-rotation",
+                Severity::Warning,
+                format!(
+                    "the poses turn by {:.2} deg only about the second direction: above {:.0} deg is well",
+                    problem.spread_rad[1] / DEG,
+                    WEAK_RAD / DEG
+                ),
+                "add poses that tilt the flange the other way",
+            ));
+        }
+        let corners = self
+            .corners
+            .as_ref()
+            .map(|path| self.refine(path, setup, &robot, &refined.camera))
+            .transpose()?;
+        if let Some(corners) = corners.as_ref().filter(|c| !c.accepted) {
+            findings.push(self.finding(
+                "corners-not-accepted",
+                Severity::Warning,
+                format!(
+                    "the refinement by corners is left out: left-out corners are {:.4} mm off with it and {:.4} mm without",
+                    mm_from_m(corners.left_out_m),
+                    mm_from_m(corners.before_m)
+                ),
+                "",
+            ));
+        }
+        let result = Outcome {
+            problem,
+            by_method,
+            refined,
+            corners,
+            findings,
+        };
+        if let Some(path) = &self.output {
+            let text = self.frame(&result).to_yaml();
+            files::write_all(&[(path.clone(), text.into_bytes())])?;
+        }
+        if output.json {
+            print_json(&as_json(&result))?;
+        } else {
+            anstream::eprint!(
+                "{}",
+                report::findings::text(&result.findings, output.verbose)
+            );
+            if !output.quiet {
+                print(&as_text(&result, output.verbose))?;
+            }
+        }
+        Ok(Answer::Yes)
+    }
+
+    fn finding(
+        &self,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) -> Finding {
+        Finding {
+            hint: hint.into(),
+            ..super::register::note(id, severity, &self.robot.display().to_string(), message)
+        }
+    }
+
+    fn read_robot(&self) -> Result<Vec<Pose>, Failure> {
+        let Some(path) = &self.profile else {
+            let table = Table::read(&self.robot)?;
+            if table.has(JOINTS[0]) && !table.has(POSE[3]) {
+                return Err(Failure::with_hint(
+                    format!("{}: joints, not poses", self.robot.display()),
+                    "--profile gives the model that makes poses of them",
+                ));
+            }
+            return read_poses(&self.robot);
+        };
+        let (profile, _) = files::read_profile(path)?;
+        let table = Table::read(&self.robot)?;
+        table.require(&JOINTS)?;
+        let mut mounted = Mounted::flange();
+        if let Some(name) = &self.tool {
+            let tool = super::values::chosen_tool(Some(name), &profile)?;
+            mounted.load = tool.load;
+        }
+        let model = profile.real_model(&mounted, &Conditions::default());
+        let base = profile.world_from_base.inverse();
+        let mut poses = Vec::new();
+        for row in table.rows() {
+            let q = row.numbers(JOINTS)?.map(|q| q * DEG);
+            poses.push(base * model.forward(&q, &Conditions::default()));
+        }
+        Ok(poses)
+    }
+
+    fn refine(
+        &self,
+        path: &Path,
+        setup: Setup,
+        robot: &[Pose],
+        camera: &Pose,
+    ) -> Result<Corners, Failure> {
+        let table = Table::read(path)?;
+        let (touched_columns, seen_columns) =
+            (["x_mm", "y_mm", "z_mm"], ["cx_mm", "cy_mm", "cz_mm"]);
+        table.require(&touched_columns)?;
+        table.require(&seen_columns)?;
+        let (mut seen, mut touched): (Vec<Vector>, Vec<Vector>) = (Vec::new(), Vec::new());
+        for row in table.rows() {
+            let point = row.numbers(touched_columns)?.map(m_from_mm);
+            touched.push(match setup {
+                Setup::EyeToHand => point,
+                Setup::EyeInHand => {
+                    table.require(&["row"])?;
+                    let number = row.number("row")?;
+                    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+                    let index = (number as usize).checked_sub(1);
+                    let pose = index
+                        .filter(|_| number.fract() == 0.0)
+                        .and_then(|index| robot.get(index))
+                        .ok_or_else(|| {
+                            row.failure(format!(
+                                "row {number}: ROBOT has rows 1 to {}",
+                                robot.len()
+                            ))
+                        })?;
+                    pose.inverse().transform(point)
+                }
+            });
+            seen.push(row.numbers(seen_columns)?.map(m_from_mm));
+        }
+        refine_by_corners(camera, &seen, &touched).map_err(|error| {
+            Failure::with_hint(format!("{}: {error}", path.display()), error.hint())
+        })
+    }
+
+    fn frame(&self, result: &Outcome) -> Frame {
+        let (camera, sigma) = camera_of(result);
+        let provenance = BTreeMap::from([
+            ("method".to_owned(), "hand-eye".to_owned()),
+            ("robot".to_owned(), self.robot.display().to_string()),
+            ("board".to_owned(), self.board.display().to_string()),
+            ("version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
+        ]);
+        Frame {
+            to_from_from: camera,
+            sigma: Some(sigma),
+            rmsd_m: Some(result.refined.distance_m),
+            points: Some(result.problem.count()),
+            provenance,
+        }
+    }
+}
+
+/// The camera's pose after all refinements, and its uncertainty.
+fn camera_of(result: &Outcome) -> (Pose, Sigma) {
+    if let Some(corners) = result.corners.as_ref().filter(|c| c.accepted) {
+        let sigma = Sigma::of(&corners.covariance, &corners.camera);
+        return (corners.camera, sigma);
+    }
+    let camera = result.refined.camera;
+    let sigma = Sigma::of(&result.refined.camera_covariance, &camera);
+    (camera, sigma)
+}
+
+fn read_poses(path: &Path) -> Result<Vec<Pose>, Failure> {
+    let table = Table::read(path)?;
+    table.require(&POSE)?;
+    let mut poses = Vec::new();
+    for row in table.rows() {
+        let [x, y, z, w, i, j, k] = row.numbers(POSE)?;
+        let quaternion = Quaternion([w, i, j, k]);
+        let norm = quaternion.norm();
+        if (norm - 1.0).abs() > 1e-3 {
+            return Err(row.failure(format!(
+                "the quaternion's length is {norm:.6}; it may differ from 1 by 0.001"
+            )));
+        }
+        poses.push(Pose::from_parts(
+            [x, y, z].map(m_from_mm),
+            quaternion.normalized(),
+        ));
+    }
+    Ok(poses)
+}
+
+fn left_out(refined: &Refined) -> (f64, f64) {
+    #[allow(clippy::cast_precision_loss)]
+    let n = refined.rows.len() as f64;
+    let sum = refined.rows.iter().fold((0.0, 0.0), |(d, r), row| {
+        (
+            d + row.out_distance_m.powi(2),
+            r + row.out_rotation_rad.powi(2),
+        )
+    });
+    ((sum.0 / n).sqrt(), (sum.1 / n).sqrt())
+}
+
+fn as_json(result: &Outcome) -> Value {
+    let refined = &result.refined;
+    let (camera, sigma) = camera_of(result);
+    let mut by_method: Map<String, Value> = result
+        .by_method
+        .iter()
+        .map(|(method, pose)| {
+            (
+                method.id().to_owned(),
+                pose.as_ref().map(report::pose).into(),
+            )
+        })
+        .collect();
+    by_method.insert("refined".into(), report::pose(&refined.camera));
+    let (out_m, out_rad) = left_out(refined);
+    let rows: Vec<Value> = refined
+        .rows
+        .iter()
+        .map(|row| {
+            json!({"residual_mm": mm_from_m(row.distance_m), "residual_deg": row.rotation_rad / DEG,
+                   "left_out_mm": mm_from_m(row.out_distance_m), "left_out_deg": row.out_rotation_rad / DEG})
+        })
+        .collect();
+    let corners = result.corners.as_ref().map(|c| {
+        json!({"accepted": c.accepted, "before_mm": mm_from_m(c.before_m), "after_mm": mm_from_m(c.after_m),
+               "left_out_mm": mm_from_m(c.left_out_m), "correction": report::pose(&c.correction)})
+    });
+    json!({
+        "poseshift": "handeye/1",
+        "setup": match result.problem.setup() { Setup::EyeToHand => "eye-to-hand", Setup::EyeInHand => "eye-in-hand" },
+        "camera": report::pose(&camera), "board": report::pose(&refined.board),
+        "by_method": by_method,
+        "residual_mm": mm_from_m(refined.distance_m), "residual_deg": refined.rotation_rad / DEG,
+        "left_out_mm": mm_from_m(out_m), "left_out_deg": out_rad / DEG,
+        "sigma": sigma_json(&sigma),
+        "board_sigma": sigma_json(&Sigma::of(&refined.board_covariance, &refined.board)),
+        "noise_mm": mm_from_m(refined.sigma_position_m), "noise_deg": refined.sigma_rotation_rad / DEG,
+        "rotation_spread_deg": result.problem.spread_rad.map(|s| s / DEG),
+        "poses": rows, "corners": corners, "findings": result.findings,
+    })
+}
+
+fn as_text(result: &Outcome, every: bool) -> String {
+    let refined = &result.refined;
+    let ok = "a string takes all text";
+    let (what, board) = match result.problem.setup() {
+        Setup::EyeToHand => ("base_from_camera", "flange_from_board"),
+        Setup::EyeInHand => ("flange_from_camera", "base_from_board"),
+    };
+    let pose = |pose: &Pose| {
+        let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
+        let [x, y, z] = [x, y, z].map(mm_from_m);
+        let [rx, ry, rz] = [rx, ry, rz].map(|r| r / DEG);
+        format!("{x:10.3} {y:10.3} {z:10.3} mm {rx:9.4} {ry:9.4} {rz:9.4} deg")
+    };
+    let mut text = format!("{what} by {} poses\n", result.problem.count());
+    for (method, found) in &result.by_method {
+        let told = found.as_ref().map_or("no solution".to_owned(), &pose);
+        writeln!(text, "  {:<12}{told}", method.id()).expect(ok);
+    }
+    writeln!(text, "  {:<12}{}", "refined", pose(&refined.camera)).expect(ok);
+    if let Some(corners) = &result.corners {
+        writeln!(text, "  {:<12}{}", "corners", pose(&corners.camera)).expect(ok);
+        writeln!(
+            text,
+            "    corners {:.4} mm before, {:.4} mm after, {:.4} mm when left out: {}",
+            mm_from_m(corners.before_m),
+            mm_from_m(corners.after_m),
+            mm_from_m(corners.left_out_m),
+            if corners.accepted {
+                "accepted"
+            } else {
+                "not accepted"
+            }
+        )
+        .expect(ok);
+    }
+    let (_, sigma) = camera_of(result);
+    let (p, r) = (
+        sigma.position_m.map(mm_from_m),
+        sigma.rotation_rad.map(|r| r / DEG),
+    );
+    writeln!(
+        text,
+        "  sigma       {:10.4} {:10.4} {:10.4} mm {:9.5} {:9.5} {:9.5} deg about the axes of {}",
+        p[0],
+        p[1],
+        p[2],
+        r[0],
+        r[1],
+        r[2],
+        what.split('_').next().unwrap_or_default()
+    )
+    .expect(ok);
+    writeln!(text, "{board}\n  {:<12}{}", "refined", pose(&refined.board)).expect(ok);
+    let (out_m, out_rad) = left_out(refined);
+    writeln!(
+        text,
+        "left over {:.4} mm, {:.5} deg; a row left out of the fit {:.4} mm, {:.5} deg",
+        mm_from_m(refined.distance_m),
+        refined.rotation_rad / DEG,
+        mm_from_m(out_m),
+        out_rad / DEG
+    )
+    .expect(ok);
+    if every {
+        writeln!(text, "  row  residual mm       deg  left out mm       deg").expect(ok);
+        for (index, row) in refined.rows.iter().enumerate() {
+            writeln!(
+                text,
+                "{:5} {:12.4} {:9.5} {:12.4} {:9.5}",
+                index + 1,
+                mm_from_m(row.distance_m),
+                row.rotation_rad / DEG,
+                mm_from_m(row.out_distance_m),
+                row.out_rotation_rad / DEG
+            )
+            .expect(ok);
+        }
+    }
+    text
+}

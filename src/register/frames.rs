@@ -1,0 +1,474 @@
+//! Frames from few touches: three points, 3-2-1, and registration of points and planes together.
+
+use super::features::{self, FeatureError, Plane};
+use super::kabsch::kabsch;
+use super::uncertainty::{PoseCovariance, crossing};
+use super::{RegisterError, linear};
+use crate::geometry::units::mm_from_m;
+use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
+
+/// A point nearer to a line than this part of the line's length does not say which way a frame turns about it.
+const BESIDE: f64 = 1e-3;
+
+/// Why touches give no frame.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FrameError {
+    /// A feature cannot be fitted.
+    #[error("{datum}: {error}")]
+    Feature {
+        /// Which datum.
+        datum: &'static str,
+        /// Why.
+        error: FeatureError,
+    },
+    /// A direction that is not determined.
+    #[error("{what}: {found_mm:.6} mm beside {of} (limit {limit_mm:.6} mm)")]
+    Beside {
+        /// What was to give a direction.
+        what: &'static str,
+        /// Distance, mm.
+        found_mm: f64,
+        /// Of what.
+        of: &'static str,
+        /// The smallest that is accepted, mm.
+        limit_mm: f64,
+    },
+    /// Too few touches on a datum.
+    #[error("{datum} has {found} touches and needs {needed}")]
+    TooFew {
+        /// Which datum.
+        datum: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many it takes.
+        needed: usize,
+    },
+    /// Points and planes that leave a motion open.
+    #[error(
+        "points and planes leave a motion free: {motion} (smallest singular value {smallest:.1e} of the largest)"
+    )]
+    Free {
+        /// Which motion.
+        motion: String,
+        /// Ratio of singular values.
+        smallest: f64,
+    },
+    /// The points alone are at fault.
+    #[error(transparent)]
+    Points(#[from] RegisterError),
+}
+
+fn unit(
+    what: &'static str,
+    of: &'static str,
+    v: Vector,
+    scale_m: f64,
+) -> Result<Vector, FrameError> {
+    let length = norm(v);
+    let limit = BESIDE * scale_m;
+    if length.is_nan() || length <= limit {
+        return Err(FrameError::Beside {
+            what,
+            found_mm: mm_from_m(length),
+            of,
+            limit_mm: mm_from_m(limit),
+        });
+    }
+    Ok(scale(1.0 / length, v))
+}
+
+fn from_axes(x: Vector, z: Vector, origin: Vector) -> Pose {
+    let y = cross(z, x);
+    Pose {
+        rotation: Rotation(std::array::from_fn(|i| [x[i], y[i], z[i]])),
+        translation: origin,
+    }
+}
+
+/// The frame with its origin at the first point, x toward the second, and the third in the xy plane with y > 0.
+///
+/// # Errors
+/// If two points coincide or the third lies on the x axis.
+pub fn three_points([origin, on_x, in_xy]: [Vector; 3]) -> Result<Pose, FrameError> {
+    let along = sub(on_x, origin);
+    let reach = norm(sub(in_xy, origin)).max(norm(along));
+    let x = unit("the point on x", "the origin", along, reach)?;
+    let to_third = sub(in_xy, origin);
+    let beside = sub(to_third, scale(dot(x, to_third), x));
+    let y = unit("the point in the xy plane", "the x axis", beside, reach)?;
+    Ok(from_axes(x, cross(x, y), origin))
+}
+
+/// Touches of the three datums of a part, centres of the probe's ball, metres.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Datums {
+    /// At least three on the primary plane, the first three counter-clockwise seen from outside: z points out of the part.
+    pub primary_m: Vec<Vector>,
+    /// At least two on the secondary plane, in the order of +x; the part lies on its +y side.
+    pub secondary_m: Vec<Vector>,
+    /// At least one on the tertiary plane; the part lies on its +x side.
+    pub tertiary_m: Vec<Vector>,
+}
+
+/// The 3-2-1 frame: z is the primary plane's normal, x the direction of the secondary touches in it, the origin where the
+/// three datum planes meet. The probe's ball stands outside the part: above the primary, before the secondary in −y and the
+/// tertiary in −x.
+///
+/// # Errors
+/// Too few touches, or touches that leave a direction open.
+pub fn three_two_one(touches: &Datums, probe_radius_m: f64) -> Result<Pose, FrameError> {
+    let counts = [
+        ("the primary datum", touches.primary_m.len(), 3),
+        ("the secondary datum", touches.secondary_m.len(), 2),
+        ("the tertiary datum", touches.tertiary_m.len(), 1),
+    ];
+    for (datum, found, needed) in counts {
+        if found < needed {
+            return Err(FrameError::TooFew {
+                datum,
+                found,
+                needed,
+            });
+        }
+    }
+    let primary = features::plane(&touches.primary_m).map_err(|error| FrameError::Feature {
+        datum: "the primary datum",
+        error,
+    })?;
+    let p = &touches.primary_m;
+    let seen = cross(sub(p[1], p[0]), sub(p[2], p[0]));
+    let z = if dot(seen, primary.normal) < 0.0 {
+        scale(-1.0, primary.normal)
+    } else {
+        primary.normal
+    };
+    let across = |v: Vector| sub(v, scale(dot(z, v), z));
+    let s = &touches.secondary_m;
+    let (middle, axes) = features::extents(s);
+    let span = sub(s[s.len() - 1], s[0]);
+    let direction = if s.len() == 2 {
+        span
+    } else {
+        scale(dot(axes[0].1, span).signum(), axes[0].1)
+    };
+    let reach = norm(span);
+    let x = unit(
+        "the last secondary touch",
+        "the first, along the primary plane",
+        scale(if s.len() == 2 { 1.0 } else { reach }, across(direction)),
+        reach.max(f64::MIN_POSITIVE),
+    )?;
+    let y = cross(z, x);
+    #[allow(clippy::cast_precision_loss)]
+    let mean = |points: &[Vector]| {
+        let sum = points.iter().fold([0.0; 3], |sum, p| add(sum, *p));
+        scale(1.0 / points.len() as f64, sum)
+    };
+    let height = dot(z, primary.centre_m) - probe_radius_m;
+    let front = dot(y, middle) + probe_radius_m;
+    let left = dot(x, mean(&touches.tertiary_m)) + probe_radius_m;
+    let origin = add(add(scale(left, x), scale(front, y)), scale(height, z));
+    Ok(from_axes(x, z, origin))
+}
+
+/// Carries the noise of touches through a construction by central differences.
+///
+/// `inputs_m` are the touched points, `sigmas_m` the standard deviation of each one's coordinates; `construct` gives the frame.
+///
+/// # Errors
+/// As `construct`.
+pub fn propagate<E>(
+    inputs_m: &[Vector],
+    sigmas_m: &[f64],
+    construct: impl Fn(&[Vector]) -> Result<Pose, E>,
+) -> Result<PoseCovariance, E> {
+    let centre = construct(inputs_m)?;
+    let step = 1e-6;
+    let mut jacobian = DMatrix::zeros(6, 3 * inputs_m.len());
+    let mut moved = inputs_m.to_vec();
+    for i in 0..inputs_m.len() {
+        for k in 0..3 {
+            let mut ends = [centre; 2];
+            for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
+                moved[i][k] = inputs_m[i][k] + sign * step;
+                *end = construct(&moved)?;
+            }
+            moved[i][k] = inputs_m[i][k];
+            let turn = (ends[0].rotation * ends[1].rotation.transpose()).vector();
+            let shift = sub(ends[0].translation, ends[1].translation);
+            for r in 0..3 {
+                jacobian[(r, 3 * i + k)] = turn[r] / (2.0 * step) * sigmas_m[i];
+                jacobian[(3 + r, 3 * i + k)] = shift[r] / (2.0 * step) * sigmas_m[i];
+            }
+        }
+    }
+    let covariance = &jacobian * jacobian.transpose();
+    let matrix = Matrix6::from_fn(|i, j| covariance[(i, j)]);
+    Ok(PoseCovariance::new(centre.translation, &matrix))
+}
+
+/// A nominal plane of FROM and where the probe's ball stood when it touched the real one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TouchedPlane {
+    /// A point of the nominal plane in FROM, metres.
+    pub point_m: Vector,
+    /// Its outward normal in FROM, unit.
+    pub normal: Vector,
+    /// Centres of the ball in TO, at least three, metres.
+    pub touches_m: Vec<Vector>,
+}
+
+/// A motion fitted to points and planes together.
+#[derive(Clone, Debug)]
+pub struct FeatureFit {
+    /// Maps coordinates of FROM into TO.
+    pub to_from_from: Pose,
+    /// What is left of each point, metres.
+    pub points_m: Vec<Vector>,
+    /// What is left of each touch of each plane, along its normal, metres.
+    pub planes_m: Vec<Vec<f64>>,
+    /// Standard deviation of one residual, metres; of the touches where `sigma_m` was given.
+    pub sigma_m: f64,
+    /// Covariance of the motion.
+    pub covariance: PoseCovariance,
+}
+
+/// Fits the motion that carries nominal points to measured ones and nominal planes to their touches, all with the same
+/// standard deviation: Gauss–Newton on `T p − q` and `n·(T⁻¹ q − p) − r` from a closed-form start.
+///
+/// # Errors
+/// If a plane cannot be fitted or points and planes together leave a motion free; the motion is named.
+pub fn points_and_planes(
+    points: &[(Vector, Vector)],
+    planes: &[TouchedPlane],
+    probe_radius_m: f64,
+    sigma_m: Option<f64>,
+) -> Result<FeatureFit, FrameError> {
+    let mut pose = start(points, planes, probe_radius_m)?;
+    let touches: usize = planes.iter().map(|p| p.touches_m.len()).sum();
+    let rows = 3 * points.len() + touches;
+    let mut jacobian = DMatrix::zeros(rows.max(6), 6);
+    let mut left = DVector::zeros(rows.max(6));
+    let centre = measured_centre(points, planes);
+    let reach = spread(points, planes, centre);
+    for _ in 0..30 {
+        let mut row = 0;
+        for (p, q) in points {
+            let at = pose.transform(*p);
+            let arm = crossing(sub(at, centre));
+            for k in 0..3 {
+                left[row] = at[k] - q[k];
+                for j in 0..3 {
+                    jacobian[(row, j)] = -arm[(k, j)] / reach;
+                    jacobian[(row, 3 + j)] = f64::from(u8::from(j == k));
+                }
+                row += 1;
+            }
+        }
+        for plane in planes {
+            let normal = pose.rotation * plane.normal;
+            let on = pose.transform(plane.point_m);
+            for q in &plane.touches_m {
+                left[row] = dot(normal, sub(*q, on)) - probe_radius_m;
+                let turn = cross(sub(*q, centre), normal);
+                for j in 0..3 {
+                    jacobian[(row, j)] = -turn[j] / reach;
+                    jacobian[(row, 3 + j)] = -normal[j];
+                }
+                row += 1;
+            }
+        }
+        let svd = linear::svd(&jacobian);
+        refuse_free(&svd)?;
+        let along = svd.left.transpose() * -&left;
+        let step = &svd.right * along.component_div(&svd.values);
+        let turn = [step[0], step[1], step[2]].map(|v| v / reach);
+        let shift = [step[3], step[4], step[5]];
+        let back = sub(pose.translation, centre);
+        let turned = Rotation::from_vector(turn);
+        pose = Pose {
+            rotation: turned * pose.rotation,
+            translation: add(add(centre, shift), turned * back),
+        };
+        if norm(turn) < 1e-14 && norm(shift) < 1e-14 {
+            break;
+        }
+    }
+    #[allow(clippy::cast_precision_loss)]
+    let freedom = (rows as f64 - 6.0).max(1.0);
+    let sigma = sigma_m.unwrap_or((left.norm_squared() / freedom).sqrt());
+    let svd = linear::svd(&jacobian);
+    let scaled = Matrix6::from_fn(|i, j| {
+        let value: f64 = (0..6)
+            .map(|k| svd.right[(i, k)] * svd.right[(j, k)] / svd.values[k].powi(2))
+            .sum();
+        let unit = |i: usize| if i < 3 { 1.0 / reach } else { 1.0 };
+        value * unit(i) * unit(j) * sigma * sigma
+    });
+    let points_m = points
+        .iter()
+        .map(|(p, q)| sub(*q, pose.transform(*p)))
+        .collect();
+    let planes_m = planes.iter().map(|plane| {
+        let normal = pose.rotation * plane.normal;
+        let on = pose.transform(plane.point_m);
+        let left = plane.touches_m.iter();
+        left.map(|q| dot(normal, sub(*q, on)) - probe_radius_m)
+            .collect()
+    });
+    Ok(FeatureFit {
+        to_from_from: pose,
+        points_m,
+        planes_m: planes_m.collect(),
+        sigma_m: sigma,
+        covariance: PoseCovariance::new(centre, &scaled),
+    })
+}
+
+fn measured_centre(points: &[(Vector, Vector)], planes: &[TouchedPlane]) -> Vector {
+    let all = points
+        .iter()
+        .map(|p| p.1)
+        .chain(planes.iter().flat_map(|p| p.touches_m.iter().copied()));
+    let (sum, count) = all.fold(([0.0; 3], 0.0), |(sum, n), p| (add(sum, p), n + 1.0));
+    scale(1.0 / f64::max(count, 1.0), sum)
+}
+
+fn spread(points: &[(Vector, Vector)], planes: &[TouchedPlane], centre: Vector) -> f64 {
+    let all = points
+        .iter()
+        .map(|p| p.1)
+        .chain(planes.iter().flat_map(|p| p.touches_m.iter().copied()));
+    all.map(|p| norm(sub(p, centre))).fold(1e-9, f64::max)
+}
+
+fn refuse_free(svd: &linear::Svd) -> Result<(), FrameError> {
+    let smallest = svd.values[5] / svd.values[0];
+    if smallest > 1e-4 {
+        return Ok(());
+    }
+    let open = svd.right.column(5);
+    let (turn, shift) = (
+        Vector3::new(open[0], open[1], open[2]),
+        Vector3::new(open[3], open[4], open[5]),
+    );
+    let (what, v) = if turn.norm() > shift.norm() {
+        ("turning about", turn.normalize())
+    } else {
+        ("sliding along", shift.normalize())
+    };
+    Err(FrameError::Free {
+        motion: format!("{what} ({:.2}, {:.2}, {:.2})", v[0], v[1], v[2]),
+        smallest,
+    })
+}
+
+/// Rotation from matched directions (normals, and points from their centre), translation by least squares.
+fn start(
+    points: &[(Vector, Vector)],
+    planes: &[TouchedPlane],
+    probe_radius_m: f64,
+) -> Result<Pose, FrameError> {
+    if planes.is_empty() {
+        let (from, to): (Vec<_>, Vec<_>) = points.iter().copied().unzip();
+        return Ok(kabsch(&from, &to, None)?.to_from_from);
+    }
+    let mut fitted = Vec::new();
+    for plane in planes {
+        let fit = features::plane(&plane.touches_m).map_err(|error| FrameError::Feature {
+            datum: "a plane",
+            error,
+        })?;
+        fitted.push(fit);
+    }
+    // the fitted normals' signs are open: the choice that fits best
+    let signs = 1_usize << fitted.len().min(10);
+    let mut best: Option<(f64, Pose)> = None;
+    for sign in 0..signs {
+        let Some((cost, pose)) = start_with(points, planes, &fitted, sign, probe_radius_m) else {
+            continue;
+        };
+        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            best = Some((cost, pose));
+        }
+    }
+    best.map(|(_, pose)| pose).ok_or(FrameError::Free {
+        motion: "the directions of the features are all parallel".into(),
+        smallest: 0.0,
+    })
+}
+
+fn start_with(
+    points: &[(Vector, Vector)],
+    planes: &[TouchedPlane],
+    fitted: &[Plane],
+    sign: usize,
+    probe_radius_m: f64,
+) -> Option<(f64, Pose)> {
+    let mut directions = Vec::new();
+    for (i, (plane, fit)) in planes.iter().zip(fitted).enumerate() {
+        let s = if sign >> i & 1 == 1 { -1.0 } else { 1.0 };
+        directions.push((plane.normal, scale(s, fit.normal)));
+    }
+    for pair in points.windows(2) {
+        let (a, b) = (sub(pair[1].0, pair[0].0), sub(pair[1].1, pair[0].1));
+        let (la, lb) = (norm(a), norm(b));
+        if la > 0.0 && lb > 0.0 {
+            directions.push((scale(1.0 / la, a), scale(1.0 / lb, b)));
+        }
+    }
+    // a rotation about the origin: the directions and their opposites as points
+    let (mut from, mut to) = (Vec::new(), Vec::new());
+    for (a, b) in directions {
+        from.extend([a, scale(-1.0, a)]);
+        to.extend([b, scale(-1.0, b)]);
+    }
+    // two directions alone have no third: their product
+    let products: Vec<_> = (2..from.len())
+        .step_by(2)
+        .map(|i| (cross(from[0], from[i]), cross(to[0], to[i])))
+        .collect();
+    for (a, b) in products {
+        from.extend([a, scale(-1.0, a)]);
+        to.extend([b, scale(-1.0, b)]);
+    }
+    let rotation = kabsch(&from, &to, None).ok()?.to_from_from.rotation;
+    let rows = 3 * points.len() + planes.len();
+    let mut a = DMatrix::zeros(rows.max(3), 3);
+    let mut b = DVector::zeros(rows.max(3));
+    let mut row = 0;
+    for (p, q) in points {
+        let missing = sub(*q, rotation * *p);
+        for k in 0..3 {
+            a[(row, k)] = 1.0;
+            b[row] = missing[k];
+            row += 1;
+        }
+    }
+    for (plane, fit) in planes.iter().zip(fitted) {
+        let normal = rotation * plane.normal;
+        for k in 0..3 {
+            a[(row, k)] = normal[k];
+        }
+        b[row] = dot(normal, sub(fit.centre_m, rotation * plane.point_m)) - probe_radius_m;
+        row += 1;
+    }
+    let svd = linear::svd(&a);
+    let mut along = svd.left.transpose() * &b;
+    for (value, s) in along.iter_mut().zip(svd.values.iter()) {
+        *value = if *s > 1e-9 { *value / s } else { 0.0 };
+    }
+    let t = &svd.right * along;
+    let directions_left: f64 = from
+        .iter()
+        .zip(&to)
+        .map(|(a, b)| norm(sub(*b, rotation * *a)).powi(2))
+        .sum();
+    let cost = directions_left + (&a * &t - &b).norm_squared();
+    let pose = Pose {
+        rotation,
+        translation: [t[0], t[1], t[2]],
+    };
+    Some((cost, pose))
+}

@@ -1,0 +1,202 @@
+//! Camera and board poses fitted to all rows together.
+
+use crate::geometry::{Pose, Rotation, Vector, norm};
+use crate::register::uncertainty::{PoseCovariance, crossing};
+use nalgebra::{Matrix6, SMatrix, SVector, Vector3, Vector6};
+
+/// Largest number of steps.
+const STEPS: usize = 30;
+/// Standard deviations below these are rounding: radians, metres.
+const FLOOR: [f64; 2] = [1e-12, 1e-12];
+
+/// What is left of one row: rotation (radians) and distance (metres) of the board from where the others say it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Left {
+    /// In the fit.
+    pub rotation_rad: f64,
+    /// In the fit.
+    pub distance_m: f64,
+    /// When this row is left out of the fit.
+    pub out_rotation_rad: f64,
+    /// When this row is left out of the fit.
+    pub out_distance_m: f64,
+}
+
+/// The joint fit.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// X: `flange_from_camera` or `base_from_camera`.
+    pub camera: Pose,
+    /// Y: `base_from_board` or `flange_from_board`.
+    pub board: Pose,
+    /// Covariance of X along the axes of the frame it maps into, about the camera's origin.
+    pub camera_covariance: PoseCovariance,
+    /// Covariance of Y likewise.
+    pub board_covariance: PoseCovariance,
+    /// Standard deviation of one rotation coordinate of a row, radians.
+    pub sigma_rotation_rad: f64,
+    /// Standard deviation of one coordinate of a row's position, metres.
+    pub sigma_position_m: f64,
+    /// Root mean square rotation left, radians.
+    pub rotation_rad: f64,
+    /// Root mean square distance left, metres.
+    pub distance_m: f64,
+    /// Steps until it stood still.
+    pub steps: usize,
+    /// Each row.
+    pub rows: Vec<Left>,
+}
+
+type Jacobian = SMatrix<f64, 6, 12>;
+
+/// `log(Y⁻¹ A X B)` as rotation vector and translation in the board's frame, and its derivative by small motions of X and Y
+/// behind each.
+fn residual(a: &Pose, b: &Pose, camera: &Pose, board_back: &Pose) -> (Vector6<f64>, Jacobian) {
+    let e = *board_back * *a * *camera * *b;
+    let (r, t) = (e.rotation.vector(), e.translation);
+    let left = Vector6::new(r[0], r[1], r[2], t[0], t[1], t[2]);
+    let back = b.rotation.transpose();
+    let turn = nalgebra::Matrix3::from_fn(|i, j| back.0[i][j]);
+    let mut jacobian = Jacobian::zeros();
+    jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&turn);
+    let lever = -(turn * crossing(b.translation));
+    jacobian.fixed_view_mut::<3, 3>(3, 0).copy_from(&lever);
+    jacobian.fixed_view_mut::<3, 3>(3, 3).copy_from(&turn);
+    for i in 0..6 {
+        jacobian[(i, 6 + i)] = -1.0;
+    }
+    (left, jacobian)
+}
+
+fn moved(pose: &Pose, step: &[f64]) -> Pose {
+    *pose
+        * Pose {
+            rotation: Rotation::from_vector([step[0], step[1], step[2]]),
+            translation: [step[3], step[4], step[5]],
+        }
+}
+
+/// Gauss–Newton from X; Y starts at the mean of what the rows say. Rotations and positions are weighted by their own noise,
+/// which comes from what is left of them.
+pub(super) fn refine(a: &[Pose], b: &[Pose], start: Pose) -> Refined {
+    let n = a.len();
+    let mut camera = start;
+    let mut board = a[0] * camera * b[0];
+    let mut sigma = [1.0, 1.0];
+    let mut steps = 0;
+    let mut information = SMatrix::<f64, 12, 12>::zeros();
+    for round in 0..STEPS {
+        steps = round + 1;
+        information.fill(0.0);
+        let mut right = SVector::<f64, 12>::zeros();
+        let mut sums = [0.0; 2];
+        let back = board.inverse();
+        for (a, b) in a.iter().zip(b) {
+            let (left, jacobian) = residual(a, b, &camera, &back);
+            for k in 0..6 {
+                let kind = k / 3;
+                sums[kind] += left[k] * left[k];
+                let weight = 1.0 / (sigma[kind] * sigma[kind]);
+                let row = jacobian.row(k);
+                // rows touch six or seven of the twelve: plain loops over the lower triangle
+                for i in 0..12 {
+                    let w = weight * row[i];
+                    if w != 0.0 {
+                        right[i] -= w * left[k];
+                        for j in 0..=i {
+                            information[(i, j)] += w * row[j];
+                        }
+                    }
+                }
+            }
+        }
+        information.fill_upper_triangle_with_lower_triangle();
+        let Some(factor) = information.cholesky() else {
+            break;
+        };
+        let step = factor.solve(&right);
+        camera = moved(&camera, &step.as_slice()[..6]);
+        board = moved(&board, &step.as_slice()[6..]);
+        // six unknowns of each kind
+        #[allow(clippy::cast_precision_loss)]
+        let freedom = (3 * n - 6).max(1) as f64;
+        let now = [0, 1].map(|k| (sums[k] / freedom).sqrt().max(FLOOR[k]));
+        let settled = (0..2).all(|k| (now[k] / sigma[k] - 1.0).abs() < 1e-6 || now[k] <= FLOOR[k]);
+        // the first step mends what the start left; its noise is not yet that of the rows
+        if round > 0 {
+            sigma = now;
+        }
+        if step.norm() < 1e-12 && (settled || round > 10) {
+            break;
+        }
+    }
+    finish(a, b, camera, board, &information, sigma, steps)
+}
+
+fn finish(
+    a: &[Pose],
+    b: &[Pose],
+    camera: Pose,
+    board: Pose,
+    information: &SMatrix<f64, 12, 12>,
+    sigma: [f64; 2],
+    steps: usize,
+) -> Refined {
+    let covariance = information
+        .try_inverse()
+        .unwrap_or_else(SMatrix::<f64, 12, 12>::zeros);
+    let weights = Vector6::from_fn(|i, _| 1.0 / (sigma[i / 3] * sigma[i / 3]));
+    let back = board.inverse();
+    let row = |(a, b): (&Pose, &Pose)| {
+        let (left, jacobian) = residual(a, b, &camera, &back);
+        // left out, a residual grows by (1 − J C Jᵀ W)⁻¹
+        let share = jacobian * covariance * jacobian.transpose() * Matrix6::from_diagonal(&weights);
+        let out = (Matrix6::identity() - share)
+            .try_inverse()
+            .map_or(left, |grown| grown * left);
+        let length = |v: &Vector6<f64>, at: usize| Vector3::new(v[at], v[at + 1], v[at + 2]).norm();
+        Left {
+            rotation_rad: length(&left, 0),
+            distance_m: length(&left, 3),
+            out_rotation_rad: length(&out, 0),
+            out_distance_m: length(&out, 3),
+        }
+    };
+    let rows: Vec<Left> = a.iter().zip(b).map(row).collect();
+    #[allow(clippy::cast_precision_loss)]
+    let rms = |of: fn(&Left) -> f64| {
+        (rows.iter().map(|r| of(r).powi(2)).sum::<f64>() / rows.len() as f64).sqrt()
+    };
+    let part = |at: usize, pose: &Pose| {
+        let block = Matrix6::from_fn(|i, j| covariance[(at + i, at + j)]);
+        along_world(&block, pose)
+    };
+    Refined {
+        camera_covariance: part(0, &camera),
+        board_covariance: part(6, &board),
+        camera,
+        board,
+        sigma_rotation_rad: sigma[0],
+        sigma_position_m: sigma[1],
+        rotation_rad: rms(|r| r.rotation_rad),
+        distance_m: rms(|r| r.distance_m),
+        steps,
+        rows,
+    }
+}
+
+/// A covariance of small motions behind a pose, told along the axes of the frame that the pose maps into.
+fn along_world(block: &Matrix6<f64>, pose: &Pose) -> PoseCovariance {
+    let turn = nalgebra::Matrix3::from_fn(|i, j| pose.rotation.0[i][j]);
+    let mut both = Matrix6::zeros();
+    both.fixed_view_mut::<3, 3>(0, 0).copy_from(&turn);
+    both.fixed_view_mut::<3, 3>(3, 3).copy_from(&turn);
+    PoseCovariance::new(pose.translation, &(both * block * both.transpose()))
+}
+
+/// Root mean square of distances.
+pub(super) fn rms_m(vectors: &[Vector]) -> f64 {
+    #[allow(clippy::cast_precision_loss)]
+    let mean = vectors.iter().map(|v| norm(*v).powi(2)).sum::<f64>() / vectors.len() as f64;
+    mean.sqrt()
+}

@@ -1,0 +1,255 @@
+//! The commands: promised keys, bad input, and the page docs/measuring.md as it stands.
+
+use crate::support::{poseshift, repository, scratch, text};
+use serde_json::Value;
+use std::path::Path;
+
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = poseshift()
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    (
+        output.status.code(),
+        String::from_utf8_lossy(&output.stdout).into_owned(),
+        String::from_utf8_lossy(&output.stderr).into_owned(),
+    )
+}
+
+fn data(name: &str) -> String {
+    let path = repository("tests/data/register").join(name);
+    path.to_str().expect("a plain path").to_owned()
+}
+
+#[test]
+fn reports_have_the_promised_keys() {
+    let folder = scratch();
+    let cases: [(&[&str], &[&str]); 2] = [
+        (
+            &[
+                "register",
+                &data("from.csv"),
+                &data("to.csv"),
+                "--json",
+                "--at",
+                "1000,0,0",
+            ],
+            &[
+                "poseshift",
+                "rotation",
+                "quaternion",
+                "euler_xyz_deg",
+                "translation_mm",
+                "rmsd_mm",
+                "residuals_mm",
+                "sigma",
+                "at",
+            ],
+        ),
+        (
+            &[
+                "handeye",
+                &data("robot.csv"),
+                &data("board.csv"),
+                "--setup",
+                "eye-in-hand",
+                "--json",
+            ],
+            &[
+                "poseshift",
+                "camera",
+                "board",
+                "by_method",
+                "residual_mm",
+                "residual_deg",
+                "sigma",
+            ],
+        ),
+    ];
+    for (arguments, keys) in cases {
+        let (status, out, told) = run(folder.path(), arguments);
+        assert_eq!(status, Some(0), "{told}");
+        let report: Value = serde_json::from_str(&out).expect("JSON and nothing else");
+        for key in keys {
+            assert!(!report[*key].is_null(), "{key}");
+        }
+    }
+}
+
+fn write(folder: &Path, name: &str, rows: &[[f64; 3]]) {
+    let mut text = String::from("id,x_mm,y_mm,z_mm\n");
+    for (i, [x, y, z]) in rows.iter().enumerate() {
+        text += &format!("p{i},{x},{y},{z}\n");
+    }
+    std::fs::write(folder.join(name), text).expect("scratch");
+}
+
+#[test]
+fn bad_point_sets_are_refused_by_name() {
+    let folder = scratch();
+    let at = folder.path();
+    let good = [
+        [0.0, 0.0, 0.0],
+        [400.0, 0.0, 0.0],
+        [400.0, 300.0, 0.0],
+        [0.0, 300.0, 0.0],
+        [200.0, 100.0, 90.0],
+    ];
+    write(at, "good.csv", &good);
+    let moved = good.map(|[x, y, z]| [x + 10.0, y - 5.0, z + 2.0]);
+    write(at, "two.csv", &moved[..2]);
+    write(at, "line.csv", &good.map(|[x, _, _]| [x, 2.0 * x, 0.0]));
+    write(at, "one.csv", &good.map(|_| [5.0, 5.0, 5.0]));
+    write(at, "mirrored.csv", &good.map(|[x, y, z]| [-x, y, z]));
+    write(at, "metres.csv", &moved.map(|p| p.map(|v| v / 1000.0)));
+    let ids = std::fs::read_to_string(at.join("good.csv")).expect("scratch");
+    std::fs::write(
+        at.join("ids.csv"),
+        ids.replace("p4", "q4").replace("90", "91"),
+    )
+    .expect("scratch");
+    std::fs::write(at.join("nan.csv"), ids.replace("300", "NaN")).expect("scratch");
+    write(at, "two_from.csv", &good[..2]);
+    let cases = [
+        ("good.csv", "good.csv", "identical"),
+        ("two_from.csv", "two.csv", "2 points"),
+        ("good.csv", "line.csv", "collinear"),
+        ("good.csv", "one.csv", "coincide"),
+        ("good.csv", "mirrored.csv", "mirror image"),
+        ("good.csv", "metres.csv", "TO is in metres"),
+        ("good.csv", "ids.csv", "without a partner"),
+        ("good.csv", "nan.csv", "not a finite number"),
+        ("good.csv", "missing.csv", "missing.csv"),
+    ];
+    for (from, to, message) in cases {
+        let (status, out, told) = run(at, &["register", from, to, "-o", "f.yaml"]);
+        assert!(status == Some(2) && told.contains(message), "{to}: {told}");
+        assert!(out.is_empty() && !at.join("f.yaml").exists());
+    }
+}
+
+#[test]
+fn bad_hand_eye_sets_are_refused_with_the_reason() {
+    let folder = scratch();
+    let at = folder.path();
+    let header = "x_mm,y_mm,z_mm,qw,qx,qy,qz\n";
+    let about_z = |sign: f64| -> String {
+        (0..6)
+            .map(|k| {
+                let half = 0.1 * f64::from(k);
+                format!(
+                    "{},0,500,{},0,0,{}\n",
+                    10 * k,
+                    half.cos(),
+                    sign * half.sin()
+                )
+            })
+            .collect()
+    };
+    std::fs::write(at.join("robot.csv"), header.to_owned() + &about_z(1.0)).expect("scratch");
+    std::fs::write(at.join("board.csv"), header.to_owned() + &about_z(-1.0)).expect("scratch");
+    let (status, _, told) = run(
+        at,
+        &[
+            "handeye",
+            "robot.csv",
+            "board.csv",
+            "--setup",
+            "eye-in-hand",
+        ],
+    );
+    assert!(status == Some(2) && told.contains("one axis"), "{told}");
+    let still: String = (0..5).map(|k| format!("{k},0,0,1,0,0,0\n")).collect();
+    std::fs::write(at.join("still.csv"), header.to_owned() + &still).expect("scratch");
+    let (status, _, told) = run(
+        at,
+        &[
+            "handeye",
+            "still.csv",
+            "still.csv",
+            "--setup",
+            "eye-in-hand",
+        ],
+    );
+    assert!(
+        status == Some(2) && told.contains("do not rotate"),
+        "{told}"
+    );
+    // rows of the board one off
+    let board = text("tests/data/register/board.csv");
+    let lines: Vec<&str> = board.lines().collect();
+    let mut shifted = vec![lines[0]];
+    shifted.extend(&lines[2..]);
+    shifted.push(lines[1]);
+    std::fs::write(at.join("shifted.csv"), shifted.join("\n")).expect("scratch");
+    let robot = data("robot.csv");
+    let (status, _, told) = run(
+        at,
+        &["handeye", &robot, "shifted.csv", "--setup", "eye-in-hand"],
+    );
+    assert!(
+        status == Some(2) && told.contains("different angles"),
+        "{told}"
+    );
+    // the camera is said to stand where it is carried
+    let (status, _, told) = run(
+        at,
+        &[
+            "handeye",
+            &robot,
+            &data("board.csv"),
+            "--setup",
+            "eye-to-hand",
+        ],
+    );
+    assert!(
+        status == Some(2) && told.contains("other --setup"),
+        "{told}"
+    );
+}
+
+/// Blocks of the page: commands, and what they print.
+#[test]
+fn the_worked_examples_of_the_measuring_page_run_as_printed() {
+    let page = text("docs/measuring.md");
+    let folder = scratch();
+    for entry in std::fs::read_dir(repository("docs/measuring")).expect("the data of the page") {
+        let entry = entry.expect("a file");
+        std::fs::copy(entry.path(), folder.path().join(entry.file_name())).expect("scratch");
+    }
+    let (mut commands, mut lines) = (0, 0);
+    for block in page.split("```console\n").skip(1) {
+        let block = block.split("```").next().expect("a block has an end");
+        let mut out = String::new();
+        for line in block.lines() {
+            if let Some(command) = line.strip_prefix("$ poseshift ") {
+                let words: Vec<String> = command
+                    .split_whitespace()
+                    .map(|word| {
+                        let given = repository(word);
+                        let is_ours = word.contains('/') && given.exists();
+                        if is_ours {
+                            given.display().to_string()
+                        } else {
+                            word.to_owned()
+                        }
+                    })
+                    .collect();
+                let words: Vec<&str> = words.iter().map(String::as_str).collect();
+                let (status, printed, told) = run(folder.path(), &words);
+                assert_eq!(status, Some(0), "{command}: {told}");
+                out = printed + &told;
+                commands += 1;
+            } else {
+                let shown = line.trim_end();
+                assert!(
+                    out.lines().any(|l| l.trim_end() == shown),
+                    "{shown}\nis not in\n{out}"
+                );
+                lines += 1;
+            }
+        }
+    }
+    assert!(commands >= 11 && lines >= 15, "{commands} {lines}");
+}
