@@ -27,6 +27,7 @@
 //! # Ok::<(), poseshift::model::profile::ProfileError>(())
 //! ```
 
+pub mod check;
 pub mod cli;
 pub mod compensate;
 pub mod finding;
@@ -37,3 +38,4 @@ pub mod model;
 pub mod program;
 pub mod register;
 pub mod report;
+pub mod urdf;

@@ -3,6 +3,7 @@
 mod axes;
 mod calibrate;
 mod catalogue;
+mod check;
 mod compensate;
 mod failure;
 mod files;
@@ -63,6 +64,7 @@ pub struct Output {
 #[derive(Subcommand)]
 enum Command {
     Compensate(compensate::Compensate),
+    Check(check::Check),
     Calibrate(calibrate::Calibrate),
     Validate(validate::Validate),
     Plan(plan::PlanCommand),
@@ -96,6 +98,7 @@ pub fn run() -> ExitCode {
     let CommandLine { command, output } = CommandLine::parse();
     let answer = match command {
         Command::Compensate(command) => command.run(output),
+        Command::Check(command) => command.run(output),
         Command::Calibrate(command) => command.run(output),
         Command::Validate(command) => command.run(output),
         Command::Plan(command) => command.run(output),

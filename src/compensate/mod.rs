@@ -22,6 +22,7 @@ mod outcome;
 mod placement;
 mod posture;
 mod rewrite;
+pub(crate) mod route;
 
 pub use outcome::{Compensation, Summary, TargetReport, meaning};
 pub use placement::{Given, MeasuredFrameError, PlacementError};
@@ -96,13 +97,13 @@ struct Job<'a> {
 }
 
 /// An arm with one of the program's tools.
-struct Equipped {
-    arm: Arm,
-    controller: Model,
+pub(crate) struct Equipped {
+    pub(crate) arm: Arm,
+    pub(crate) controller: Model,
     /// The inverse of a controller that computes with a calibrated chain of its own.
-    calibrated_controller: Option<Inverse>,
+    pub(crate) calibrated_controller: Option<Inverse>,
     /// The real arm without conditions.
-    inverse: Inverse,
+    pub(crate) inverse: Inverse,
 }
 
 impl Equipped {

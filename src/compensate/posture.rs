@@ -10,7 +10,7 @@ use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
 use crate::model::Conditions;
 use crate::model::effects::Need;
-use crate::program::{Configuration, Decoded, Value};
+use crate::program::{Configuration, Decoded, Displacement, Value};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
 const BORDER_RAD: f64 = 0.05 * DEG;
@@ -35,14 +35,14 @@ struct Way {
 
 /// Where the path has been.
 #[derive(Clone, Copy, Default)]
-struct Path {
-    file: u32,
-    joints: Option<[f64; 6]>,
-    direction: [i8; 6],
+pub(super) struct Path {
+    pub file: u32,
+    pub joints: Option<[f64; 6]>,
+    pub direction: [i8; 6],
 }
 
 impl Path {
-    fn go(&mut self, q: [f64; 6]) {
+    pub fn go(&mut self, q: [f64; 6]) {
         if let Some(before) = self.joints {
             for i in 0..6 {
                 let by = q[i] - before[i];
@@ -84,6 +84,7 @@ pub(super) fn choose(
                 job,
                 target,
                 places[target],
+                &Displacement::None,
                 motion.configured && motion.near.is_none(),
                 start,
                 findings,
@@ -112,7 +113,16 @@ pub(super) fn choose(
         }
     }
     for target in (0..places.len()).filter(|target| seen[*target].is_none()) {
-        tasks.extend(task(job, target, places[target], true, None, findings));
+        let none = &Displacement::None;
+        tasks.extend(task(
+            job,
+            target,
+            places[target],
+            none,
+            true,
+            None,
+            findings,
+        ));
     }
     tasks.sort_unstable_by_key(|task| task.target);
     tasks
@@ -122,12 +132,13 @@ fn decoded(job: &Job, target: usize) -> Option<Decoded> {
     meaning(job.language, job.program, job.settings, target)
 }
 
-/// The task of one target. `honoured`: the controller uses its configuration data. `start`: the joints from which the robot
+/// The task of one target, displaced as a move to it says; `None` where that is unknown. `honoured`: the controller uses its configuration data. `start`: the joints from which the robot
 /// comes, or from which its inverse starts.
-fn task(
+pub(super) fn task(
     job: &Job,
     target: usize,
     place: Option<Place>,
+    displacement: &Displacement,
     honoured: bool,
     start: Option<[f64; 6]>,
     findings: &mut Vec<Finding>,
@@ -145,6 +156,11 @@ fn task(
             q,
         ),
         Value::Pose(frame_from_tool) => {
+            let frame_from_tool = match displacement {
+                Displacement::None => frame_from_tool,
+                Displacement::By(shift) => shift.apply(&frame_from_tool),
+                Displacement::Unknown => return None,
+            };
             let wanted = job.on_part(*job.world_from_frame(frame) * frame_from_tool);
             let asked = Asked {
                 target,

@@ -7,7 +7,7 @@
 
 use super::effects::Deflection;
 use super::geometry::{Body, Geometry, Link, Mechanism};
-use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, scale, sub};
+use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, norm, scale, sub};
 
 /// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(u1) · F1 · Rz(u2) · … · Rz(u6) · F6`, with
 /// the mechanical joint angles u in the controller's sense.
@@ -162,6 +162,44 @@ impl<S: Scalar> Chain<S> {
             pose = pose.turned(turns[i]) * bent;
         }
         pose * Pose::from_xyz_rxryrz(deflection.tool)
+    }
+
+    /// `world_from_link`, the frame after each row, with rotations of the links and the base where there are any.
+    #[must_use]
+    pub fn links(&self, turns: &[Turn<S>; 6], deflection: Option<&Deflection<S>>) -> [Pose<S>; 6] {
+        let mut pose = self.fixed[0];
+        if let Some(deflection) = deflection {
+            pose = Pose::from_xyz_rxryrz(deflection.world) * pose;
+        }
+        let mut links = [pose; 6];
+        for i in 0..6 {
+            let turning = pose.turned(turns[i]);
+            links[i] = turning * self.turning_from_link[i];
+            let Some(deflection) = deflection else {
+                pose = turning * self.fixed[i + 1];
+                continue;
+            };
+            let [x, y, z] = deflection.links[i];
+            let bend = Rotation::about_x(x) * Rotation::about_y(y) * Rotation::about_z(z);
+            links[i] = links[i] * Pose::from_rotation(bend);
+            pose = links[i] * self.turning_from_link[i].inverse() * self.fixed[i + 1];
+        }
+        links
+    }
+
+    /// Lengths of the way from the origin of each link's frame to the next, the base's first, metres.
+    #[must_use]
+    pub fn reaches(&self, world_from_base: &Pose<S>) -> [S; 6] {
+        let zero = [Turn::none(); 6];
+        let links = self.links(&zero, None);
+        std::array::from_fn(|i| {
+            let before = if i == 0 {
+                world_from_base.translation
+            } else {
+                links[i - 1].translation
+            };
+            norm(sub(links[i].translation, before))
+        })
     }
 
     /// `world_from_link`: the frame after each row of the chain.

@@ -1,6 +1,6 @@
 //! The report of `compensate`: `compensation/1`.
 
-use super::pose;
+use super::{one_or_many, pose};
 use crate::compensate::{Compensation, Summary, meaning};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::{Language, Source, Value as TargetValue};
@@ -24,11 +24,6 @@ pub struct Header<'a> {
 /// The JSON document.
 #[must_use]
 pub fn json(header: &Header, compensation: &Compensation) -> Value {
-    let one_or_many = |names: &[String]| match names {
-        [] => Value::Null,
-        [one] => json!(one),
-        many => json!(many),
-    };
     let mut findings_of: BTreeMap<(&str, usize), Vec<&str>> = BTreeMap::new();
     for finding in &compensation.findings {
         let place = (finding.file.as_str(), finding.line);

@@ -1,6 +1,7 @@
 //! The tests that look at the program from outside, in one binary.
 
 mod architecture;
+mod check;
 mod cli;
 mod documents;
 mod golden;

@@ -17,9 +17,22 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "compensate",
         &["finding", "geometry", "inverse", "model", "program"],
     ),
+    ("urdf", &["geometry", "model"]),
+    (
+        "check",
+        &[
+            "compensate",
+            "finding",
+            "geometry",
+            "inverse",
+            "model",
+            "program",
+        ],
+    ),
     (
         "report",
         &[
+            "check",
             "compensate",
             "finding",
             "geometry",
@@ -32,6 +45,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "check",
             "compensate",
             "finding",
             "geometry",
@@ -41,6 +55,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "program",
             "register",
             "report",
+            "urdf",
         ],
     ),
     ("main", &["cli"]),
