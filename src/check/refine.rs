@@ -64,6 +64,7 @@ pub fn refine(
         decimals: decimals.unwrap_or(0).max(DECIMALS),
         settings: Settings {
             pulses_per_deg: subject.profile.pulses_per_deg,
+            ..Settings::default()
         },
     };
     let changes: Vec<Change> = (0..walk.route.stops.len())

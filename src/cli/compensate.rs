@@ -85,7 +85,8 @@ impl Compensate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let (profile, profile_sha256) = files::read_profile(&self.profile)?;
         refuse_doubtful(&profile, &self.profile)?;
-        let options = self.options(&profile)?;
+        let each = output.json || self.max_path_error.is_some();
+        let options = self.options(&profile, each)?;
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let found = self.find_programs(asked)?;
         let sources = found
@@ -138,7 +139,8 @@ impl Compensate {
         Ok(if refused { Answer::No } else { Answer::Yes })
     }
 
-    fn options(&self, profile: &Profile) -> Result<Options, Failure> {
+    /// `each`: each target is reported on.
+    fn options(&self, profile: &Profile, each: bool) -> Result<Options, Failure> {
         let mut given = Given::default();
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
@@ -165,6 +167,7 @@ impl Compensate {
             work_offset,
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
+            summary_only: !each,
             accept_absolutely_accurate: self.force,
         })
     }

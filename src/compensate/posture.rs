@@ -3,12 +3,11 @@
 
 use super::outcome::meaning;
 use super::placement::{Place, name_of};
-use super::{Job, Task};
+use super::{Draft, Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
-use crate::model::Conditions;
 use crate::model::effects::Need;
 use crate::program::{Configuration, Decoded, Displacement, Value};
 
@@ -55,18 +54,18 @@ impl Path {
     }
 }
 
-/// The tasks of all targets that have a place and a branch, in the order of the targets.
+/// Drafts of the tasks of all targets that have a place and a branch, in the order of the targets.
 pub(super) fn choose(
     job: &Job,
     places: &[Option<Place>],
     findings: &mut Vec<Finding>,
-) -> Vec<Task> {
+) -> Vec<Draft> {
     let directed = job
         .profile
         .effects
         .iter()
         .any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions));
-    let mut tasks: Vec<Task> = Vec::with_capacity(places.iter().flatten().count());
+    let mut tasks: Vec<Draft> = Vec::with_capacity(places.iter().flatten().count());
     // where the task of each target is in the list, once its first move is seen
     let mut seen: Vec<Option<Option<usize>>> = vec![None; places.len()];
     let mut path = Path::default();
@@ -89,7 +88,7 @@ pub(super) fn choose(
                 start,
                 findings,
             )?;
-            tasks.push(task);
+            tasks.push(Draft::of(&task));
             Some(tasks.len() - 1)
         });
         seen[target] = Some(index);
@@ -114,15 +113,8 @@ pub(super) fn choose(
     }
     for target in (0..places.len()).filter(|target| seen[*target].is_none()) {
         let none = &Displacement::None;
-        tasks.extend(task(
-            job,
-            target,
-            places[target],
-            none,
-            true,
-            None,
-            findings,
-        ));
+        let task = task(job, target, places[target], none, true, None, findings);
+        tasks.extend(task.as_ref().map(Draft::of));
     }
     tasks.sort_unstable_by_key(|task| task.target);
     tasks
@@ -149,19 +141,15 @@ pub(super) fn task(
         value,
         configuration,
     } = decoded(job, target)?;
-    let (wanted, branch, nominal_q) = match value {
-        Value::Joints(q) => (
-            job.on_part(equipped.controller.forward(&q, &Conditions::default())),
-            equipped.arm.posture(&q).0,
-            q,
-        ),
-        Value::Pose(frame_from_tool) => {
-            let frame_from_tool = match displacement {
-                Displacement::None => frame_from_tool,
-                Displacement::By(shift) => shift.apply(&frame_from_tool),
-                Displacement::Unknown => return None,
-            };
-            let wanted = job.on_part(*job.world_from_frame(frame) * frame_from_tool);
+    let value = match (value, displacement) {
+        (Value::Joints(_), _) | (_, Displacement::None) => value,
+        (Value::Pose(pose), Displacement::By(shift)) => Value::Pose(shift.apply(&pose)),
+        (Value::Pose(_), Displacement::Unknown) => return None,
+    };
+    let wanted = job.wanted(&value, tool, frame);
+    let (branch, nominal_q) = match value {
+        Value::Joints(q) => (equipped.arm.posture(&q).0, q),
+        Value::Pose(_) => {
             let asked = Asked {
                 target,
                 arm: &equipped.arm,
@@ -171,7 +159,7 @@ pub(super) fn task(
                 start,
             };
             let way = choose_way(job, &asked, findings)?;
-            (wanted, way.branch, way.q)
+            (way.branch, way.q)
         }
     };
     Some(Task {

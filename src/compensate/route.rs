@@ -46,6 +46,7 @@ pub(crate) fn route(
 ) -> Result<Route, CompensateError> {
     let settings = Settings {
         pulses_per_deg: profile.pulses_per_deg,
+        ..Settings::default()
     };
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();
@@ -55,7 +56,7 @@ pub(crate) fn route(
         correct_joint_targets: true,
         ..Options::default()
     };
-    let setting = Setting::of(&program, profile, given);
+    let setting = Setting::of(language, &program, profile, given);
     let mut job = Job {
         language,
         settings: &settings,
