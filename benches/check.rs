@@ -57,14 +57,18 @@ fn program(profile: &Profile) -> Source {
 /// A wavy floor below the tool and a ring of walls.
 fn triangles() -> Vec<[[f64; 3]; 3]> {
     let point = |i: u32, j: u32| {
-        let (u, v) = (f64::from(i) / f64::from(SIDE), f64::from(j) / f64::from(SIDE));
+        let (u, v) = (
+            f64::from(i) / f64::from(SIDE),
+            f64::from(j) / f64::from(SIDE),
+        );
         let (x, y) = (1.4 * u - 0.4, 1.4 * v - 0.7);
         [x, y, -0.06 + 0.03 * (9.0 * x).sin() * (7.0 * y).cos()]
     };
     let mut out = Vec::new();
     for i in 0..SIDE {
         for j in 0..SIDE {
-            let [a, b, c, d] = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| point(i, j));
+            let [a, b, c, d] =
+                [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| point(i, j));
             out.push([a, b, c]);
             out.push([b, d, c]);
         }
@@ -73,7 +77,8 @@ fn triangles() -> Vec<[[f64; 3]; 3]> {
 }
 
 fn bench(c: &mut Criterion) {
-    let profile = Profile::from_yaml(include_str!("../robots/abb_irb120_thesis.yaml")).expect("a profile");
+    let profile =
+        Profile::from_yaml(include_str!("../robots/abb_irb120_thesis.yaml")).expect("a profile");
     let mesh = Mesh::of(&triangles(), 1.0).expect("a mesh");
     assert_eq!(mesh.triangles.len(), 20_000);
     let cell = "poseshift: cell/1\nclearance_mm: 5\nbodies: [{name: floor, mesh: floor.stl}]\n\
@@ -94,7 +99,9 @@ fn bench(c: &mut Criterion) {
     let found = check(&subject(&scene), &Options::default()).expect("a check");
     println!("{:?}", found.summary);
     let mut group = c.benchmark_group("check");
-    group.sample_size(10).throughput(Throughput::Elements(u64::from(TARGETS)));
+    group
+        .sample_size(10)
+        .throughput(Throughput::Elements(u64::from(TARGETS)));
     group.bench_function("10 000 targets, paths only", |b| {
         b.iter(|| black_box(check(&subject(&empty), &Options::default())));
     });
@@ -102,7 +109,12 @@ fn bench(c: &mut Criterion) {
         b.iter(|| black_box(check(&subject(&scene), &Options::default())));
     });
     // parry alone: one posture a target, no guarantee between, is anything nearer than 105 mm?
-    let vertices = mesh.triangles.iter().flatten().map(|p| Glam::new(p[0], p[1], p[2])).collect();
+    let vertices = mesh
+        .triangles
+        .iter()
+        .flatten()
+        .map(|p| Glam::new(p[0], p[1], p[2]))
+        .collect();
     let faces = (0..20_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let floor = TriMesh::new(vertices, faces).expect("a mesh");
     let rods: Vec<(usize, Capsule)> = profile
@@ -110,7 +122,11 @@ fn bench(c: &mut Criterion) {
         .iter()
         .filter(|shape| shape.link > 1)
         .filter_map(|shape| match shape.shape.form {
-            Form::Capsule { from_m, to_m, radius_m } => {
+            Form::Capsule {
+                from_m,
+                to_m,
+                radius_m,
+            } => {
                 let end = |p: [f64; 3]| Glam::new(p[0], p[1], p[2]);
                 Some((shape.link, Capsule::new(end(from_m), end(to_m), radius_m)))
             }
@@ -127,17 +143,27 @@ fn bench(c: &mut Criterion) {
             translation: Glam::new(a, b, c),
         }
     };
-    group.bench_function("parry alone, 10 000 postures, capsules against 20 000 triangles", |b| {
-        b.iter(|| {
-            for n in 0..TARGETS {
-                let frames = real.link_frames(&joints(n), &Conditions::default());
-                for (link, rod) in &rods {
-                    let place = placed(&frames[*link]);
-                    black_box(query::closest_points(&ParryPose::identity(), &floor, &place, rod, 0.105)).ok();
+    group.bench_function(
+        "parry alone, 10 000 postures, capsules against 20 000 triangles",
+        |b| {
+            b.iter(|| {
+                for n in 0..TARGETS {
+                    let frames = real.link_frames(&joints(n), &Conditions::default());
+                    for (link, rod) in &rods {
+                        let place = placed(&frames[*link]);
+                        black_box(query::closest_points(
+                            &ParryPose::identity(),
+                            &floor,
+                            &place,
+                            rod,
+                            0.105,
+                        ))
+                        .ok();
+                    }
                 }
-            }
-        });
-    });
+            });
+        },
+    );
     group.finish();
 }
 

@@ -64,6 +64,7 @@ pub fn refine(
         decimals: decimals.unwrap_or(0).max(DECIMALS),
         settings: Settings {
             pulses_per_deg: subject.profile.pulses_per_deg,
+            ..Settings::default()
         },
     };
     let changes: Vec<Change> = (0..walk.route.stops.len())
@@ -342,13 +343,8 @@ impl Job<'_> {
         };
         let roles = language.roles(target.layout);
         let mut values: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-        let frame = program.frames[motion.frame].world_from_frame;
-        let frame = frame.or_else(|| {
-            let given = &self.options.given.frames;
-            let name = Some(program.frames[motion.frame].name.clone());
-            given.get(&name).or_else(|| given.get(&None)).copied()
-        });
-        let value = Value::Pose(frame.unwrap_or_else(Pose::identity).inverse() * point.fake);
+        let frame = self.walk.route.frames[motion.frame].unwrap_or_else(Pose::identity);
+        let value = Value::Pose(frame.inverse() * point.fake);
         let posture = |q: &[f64; 6]| {
             let (branch, _) = leg.equipped.arm.posture(q);
             Posture {
