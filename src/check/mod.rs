@@ -805,8 +805,7 @@ impl Job<'_> {
             } else {
                 format!("at {:.1} % of the move", 100.0 * found.at)
             };
-            let place =
-                format!("{when} (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)");
+            let place = format!("{when} (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)");
             let (id, message) = if found.sampled_m <= 0.0 {
                 let id = if which == "real" {
                     "collision"
