@@ -800,10 +800,12 @@ impl Job<'_> {
             });
             let joints = found.joints.map(|q| format!("{:.2}", q / DEG)).join(", ");
             let [x, y, z] = found.points[1].map(mm_from_m);
-            let place = format!(
-                "at {:.1} % of the move (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)",
-                100.0 * found.at
-            );
+            let when = if first {
+                "where it begins".to_owned()
+            } else {
+                format!("at {:.1} % of the move", 100.0 * found.at)
+            };
+            let place = format!("{when} (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)");
             let (id, message) = if found.sampled_m <= 0.0 {
                 let id = if which == "real" {
                     "collision"

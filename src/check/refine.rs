@@ -157,26 +157,47 @@ impl Job<'_> {
             moves: points.len() * each,
             findings,
         };
-        let failed = |why: &str| {
+        let told = |id: &'static str, severity: Severity, message: String, hint: &str| {
             let source = &self.subject.sources[motion.file as usize];
             let (line, column) = source.line_column(motion.offset as usize);
             let finding = Finding {
-                id: "path-not-refined",
-                severity: Severity::Error,
+                id,
+                severity,
                 file: source.name.clone(),
                 line,
                 column,
-                message: format!(
-                    "the path of this move is up to {:.3} mm beside the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
-                    mm_from_m(whole),
-                    mm_from_m(self.limit_m)
-                ),
-                hint: "a larger --max-path-error, or shorter moves".into(),
+                message,
+                hint: hint.into(),
             };
             let mut change = change(Vec::new(), &[], vec![finding]);
             (change.targets, change.moves) = (0, 0);
             Some(change)
         };
+        let failed = |why: &str| {
+            let message = format!(
+                "the path of this move is up to {:.3} mm beside the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
+                mm_from_m(whole),
+                mm_from_m(self.limit_m)
+            );
+            let hint = "a larger --max-path-error, or shorter moves";
+            told("path-not-refined", Severity::Error, message, hint)
+        };
+        // a joint target that stays as it is: no target between helps at the end itself
+        let beside = |point: &Point| {
+            let nominal = leg.joints(point.s, &leg.start);
+            let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
+            let landed = arms.plain.real.forward(&point.q, &leg.conditions);
+            landed.separation(&wanted).distance_m
+        };
+        let ends = beside(&first).max(beside(&last));
+        if ends > self.limit_m {
+            let message = format!(
+                "this move begins or ends {:.3} mm beside its wanted path, at a target that stays as it is: no targets are inserted",
+                mm_from_m(ends)
+            );
+            let hint = "--joint-targets correct shifts joint targets, too";
+            return told("path-from-kept-target", Severity::Note, message, hint);
+        }
         if !is_pose {
             return failed("its target is given in joints");
         }
@@ -343,13 +364,8 @@ impl Job<'_> {
         };
         let roles = language.roles(target.layout);
         let mut values: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-        let frame = program.frames[motion.frame].world_from_frame;
-        let frame = frame.or_else(|| {
-            let given = &self.options.given.frames;
-            let name = Some(program.frames[motion.frame].name.clone());
-            given.get(&name).or_else(|| given.get(&None)).copied()
-        });
-        let value = Value::Pose(frame.unwrap_or_else(Pose::identity).inverse() * point.fake);
+        let frame = self.walk.route.frames[motion.frame].unwrap_or_else(Pose::identity);
+        let value = Value::Pose(frame.inverse() * point.fake);
         let posture = |q: &[f64; 6]| {
             let (branch, _) = leg.equipped.arm.posture(q);
             Posture {

@@ -11,10 +11,8 @@ use std::collections::BTreeMap;
 /// Meshes by the name that a profile or cell file gives them.
 pub type Meshes = BTreeMap<String, Mesh>;
 
-/// The robot's own links that are nearer than this in the chain are kept apart by its joint limits, …
-const OWN: usize = 3;
-/// … and what is attached touches the link that carries it and the one before.
-const ATTACHED: usize = 2;
+/// Bodies whose links are nearer than this in the chain are kept apart by the joint limits, and their capsules overlap.
+const APART: usize = 3;
 
 /// A body that moves with a link.
 #[derive(Clone, Debug)]
@@ -202,8 +200,7 @@ impl Scene {
                     names.contains(&&pair.a) && names.contains(&&pair.b)
                 });
                 // what moves together cannot come nearer; neighbours touch; a cell file may name others
-                let least = if own { OWN } else { ATTACHED };
-                if apart == 0 || (apart < least && !(said && apart > usize::from(own))) {
+                if apart == 0 || (apart < APART && !(said && apart > usize::from(own))) {
                     continue;
                 }
                 if let Some(required_m) = required(one.name, other.name) {

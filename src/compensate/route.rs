@@ -35,6 +35,8 @@ pub(crate) struct Route {
     pub arms: Vec<Option<Equipped>>,
     /// Likewise, as far as anybody knows them.
     pub tools: Vec<Option<Mounted>>,
+    /// `world_from_frame` by index of the program's work frames, likewise.
+    pub frames: Vec<Option<Pose>>,
 }
 
 /// Reads a program and follows its moves.
@@ -46,7 +48,8 @@ pub(crate) fn route(
 ) -> Result<Route, CompensateError> {
     let settings = Settings {
         pulses_per_deg: profile.pulses_per_deg,
-        ..Settings::default()
+        // nothing is rewritten
+        accept_absolutely_accurate: true,
     };
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();
@@ -117,13 +120,15 @@ pub(crate) fn route(
         }
         stops.push(stop);
     }
-    let (arms, tools) = (std::mem::take(&mut job.arms), job.setting.tools);
+    let arms = std::mem::take(&mut job.arms);
+    let Setting { tools, frames } = job.setting;
     Ok(Route {
         program,
         findings,
         stops,
         arms,
         tools,
+        frames,
     })
 }
 

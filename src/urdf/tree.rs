@@ -52,7 +52,8 @@ struct Tree<'a> {
 }
 
 pub fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
-    if text.contains("<xacro:") || (text.contains("xmlns:xacro") && text.contains("${")) {
+    let code = without_comments(text);
+    if code.contains("<xacro:") || (code.contains("xmlns:xacro") && code.contains("${")) {
         return Err(UrdfError::Xacro);
     }
     let robot = urdf_rs::read_from_string(text).map_err(|error| UrdfError::Unreadable {
@@ -62,6 +63,17 @@ pub fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
     let base = tree.base(choice)?;
     let tip = tree.tip(base, choice)?;
     tree.arm(base, tip, choice)
+}
+
+/// XML without its comments.
+fn without_comments(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("<!--") {
+        out.push_str(before);
+        rest = after.split_once("-->").map_or("", |(_, behind)| behind);
+    }
+    out + rest
 }
 
 impl<'a> Tree<'a> {

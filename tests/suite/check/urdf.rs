@@ -101,6 +101,9 @@ fn chains_of_any_six_axes_move_like_their_urdf() {
         seen += 1;
     }
     assert_eq!(seen, 60);
+    // a macro in a comment is none
+    let text = urdf(&usual(), "<!-- <xacro:macro name=\"m\"/> -->");
+    assert!(convert(&text).is_ok());
 }
 
 #[test]
