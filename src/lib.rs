@@ -31,6 +31,7 @@ pub mod cli;
 pub mod compensate;
 pub mod finding;
 pub mod geometry;
+pub mod identify;
 pub mod inverse;
 pub mod model;
 pub mod program;

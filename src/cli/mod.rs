@@ -1,10 +1,12 @@
 //! The command line: the only place with paths, colour and standard output. One file a command.
 
+mod calibrate;
 mod catalogue;
 mod compensate;
 mod failure;
 mod files;
 mod kinematics;
+mod measurements;
 mod profile;
 mod shell;
 mod table;
@@ -50,6 +52,7 @@ pub struct Output {
 #[derive(Subcommand)]
 enum Command {
     Compensate(compensate::Compensate),
+    Calibrate(calibrate::Calibrate),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
     Profile(profile::ProfileCommand),
@@ -75,6 +78,7 @@ pub fn run() -> ExitCode {
     let CommandLine { command, output } = CommandLine::parse();
     let answer = match command {
         Command::Compensate(command) => command.run(output),
+        Command::Calibrate(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),
         Command::Profile(command) => command.run(output),

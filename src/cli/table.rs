@@ -192,3 +192,40 @@ pub const POSE: [&str; 7] = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"];
 pub fn cell(value: f64) -> String {
     format!("{}", if value == 0.0 { 0.0 } else { value })
 }
+
+/// Columns of text, the first to the left and the others to the right.
+pub fn aligned(rows: &[Vec<String>]) -> String {
+    let count = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..count).map(width).collect();
+    let mut out = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (column, cell) in row.iter().enumerate() {
+            let pad = " ".repeat(widths[column] - cell.chars().count());
+            if column == 0 {
+                line += &format!("{cell}{pad}");
+            } else {
+                line += &format!("  {pad}{cell}");
+            }
+        }
+        out += line.trim_end();
+        out.push('\n');
+    }
+    out
+}
+
+/// Header of a table of statistics.
+pub const SPREAD_HEADER: [&str; 8] = ["error", "n", "mean", "std", "rms", "95 %", "99.7 %", "max"];
+
+/// Statistics as a row of such a table.
+pub fn spread_row(name: &str, s: &crate::identify::statistics::Spread) -> Vec<String> {
+    let mut row = vec![name.to_owned(), s.n.to_string()];
+    // small errors have digits too
+    let decimals = if s.max < 1e-3 { 7 } else { 3 };
+    row.extend([s.mean, s.std, s.rms, s.p95, s.p997, s.max].map(|v| format!("{v:.decimals$}")));
+    row
+}

@@ -21,9 +21,9 @@ use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, scale, s
 /// Thesis, Annex I, regrouped.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<S = f64> {
-    fixed: [Pose<S>; 7],
+    pub(super) fixed: [Pose<S>; 7],
     /// `Di · Trans(0, 0, di)`: the frame after each row, seen from the frame that its joint turns.
-    turning_from_link: [Pose<S>; 6],
+    pub(super) turning_from_link: [Pose<S>; 6],
 }
 
 /// The links at one posture, without deflections.
@@ -37,20 +37,20 @@ pub struct Frames<S> {
 
 /// What a field of acceleration acts on: the mass on each link and all links farther out.
 #[derive(Clone, Copy, Debug)]
-struct Hanging<S = f64> {
-    mass_kg: [S; 6],
+pub(super) struct Hanging<S = f64> {
+    pub(super) mass_kg: [S; 6],
     /// First moment of that mass about the origin of the turning frame, in that frame, as far as no joint farther out moves
     /// it, kg·m.
-    fixed_moment: [Vector<S>; 6],
+    pub(super) fixed_moment: [Vector<S>; 6],
 }
 
 /// What hangs on the chain: masses that gravity pulls, and the point where an external force acts.
 #[derive(Clone, Copy, Debug)]
 pub struct Loads<S = f64> {
-    masses: Hanging<S>,
-    gravity_m_s2: Vector<S>,
+    pub(super) masses: Hanging<S>,
+    pub(super) gravity_m_s2: Vector<S>,
     /// One kilogram at the controller's tool: a field of so many m/s² pulls it with so many newton.
-    unit_mass: Hanging<S>,
+    pub(super) unit_mass: Hanging<S>,
 }
 
 impl<S: Scalar> Hanging<S> {
@@ -223,7 +223,7 @@ impl<S: Scalar> Chain<S> {
     /// Calls `each` with the index of a joint, the first moment of all that hangs on it and the field, both in the frame
     /// that it turns, from the last joint to the first.
     #[inline(always)]
-    fn pull(
+    pub(super) fn pull(
         &self,
         turns: &[Turn<S>; 6],
         hanging: &Hanging<S>,
@@ -245,6 +245,17 @@ impl<S: Scalar> Chain<S> {
             let Turn { sine, cosine } = turns[i];
             let [x, y, z] = moment;
             moment = self.fixed[i].rotation * [cosine * x - sine * y, sine * x + cosine * y, z];
+        }
+    }
+}
+
+impl Frames<f64> {
+    /// The same frames as constants of another scalar.
+    #[must_use]
+    pub fn cast<S: Scalar>(&self) -> Frames<S> {
+        Frames {
+            links: self.links.map(|link| link.cast()),
+            moments: self.moments.map(|moment| moment.map(S::constant)),
         }
     }
 }

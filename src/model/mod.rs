@@ -11,12 +11,14 @@ pub mod effects;
 mod geometry;
 pub mod profile;
 mod real;
+mod sensitivity;
 
 pub use batch::forward_batch;
 pub use chain::{Chain, Frames};
 pub use conditions::Conditions;
 pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};
 pub use real::Model;
+pub use sensitivity::{Motion, Sensitivity, Slot};
 
 /// Number of joints of every robot here.
 pub const JOINTS: usize = 6;

@@ -17,13 +17,13 @@ use crate::geometry::{Dual, Pose, Scalar, Turn};
 /// angles: small perturbations superpose (thesis, Annex I).
 #[derive(Clone, Debug)]
 pub struct Model<S = f64> {
-    chain: Chain<S>,
-    loads: Loads<S>,
-    mechanism: Mechanism,
+    pub(super) chain: Chain<S>,
+    pub(super) loads: Loads<S>,
+    pub(super) mechanism: Mechanism,
     /// The effects that depend on the posture.
-    deflecting: Vec<Effect<S>>,
-    loaded: bool,
-    bends: bool,
+    pub(super) deflecting: Vec<Effect<S>>,
+    pub(super) loaded: bool,
+    pub(super) bends: bool,
     reads_angles: bool,
 }
 
@@ -118,7 +118,7 @@ impl<S: Scalar> Model<S> {
     }
 
     #[inline(always)]
-    fn deflect(
+    pub(super) fn deflect(
         &self,
         commanded: &[S; 6],
         turns: &[Turn<S>; 6],

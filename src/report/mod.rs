@@ -2,6 +2,7 @@
 
 pub mod compensation;
 pub mod findings;
+pub mod identification;
 pub mod profile;
 
 use crate::geometry::Pose;

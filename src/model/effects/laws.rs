@@ -3,7 +3,7 @@
 use super::{Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site};
 use crate::geometry::{Dual, Pose};
 use crate::model::profile::Profile;
-use crate::model::{Conditions, Model};
+use crate::model::{Conditions, Model, Motion, Sensitivity, Slot};
 
 /// Postures, away from singularities and limits.
 const POSTURES: [[f64; 6]; 3] = [
@@ -228,6 +228,94 @@ fn an_entry_written_is_read_as_the_same_effect() {
         assert!(back.same_place(&effect), "{}", d.id);
         for (a, b) in back.parameters.iter().zip(&effect.parameters) {
             assert!((a - b).abs() <= 1e-15 * b.abs(), "{}", d.id);
+        }
+    }
+}
+
+/// Rounding of derivatives of poses of some metres.
+const SLOPE_TOLERANCE: f64 = 1e-11;
+
+/// Every effect of the registry at once, none of its parameters zero, and a second compliance that all torques reach.
+fn all_effects() -> Vec<Effect> {
+    let mut all: Vec<Effect> = REGISTRY
+        .iter()
+        .map(|kind| {
+            let mut parameters = [0.0; MOST_PARAMETERS];
+            for (slot, parameter) in parameters.iter_mut().zip(kind.definition().parameters) {
+                *slot = 2.0 * parameter.prior_sigma * parameter.unit.in_si();
+            }
+            Effect {
+                kind: *kind,
+                site: site(),
+                parameters,
+            }
+        })
+        .collect();
+    for index in [0, 1, 2, 4, 5] {
+        let mut effect = all
+            .iter()
+            .find(|e| e.kind == Kind::JointCompliance)
+            .expect("it is in the registry")
+            .clone();
+        effect.site.index = index;
+        all.push(effect);
+    }
+    all
+}
+
+#[test]
+fn fast_derivatives_agree_with_full_duals() {
+    let (profile, conditions) = (profile(), conditions());
+    let mut geometry = profile.geometry(&tool());
+    geometry.world_from_base = Pose::from_xyz_rxryrz([2.0, -1.0, 0.5, 0.7, -0.4, 2.0]);
+    let everything = all_effects();
+    // effects that bend take another way through the derivatives: each with the plain ones, and the plain ones alone
+    let plain: Vec<Effect> = everything
+        .iter()
+        .filter(|effect| !effect.definition().bends)
+        .cloned()
+        .collect();
+    for effects in [&plain, &everything] {
+        let mut slots = Vec::new();
+        for (effect, e) in effects.iter().enumerate() {
+            let count = e.definition().parameters.len();
+            slots.extend((0..count).map(|parameter| Slot { effect, parameter }));
+        }
+        let fast = Sensitivity::build(
+            &geometry,
+            &profile.mechanism,
+            effects,
+            &slots,
+            &conditions,
+        );
+        let mut motions = vec![Motion::default(); slots.len()];
+        for q in &POSTURES {
+            let pose = fast.evaluate(q, &conditions, &mut motions);
+            for (slot, motion) in slots.iter().zip(&motions) {
+                let mut dual: Vec<Effect<Dual<1>>> = effects.iter().map(Effect::cast).collect();
+                dual[slot.effect].parameters[slot.parameter].slope = [1.0];
+                let model = Model::build(&geometry, &profile.mechanism, &dual, &conditions);
+                let full = model.forward(
+                    &q.map(|q| Dual {
+                        value: q,
+                        slope: [0.0],
+                    }),
+                    &conditions,
+                );
+                let label = format!("{} {}", effects[slot.effect].label(), slot.parameter);
+                for i in 0..3 {
+                    assert!((full.translation[i].value - pose.translation[i]).abs() < 1e-14);
+                    let gap = (full.translation[i].slope[0] - motion.shift_m[i]).abs();
+                    assert!(gap < SLOPE_TOLERANCE, "{label}: {gap}");
+                }
+                // dR = [ω]× R
+                let slope = crate::geometry::Rotation(full.rotation.0.map(|r| r.map(|x| x.slope[0])));
+                let turn = (slope * pose.rotation.transpose()).sine_axis();
+                for i in 0..3 {
+                    let gap = (turn[i] - motion.turn_rad[i]).abs();
+                    assert!(gap < SLOPE_TOLERANCE, "{label}: {gap}");
+                }
+            }
         }
     }
 }

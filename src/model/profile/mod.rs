@@ -3,10 +3,12 @@
 mod error;
 mod file;
 mod shipped;
+mod write;
 
 pub use error::{Fault, ProfileError};
 pub use file::{ControllerModel, FORMAT, ProfileFile};
 pub use shipped::SHIPPED;
+pub use write::{WriteError, rewritten};
 
 use super::effects::{Effect, Kind};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};

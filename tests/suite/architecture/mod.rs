@@ -10,6 +10,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("model", &["geometry"]),
     ("inverse", &["geometry", "model"]),
+    ("identify", &["geometry", "inverse", "model"]),
     ("program", &["geometry", "finding"]),
     (
         "compensate",
@@ -21,6 +22,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "compensate",
             "finding",
             "geometry",
+            "identify",
             "inverse",
             "model",
             "program",
@@ -32,6 +34,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "compensate",
             "finding",
             "geometry",
+            "identify",
             "inverse",
             "model",
             "program",

@@ -1,0 +1,280 @@
+//! `calibrate`: measurements to a profile.
+
+use super::failure::Failure;
+use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
+use super::table::{aligned, spread_row, SPREAD_HEADER};
+use super::{Answer, Output, files, print, print_json};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::calibration::{BasePolicy, Calibration, Options, STRONG_CORRELATION, calibrate};
+use crate::identify::parameters::{Level, Selection};
+use crate::identify::robust::Shape;
+use crate::model::profile::rewritten;
+use crate::report::identification;
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Loss of a residual
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LossName {
+    /// Its square
+    Squares,
+    /// Its square, in proportion to it beyond 3 standard deviations
+    Huber,
+    /// Rows far beyond do not count at all
+    Tukey,
+}
+
+impl LossName {
+    /// The shape of this name.
+    pub const fn shape(self) -> Shape {
+        match self {
+            Self::Squares => Shape::Squares,
+            Self::Huber => Shape::Huber,
+            Self::Tukey => Shape::Tukey,
+        }
+    }
+}
+
+/// What becomes of the measured place of the base
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum BaseName {
+    /// `profile` where they are within 20 mm and 1 deg, else `device`
+    Auto,
+    /// It replaces the profile's base: the world is the device's frame
+    Device,
+    /// The profile's base stays: the difference is the effect `base_frame`
+    Profile,
+}
+
+/// Identify a robot's effects from measurements
+#[derive(Args)]
+pub struct Calibrate {
+    /// Robot profile (YAML)
+    #[arg(long, value_name = "FILE")]
+    profile: PathBuf,
+    #[command(flatten)]
+    measurements: MeasurementFiles,
+    /// Calibrated profile to write (YAML)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// 0 frames alone; 1 and joint offsets and scales; 2 and link geometry; 3 and joint compliance
+    #[arg(long, value_name = "0..3", value_parser = clap::value_parser!(u8).range(0..=3))]
+    level: Option<u8>,
+    /// Identify these effects as well: `joint_compliance:2-6,joint_harmonic:6:1`
+    #[arg(long, value_name = "LIST")]
+    identify: Option<String>,
+    /// Leave these as they are: `tool_frame,link_geometry:6.theta_deg`
+    #[arg(long, value_name = "LIST")]
+    fix: Option<String>,
+    /// Count each effect's typical size as one more measurement
+    #[arg(long)]
+    priors: bool,
+    /// How residuals count
+    #[arg(long, value_enum, default_value = "huber")]
+    loss: LossName,
+    /// What becomes of the measured place of the base
+    #[arg(long, value_enum, default_value = "auto")]
+    base: BaseName,
+    /// Date for the profile's provenance, as you write it
+    #[arg(long, value_name = "TEXT")]
+    date: Option<String>,
+}
+
+impl Calibrate {
+    fn options(&self) -> Result<Options, Failure> {
+        let identify = picks("--identify", self.identify.as_deref())?;
+        // a list without a level is meant alone
+        let level = match (self.level, &self.identify) {
+            (Some(0), _) | (None, Some(_)) => Level::Frames,
+            (Some(1), _) => Level::Joints,
+            (Some(2), _) => Level::Geometry,
+            _ => Level::Compliance,
+        };
+        Ok(Options {
+            selection: Selection {
+                level,
+                identify,
+                fix: picks("--fix", self.fix.as_deref())?,
+                priors: self.priors,
+            },
+            shape: self.loss.shape(),
+            base: match self.base {
+                BaseName::Auto => BasePolicy::Nearest,
+                BaseName::Device => BasePolicy::Device,
+                BaseName::Profile => BasePolicy::Profile,
+            },
+        })
+    }
+
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let options = self.options()?;
+        let (profile, profile_hash) = files::read_profile(&self.profile)?;
+        let (measurements, hashes) = self.measurements.read()?;
+        let name = self.measurements.name();
+        let found = calibrate(&profile, &measurements, &options)
+            .map_err(|error| identify_failure(&name, &error))?;
+        let mut report = identification::calibration(&found, &name);
+        report["profile_sha256"] = json!(profile_hash);
+        report["measurements_sha256"] = json!(hashes);
+        if let Some(path) = &self.output {
+            let mut calibrated = found.profile();
+            calibrated.quality = Some(identification::profile_quality(&found));
+            calibrated.provenance = Some(self.provenance(&found, &profile_hash, &hashes));
+            let text = rewritten(&files::read_text(&self.profile)?, &calibrated)
+                .map_err(|error| Failure::new(format!("{}: {error}", self.profile.display())))?;
+            files::write_all(&[(path.clone(), text.into_bytes())])?;
+            report["output"] = json!(path.display().to_string());
+        }
+        if output.json {
+            print_json(&report)?;
+            return Ok(Answer::Yes);
+        }
+        tell_findings(&identification::findings(&found.remarks, &name), output);
+        if !output.quiet {
+            print(&text(&found, output.verbose))?;
+            if let Some(path) = &self.output {
+                print(&format!("\nwritten to {}\n", path.display()))?;
+            }
+        }
+        Ok(Answer::Yes)
+    }
+
+    fn provenance(&self, found: &Calibration, profile: &str, measurements: &[String]) -> Value {
+        let rows = &found.problem.rows;
+        let temperatures: Vec<f64> = rows.iter().filter_map(|r| r.conditions.temperature_c).collect();
+        let mut map = json!({
+            "program": format!("poseshift {}", env!("CARGO_PKG_VERSION")),
+            "profile_sha256": profile,
+            "measurements_sha256": measurements,
+            "rows": rows.len(),
+            "stopped": found.stop().describe(),
+            "tools": found.problem.tools.iter().map(|t| json!({
+                "tool": t.name, "mass_kg": t.load.map_or(0.0, |(mass, _)| mass),
+            })).collect::<Vec<_>>(),
+        });
+        if !temperatures.is_empty() {
+            map["temperature_c"] = json!(temperatures.iter().sum::<f64>() / temperatures.len() as f64);
+        }
+        if let Some(date) = &self.date {
+            map["date"] = json!(date);
+        }
+        map
+    }
+}
+
+/// The report for people.
+fn text(found: &Calibration, all: bool) -> String {
+    let mut out = format!(
+        "{} rows, {} numbers, {} of {} parameters determined\n",
+        found.problem.rows.len(),
+        found.problem.numbers(),
+        found.solution.parameters.len(),
+        found.problem.parameters.len(),
+    );
+    out += &format!("stopped after {} passes: {}\n\n", found.solution.passes, found.stop().describe());
+    let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
+    let mut models = vec![
+        ("before", &found.before),
+        ("frames only", &found.frames_only_quality),
+        ("after", &found.after),
+    ];
+    if let Some((frames, full)) = &found.held_out {
+        models.extend([("held out, frames only", frames), ("held out, after", full)]);
+    }
+    for (name, quality) in models {
+        for (what, spread) in [
+            ("mm", quality.position),
+            ("deg", quality.orientation),
+            ("distance mm", quality.range),
+        ] {
+            rows.extend(spread.map(|s| spread_row(&format!("{name}, {what}"), &s)));
+        }
+    }
+    out += &aligned(&rows);
+    let u = &found.uncertainty;
+    let given = if found.problem.sigma_assumed { "assumed" } else { "given" };
+    out += &format!(
+        "\nresiduals are {:.2} times the {given} standard deviations; sigmas below are scaled by {:.2}\n",
+        u.sigma_factor, u.applied_factor
+    );
+    let o = &found.observability;
+    out += &format!("O1 {:.4}, condition number {:.3e}, rank {}\n\n", o.o1, o.condition_number, o.rank);
+    let mut rows = vec![["parameter", "value", "sigma", "unit"].map(str::to_owned).to_vec()];
+    for (parameter, value, sigma) in found.parameters() {
+        let unit = parameter.unit.in_si();
+        if let Some(sigma) = sigma {
+            let digits = |x: f64| if x.abs() < 1e-2 && x != 0.0 { format!("{x:.3e}") } else { format!("{x:.5}") };
+            rows.push(vec![
+                parameter.key.clone(),
+                digits(value / unit),
+                digits(sigma / unit),
+                parameter.unit.symbol().into(),
+            ]);
+        }
+    }
+    out += &aligned(&rows);
+    let names = &found.problem.parameters;
+    if !found.solution.identifiable.dropped.is_empty() {
+        out += "\nnot determined by these data, left as they were\n";
+    }
+    for dropped in &found.solution.identifiable.dropped {
+        let with: Vec<&str> = dropped.confounded_with.iter().take(3).map(|i| names[*i].key.as_str()).collect();
+        let why = if with.is_empty() {
+            "does nothing to what was measured".to_owned()
+        } else {
+            format!("like {}", with.join(", "))
+        };
+        out += &wrapped(&format!("  {}: {why}", names[dropped.parameter].key));
+    }
+    let strong = u.strong_correlations(STRONG_CORRELATION);
+    if !strong.is_empty() {
+        out += &format!("\n{} pairs of parameters are correlated by more than {STRONG_CORRELATION}\n", strong.len());
+        let shown = if all { strong.len() } else { 5 };
+        for (i, j, c) in strong.iter().take(shown) {
+            let keys = &found.solution.parameters;
+            out += &format!("  {c:+.3}  {} / {}\n", keys[*i].key, keys[*j].key);
+        }
+    }
+    if found.base_replaced {
+        let [x, y, z, rx, ry, rz] = found.solution.estimate.world_from_base.xyz_rxryrz();
+        out += &format!(
+            "\nthe base stands at ({:.3}, {:.3}, {:.3}) mm,\n  turned by ({:.5}, {:.5}, {:.5}) deg in the device's frame\n",
+            mm_from_m(x), mm_from_m(y), mm_from_m(z), rx / DEG, ry / DEG, rz / DEG
+        );
+    }
+    if !found.outliers.is_empty() {
+        out += &format!("\n{} rows do not fit the others\n", found.outliers.len());
+        let shown = if all { found.outliers.len() } else { 10 };
+        let mut rows = vec![["line", "id", "residual mm", "times typical", "weight"].map(str::to_owned).to_vec()];
+        for o in found.outliers.iter().take(shown) {
+            rows.push(vec![
+                o.line.to_string(),
+                o.id.clone(),
+                format!("{:.3}", mm_from_m(o.length_m)),
+                format!("{:.1} (limit {:.1})", o.times, o.limit),
+                format!("{:.2}", o.weight),
+            ]);
+        }
+        out += &aligned(&rows);
+    }
+    out
+}
+
+/// A line broken at 80 columns.
+fn wrapped(line: &str) -> String {
+    let mut out = String::new();
+    let mut length = 0;
+    for (n, word) in line.split(' ').enumerate() {
+        if length + 1 + word.chars().count() > 80 && length > 4 {
+            out += "\n     ";
+            length = 5;
+        } else if n > 0 {
+            out.push(' ');
+            length += 1;
+        }
+        out += word;
+        length += word.chars().count();
+    }
+    out + "\n"
+}

@@ -1,0 +1,402 @@
+//! The whole identification: screened measurements, a start, a solution, what it is worth.
+
+use super::error::IdentifyError;
+use super::identifiability::{Observability, observability, singular_values};
+use super::measurements::{Measurements, Purpose};
+use super::parameters::{Level, Parameter, Selection, Subject};
+use super::problem::{Estimate, Problem};
+use super::robust::{Shape, limit};
+use super::screening::{self, Remark};
+use super::solver::{Solution, Stop, absorb_base, solve};
+use super::start::{self, Start, base_gap};
+use super::statistics::{Quality, misses};
+use super::uncertainty::Uncertainty;
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::model::effects::Kind;
+use crate::model::profile::Profile;
+
+/// A row is an outlier whose residual is beyond this many times the limit of normal ones.
+pub const OUTLIER: f64 = 1.6;
+/// Residuals below this are nobody's outliers, metres.
+const SMALL_M: f64 = 1e-6;
+/// The profile's base is believed to be in the device's frame where the measured one is nearer than this, metres.
+const SAME_PLACE_M: f64 = 0.02;
+/// And turned by less than this, radians.
+const SAME_TURN_RAD: f64 = 1.0 * DEG;
+/// Correlations above this are told.
+pub const STRONG_CORRELATION: f64 = 0.9;
+
+/// What becomes of the measured place of the base.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BasePolicy {
+    /// It is the device's world that counts: `kinematics.base` is replaced.
+    Device,
+    /// The profile's base counts: the difference is the effect `base_frame`.
+    Profile,
+    /// `Profile` where they are within 20 mm and 1°, else `Device`.
+    Nearest,
+}
+
+/// How to identify.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// What.
+    pub selection: Selection,
+    /// The loss.
+    pub shape: Shape,
+    /// What becomes of the base.
+    pub base: BasePolicy,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            selection: Selection::level(Level::Compliance),
+            shape: Shape::Huber,
+            base: BasePolicy::Nearest,
+        }
+    }
+}
+
+/// A row that the model misses by far more than the others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outlier {
+    /// Index of the measurement.
+    pub measurement: usize,
+    /// Line in the file.
+    pub line: usize,
+    /// Its id.
+    pub id: String,
+    /// Measured minus expected, metres.
+    pub length_m: f64,
+    /// How many times the typical residual it is, and from how many on a row is an outlier.
+    pub times: f64,
+    /// The limit.
+    pub limit: f64,
+    /// The weight it had, 0 to 1.
+    pub weight: f64,
+}
+
+/// What was identified.
+#[derive(Clone, Debug)]
+pub struct Calibration {
+    /// The comparison.
+    pub problem: Problem,
+    /// The first guess.
+    pub start: Start,
+    /// The solution.
+    pub solution: Solution,
+    /// Base, tool and points alone.
+    pub frames_only: Solution,
+    /// Whether the measured base replaces the profile's.
+    pub base_replaced: bool,
+    /// How well it is known.
+    pub uncertainty: Uncertainty,
+    /// How well the configurations show the parameters.
+    pub observability: Observability,
+    /// The profile as it was, on the measurements.
+    pub before: Quality,
+    /// With base, tool and points fitted.
+    pub frames_only_quality: Quality,
+    /// With everything.
+    pub after: Quality,
+    /// Rows for `validate`, not used: frames only and everything.
+    pub held_out: Option<(Quality, Quality)>,
+    /// Rows that do not fit.
+    pub outliers: Vec<Outlier>,
+    /// What a person should look at.
+    pub remarks: Vec<Remark>,
+}
+
+/// The start with what the first guess says of tools and points.
+pub(super) fn begin(problem: &Problem, estimate: &mut Estimate, start: &Start) {
+    for ((tool, point), on_flange) in &start.points_on_flange_m {
+        let Some(mounted) = problem.tools.iter().find(|t| t.name == *tool) else {
+            continue;
+        };
+        let back = mounted.flange_from_tool.inverse();
+        if let Some(name) = point {
+            let index = problem.points.iter().position(|p| p.name == *name);
+            if let Some(index) = index.filter(|i| !problem.points[*i].known) {
+                estimate.points_m[index] = back.transform(*on_flange);
+            }
+            continue;
+        }
+        // the tool's origin was measured: its frame moves there
+        let turned = start.turned.iter().find(|(name, _)| name == tool).map(|(_, r)| *r);
+        let real = Pose {
+            rotation: turned.unwrap_or(mounted.flange_from_tool.rotation),
+            translation: *on_flange,
+        };
+        let fitted = |kind: Kind, subject: Subject| match subject {
+            Subject::Effect(slot) => estimate.effects[slot.effect].kind == kind,
+            Subject::Point { .. } => false,
+        };
+        if !problem.parameters.iter().any(|p| fitted(Kind::ToolFrame, p.subject)) {
+            continue;
+        }
+        let deviation = (mounted.flange_from_tool.inverse() * real).xyz_rxryrz();
+        for parameter in &problem.parameters {
+            if let Subject::Effect(slot) = parameter.subject {
+                let effect = &mut estimate.effects[slot.effect];
+                let mine = effect.site.tool.as_ref().is_none_or(|name| name == tool);
+                if effect.kind == Kind::ToolFrame && mine {
+                    effect.parameters[slot.parameter] = deviation[slot.parameter];
+                }
+            }
+        }
+    }
+}
+
+fn base_is_sought(selection: &Selection) -> bool {
+    !selection.fix.iter().any(|pick| pick.kind == Some(Kind::BaseFrame) && pick.key.is_none())
+}
+
+/// Fits base, tool and points of a model to measurements and leaves its arm as it is.
+///
+/// # Errors
+/// As [`calibrate`].
+pub fn fit_frames(
+    profile: &Profile,
+    measurements: &Measurements,
+    shape: Shape,
+    points_too: bool,
+) -> Result<(Problem, Solution), IdentifyError> {
+    let mut selection = Selection::level(Level::Frames);
+    if points_too && measurements.rows.iter().any(|row| row.point.is_some()) {
+        selection.identify = super::parameters::Pick::parse_list("points").expect("a word of the list");
+    }
+    let guess = start::find(profile, measurements);
+    let base = guess.as_ref().map_or(profile.world_from_base, |s| s.world_from_base);
+    let (problem, mut estimate) = Problem::new(profile, measurements, &selection, base)?;
+    if let Some(guess) = &guess {
+        estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame).for_each(|e| e.parameters = [0.0; 6]);
+        begin(&problem, &mut estimate, guess);
+    }
+    let solution = solve(&problem, estimate, shape, true)?;
+    Ok((problem, solution))
+}
+
+/// Identifies a robot's parameters from measurements.
+///
+/// # Errors
+/// Measurements that contradict the robot or themselves, too few of them, a start that does not follow from them, no
+/// convergence.
+pub fn calibrate(
+    profile: &Profile,
+    measurements: &Measurements,
+    options: &Options,
+) -> Result<Calibration, IdentifyError> {
+    let fit = measurements.filtered(|_, row| row.purpose != Some(Purpose::Validate));
+    if fit.rows.is_empty() {
+        return Err(IdentifyError::NothingToFit);
+    }
+    let mut remarks = screening::look(profile, &fit)?;
+    let found = start::find(profile, &fit);
+    if let Some(found) = &found {
+        remarks.extend(screening::doubt_start(profile, &fit, found)?);
+    }
+    let sought = base_is_sought(&options.selection);
+    let guess = match found {
+        Some(found) if sought => found,
+        _ => Start {
+            world_from_base: profile.world_from_base,
+            points_on_flange_m: Vec::new(),
+            rms_m: 0.0,
+            believed_rms_m: None,
+            turned: Vec::new(),
+        },
+    };
+    let moved_base = guess.world_from_base != profile.world_from_base;
+    let (problem, mut estimate) = Problem::new(profile, &fit, &options.selection, guess.world_from_base)?;
+    if problem.numbers() <= problem.parameters.len() {
+        return Err(IdentifyError::TooFew {
+            numbers: problem.numbers(),
+            rows: problem.rows.len(),
+            parameters: problem.parameters.len(),
+        });
+    }
+    let before_estimate = Estimate {
+        world_from_base: profile.world_from_base,
+        ..estimate.clone()
+    };
+    let before = Quality::of(&problem.rows, &misses(&problem, &before_estimate));
+    if moved_base {
+        estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame).for_each(|e| e.parameters = [0.0; 6]);
+    }
+    begin(&problem, &mut estimate, &guess);
+    let frames_selection = Selection {
+        level: Level::Frames,
+        identify: options.selection.identify.iter().filter(|p| p.kind.is_none()).cloned().collect(),
+        ..options.selection.clone()
+    };
+    let frames_only = {
+        let (frames, _) = Problem::new(profile, &fit, &frames_selection, guess.world_from_base)?;
+        let mut start = estimate.clone();
+        start.effects.truncate(start.effects.len());
+        let mut frames = frames;
+        frames.parameters = problem
+            .parameters
+            .iter()
+            .filter(|p| frames.parameters.iter().any(|f| f.key == p.key))
+            .cloned()
+            .collect();
+        solve(&frames, start, options.shape, sought)?
+    };
+    let frames_only_quality = Quality::of(&problem.rows, &misses(&problem, &frames_only.estimate));
+    let mut solution = solve(&problem, frames_only.estimate.clone(), options.shape, sought)?;
+    let counts: Vec<usize> = problem.rows.iter().map(|row| row.observed.count()).collect();
+    let uncertainty = Uncertainty::of(
+        &solution.normal,
+        &solution.parameters,
+        &counts,
+        solution.loss,
+        problem.sigma_assumed,
+    );
+    let after_misses = misses(&problem, &solution.estimate);
+    let after = Quality::of(&problem.rows, &after_misses);
+    remarks.extend(screening::doubt_fit(&after, &frames_only_quality)?);
+    let configurations = fit.configurations().last().map_or(0, |last| last + 1);
+    let values = solution.normal.factor().map(|r| singular_values(&r)).unwrap_or_default();
+    let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;
+    let outliers = outliers(&problem, &fit, &solution, &after_misses);
+    let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
+    let held_out = if held.rows.is_empty() {
+        None
+    } else {
+        Some((
+            judge(profile, &held, &problem, &frames_only.estimate)?,
+            judge(profile, &held, &problem, &solution.estimate)?,
+        ))
+    };
+    Ok(Calibration {
+        observability: observability(values, configurations),
+        problem,
+        start: guess,
+        frames_only,
+        base_replaced,
+        uncertainty,
+        before,
+        frames_only_quality,
+        after,
+        held_out,
+        outliers,
+        remarks,
+        solution,
+    })
+}
+
+/// Quality of an estimate on other measurements of the same set-up.
+///
+/// # Errors
+/// Unknown tools.
+pub fn judge(
+    profile: &Profile,
+    measurements: &Measurements,
+    problem: &Problem,
+    estimate: &Estimate,
+) -> Result<Quality, IdentifyError> {
+    let selection = Selection::level(Level::Frames);
+    let (other, mut values) = Problem::new(profile, measurements, &selection, estimate.world_from_base)?;
+    for (point, value) in other.points.iter().zip(&mut values.points_m) {
+        let same = problem.points.iter().position(|p| p.name == point.name);
+        if let Some(index) = same {
+            *value = estimate.points_m[index];
+        }
+    }
+    values.effects.clone_from(&estimate.effects);
+    let mut other = other;
+    other.sort_rigs(&values.effects);
+    Ok(Quality::of(&other.rows, &misses(&other, &values)))
+}
+
+/// Puts the measured base where the policy wants it. Whether it replaces the profile's.
+fn base_policy(
+    policy: BasePolicy,
+    profile: &Profile,
+    solution: &mut Solution,
+) -> Result<bool, IdentifyError> {
+    let measured = solution.estimate.world_from_base;
+    let (far, turned) = base_gap(&profile.world_from_base, &measured);
+    let near = far < SAME_PLACE_M && turned < SAME_TURN_RAD;
+    if policy == BasePolicy::Device || policy == BasePolicy::Nearest && !near {
+        absorb_base(&mut solution.estimate);
+        return Ok(true);
+    }
+    if turned > 60.0 * DEG {
+        return Err(IdentifyError::Suspicious {
+            message: format!(
+                "the base is {:.1} mm and {:.1} deg from where the profile has it",
+                mm_from_m(far),
+                turned / DEG
+            ),
+            hint: "with --base device the measured place replaces the profile's".into(),
+        });
+    }
+    let deviation = (profile.world_from_base.inverse() * measured).xyz_rxryrz();
+    for effect in solution.estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame) {
+        effect.parameters = deviation;
+    }
+    solution.estimate.world_from_base = profile.world_from_base;
+    Ok(false)
+}
+
+fn outliers(
+    problem: &Problem,
+    measurements: &Measurements,
+    solution: &Solution,
+    misses: &[super::statistics::Miss],
+) -> Vec<Outlier> {
+    let counts = problem.rows.iter().map(|row| row.observed.count());
+    let scale = super::robust::scale_of(&solution.normal.squares, counts);
+    let mut found = Vec::new();
+    for ((row, miss), squared) in problem.rows.iter().zip(misses).zip(&solution.normal.squares) {
+        let count = row.observed.count();
+        let typical = scale * (count as f64).sqrt();
+        let most = OUTLIER * limit(count) * scale;
+        if squared.sqrt() > most && miss.length_m > SMALL_M {
+            let m = &measurements.rows[row.measurement];
+            found.push(Outlier {
+                measurement: row.measurement,
+                line: m.line,
+                id: m.id.clone(),
+                length_m: miss.length_m,
+                times: squared.sqrt() / typical,
+                limit: most / typical,
+                weight: solution.loss.of(*squared, count).1,
+            });
+        }
+    }
+    found.sort_by(|a, b| b.times.total_cmp(&a.times));
+    found
+}
+
+impl Calibration {
+    /// Why the iteration stopped.
+    #[must_use]
+    pub fn stop(&self) -> Stop {
+        self.solution.stop
+    }
+
+    /// Every parameter that was asked for with its value and, where the data determine it, its standard deviation, SI.
+    pub fn parameters(&self) -> impl Iterator<Item = (&Parameter, f64, Option<f64>)> {
+        self.problem.parameters.iter().enumerate().map(|(i, parameter)| {
+            let at = self.solution.identifiable.kept.iter().position(|k| *k == i);
+            let value = self.solution.estimate.value(parameter.subject);
+            (parameter, value, at.map(|at| self.uncertainty.sigma[at]))
+        })
+    }
+
+    /// The calibrated robot: the profile with the identified effects, points and, where it was replaced, base.
+    #[must_use]
+    pub fn profile(&self) -> Profile {
+        let mut profile = self.problem.profile.clone();
+        profile.world_from_base = self.solution.estimate.world_from_base;
+        profile.effects = self.solution.estimate.effects.iter().filter(|e| !e.is_zero()).cloned().collect();
+        for (point, value) in self.problem.points.iter().zip(&self.solution.estimate.points_m) {
+            profile.points.insert(point.name.clone(), *value);
+        }
+        profile
+    }
+}

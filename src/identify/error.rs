@@ -1,0 +1,129 @@
+//! What can keep an identification from its answer.
+
+/// A word that names no parameter.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SelectionError {
+    /// No effect has this name.
+    #[error("no effect is called `{id}`")]
+    UnknownEffect {
+        /// The name.
+        id: String,
+    },
+    /// The effect has no such parameter.
+    #[error("`{id}` has no parameter `{key}`")]
+    UnknownKey {
+        /// The effect.
+        id: &'static str,
+        /// The key.
+        key: String,
+    },
+    /// A place the effect cannot have.
+    #[error("`{found}` behind `{id}`: expected {expected}")]
+    BadPlace {
+        /// The effect.
+        id: &'static str,
+        /// What stands there.
+        found: String,
+        /// What belongs there.
+        expected: String,
+    },
+}
+
+impl SelectionError {
+    /// The way out.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::UnknownEffect { .. } => {
+                format!("names are: {}", super::parameters::words().join(", "))
+            }
+            _ => "`poseshift effects` lists every effect with its parameters; write joint_compliance:2-6 or link_geometry:3.beta_deg".into(),
+        }
+    }
+}
+
+/// Why nothing was identified.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum IdentifyError {
+    /// A row's tool is not in the profile.
+    #[error("line {line}: the profile has no tool `{tool}`; it has: {}", known.join(", "))]
+    UnknownTool {
+        /// Line of the file.
+        line: usize,
+        /// The name.
+        tool: String,
+        /// Those it has.
+        known: Vec<String>,
+    },
+    /// Rows without a tool, and several to choose from.
+    #[error("line {line}: no tool is named and the profile has {}: {}", known.len(), known.join(", "))]
+    AmbiguousTool {
+        /// Line of the file.
+        line: usize,
+        /// Those it has.
+        known: Vec<String>,
+    },
+    /// Rows for this purpose are missing.
+    #[error("no rows to identify with: every row is for `validate`")]
+    NothingToFit,
+    /// Fewer numbers than parameters.
+    #[error("{numbers} measured numbers in {rows} rows are too few for {parameters} parameters")]
+    TooFew {
+        /// Measured numbers.
+        numbers: usize,
+        /// Rows.
+        rows: usize,
+        /// Parameters asked for.
+        parameters: usize,
+    },
+    /// The measurements contradict the format or the robot, by evidence.
+    #[error("{message}")]
+    Suspicious {
+        /// What is wrong, with the evidence.
+        message: String,
+        /// The way out.
+        hint: String,
+    },
+    /// The place of the base does not follow from the measurements.
+    #[error("where the base stands does not follow from the measurements: {reason}")]
+    NoStart {
+        /// Why.
+        reason: String,
+    },
+    /// An effect needs what the measurements or the profile do not have.
+    #[error("`{id}` cannot be identified: it needs {need}")]
+    Missing {
+        /// The effect.
+        id: &'static str,
+        /// What it needs.
+        need: &'static str,
+    },
+    /// No parameter is left.
+    #[error("no parameter is left to identify")]
+    NoParameters,
+    /// The iteration did not come to rest.
+    #[error("not solved after {passes} passes: the last step was {step:.2e} of the typical size, the limit is {limit:.0e}")]
+    NotConverged {
+        /// Passes over the data.
+        passes: usize,
+        /// Largest step, in the parameters' typical sizes.
+        step: f64,
+        /// The limit.
+        limit: f64,
+    },
+}
+
+impl IdentifyError {
+    /// The way out; empty where the message says it all.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::AmbiguousTool { .. } => "add a column tool".into(),
+            Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or --fix".into(),
+            Self::Suspicious { hint, .. } => hint.clone(),
+            Self::NoStart { .. } => "measure at least 5 configurations in which every joint moves; or give the base in the profile".into(),
+            Self::NotConverged { .. } => "identify less (--level 1 first), or look at the rows with the largest residuals".into(),
+            _ => String::new(),
+        }
+    }
+}

@@ -1,0 +1,408 @@
+//! Which parameters are identified, in which order they are kept where the data cannot tell them apart.
+
+use super::error::SelectionError;
+use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site, Unit};
+use crate::model::profile::Profile;
+use crate::model::{JOINTS, Slot};
+
+/// Axes are parallel where the sine of the angle between them is below this: there β stands for the d it makes redundant.
+const PARALLEL: f64 = 0.1;
+/// How far a measured point may be from where it is believed, one standard deviation, metres.
+const POINT_SIGMA_M: f64 = 0.01;
+
+/// What a parameter is a number of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Subject {
+    /// An effect.
+    Effect(Slot),
+    /// A coordinate of a measured point.
+    Point {
+        /// Index of the point.
+        point: usize,
+        /// Which coordinate.
+        axis: usize,
+    },
+}
+
+/// One number that is identified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name: `link_geometry link 2 a_mm`, `point smr1 x_mm`.
+    pub key: String,
+    /// What it is a number of.
+    pub subject: Subject,
+    /// The unit of the report.
+    pub unit: Unit,
+    /// How large it typically is, SI: the scale in which columns are compared.
+    pub scale: f64,
+    /// Which is kept where the data cannot tell two apart: the smaller.
+    pub rank: u32,
+    /// Its expectation and standard deviation in SI, where they count as one more measurement.
+    pub prior: Option<(f64, f64)>,
+}
+
+/// Parameters by the words of the command line: `link_geometry`, `joint_compliance:2-6`, `joint_harmonic:6:2`,
+/// `link_geometry:3.beta_deg`, `points`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pick {
+    /// The effect; none are the measured points.
+    pub kind: Option<Kind>,
+    /// First and last number of each place the effect has, from 1, as far as given.
+    pub places: Vec<(u32, u32)>,
+    /// One parameter alone.
+    pub key: Option<&'static str>,
+}
+
+impl Pick {
+    /// Reads one word.
+    ///
+    /// # Errors
+    /// An unknown effect or key, too many places, a number out of range.
+    pub fn parse(text: &str) -> Result<Self, SelectionError> {
+        let (head, key) = match text.split_once('.') {
+            Some((head, key)) => (head, Some(key)),
+            None => (text, None),
+        };
+        let mut words = head.split(':');
+        let id = words.next().unwrap_or_default();
+        if id == "points" && head == id && key.is_none() {
+            return Ok(Self {
+                kind: None,
+                places: Vec::new(),
+                key: None,
+            });
+        }
+        let kind = Kind::by_id(id).ok_or_else(|| SelectionError::UnknownEffect { id: id.into() })?;
+        let definition = kind.definition();
+        let counted: Vec<Place> = definition
+            .site
+            .iter()
+            .copied()
+            .filter(|place| place.range().is_some())
+            .collect();
+        let mut places = Vec::new();
+        for word in words {
+            let bad = |expected: String| SelectionError::BadPlace {
+                id: definition.id,
+                found: word.into(),
+                expected,
+            };
+            let place = counted
+                .get(places.len())
+                .ok_or_else(|| bad("no more numbers".into()))?;
+            let (low, high) = place.range().expect("a counted place");
+            let (first, last) = word.split_once('-').unwrap_or((word, word));
+            let parsed = first.parse().ok().zip(last.parse().ok());
+            let range = parsed.filter(|(a, b)| low <= *a && a <= b && *b <= high);
+            let name = place.key();
+            places.push(range.ok_or_else(|| {
+                bad(format!("{name}: a number or range from {low} to {high}"))
+            })?);
+        }
+        let key = match key {
+            None => None,
+            Some(key) => {
+                let found = definition.parameters.iter().find(|p| p.key == key);
+                let found = found.ok_or_else(|| SelectionError::UnknownKey {
+                    id: definition.id,
+                    key: key.into(),
+                });
+                Some(found?.key)
+            }
+        };
+        Ok(Self {
+            kind: Some(kind),
+            places,
+            key,
+        })
+    }
+
+    /// Every word of a list separated by commas.
+    ///
+    /// # Errors
+    /// As [`Pick::parse`].
+    pub fn parse_list(text: &str) -> Result<Vec<Self>, SelectionError> {
+        let words = text.split(',').map(str::trim).filter(|w| !w.is_empty());
+        words.map(Self::parse).collect()
+    }
+
+    fn holds(&self, effect: &Effect, key: &str) -> bool {
+        let numbers = effect.definition().site.iter().filter_map(|p| number(effect, *p));
+        self.kind == Some(effect.kind)
+            && self.key.is_none_or(|k| k == key)
+            && self.places.iter().zip(numbers).all(|((a, b), n)| (*a..=*b).contains(&n))
+    }
+
+    /// The effects this means, at zero.
+    fn effects(&self) -> Vec<Effect> {
+        let Some(kind) = self.kind else {
+            return Vec::new();
+        };
+        let mut sites = vec![Site::default()];
+        let counted = kind.definition().site.iter().filter(|p| p.range().is_some());
+        for (n, place) in counted.enumerate() {
+            let default = match place {
+                Place::Order => (1, 1),
+                _ => (1, 6),
+            };
+            let (low, high) = self.places.get(n).copied().unwrap_or(default);
+            sites = sites
+                .iter()
+                .flat_map(|site| (low..=high).map(move |value| with(site, *place, value)))
+                .collect();
+        }
+        let on = kind.definition().site.contains(&Place::On);
+        sites.retain(|site| !on || site.index != site.on);
+        let zero = |site| Effect {
+            kind,
+            site,
+            parameters: [0.0; MOST_PARAMETERS],
+        };
+        sites.into_iter().map(zero).collect()
+    }
+}
+
+fn number(effect: &Effect, place: Place) -> Option<u32> {
+    let index = match place {
+        Place::Link | Place::Joint => effect.site.index + 1,
+        Place::On => effect.site.on + 1,
+        Place::Order => return Some(effect.site.order),
+        Place::Tool => return None,
+    };
+    u32::try_from(index).ok()
+}
+
+fn with(site: &Site, place: Place, value: u32) -> Site {
+    let mut site = site.clone();
+    match place {
+        Place::Link | Place::Joint => site.index = value as usize - 1,
+        Place::On => site.on = value as usize - 1,
+        Place::Order => site.order = value,
+        Place::Tool => {}
+    }
+    site
+}
+
+/// How much of the arm is identified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Where base, tool and points are.
+    Frames,
+    /// And joint offsets and scales.
+    Joints,
+    /// And the geometry of links 2 to 6, with β where axes are nearly parallel; no scales.
+    Geometry,
+    /// And the compliance of the joints.
+    Compliance,
+}
+
+/// What is identified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// How much of the arm.
+    pub level: Level,
+    /// More than that.
+    pub identify: Vec<Pick>,
+    /// Left as they are.
+    pub fix: Vec<Pick>,
+    /// Whether each parameter's typical size counts as one more measurement.
+    pub priors: bool,
+}
+
+impl Selection {
+    /// A level alone.
+    #[must_use]
+    pub const fn level(level: Level) -> Self {
+        Self {
+            level,
+            identify: Vec::new(),
+            fix: Vec::new(),
+            priors: false,
+        }
+    }
+
+    pub(super) fn wants_points(&self) -> bool {
+        self.identify.iter().any(|pick| pick.kind.is_none())
+    }
+}
+
+/// What the measurements can show of the tool.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Seen {
+    /// Names of the tools, and whether their turning shows.
+    pub tools: Vec<(String, bool)>,
+    /// Whether the tool's place is sought in the tool frame: it is not where the measured points are.
+    pub tool_frame: bool,
+    /// Names of points with unknown coordinates, by index.
+    pub unknown_points: Vec<(usize, String)>,
+    /// Joints that carry a torque that changes.
+    pub loaded: [bool; JOINTS],
+}
+
+fn nearly_parallel(profile: &Profile, link: usize) -> bool {
+    profile.links[link].alpha_rad.sin().abs() < PARALLEL
+}
+
+fn at(kind: Kind, index: usize) -> Effect {
+    Effect {
+        kind,
+        site: Site {
+            index,
+            ..Site::default()
+        },
+        parameters: [0.0; MOST_PARAMETERS],
+    }
+}
+
+/// The keys of one link's geometry that a complete and minimal model has.
+fn minimal(profile: &Profile, link: usize, key: &str) -> bool {
+    match key {
+        "beta_deg" => nearly_parallel(profile, link),
+        "d_mm" => link == 5 || !nearly_parallel(profile, link + 1),
+        _ => true,
+    }
+}
+
+/// The order in which parameters are kept.
+fn rank(profile: &Profile, effect: &Effect, key: &str) -> u32 {
+    match effect.kind {
+        Kind::BaseFrame => 0,
+        Kind::ToolFrame => 1,
+        Kind::LinkGeometry if effect.site.index == 0 => 9,
+        Kind::LinkGeometry if !minimal(profile, effect.site.index, key) => 8,
+        Kind::LinkGeometry => match key {
+            "theta_deg" => 2,
+            "a_mm" => 3,
+            "alpha_deg" => 4,
+            "beta_deg" => 5,
+            _ => 6,
+        },
+        _ => 7,
+    }
+}
+
+/// The effects of a problem and the parameters that are identified, in the order in which they are kept.
+pub(super) fn choose(
+    profile: &Profile,
+    selection: &Selection,
+    seen: &Seen,
+) -> (Vec<Effect>, Vec<Parameter>) {
+    let mut effects = profile.effects.clone();
+    let mut wanted: Vec<(usize, &'static str)> = Vec::new();
+    let want = |effects: &mut Vec<Effect>,
+                    wanted: &mut Vec<(usize, &'static str)>,
+                    effect: &Effect,
+                    keep: &dyn Fn(&str) -> bool| {
+        let index = effects.iter().position(|e| e.same_place(effect)).unwrap_or_else(|| {
+            effects.push(effect.clone());
+            effects.len() - 1
+        });
+        for parameter in effect.definition().parameters {
+            if keep(parameter.key) && !wanted.contains(&(index, parameter.key)) {
+                wanted.push((index, parameter.key));
+            }
+        }
+    };
+    want(&mut effects, &mut wanted, &at(Kind::BaseFrame, 0), &|_| true);
+    for (tool, turning) in seen.tools.iter().filter(|_| seen.tool_frame) {
+        let mut effect = at(Kind::ToolFrame, 0);
+        if !effects.iter().any(|e| e.same_place(&effect)) || seen.tools.len() > 1 {
+            effect.site.tool = Some(tool.clone());
+        }
+        want(&mut effects, &mut wanted, &effect, &|key| *turning || key.ends_with("_mm"));
+    }
+    if selection.level == Level::Joints {
+        for joint in 0..JOINTS {
+            want(&mut effects, &mut wanted, &at(Kind::LinkGeometry, joint), &|key| {
+                key == "theta_deg" && joint > 0
+            });
+            want(&mut effects, &mut wanted, &at(Kind::JointScale, joint), &|_| true);
+        }
+    }
+    if matches!(selection.level, Level::Geometry | Level::Compliance) {
+        for link in 1..JOINTS {
+            want(&mut effects, &mut wanted, &at(Kind::LinkGeometry, link), &|key| {
+                minimal(profile, link, key)
+            });
+        }
+    }
+    if selection.level == Level::Compliance {
+        for joint in (0..JOINTS).filter(|joint| seen.loaded[*joint]) {
+            want(&mut effects, &mut wanted, &at(Kind::JointCompliance, joint), &|_| true);
+        }
+    }
+    for pick in &selection.identify {
+        for effect in pick.effects() {
+            let mut effect = effect;
+            if effect.kind == Kind::ToolFrame {
+                effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
+            }
+            want(&mut effects, &mut wanted, &effect, &|key| pick.holds(&effect, key));
+        }
+    }
+    wanted.retain(|(index, key)| !selection.fix.iter().any(|pick| pick.holds(&effects[*index], key)));
+    let mut parameters = Vec::new();
+    for (index, key) in wanted {
+        let effect = &effects[index];
+        let all = effect.definition().parameters;
+        let number = all.iter().position(|p| p.key == key).expect("its own key");
+        let scale = all[number].prior_sigma * all[number].unit.in_si();
+        parameters.push(Parameter {
+            key: format!("{} {key}", effect.label()),
+            subject: Subject::Effect(Slot {
+                effect: index,
+                parameter: number,
+            }),
+            unit: all[number].unit,
+            scale,
+            rank: rank(profile, effect, key),
+            prior: (selection.priors && effect.kind != Kind::BaseFrame).then_some((0.0, scale)),
+        });
+    }
+    let fixed = selection.fix.iter().any(|pick| pick.kind.is_none());
+    for (point, name) in seen.unknown_points.iter().filter(|_| !fixed) {
+        for (axis, key) in ["x_mm", "y_mm", "z_mm"].into_iter().enumerate() {
+            parameters.push(Parameter {
+                key: format!("point {name} {key}"),
+                subject: Subject::Point {
+                    point: *point,
+                    axis,
+                },
+                unit: Unit::Millimetre,
+                scale: POINT_SIGMA_M,
+                rank: 0,
+                prior: None,
+            });
+        }
+    }
+    parameters.sort_by_key(|p| p.rank);
+    (effects, parameters)
+}
+
+/// Every word that names parameters on the command line.
+#[must_use]
+pub fn words() -> Vec<&'static str> {
+    let ids = REGISTRY.iter().map(|kind| kind.definition().id);
+    ids.chain(["points"]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_name_effects_places_and_keys() {
+        let pick = Pick::parse("joint_compliance:2-6").expect("a range of joints");
+        assert_eq!(pick.effects().len(), 5);
+        let pick = Pick::parse("joint_harmonic:6:2").expect("a joint and an order");
+        assert_eq!(pick.effects()[0].label(), "joint_harmonic joint 6 order 2");
+        let pick = Pick::parse("link_geometry:3.beta_deg").expect("one key");
+        assert!(pick.holds(&at(Kind::LinkGeometry, 2), "beta_deg"));
+        assert!(!pick.holds(&at(Kind::LinkGeometry, 2), "a_mm"));
+        assert!(!pick.holds(&at(Kind::LinkGeometry, 1), "beta_deg"));
+        assert_eq!(Pick::parse("joint_coupling").expect("all").effects().len(), 30);
+        for bad in ["nothing", "joint_scale:7", "joint_scale:1:1", "link_geometry.b_mm", "joint_scale:3-2", "points:1"] {
+            assert!(Pick::parse(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,392 @@
+//! Measurements of one robot ready to be compared with a model of it.
+
+use super::error::IdentifyError;
+use super::measurements::{Measurement, Measurements, Observed};
+use super::parameters::{Parameter, Seen, Selection, Subject, choose};
+use crate::geometry::{Pose, Vector};
+use crate::model::effects::{Effect, Need};
+use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Mechanism, Sensitivity, Slot};
+use std::collections::BTreeMap;
+
+/// The standard deviation of a row that gives none, metres.
+pub const DEFAULT_SIGMA_M: f64 = 1e-4;
+/// An orientation weighs as much as a position at this distance from the tool, metres.
+pub const LEVER_M: f64 = 0.3;
+/// A joint's torque must change by this part of the largest change to tell its compliance.
+const TORQUE_PART: f64 = 0.02;
+
+/// Where the measured point of a row is in the tool frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointRef {
+    /// Given, metres.
+    Known(Vector),
+    /// By index in [`Estimate::points_m`].
+    Named(usize),
+}
+
+/// One row to compare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Index of the measurement.
+    pub measurement: usize,
+    /// Commanded joint angles, radians.
+    pub q: [f64; 6],
+    /// What was measured.
+    pub observed: Observed,
+    /// Index of the tool.
+    pub tool: usize,
+    /// Where the point is in the tool frame.
+    pub point: PointRef,
+    /// Direction, force, temperature, time.
+    pub conditions: Conditions,
+    /// Standard deviation of a length, metres.
+    pub sigma_m: f64,
+    /// Index of the arm's geometry among [`Problem::rigs`].
+    pub rig: usize,
+}
+
+/// A named point on a tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPoint {
+    /// Its name.
+    pub name: String,
+    /// Whether its coordinates are given.
+    pub known: bool,
+}
+
+/// Values of everything that may be identified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Where the base stands, without its `base_frame` effect.
+    pub world_from_base: Pose,
+    /// Effects with their parameters.
+    pub effects: Vec<Effect>,
+    /// Coordinates of the named points in the tool frame, metres.
+    pub points_m: Vec<Vector>,
+}
+
+impl Estimate {
+    /// The value of a parameter in SI units.
+    #[must_use]
+    pub fn value(&self, subject: Subject) -> f64 {
+        match subject {
+            Subject::Effect(slot) => self.effects[slot.effect].parameters[slot.parameter],
+            Subject::Point { point, axis } => self.points_m[point][axis],
+        }
+    }
+
+    /// The place of that value.
+    pub fn value_mut(&mut self, subject: Subject) -> &mut f64 {
+        match subject {
+            Subject::Effect(slot) => &mut self.effects[slot.effect].parameters[slot.parameter],
+            Subject::Point { point, axis } => &mut self.points_m[point][axis],
+        }
+    }
+}
+
+/// Which arm a row is measured with: rows with the same tool, and the same temperature and time where these matter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    /// Index of the tool.
+    pub tool: usize,
+    /// Conditions that change the geometry.
+    pub conditions: Conditions,
+}
+
+/// Measurements of one robot, its effects, and which parameters are identified.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The robot.
+    pub profile: Profile,
+    /// Its tools in use.
+    pub tools: Vec<Mounted>,
+    /// Named points.
+    pub points: Vec<NamedPoint>,
+    /// Rows to compare.
+    pub rows: Vec<Row>,
+    /// Geometries in use.
+    pub rigs: Vec<Rig>,
+    /// What is identified, in the order in which parameters are kept.
+    pub parameters: Vec<Parameter>,
+    /// Whether some row has no standard deviation of its own.
+    pub sigma_assumed: bool,
+}
+
+fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyError> {
+    let known = || profile.tools.keys().cloned().collect::<Vec<_>>();
+    match &row.tool {
+        Some(name) => profile.tool(name).ok_or_else(|| IdentifyError::UnknownTool {
+            line: row.line,
+            tool: name.clone(),
+            known: known(),
+        }),
+        None => match profile.tools.len() {
+            0 => Ok(Mounted::flange()),
+            1 => Ok(profile.tool(&known()[0]).expect("a key of the map")),
+            _ => Err(IdentifyError::AmbiguousTool {
+                line: row.line,
+                known: known(),
+            }),
+        },
+    }
+}
+
+/// The named points of the measurements with their coordinates, where the rows or the profile give them.
+fn named_points(
+    profile: &Profile,
+    measurements: &Measurements,
+    free: bool,
+) -> (Vec<NamedPoint>, Vec<Vector>) {
+    let mut found: BTreeMap<&str, Option<Vector>> = BTreeMap::new();
+    for row in &measurements.rows {
+        if let Some(name) = &row.point {
+            let known = found.entry(name).or_insert(None);
+            *known = known.or(row.point_in_tool_m);
+        }
+    }
+    let (mut points, mut coordinates) = (Vec::new(), Vec::new());
+    for (name, given) in found {
+        let known = given.or_else(|| profile.points.get(name).copied());
+        points.push(NamedPoint {
+            name: name.to_owned(),
+            known: known.is_some() && !free,
+        });
+        coordinates.push(known.unwrap_or_default());
+    }
+    (points, coordinates)
+}
+
+/// Joints whose gravity torque changes enough over the rows to tell their compliance.
+fn loaded(profile: &Profile, tools: &[Mounted], rows: &[Row], gravity_known: bool) -> [bool; 6] {
+    if !gravity_known {
+        return [false; 6];
+    }
+    let models: Vec<_> = tools
+        .iter()
+        .map(|tool| profile.real_model(tool, &Conditions::default()))
+        .collect();
+    let (mut sum, mut squares) = ([0.0; 6], [0.0; 6]);
+    for row in rows {
+        let torques = models[row.tool].torques(&row.q, &row.conditions);
+        for i in 0..6 {
+            sum[i] += torques[i];
+            squares[i] += torques[i] * torques[i];
+        }
+    }
+    let count = rows.len() as f64;
+    let spread: [f64; 6] =
+        std::array::from_fn(|i| (squares[i] / count - (sum[i] / count).powi(2)).max(0.0).sqrt());
+    let largest = spread.iter().copied().fold(0.0, f64::max);
+    spread.map(|s| s > TORQUE_PART * largest)
+}
+
+impl Problem {
+    /// Makes rows of measurements and chooses what is identified. The second value is where to start: the profile's own
+    /// values, with the base at `world_from_base`.
+    ///
+    /// # Errors
+    /// Unknown tools; an effect asked for that lacks a column or masses; no parameter.
+    pub fn new(
+        profile: &Profile,
+        measurements: &Measurements,
+        selection: &Selection,
+        world_from_base: Pose,
+    ) -> Result<(Self, Estimate), IdentifyError> {
+        let (points, points_m) = named_points(profile, measurements, selection.wants_points());
+        let mut tools: Vec<Mounted> = Vec::new();
+        let mut rows = Vec::with_capacity(measurements.rows.len());
+        let mut sigma_assumed = false;
+        for (index, m) in measurements.rows.iter().enumerate() {
+            let tool = tool_of(profile, m)?;
+            let known = tools.iter().position(|t| t.name == tool.name);
+            let tool = known.unwrap_or_else(|| {
+                tools.push(tool);
+                tools.len() - 1
+            });
+            let named = m.point.as_ref().map(|name| {
+                let at = points.iter().position(|p| p.name == *name);
+                PointRef::Named(at.expect("every name was gathered"))
+            });
+            sigma_assumed |= m.sigma_m.is_none();
+            rows.push(Row {
+                measurement: index,
+                q: m.q,
+                observed: m.observed,
+                tool,
+                point: named.unwrap_or(PointRef::Known(m.point_in_tool_m.unwrap_or_default())),
+                conditions: m.conditions,
+                sigma_m: m.sigma_m.unwrap_or(DEFAULT_SIGMA_M),
+                rig: 0,
+            });
+        }
+        let mut placed = profile.clone();
+        placed.world_from_base = world_from_base;
+        let somewhere = |row: &Row| match row.point {
+            PointRef::Known(p) => p != [0.0; 3],
+            PointRef::Named(_) => true,
+        };
+        let turning = |tool: usize| {
+            rows.iter().filter(|row| row.tool == tool).any(|row| {
+                matches!(row.observed, Observed::Pose(_)) || somewhere(row)
+            })
+        };
+        let all_points_unknown = rows.iter().all(|row| match row.point {
+            PointRef::Named(i) => !points[i].known,
+            PointRef::Known(_) => false,
+        });
+        let pose = rows.iter().any(|row| matches!(row.observed, Observed::Pose(_)));
+        let seen = Seen {
+            tools: tools
+                .iter()
+                .enumerate()
+                .map(|(i, tool)| (tool.name.clone(), turning(i)))
+                .collect(),
+            tool_frame: !all_points_unknown || pose,
+            unknown_points: points
+                .iter()
+                .enumerate()
+                .filter(|(_, p)| !p.known)
+                .map(|(i, p)| (i, p.name.clone()))
+                .collect(),
+            loaded: loaded(&placed, &tools, &rows, true),
+        };
+        let (effects, parameters) = choose(profile, selection, &seen);
+        if parameters.is_empty() {
+            return Err(IdentifyError::NoParameters);
+        }
+        let mut problem = Self {
+            profile: profile.clone(),
+            tools,
+            points,
+            rows,
+            rigs: Vec::new(),
+            parameters,
+            sigma_assumed,
+        };
+        problem.check_needs(measurements, &effects, selection)?;
+        problem.sort_rigs(&effects);
+        let start = Estimate {
+            world_from_base,
+            effects,
+            points_m,
+        };
+        Ok((problem, start))
+    }
+
+    fn check_needs(
+        &self,
+        measurements: &Measurements,
+        effects: &[Effect],
+        selection: &Selection,
+    ) -> Result<(), IdentifyError> {
+        let masses = !self.profile.bodies.is_empty() || self.tools.iter().any(|t| t.load.is_some());
+        for parameter in &self.parameters {
+            let Subject::Effect(slot) = parameter.subject else {
+                continue;
+            };
+            let definition = effects[slot.effect].definition();
+            let asked = selection.identify.iter().any(|p| p.kind == Some(effects[slot.effect].kind));
+            for need in definition.needs.iter().filter(|_| asked || definition.needs_masses()) {
+                let met = match need {
+                    Need::Masses => masses,
+                    Need::Directions => measurements.has(&super::measurements::DIRECTION_COLUMNS),
+                };
+                if !met {
+                    return Err(IdentifyError::Missing {
+                        id: definition.id,
+                        need: need.describe(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives every row its geometry; one a tool unless an effect changes the geometry with the row's conditions.
+    pub fn sort_rigs(&mut self, effects: &[Effect]) {
+        let plain = |need: &Need| matches!(need, Need::Masses | Need::Directions);
+        let varies = effects.iter().any(|effect| {
+            let definition = effect.definition();
+            !definition.deflects && !definition.needs.iter().all(plain)
+        });
+        self.rigs.clear();
+        let mut known: BTreeMap<(usize, u64, u64), usize> = BTreeMap::new();
+        for row in &mut self.rows {
+            let conditions = if varies {
+                Conditions {
+                    temperature_c: row.conditions.temperature_c,
+                    time_s: row.conditions.time_s,
+                    ..Conditions::default()
+                }
+            } else {
+                Conditions::default()
+            };
+            let bits = |value: Option<f64>| value.map_or(u64::MAX, f64::to_bits);
+            let key = (row.tool, bits(conditions.temperature_c), bits(conditions.time_s));
+            row.rig = *known.entry(key).or_insert_with(|| {
+                self.rigs.push(Rig {
+                    tool: row.tool,
+                    conditions,
+                });
+                self.rigs.len() - 1
+            });
+        }
+    }
+
+    /// How the controller counts joints.
+    #[must_use]
+    pub fn mechanism(&self) -> &Mechanism {
+        &self.profile.mechanism
+    }
+
+    /// The models of every rig with the derivatives by these parameters; only effects count, points need none.
+    #[must_use]
+    pub fn models(&self, estimate: &Estimate, parameters: &[Parameter]) -> Vec<Sensitivity> {
+        let slots: Vec<Slot> = parameters
+            .iter()
+            .filter_map(|p| match p.subject {
+                Subject::Effect(slot) => Some(slot),
+                Subject::Point { .. } => None,
+            })
+            .collect();
+        self.rigs
+            .iter()
+            .map(|rig| {
+                let mut geometry = self.profile.geometry(&self.tools[rig.tool]);
+                geometry.world_from_base = estimate.world_from_base;
+                Sensitivity::build(
+                    &geometry,
+                    &self.profile.mechanism,
+                    &estimate.effects,
+                    &slots,
+                    &rig.conditions,
+                )
+            })
+            .collect()
+    }
+
+    /// The measured point of a row in the tool frame, metres.
+    #[must_use]
+    pub fn point_in_tool_m(&self, estimate: &Estimate, row: &Row) -> Vector {
+        match row.point {
+            PointRef::Known(point) => point,
+            PointRef::Named(index) => estimate.points_m[index],
+        }
+    }
+
+    /// How many numbers were measured.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        self.rows.iter().map(|row| row.observed.count()).sum()
+    }
+
+    /// The same problem with some of its rows.
+    #[must_use]
+    pub fn with_rows(&self, keep: impl Fn(usize) -> bool) -> Self {
+        let mut other = self.clone();
+        let kept = self.rows.iter().enumerate().filter(|(i, _)| keep(*i));
+        other.rows = kept.map(|(_, row)| row.clone()).collect();
+        other
+    }
+}

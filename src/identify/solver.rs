@@ -1,0 +1,281 @@
+//! Damped Gauss–Newton on exact derivatives, with re-weighting where a robust loss asks for it.
+
+use super::error::IdentifyError;
+use super::identifiability::{Identifiable, identifiable};
+use super::normal::Normal;
+use super::parameters::{Parameter, Subject};
+use super::problem::{Estimate, Problem};
+use super::robust::{Loss, Shape, scale_of};
+use crate::geometry::Pose;
+use crate::model::effects::{Kind, MOST_PARAMETERS};
+use nalgebra::DVector;
+
+/// Passes over the data before the iteration counts as failed.
+const MOST_PASSES: usize = 60;
+/// A step below this part of every parameter's typical size ends the iteration.
+pub const STEP_LIMIT: f64 = 1e-7;
+/// A sum of squares that falls by less than this part of itself ends the iteration, if it promised no more.
+const FALL_LIMIT: f64 = 1e-9;
+/// From so many rows on, a sample is solved first.
+const SAMPLE_FROM: usize = 2000;
+/// Rows of that sample.
+const SAMPLE: usize = 600;
+/// A robust scale that changes by less ends the re-weighting.
+const SCALE_LIMIT: f64 = 0.01;
+
+/// Why the iteration stopped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stop {
+    /// The last step is below [`STEP_LIMIT`] of the parameters' typical sizes.
+    Step(f64),
+    /// The sum of squares falls by less than this part of itself.
+    Fall(f64),
+}
+
+impl Stop {
+    /// In words, with the number.
+    #[must_use]
+    pub fn describe(self) -> String {
+        match self {
+            Self::Step(step) => format!(
+                "the last step was {step:.1e} of the parameters' typical sizes (limit {STEP_LIMIT:.0e})"
+            ),
+            Self::Fall(part) => format!(
+                "the sum of squares fell by {part:.1e} of itself (limit {FALL_LIMIT:.0e})"
+            ),
+        }
+    }
+}
+
+/// What the iteration found.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The values.
+    pub estimate: Estimate,
+    /// Which parameters the data determine; the others kept their values.
+    pub identifiable: Identifiable,
+    /// The parameters kept.
+    pub parameters: Vec<Parameter>,
+    /// The normal equations of those at the solution.
+    pub normal: Normal,
+    /// The loss with its final scale.
+    pub loss: Loss,
+    /// Passes over the data.
+    pub passes: usize,
+    /// Why it stopped.
+    pub stop: Stop,
+}
+
+fn moved(estimate: &Estimate, parameters: &[Parameter], step: &DVector<f64>) -> Estimate {
+    let mut next = estimate.clone();
+    for (parameter, size) in parameters.iter().zip(step.iter()) {
+        *next.value_mut(parameter.subject) += size * parameter.scale;
+    }
+    next
+}
+
+/// Moves the deviation of the base into its place, so that its angles stay small.
+pub fn absorb_base(estimate: &mut Estimate) {
+    for effect in estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame) {
+        estimate.world_from_base = estimate.world_from_base * Pose::from_xyz_rxryrz(effect.parameters);
+        effect.parameters = [0.0; MOST_PARAMETERS];
+    }
+}
+
+struct Iteration<'a> {
+    problem: &'a Problem,
+    parameters: &'a [Parameter],
+    loss: Loss,
+    passes: usize,
+    /// Whether the base's deviation may be moved into its place.
+    free_base: bool,
+}
+
+impl Iteration<'_> {
+    fn normal(&mut self, estimate: &Estimate) -> Normal {
+        self.passes += 1;
+        Normal::of(self.problem, estimate, self.parameters, self.loss)
+    }
+
+    /// Until the step or the fall is below its limit.
+    fn run(
+        &mut self,
+        estimate: &mut Estimate,
+        normal: &mut Normal,
+        step_limit: f64,
+    ) -> Result<Stop, IdentifyError> {
+        let mut damping = 0.0;
+        let mut largest = f64::INFINITY;
+        while self.passes < MOST_PASSES {
+            let mut damped = normal.matrix.clone();
+            for i in 0..damped.nrows() {
+                damped[(i, i)] *= 1.0 + damping;
+            }
+            let Some(factor) = damped.cholesky() else {
+                damping = f64::max(10.0 * damping, 1e-9);
+                self.passes += 1;
+                continue;
+            };
+            let step = factor.solve(&normal.gradient);
+            largest = step.amax();
+            let promised = step.dot(&normal.gradient) / normal.cost.max(f64::MIN_POSITIVE);
+            if largest < step_limit {
+                *estimate = moved(estimate, self.parameters, &step);
+                return Ok(Stop::Step(largest));
+            }
+            if promised < 1e-12 && damping == 0.0 {
+                return Ok(Stop::Fall(promised));
+            }
+            let mut next = moved(estimate, self.parameters, &step);
+            if self.free_base {
+                absorb_base(&mut next);
+            }
+            let tried = self.normal(&next);
+            if tried.cost.is_finite() && tried.cost <= normal.cost * (1.0 + 1e-12) {
+                let fall = 1.0 - tried.cost / normal.cost.max(f64::MIN_POSITIVE);
+                *estimate = next;
+                *normal = tried;
+                damping = if damping < 1e-8 { 0.0 } else { 0.1 * damping };
+                if damping == 0.0 && fall < FALL_LIMIT && promised < FALL_LIMIT {
+                    return Ok(Stop::Fall(fall));
+                }
+            } else if promised < FALL_LIMIT {
+                return Ok(Stop::Fall(promised));
+            } else {
+                damping = f64::max(10.0 * damping, 1e-4);
+            }
+        }
+        Err(IdentifyError::NotConverged {
+            passes: self.passes,
+            step: largest,
+            limit: step_limit,
+        })
+    }
+}
+
+/// Solves a problem from a start.
+///
+/// Gauss–Newton steps on the normal equations; a step that does not lower the loss is damped (Levenberg–Marquardt). Where
+/// there are many rows a sample of them comes first. The scale of a robust loss is the residuals' median and is found again
+/// until it rests. With `free_base` the deviation of the base goes into [`Estimate::world_from_base`].
+///
+/// # Errors
+/// Too few numbers for the parameters that the data determine; no rest within 60 passes.
+pub fn solve(
+    problem: &Problem,
+    start: Estimate,
+    shape: Shape,
+    free_base: bool,
+) -> Result<Solution, IdentifyError> {
+    let mut estimate = start;
+    if free_base {
+        absorb_base(&mut estimate);
+    }
+    let all = &problem.parameters;
+    let found = |problem: &Problem, estimate: &Estimate, loss: Loss| {
+        let normal = Normal::of(problem, estimate, all, loss);
+        (identifiable(&normal, all), normal)
+    };
+    let pick = |kept: &[usize]| kept.iter().map(|i| all[*i].clone()).collect::<Vec<_>>();
+    let mut loss = Loss::squares();
+    let mut passes = 0;
+    if problem.rows.len() > SAMPLE_FROM {
+        let every = problem.rows.len() / SAMPLE;
+        let sample = problem.with_rows(|i| i % every == 0);
+        let (known, _) = found(&sample, &estimate, loss);
+        let parameters = pick(&known.kept);
+        let mut iteration = Iteration {
+            problem: &sample,
+            parameters: &parameters,
+            loss,
+            passes: 0,
+            free_base,
+        };
+        let mut normal = iteration.normal(&estimate);
+        // what the sample cannot settle, all rows may
+        let _ = iteration.run(&mut estimate, &mut normal, STEP_LIMIT);
+        if shape != Shape::Squares {
+            let counts = sample.rows.iter().map(|row| row.observed.count());
+            loss = Loss {
+                shape: Shape::Huber,
+                scale: scale_of(&normal.squares, counts),
+            };
+        }
+    }
+    let (mut known, first) = found(problem, &estimate, loss);
+    passes += 1;
+    let mut normal = first.part(&known.kept);
+    let mut stop;
+    let mut rounds = 0;
+    loop {
+        let parameters = pick(&known.kept);
+        if problem.numbers() <= parameters.len() {
+            return Err(IdentifyError::TooFew {
+                numbers: problem.numbers(),
+                rows: problem.rows.len(),
+                parameters: parameters.len(),
+            });
+        }
+        let mut iteration = Iteration {
+            problem,
+            parameters: &parameters,
+            loss,
+            passes,
+            free_base,
+        };
+        stop = iteration.run(&mut estimate, &mut normal, STEP_LIMIT)?;
+        passes = iteration.passes;
+        // far from the start the columns may have become redundant
+        let again = identifiable(&normal, &parameters);
+        if again.kept.len() < known.kept.len() && rounds < 10 {
+            let back = &known.kept.clone();
+            for mut dropped in again.dropped {
+                dropped.parameter = back[dropped.parameter];
+                for other in &mut dropped.confounded_with {
+                    *other = back[*other];
+                }
+                known.kept.retain(|i| *i != dropped.parameter);
+                known.dropped.push(dropped);
+            }
+            normal = normal.part(&again.kept);
+            rounds += 1;
+            continue;
+        }
+        if shape != Shape::Squares && rounds < 10 {
+            let counts = problem.rows.iter().map(|row| row.observed.count());
+            let scale = scale_of(&normal.squares, counts).max(1e-9);
+            let settled = loss.shape == shape && (scale / loss.scale - 1.0).abs() < SCALE_LIMIT;
+            if !settled {
+                // the biweight needs a start that outliers have not bent
+                let next = if loss.shape == Shape::Squares {
+                    Shape::Huber
+                } else {
+                    shape
+                };
+                loss = Loss { shape: next, scale };
+                rounds += 1;
+                passes += 1;
+                normal = Normal::of(problem, &estimate, &parameters, loss);
+                continue;
+            }
+        }
+        return Ok(Solution {
+            estimate,
+            identifiable: known,
+            parameters,
+            normal,
+            loss,
+            passes,
+            stop,
+        });
+    }
+}
+
+/// Whether a parameter is one of an effect of this kind.
+#[must_use]
+pub fn belongs(estimate: &Estimate, parameter: &Parameter, kind: Kind) -> bool {
+    match parameter.subject {
+        Subject::Effect(slot) => estimate.effects[slot.effect].kind == kind,
+        Subject::Point { .. } => false,
+    }
+}

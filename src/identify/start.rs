@@ -1,0 +1,424 @@
+//! Where the base stands, in closed form, wherever the measuring device is.
+
+use super::measurements::{Measurements, Observed};
+use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, dot, norm, scale, sub};
+use crate::model::effects::Kind;
+use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Model};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix4};
+
+/// Turns of improving points and base in alternation.
+const ALTERNATIONS: usize = 30;
+/// Below this part of the largest spread, a direction counts as not covered.
+const FLAT: f64 = 1e-6;
+/// Where the points of the profile fit so well, metres, they are believed.
+const BELIEVED_M: f64 = 0.02;
+
+/// One reading reduced to what the start needs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    /// `base_from_flange` by the nominal arm.
+    pub flange: Pose,
+    /// The point seen in the world, metres.
+    pub seen: Vector,
+    /// Which measured point.
+    pub carrier: usize,
+}
+
+/// The measured points and where they are believed on the flange; `None` where that is not known.
+pub(super) type Carriers = Vec<Option<Vector>>;
+
+/// A first guess.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Where the base stands.
+    pub world_from_base: Pose,
+    /// Each measured point on the flange, metres, by `(tool, point)`.
+    pub points_on_flange_m: Vec<((String, Option<String>), Vector)>,
+    /// Root mean square of the distances left, metres.
+    pub rms_m: f64,
+    /// The same with the tool and points as the profile has them; `None` where it does not have them all.
+    pub believed_rms_m: Option<f64>,
+    /// Orientation of each tool on the flange, where poses were measured.
+    pub turned: Vec<(String, Rotation)>,
+}
+
+/// The nominal arm with its base at the origin, to the flange.
+pub(super) fn bare_arm(profile: &Profile) -> Model {
+    let mut geometry = profile.geometry(&Mounted::flange());
+    geometry.world_from_base = Pose::identity();
+    let effects: Vec<_> = profile
+        .effects
+        .iter()
+        .filter(|e| !e.definition().deflects && !matches!(e.kind, Kind::BaseFrame | Kind::ToolFrame))
+        .cloned()
+        .collect();
+    Model::build(&geometry, &profile.mechanism, &effects, &Conditions::default())
+}
+
+/// `b_from_a` that takes the points `a` nearest to the points `b`.
+///
+/// # Source
+/// B. K. P. Horn, "Closed-form solution of absolute orientation using unit quaternions", JOSA A 4 (1987).
+pub(super) fn align(pairs: impl Iterator<Item = (Vector, Vector)> + Clone) -> Pose {
+    let count = pairs.clone().count().max(1) as f64;
+    let (mut a0, mut b0) = ([0.0; 3], [0.0; 3]);
+    for (a, b) in pairs.clone() {
+        a0 = add(a0, a);
+        b0 = add(b0, b);
+    }
+    let (a0, b0) = (scale(1.0 / count, a0), scale(1.0 / count, b0));
+    let mut s = Matrix3::<f64>::zeros();
+    for (a, b) in pairs {
+        let (a, b) = (sub(a, a0), sub(b, b0));
+        for i in 0..3 {
+            for j in 0..3 {
+                s[(i, j)] += a[i] * b[j];
+            }
+        }
+    }
+    #[rustfmt::skip]
+    let n = Matrix4::new(
+        s[(0, 0)] + s[(1, 1)] + s[(2, 2)], s[(1, 2)] - s[(2, 1)], s[(2, 0)] - s[(0, 2)], s[(0, 1)] - s[(1, 0)],
+        s[(1, 2)] - s[(2, 1)], s[(0, 0)] - s[(1, 1)] - s[(2, 2)], s[(0, 1)] + s[(1, 0)], s[(2, 0)] + s[(0, 2)],
+        s[(2, 0)] - s[(0, 2)], s[(0, 1)] + s[(1, 0)], s[(1, 1)] - s[(0, 0)] - s[(2, 2)], s[(1, 2)] + s[(2, 1)],
+        s[(0, 1)] - s[(1, 0)], s[(2, 0)] + s[(0, 2)], s[(1, 2)] + s[(2, 1)], s[(2, 2)] - s[(0, 0)] - s[(1, 1)],
+    );
+    let eigen = n.symmetric_eigen();
+    let largest = eigen.eigenvalues.imax();
+    let q = eigen.eigenvectors.column(largest);
+    let rotation = Quaternion([q[0], q[1], q[2], q[3]]).normalized().rotation();
+    Pose {
+        rotation,
+        translation: sub(b0, rotation * a0),
+    }
+}
+
+/// Spread of points along their three main directions, metres, largest first.
+pub(super) fn spreads(points: &[Vector]) -> [f64; 3] {
+    let count = points.len().max(1) as f64;
+    let sum = points.iter().fold([0.0; 3], |sum, p| add(sum, *p));
+    let middle = scale(1.0 / count, sum);
+    let mut s = Matrix3::<f64>::zeros();
+    for p in points {
+        let d = sub(*p, middle);
+        for i in 0..3 {
+            for j in 0..3 {
+                s[(i, j)] += d[i] * d[j] / count;
+            }
+        }
+    }
+    let mut values = s.symmetric_eigenvalues().map(|v| v.max(0.0).sqrt());
+    values.as_mut_slice().sort_by(|a, b| b.total_cmp(a));
+    [values[0], values[1], values[2]]
+}
+
+fn rms(sights: &[Sight], base: &Pose, points: &[Vector]) -> f64 {
+    let squares = sights.iter().map(|s| {
+        let gap = sub(base.transform(s.flange.transform(points[s.carrier])), s.seen);
+        dot(gap, gap)
+    });
+    (squares.sum::<f64>() / sights.len().max(1) as f64).sqrt()
+}
+
+fn place(sights: &[Sight], points: &[Vector]) -> Pose {
+    align(sights.iter().map(|s| (s.flange.transform(points[s.carrier]), s.seen)))
+}
+
+/// The points on the flange that fit best with the base here.
+fn points_at(sights: &[Sight], base: &Pose, count: usize) -> Vec<Vector> {
+    let back = base.inverse();
+    let mut sums = vec![([0.0; 3], 0.0); count];
+    for s in sights {
+        let (sum, n) = &mut sums[s.carrier];
+        *sum = add(*sum, s.flange.inverse().transform(back.transform(s.seen)));
+        *n += 1.0;
+    }
+    sums.iter().map(|(sum, n)| scale(1.0 / f64::max(*n, 1.0), *sum)).collect()
+}
+
+/// Base and points from `Rᵀp − t' − R_j c = t_j`, which is linear in the nine cells of R, in t' and in the points c.
+fn linear(sights: &[Sight], count: usize) -> Option<Pose> {
+    let width = 12 + 3 * count;
+    if 3 * sights.len() < width {
+        return None;
+    }
+    let middle = {
+        let sum = sights.iter().fold([0.0; 3], |sum, s| add(sum, s.seen));
+        scale(1.0 / sights.len() as f64, sum)
+    };
+    let mut normal = DMatrix::<f64>::zeros(width, width);
+    let mut right = DVector::<f64>::zeros(width);
+    let mut line = vec![0.0; width];
+    for s in sights {
+        let p = sub(s.seen, middle);
+        for i in 0..3 {
+            line.fill(0.0);
+            line[3 * i..3 * i + 3].copy_from_slice(&p);
+            line[9 + i] = 1.0;
+            let at = 12 + 3 * s.carrier;
+            for k in 0..3 {
+                line[at + k] = -s.flange.rotation.0[i][k];
+            }
+            for a in 0..width {
+                right[a] += line[a] * s.flange.translation[i];
+                for b in 0..width {
+                    normal[(a, b)] += line[a] * line[b];
+                }
+            }
+        }
+    }
+    // directions that do not show stay where they are
+    let trace = normal.trace() / width as f64;
+    for a in 0..width {
+        normal[(a, a)] += 1e-12 * trace;
+    }
+    let solved = normal.cholesky()?.solve(&right);
+    // the nearest rotation to the nine cells, by aligning the axes with their images
+    let images: Vec<(Vector, Vector)> = (0..3)
+        .map(|j| {
+            let unit = std::array::from_fn(|i| f64::from(u8::from(i == j)));
+            ([solved[j], solved[3 + j], solved[6 + j]], unit)
+        })
+        .collect();
+    let both = images.iter().flat_map(|(a, b)| {
+        [(*a, *b), (scale(-1.0, *a), scale(-1.0, *b))]
+    });
+    let rotation = align(both).rotation;
+    Some(Pose {
+        rotation,
+        translation: middle,
+    })
+}
+
+/// Improves base and points in alternation.
+fn alternate(sights: &[Sight], mut base: Pose, count: usize) -> (Pose, Vec<Vector>) {
+    // with the rotation known the rest is linear: points and translation together
+    let width = 3 + 3 * count;
+    for _ in 0..ALTERNATIONS {
+        let mut normal = DMatrix::<f64>::zeros(width, width);
+        let mut right = DVector::<f64>::zeros(width);
+        for s in sights {
+            let turn = base.rotation * s.flange.rotation;
+            let rest = sub(s.seen, base.rotation * s.flange.translation);
+            let at = 3 + 3 * s.carrier;
+            // columns: identity for the translation, `turn` for the point
+            for i in 0..3 {
+                normal[(i, i)] += 1.0;
+                right[i] += rest[i];
+                for k in 0..3 {
+                    normal[(i, at + k)] += turn.0[i][k];
+                    normal[(at + k, i)] += turn.0[i][k];
+                    right[at + k] += turn.0[i][k] * rest[i];
+                }
+                normal[(at + i, at + i)] += 1.0;
+            }
+        }
+        for a in 0..width {
+            normal[(a, a)] *= 1.0 + 1e-9;
+        }
+        let Some(factor) = normal.cholesky() else { break };
+        let solved = factor.solve(&right);
+        base.translation = [solved[0], solved[1], solved[2]];
+        let points: Vec<Vector> = (0..count)
+            .map(|c| [solved[3 + 3 * c], solved[4 + 3 * c], solved[5 + 3 * c]])
+            .collect();
+        let next = place(sights, &points);
+        let turned = next.separation(&base).angle_rad;
+        base = next;
+        if turned < 1e-9 {
+            break;
+        }
+    }
+    let points = points_at(sights, &base, count);
+    (base, points)
+}
+
+/// What [`solve`] finds.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub base: Pose,
+    pub points: Vec<Vector>,
+    pub rms_m: f64,
+    pub believed_rms_m: Option<f64>,
+}
+
+/// Base and points of some sights.
+pub(super) fn solve(sights: &[Sight], carriers: &Carriers) -> Placed {
+    let believed: Option<Vec<Vector>> = carriers.iter().copied().collect();
+    let mut found: Vec<(Pose, Vec<Vector>)> = Vec::new();
+    let mut believed_rms_m = None;
+    if let Some(points) = believed {
+        let base = place(sights, &points);
+        let rms = rms(sights, &base, &points);
+        believed_rms_m = Some(rms);
+        if rms < BELIEVED_M {
+            return Placed {
+                base,
+                points,
+                rms_m: rms,
+                believed_rms_m,
+            };
+        }
+        found.push((base, points));
+    }
+    let guessed: Vec<Vector> = carriers.iter().map(|c| c.unwrap_or_default()).collect();
+    found.push(alternate(sights, place(sights, &guessed), carriers.len()));
+    found.extend(linear(sights, carriers.len()).map(|base| alternate(sights, base, carriers.len())));
+    let best = found
+        .into_iter()
+        .map(|(base, points)| (rms(sights, &base, &points), base, points))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    let (rms_m, base, points) = best.expect("at least one was found");
+    Placed {
+        base,
+        points,
+        rms_m,
+        believed_rms_m,
+    }
+}
+
+/// A device's fixed points in the base's frame by their distances, then the base by aligning them.
+fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> Option<Pose> {
+    let mut fixed: Vec<(Vector, Vec<(Vector, f64)>)> = Vec::new();
+    for row in &measurements.rows {
+        let Observed::Distance { distance_m, from_m } = row.observed else {
+            continue;
+        };
+        let tool = row.tool.as_deref().or_else(|| profile.tools.keys().next().map(String::as_str));
+        let tool = tool.and_then(|t| profile.tool(t)).unwrap_or_else(Mounted::flange);
+        let flange = arm.forward(&row.q, &Conditions::default());
+        let named = row.point.as_ref().and_then(|p| profile.points.get(p).copied());
+        let point = row.point_in_tool_m.or(named).unwrap_or_default();
+        let at = (flange * tool.flange_from_tool).transform(point);
+        match fixed.iter_mut().find(|(from, _)| *from == from_m) {
+            Some((_, all)) => all.push((at, distance_m)),
+            None => fixed.push((from_m, vec![(at, distance_m)])),
+        }
+    }
+    let mut pairs = Vec::new();
+    for (from, all) in &fixed {
+        let spread = spreads(&all.iter().map(|(s, _)| *s).collect::<Vec<_>>());
+        if all.len() < 5 || spread[2] < 1e-3 {
+            continue;
+        }
+        // d² = |s|² − 2 s·f + |f|²
+        let mut normal = Matrix4::<f64>::zeros();
+        let mut right = nalgebra::Vector4::<f64>::zeros();
+        for (s, d) in all {
+            let line = nalgebra::Vector4::new(-2.0 * s[0], -2.0 * s[1], -2.0 * s[2], 1.0);
+            normal += line * line.transpose();
+            right += line * (d * d - dot(*s, *s));
+        }
+        let f = normal.cholesky()?.solve(&right);
+        pairs.push(([f[0], f[1], f[2]], *from));
+    }
+    let world: Vec<Vector> = pairs.iter().map(|(_, b)| *b).collect();
+    if pairs.is_empty() {
+        return None;
+    }
+    if pairs.len() >= 3 && spreads(&world)[1] > 1e-3 {
+        return Some(align(pairs.iter().copied()));
+    }
+    // too few fixed points for a rotation: the profile's
+    let rotation = profile.world_from_base.rotation;
+    let shifts = pairs.iter().map(|(a, b)| sub(*b, rotation * *a));
+    let sum = shifts.fold([0.0; 3], add);
+    Some(Pose {
+        rotation,
+        translation: scale(1.0 / pairs.len() as f64, sum),
+    })
+}
+
+/// Name of a row's tool; empty where the profile has none.
+pub(super) fn tool_name(profile: &Profile, tool: Option<&str>) -> String {
+    tool.or_else(|| profile.tools.keys().next().map(String::as_str))
+        .unwrap_or("flange")
+        .to_owned()
+}
+
+/// The sights of all rows that have a position, and the names and believed places of their points.
+pub(super) fn sights(
+    profile: &Profile,
+    measurements: &Measurements,
+) -> (Vec<Sight>, Vec<(String, Option<String>)>, Carriers) {
+    let arm = bare_arm(profile);
+    let mut names: Vec<(String, Option<String>, Option<[u64; 3]>)> = Vec::new();
+    let mut carriers: Carriers = Vec::new();
+    let mut all = Vec::new();
+    for row in &measurements.rows {
+        let Some(seen) = row.observed.point_m() else {
+            continue;
+        };
+        let tool = tool_name(profile, row.tool.as_deref());
+        let mounted = profile.tool(&tool).unwrap_or_else(Mounted::flange);
+        let named = row.point.as_ref().and_then(|p| profile.points.get(p).copied());
+        let given = row.point_in_tool_m.or(named);
+        let key = (tool, row.point.clone(), row.point_in_tool_m.map(|p| p.map(f64::to_bits)));
+        let carrier = names.iter().position(|k| *k == key).unwrap_or_else(|| {
+            let point = given.or_else(|| row.point.is_none().then_some([0.0; 3]));
+            let real = profile.effects.iter().find(|e| {
+                e.kind == Kind::ToolFrame && e.site.tool.as_ref().is_none_or(|t| *t == key.0)
+            });
+            let real = real.map_or(Pose::identity(), |e| Pose::from_xyz_rxryrz(e.parameters));
+            carriers.push(point.map(|p| (mounted.flange_from_tool * real).transform(p)));
+            names.push(key);
+            names.len() - 1
+        });
+        all.push(Sight {
+            flange: arm.forward(&row.q, &Conditions::default()),
+            seen,
+            carrier,
+        });
+    }
+    let names = names.into_iter().map(|(tool, point, _)| (tool, point)).collect();
+    (all, names, carriers)
+}
+
+/// Finds the base and the measured points. `None` where positions or distances do not determine it.
+///
+/// Positions: the points believed on the tool are aligned with those seen; where they do not fit, or are not known, base
+/// and points follow from a linear system, then in alternation. Distances: each fixed point in the base's frame is linear
+/// in squared distances.
+#[must_use]
+pub fn find(profile: &Profile, measurements: &Measurements) -> Option<Start> {
+    let (sights, names, carriers) = sights(profile, measurements);
+    let seen: Vec<Vector> = sights.iter().map(|s| s.seen).collect();
+    let spread = spreads(&seen);
+    if sights.len() < 3 || spread[1] < FLAT * spread[0].max(1e-3) {
+        let base = by_distances(profile, &bare_arm(profile), measurements)?;
+        return Some(Start {
+            world_from_base: base,
+            points_on_flange_m: Vec::new(),
+            rms_m: 0.0,
+            believed_rms_m: None,
+            turned: Vec::new(),
+        });
+    }
+    let placed = solve(&sights, &carriers);
+    let mut turned: Vec<(String, Rotation)> = Vec::new();
+    let rows = measurements.rows.iter().filter(|row| row.observed.point_m().is_some());
+    for (row, sight) in rows.zip(&sights) {
+        if let Observed::Pose(pose) = row.observed {
+            let tool = &names[sight.carrier].0;
+            let frame = (placed.base * sight.flange).rotation.transpose() * pose.rotation;
+            if turned.iter().all(|(name, _)| name != tool) {
+                turned.push((tool.clone(), frame));
+            }
+        }
+    }
+    Some(Start {
+        world_from_base: placed.base,
+        points_on_flange_m: names.into_iter().zip(placed.points).collect(),
+        rms_m: placed.rms_m,
+        believed_rms_m: placed.believed_rms_m,
+        turned,
+    })
+}
+
+/// Distance of the two places of the base, metres, and the angle between, radians.
+#[must_use]
+pub fn base_gap(a: &Pose, b: &Pose) -> (f64, f64) {
+    let gap = a.separation(b);
+    (norm(sub(a.translation, b.translation)), gap.angle_rad)
+}

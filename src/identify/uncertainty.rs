@@ -1,0 +1,89 @@
+//! How well each parameter is known.
+
+use super::normal::Normal;
+use super::parameters::Parameter;
+use super::robust::{Loss, Shape, limit};
+use nalgebra::DMatrix;
+
+/// Standard deviations and correlations of the parameters of a solution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncertainty {
+    /// Covariance in the parameters' scales.
+    pub covariance: DMatrix<f64>,
+    /// Standard deviation of each parameter, SI.
+    pub sigma: Vec<f64>,
+    /// Residuals in standard deviations of the rows: their root mean square over the degrees of freedom.
+    pub sigma_factor: f64,
+    /// What the standard deviations of the rows were multiplied by: `sigma_factor` where it is above one or no row gave any.
+    pub applied_factor: f64,
+    /// Measured numbers minus parameters.
+    pub degrees_of_freedom: usize,
+}
+
+impl Uncertainty {
+    /// Covariance `(JᵀWJ)⁻¹` of the kept parameters, times what the residuals say of the rows' standard deviations.
+    ///
+    /// A model that misses more than the rows' standard deviations say has parameters that are known less well: the factor
+    /// is never below one unless no standard deviations were given (`assumed`).
+    #[must_use]
+    pub fn of(
+        normal: &Normal,
+        parameters: &[Parameter],
+        counts: &[usize],
+        loss: Loss,
+        assumed: bool,
+    ) -> Self {
+        let numbers: usize = counts.iter().sum();
+        let priors = parameters.iter().filter(|p| p.prior.is_some()).count();
+        let degrees_of_freedom = (numbers + priors).saturating_sub(parameters.len());
+        let clipped = normal.squares.iter().zip(counts).map(|(squared, count)| {
+            let most = (limit(*count) * loss.scale).powi(2);
+            if loss.shape == Shape::Squares { *squared } else { squared.min(most) }
+        });
+        let sigma_factor = (clipped.sum::<f64>() / degrees_of_freedom.max(1) as f64).sqrt();
+        let applied_factor = if assumed { sigma_factor } else { sigma_factor.max(1.0) };
+        let count = parameters.len();
+        let inverse = normal
+            .matrix
+            .clone()
+            .cholesky()
+            .map_or_else(|| DMatrix::zeros(count, count), |factor| factor.inverse());
+        let covariance = inverse * (applied_factor * applied_factor);
+        let sigma = parameters
+            .iter()
+            .enumerate()
+            .map(|(i, p)| p.scale * covariance[(i, i)].max(0.0).sqrt())
+            .collect();
+        Self {
+            covariance,
+            sigma,
+            sigma_factor,
+            applied_factor,
+            degrees_of_freedom,
+        }
+    }
+
+    /// Correlation of two parameters.
+    #[must_use]
+    pub fn correlation(&self, i: usize, j: usize) -> f64 {
+        let product = self.covariance[(i, i)] * self.covariance[(j, j)];
+        if product > 0.0 {
+            self.covariance[(i, j)] / product.sqrt()
+        } else {
+            0.0
+        }
+    }
+
+    /// Pairs of parameters correlated by more than `threshold` in size, strongest first.
+    #[must_use]
+    pub fn strong_correlations(&self, threshold: f64) -> Vec<(usize, usize, f64)> {
+        let count = self.sigma.len();
+        let mut pairs: Vec<_> = (0..count)
+            .flat_map(|i| (i + 1..count).map(move |j| (i, j)))
+            .map(|(i, j)| (i, j, self.correlation(i, j)))
+            .filter(|(_, _, c)| c.abs() > threshold)
+            .collect();
+        pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
+        pairs
+    }
+}

@@ -1,0 +1,249 @@
+//! A profile file with another calibration: everything else stays as a person wrote it, comments included.
+
+use super::{Profile, ProfileError};
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
+use serde_json::{Value, json};
+
+/// Why a profile could not be written.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum WriteError {
+    /// The text that was made is no profile: a fault of the original's layout.
+    #[error("the profile's layout is too unusual to change it in place: {error}")]
+    Layout {
+        /// What reading it back says.
+        error: ProfileError,
+    },
+    /// The text that was made says something else.
+    #[error("the profile's layout is too unusual to change `{key}` in place")]
+    Differs {
+        /// The part that is not what it should be.
+        key: &'static str,
+    },
+}
+
+/// One top key with its lines.
+fn sections(text: &str) -> Vec<(String, String)> {
+    let mut all: Vec<(String, String)> = vec![(String::new(), String::new())];
+    for line in text.split_inclusive('\n') {
+        let starts = line.chars().next().is_some_and(|c| c.is_alphabetic() || c == '_' || c == '"');
+        if let Some((key, _)) = line.split_once(':').filter(|_| starts) {
+            all.push((key.trim().trim_matches('"').to_owned(), String::new()));
+        }
+        all.last_mut().expect("never empty").1.push_str(line);
+    }
+    all
+}
+
+/// A pose in flow style.
+fn flow_pose(pose: &Pose) -> String {
+    let [x, y, z] = pose.translation.map(mm_from_m);
+    let [_, _, _, rx, ry, rz] = pose.xyz_rxryrz();
+    let [rx, ry, rz] = [rx, ry, rz].map(|angle| angle / DEG);
+    format!(
+        "{{x_mm: {}, y_mm: {}, z_mm: {}, rx_deg: {}, ry_deg: {}, rz_deg: {}}}",
+        json!(x),
+        json!(y),
+        json!(z),
+        json!(rx),
+        json!(ry),
+        json!(rz)
+    )
+}
+
+/// `kinematics` with another base.
+fn with_base(section: &str, base: &Pose) -> String {
+    let line = format!("  base: {}\n", flow_pose(base));
+    let mut out = String::new();
+    let (mut done, mut inside) = (false, false);
+    for (number, text) in section.split_inclusive('\n').enumerate() {
+        let trimmed = text.trim_start();
+        let indent = text.len() - trimmed.len();
+        if inside {
+            // the rest of an entry that goes over several lines
+            let more = indent > 2 || trimmed.starts_with('}') || trimmed.is_empty();
+            if more {
+                continue;
+            }
+            inside = false;
+        }
+        if trimmed.starts_with("base:") && indent > 0 && !done {
+            out += &" ".repeat(indent);
+            out += line.trim_start();
+            (done, inside) = (true, true);
+            continue;
+        }
+        out += text;
+        if number == 0 && !section.contains("base:") {
+            out += &line;
+            done = true;
+        }
+    }
+    out
+}
+
+fn flow(value: &Value) -> String {
+    value.to_string()
+}
+
+/// The section `calibration`.
+fn calibration(profile: &Profile) -> String {
+    let mut out = String::from("calibration:\n");
+    if profile.effects.is_empty() {
+        out += "  effects: []\n";
+    } else {
+        out += "  effects:\n";
+    }
+    for effect in &profile.effects {
+        let entry: Vec<String> = effect
+            .to_entry()
+            .into_iter()
+            .map(|(key, value)| format!("{key}: {}", plain_or_flow(&value)))
+            .collect();
+        out += &format!("    - {{{}}}\n", entry.join(", "));
+    }
+    for (key, value) in [("quality", &profile.quality), ("provenance", &profile.provenance)] {
+        let Some(value) = value else { continue };
+        match value.as_object() {
+            Some(map) if !map.is_empty() => {
+                out += &format!("  {key}:\n");
+                for (key, value) in map {
+                    out += &format!("    {key}: {}\n", rows(value));
+                }
+            }
+            _ => out += &format!("  {key}: {}\n", flow(value)),
+        }
+    }
+    out
+}
+
+/// A list of lists or objects has a line for each.
+fn rows(value: &Value) -> String {
+    match value.as_array() {
+        Some(list) if list.iter().any(|item| item.is_array() || item.is_object()) => {
+            let lines: Vec<String> = list.iter().map(|item| format!("\n      - {}", flow(item))).collect();
+            lines.concat()
+        }
+        _ => flow(value),
+    }
+}
+
+fn plain_or_flow(value: &Value) -> String {
+    let plain = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_lowercase() || c == '_');
+    match value.as_str() {
+        Some(text) if plain(text) => text.to_owned(),
+        _ => flow(value),
+    }
+}
+
+/// The section `points`.
+fn points(profile: &Profile) -> String {
+    if profile.points.is_empty() {
+        return "points: {}\n".into();
+    }
+    let mut out = String::from("points:\n");
+    for (name, point) in &profile.points {
+        let [x, y, z] = point.map(|m| json!(mm_from_m(m)));
+        out += &format!("  {}: [{x}, {y}, {z}]\n", json!(name));
+    }
+    out
+}
+
+/// The text of a profile file with the base, points and calibration of `profile`; every other section is `text`'s.
+///
+/// # Errors
+/// The text's layout does not allow it: what was made is read back and compared.
+pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
+    let original = Profile::from_yaml(text).map_err(|error| WriteError::Layout { error })?;
+    let mut out = String::new();
+    let (mut had_points, mut had_calibration) = (false, false);
+    for (key, section) in sections(text) {
+        match key.as_str() {
+            "points" if original.points != profile.points => {
+                had_points = true;
+                out += &points(profile);
+            }
+            "calibration" => {
+                had_calibration = true;
+                out += &calibration(profile);
+            }
+            "kinematics" if original.world_from_base != profile.world_from_base => {
+                out += &with_base(&section, &profile.world_from_base);
+            }
+            _ => out += &section,
+        }
+        if !out.is_empty() && !out.ends_with('\n') {
+            out.push('\n');
+        }
+    }
+    if !had_points && original.points != profile.points {
+        out += &points(profile);
+    }
+    if !had_calibration {
+        out += &calibration(profile);
+    }
+    let back = Profile::from_yaml(&out).map_err(|error| WriteError::Layout { error })?;
+    let gap = back.world_from_base.separation(&profile.world_from_base);
+    let differs = |key| Err(WriteError::Differs { key });
+    if gap.distance_m > 1e-9 || gap.angle_rad > 1e-9 {
+        return differs("base");
+    }
+    if back.effects.len() != profile.effects.len()
+        || back.effects.iter().zip(&profile.effects).any(|(a, b)| !a.same_place(b))
+    {
+        return differs("effects");
+    }
+    if back.points.len() != profile.points.len() {
+        return differs("points");
+    }
+    let same = back.links == profile.links && back.tools == profile.tools && back.bodies == profile.bodies;
+    if !same {
+        return differs("kinematics");
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
+
+    #[test]
+    fn comments_and_order_stay_and_the_calibration_is_read_back() {
+        let text = include_str!("../../../robots/abb_irb120_thesis.yaml");
+        let mut profile = Profile::from_yaml(text).expect("a shipped profile");
+        profile.world_from_base = Pose::from_xyz_rxryrz([2.5, -1.0, 0.3, 0.2, -0.1, 3.0]);
+        profile.points.insert("smr 1".into(), [0.01, -0.02, 0.1]);
+        profile.effects.push(Effect {
+            kind: Kind::ToolFrame,
+            site: Site {
+                tool: Some("artifact".into()),
+                ..Site::default()
+            },
+            parameters: [1e-9; MOST_PARAMETERS],
+        });
+        profile.quality = Some(json!({"mean_mm": 0.1, "matrix": [[1.0, 2.5e-12], [0.0, 1.0]]}));
+        let out = rewritten(text, &profile).expect("a plain layout");
+        assert!(out.contains("# Bodies: the thesis."));
+        assert!(out.contains("# 250 deg/s"));
+        let back = Profile::from_yaml(&out).expect("it was read back");
+        assert_eq!(back.quality, profile.quality);
+        for (a, b) in back.effects.iter().zip(&profile.effects) {
+            for (x, y) in a.parameters.iter().zip(&b.parameters) {
+                assert!((x - y).abs() <= 1e-15 * y.abs());
+            }
+        }
+        assert_eq!(rewritten(&out, &profile).expect("its own layout"), out);
+    }
+
+    #[test]
+    fn a_base_over_several_lines_is_replaced_whole() {
+        let text = include_str!("../../../robots/abb_irb120.yaml");
+        let line = text.lines().find(|l| l.trim_start().starts_with("base:")).expect("a base");
+        let long = line.replace(", y_mm", ",\n    y_mm");
+        let text = text.replace(line, &long);
+        let mut profile = Profile::from_yaml(&text).expect("a profile");
+        profile.world_from_base = Pose::from_xyz_rxryrz([2.5, -1.0, 0.3, 0.2, -0.1, 3.0]);
+        assert!(rewritten(&text, &profile).is_ok());
+    }
+}
