@@ -142,7 +142,7 @@ impl Pick {
         let counted = kind.definition().site.iter().filter(|p| p.range().is_some());
         for (n, place) in counted.enumerate() {
             let default = match place {
-                Place::Order => (1, 1),
+                Place::Order | Place::Row => (1, 1),
                 _ => (1, 6),
             };
             let (low, high) = self.places.get(n).copied().unwrap_or(default);
@@ -164,9 +164,9 @@ impl Pick {
 
 fn number(effect: &Effect, place: Place) -> Option<u32> {
     let index = match place {
-        Place::Link | Place::Joint => effect.site.index + 1,
+        Place::Link | Place::Joint | Place::JointOrBase => effect.site.index + 1,
         Place::On => effect.site.on + 1,
-        Place::Order => return Some(effect.site.order),
+        Place::Order | Place::Row => return Some(effect.site.order),
         Place::Tool => return None,
     };
     u32::try_from(index).ok()
@@ -175,9 +175,9 @@ fn number(effect: &Effect, place: Place) -> Option<u32> {
 fn with(site: &Site, place: Place, value: u32) -> Site {
     let mut site = site.clone();
     match place {
-        Place::Link | Place::Joint => site.index = value as usize - 1,
+        Place::Link | Place::Joint | Place::JointOrBase => site.index = value as usize - 1,
         Place::On => site.on = value as usize - 1,
-        Place::Order => site.order = value,
+        Place::Order | Place::Row => site.order = value,
         Place::Tool => {}
     }
     site
