@@ -29,6 +29,7 @@
 
 pub mod cli;
 pub mod compensate;
+pub mod diagnose;
 pub mod finding;
 pub mod geometry;
 pub mod identify;

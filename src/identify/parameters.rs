@@ -133,6 +133,14 @@ impl Pick {
             && self.places.iter().zip(numbers).all(|((a, b), n)| (*a..=*b).contains(&n))
     }
 
+    /// Whether it means an effect, or one of its parameters.
+    #[must_use]
+    pub fn means(&self, effect: &Effect) -> bool {
+        let numbers = effect.definition().site.iter().filter_map(|p| number(effect, *p));
+        self.kind == Some(effect.kind)
+            && self.places.iter().zip(numbers).all(|((a, b), n)| (*a..=*b).contains(&n))
+    }
+
     /// The effects this means, at zero.
     fn effects(&self) -> Vec<Effect> {
         let Some(kind) = self.kind else {
