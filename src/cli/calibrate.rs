@@ -2,10 +2,12 @@
 
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
-use super::table::{aligned, spread_row, SPREAD_HEADER};
+use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::identify::calibration::{BasePolicy, Calibration, Options, STRONG_CORRELATION, calibrate};
+use crate::identify::calibration::{
+    BasePolicy, Calibration, Options, STRONG_CORRELATION, calibrate,
+};
 use crate::identify::parameters::{Level, Selection};
 use crate::identify::robust::Shape;
 use crate::model::profile::rewritten;
@@ -142,7 +144,10 @@ impl Calibrate {
 
     fn provenance(&self, found: &Calibration, profile: &str, measurements: &[String]) -> Value {
         let rows = &found.problem.rows;
-        let temperatures: Vec<f64> = rows.iter().filter_map(|r| r.conditions.temperature_c).collect();
+        let temperatures: Vec<f64> = rows
+            .iter()
+            .filter_map(|r| r.conditions.temperature_c)
+            .collect();
         let mut map = json!({
             "program": format!("poseshift {}", env!("CARGO_PKG_VERSION")),
             "profile_sha256": profile,
@@ -154,7 +159,8 @@ impl Calibrate {
             })).collect::<Vec<_>>(),
         });
         if !temperatures.is_empty() {
-            map["temperature_c"] = json!(temperatures.iter().sum::<f64>() / temperatures.len() as f64);
+            map["temperature_c"] =
+                json!(temperatures.iter().sum::<f64>() / temperatures.len() as f64);
         }
         if let Some(date) = &self.date {
             map["date"] = json!(date);
@@ -172,7 +178,11 @@ fn text(found: &Calibration, all: bool) -> String {
         found.solution.parameters.len(),
         found.problem.parameters.len(),
     );
-    out += &format!("stopped after {} passes: {}\n\n", found.solution.passes, found.stop().describe());
+    out += &format!(
+        "stopped after {} passes: {}\n\n",
+        found.solution.passes,
+        found.stop().describe()
+    );
     let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
     let mut models = vec![
         ("before", &found.before),
@@ -193,18 +203,35 @@ fn text(found: &Calibration, all: bool) -> String {
     }
     out += &aligned(&rows);
     let u = &found.uncertainty;
-    let given = if found.problem.sigma_assumed { "assumed" } else { "given" };
+    let given = if found.problem.sigma_assumed {
+        "assumed"
+    } else {
+        "given"
+    };
     out += &format!(
         "\nresiduals are {:.2} times the {given} standard deviations; sigmas below are scaled by {:.2}\n",
         u.sigma_factor, u.applied_factor
     );
     let o = &found.observability;
-    out += &format!("O1 {:.4}, condition number {:.3e}, rank {}\n\n", o.o1, o.condition_number, o.rank);
-    let mut rows = vec![["parameter", "value", "sigma", "unit"].map(str::to_owned).to_vec()];
+    out += &format!(
+        "O1 {:.4}, condition number {:.3e}, rank {}\n\n",
+        o.o1, o.condition_number, o.rank
+    );
+    let mut rows = vec![
+        ["parameter", "value", "sigma", "unit"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
     for (parameter, value, sigma) in found.parameters() {
         let unit = parameter.unit.in_si();
         if let Some(sigma) = sigma {
-            let digits = |x: f64| if x.abs() < 1e-2 && x != 0.0 { format!("{x:.3e}") } else { format!("{x:.5}") };
+            let digits = |x: f64| {
+                if x.abs() < 1e-2 && x != 0.0 {
+                    format!("{x:.3e}")
+                } else {
+                    format!("{x:.5}")
+                }
+            };
             rows.push(vec![
                 parameter.key.clone(),
                 digits(value / unit),
@@ -219,17 +246,37 @@ fn text(found: &Calibration, all: bool) -> String {
         out += "\nnot determined by these data, left as they were\n";
     }
     for dropped in &found.solution.identifiable.dropped {
-        let with: Vec<&str> = dropped.confounded_with.iter().take(3).map(|i| names[*i].key.as_str()).collect();
+        let with: Vec<&str> = dropped
+            .confounded_with
+            .iter()
+            .take(3)
+            .map(|i| names[*i].key.as_str())
+            .collect();
+        let weak = dropped.weak.map(|w| {
+            let p = &names[dropped.parameter];
+            format!(
+                "sigma would be {:.3} {}; ",
+                w * p.scale / p.unit.in_si(),
+                p.unit.symbol()
+            )
+        });
         let why = if with.is_empty() {
             "does nothing to what was measured".to_owned()
         } else {
             format!("like {}", with.join(", "))
         };
-        out += &wrapped(&format!("  {}: {why}", names[dropped.parameter].key));
+        out += &wrapped(&format!(
+            "  {}: {}{why}",
+            names[dropped.parameter].key,
+            weak.unwrap_or_default()
+        ));
     }
     let strong = u.strong_correlations(STRONG_CORRELATION);
     if !strong.is_empty() {
-        out += &format!("\n{} pairs of parameters are correlated by more than {STRONG_CORRELATION}\n", strong.len());
+        out += &format!(
+            "\n{} pairs of parameters are correlated by more than {STRONG_CORRELATION}\n",
+            strong.len()
+        );
         let shown = if all { strong.len() } else { 5 };
         for (i, j, c) in strong.iter().take(shown) {
             let keys = &found.solution.parameters;
@@ -240,13 +287,22 @@ fn text(found: &Calibration, all: bool) -> String {
         let [x, y, z, rx, ry, rz] = found.solution.estimate.world_from_base.xyz_rxryrz();
         out += &format!(
             "\nthe base stands at ({:.3}, {:.3}, {:.3}) mm,\n  turned by ({:.5}, {:.5}, {:.5}) deg in the device's frame\n",
-            mm_from_m(x), mm_from_m(y), mm_from_m(z), rx / DEG, ry / DEG, rz / DEG
+            mm_from_m(x),
+            mm_from_m(y),
+            mm_from_m(z),
+            rx / DEG,
+            ry / DEG,
+            rz / DEG
         );
     }
     if !found.outliers.is_empty() {
         out += &format!("\n{} rows do not fit the others\n", found.outliers.len());
         let shown = if all { found.outliers.len() } else { 10 };
-        let mut rows = vec![["line", "id", "residual mm", "times typical", "weight"].map(str::to_owned).to_vec()];
+        let mut rows = vec![
+            ["line", "id", "residual mm", "times typical", "weight"]
+                .map(str::to_owned)
+                .to_vec(),
+        ];
         for o in found.outliers.iter().take(shown) {
             rows.push(vec![
                 o.line.to_string(),

@@ -33,7 +33,7 @@ pub struct Compensate {
     /// Write even when targets cannot be compensated; these stay as they are, and the status is 1
     #[arg(long)]
     keep_going: bool,
-    /// Compensate files that already are
+    /// Compensate files that already are, and targets that the controller corrects itself (KRL: S with bit 4)
     #[arg(long)]
     force: bool,
     /// Write at least so many decimals of a millimetre (default: as many as the file has)
@@ -131,6 +131,7 @@ impl Compensate {
             given,
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
+            accept_absolutely_accurate: self.force,
         })
     }
 
@@ -188,12 +189,15 @@ fn refuse_doubtful(profile: &Profile, path: &Path) -> Result<(), Failure> {
         .effects
         .iter()
         .all(crate::model::effects::Effect::is_zero);
-    if profile.controller == ControllerModel::Calibrated && nothing {
+    // with its own effects the real arm is taken as the controller's: nothing changes
+    if profile.controller == ControllerModel::Calibrated && profile.own_effects.is_none() && nothing
+    {
         let message = format!(
             "{}: the controller is calibrated itself, and the profile has no effects to apply",
             path.display()
         );
-        let hint = "a calibrated controller needs the effects that it applies and those that remain; see `poseshift effects`";
+        let hint = "a calibrated controller needs the effects that it applies (`controller.effects`; of a UR, `poseshift profile \
+                    import-ur`) and those of the real arm";
         return Err(Failure::with_hint(message, hint));
     }
     Ok(())

@@ -27,7 +27,14 @@ impl MeasurementFiles {
             let source = Source::new(path.display().to_string(), files::read(path)?);
             let mut read = Measurements::from_csv(&source.bytes).map_err(|error| {
                 let length = (error.length > 0).then_some(error.length);
-                Failure::at(&source, error.line, error.column, length, error.to_string(), error.hint())
+                Failure::at(
+                    &source,
+                    error.line,
+                    error.column,
+                    length,
+                    error.to_string(),
+                    error.hint(),
+                )
             })?;
             hashes.push(files::sha256(&source.bytes));
             match &mut all {
@@ -43,7 +50,11 @@ impl MeasurementFiles {
 
     /// How reports name them.
     pub fn name(&self) -> String {
-        let names: Vec<String> = self.measurements.iter().map(|p| p.display().to_string()).collect();
+        let names: Vec<String> = self
+            .measurements
+            .iter()
+            .map(|p| p.display().to_string())
+            .collect();
         names.join(", ")
     }
 }

@@ -5,11 +5,15 @@ mod catalogue;
 mod compensate;
 mod failure;
 mod files;
+mod import_ur;
 mod kinematics;
 mod measurements;
+mod plan;
 mod profile;
 mod shell;
+mod simulate;
 mod table;
+mod validate;
 mod values;
 
 use clap::{Args, Parser, Subcommand};
@@ -53,6 +57,9 @@ pub struct Output {
 enum Command {
     Compensate(compensate::Compensate),
     Calibrate(calibrate::Calibrate),
+    Validate(validate::Validate),
+    Plan(plan::PlanCommand),
+    Simulate(simulate::Simulate),
     Fk(kinematics::Fk),
     Ik(kinematics::Ik),
     Profile(profile::ProfileCommand),
@@ -79,6 +86,9 @@ pub fn run() -> ExitCode {
     let answer = match command {
         Command::Compensate(command) => command.run(output),
         Command::Calibrate(command) => command.run(output),
+        Command::Validate(command) => command.run(output),
+        Command::Plan(command) => command.run(output),
+        Command::Simulate(command) => command.run(output),
         Command::Fk(command) => command.run(output),
         Command::Ik(command) => command.run(output),
         Command::Profile(command) => command.run(output),

@@ -41,6 +41,7 @@ enum Sub {
         /// The other profile
         b: PathBuf,
     },
+    ImportUr(super::import_ur::ImportUr),
     /// Print the JSON Schema of the format
     Schema,
 }
@@ -58,6 +59,7 @@ impl ProfileCommand {
                 &files::read_profile(b)?.0,
                 output,
             ),
+            Sub::ImportUr(command) => command.run(output),
             Sub::Schema => print_json(&Profile::schema()).map(|()| Answer::Yes),
         }
     }
@@ -114,9 +116,10 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
         }))?;
         return Ok(Answer::Yes);
     }
-    let controller = match profile.controller {
-        ControllerModel::Nominal => "computes with the nominal chain",
-        ControllerModel::Calibrated => "computes with a calibrated chain",
+    let controller = match (profile.controller, &profile.own_effects) {
+        (ControllerModel::Nominal, _) => "computes with the nominal chain",
+        (ControllerModel::Calibrated, Some(_)) => "computes with a calibrated chain of its own",
+        (ControllerModel::Calibrated, None) => "computes with a calibrated chain",
     };
     let mut text = format!(
         "{} {}, serial {}\ncontroller: {}, {controller}\ninverse: {inverse}\n\njoints\n",
@@ -138,6 +141,10 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
         ("bodies", "body "),
         ("tools", "tool "),
         ("points", "point "),
+        (
+            "effects in the controller's own chain",
+            "controller effect ",
+        ),
         ("effects", "effect "),
     ] {
         let rows = start(key);

@@ -77,15 +77,13 @@ fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Optio
         * shift.apply(&(job.world_from_frame(task.frame).inverse() * task.wanted));
     let given = *job.world_from_frame(task.frame) * shift.apply(fake_in_frame);
     let equipped = job.equipped(task.tool);
-    let solution = equipped
-        .arm
-        .solve_branch(&given, task.branch, &task.nominal_q);
+    let (q, reached) = equipped.controller_joints(&given, task.branch, &task.nominal_q);
     let landed = || {
         equipped
             .inverse
             .real
-            .forward(&solution.q, &job.conditions(task))
+            .forward(&q, &job.conditions(task))
             .separation(&wanted)
     };
-    (solution.beyond == 0.0).then(landed)
+    reached.then(landed)
 }

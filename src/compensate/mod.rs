@@ -29,7 +29,7 @@ use rewrite::Portion;
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::inverse::{Arm, Branch, Inverse, Targets, Unsupported, solve_batch};
+use crate::inverse::{Arm, Branch, Inverse, Status, Targets, Unsupported, solve_batch};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use crate::program::{Edits, Language, Program, ReadError, Settings, Source};
@@ -48,6 +48,8 @@ pub struct Options {
     pub correct_joint_targets: bool,
     /// At least so many decimals of a millimetre, and as many of other units as that is worth.
     pub decimals: Option<usize>,
+    /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
+    pub accept_absolutely_accurate: bool,
 }
 
 /// Why nothing could be compensated.
@@ -96,6 +98,28 @@ struct Equipped {
     inverse: Inverse,
 }
 
+impl Equipped {
+    /// The joints that the controller computes for `world_from_tool` near others, and whether they reach it.
+    fn controller_joints(
+        &self,
+        world_from_tool: &Pose,
+        branch: Branch,
+        near: &[f64; 6],
+    ) -> ([f64; 6], bool) {
+        match &self.calibrated_controller {
+            None => {
+                let solution = self.arm.solve_branch(world_from_tool, branch, near);
+                (solution.q, solution.beyond == 0.0)
+            }
+            Some(controller) => {
+                let outcome = controller.solve(world_from_tool, branch, near);
+                let missed = matches!(outcome.status, Status::OutOfReach | Status::NotConverged);
+                (outcome.q, !missed)
+            }
+        }
+    }
+}
+
 /// A target whose tool, frame and branch are known.
 #[derive(Clone, Copy, Debug)]
 struct Task {
@@ -112,6 +136,8 @@ struct Task {
     nominal_q: [f64; 6],
     /// Direction in which each joint last moved, where an effect depends on it.
     direction: [i8; 6],
+    /// The controller goes by the target's configuration data.
+    honoured: bool,
 }
 
 impl Job<'_> {
@@ -185,11 +211,12 @@ pub fn compensate(
 ) -> Result<Compensation, CompensateError> {
     let settings = Settings {
         pulses_per_deg: profile.pulses_per_deg,
+        accept_absolutely_accurate: options.accept_absolutely_accurate,
     };
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
-    let setting = Setting::of(&program, profile, &options.given);
+    let setting = Setting::of(language, &program, profile, &options.given);
     let mut job = Job {
         language,
         settings: &settings,

@@ -4,7 +4,7 @@ use super::Job;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::model::profile::{Mounted, Profile};
-use crate::program::{Frame, Move, Program, Shape, Tool};
+use crate::program::{Frame, Language, Move, Program, Shape, Tool};
 use std::collections::BTreeMap;
 
 /// Two values of one tool or frame that differ by less than this are the same, metres and radians.
@@ -40,6 +40,11 @@ impl PlacementError {
     #[must_use]
     pub fn message(&self) -> String {
         let Self { what, name, .. } = self;
+        if name.is_empty() {
+            return format!(
+                "neither the program files nor the command line say where the {what} is"
+            );
+        }
         format!(
             "neither the program files nor the profile nor the command line say where {what} `{name}` is"
         )
@@ -53,6 +58,9 @@ impl PlacementError {
         } else {
             "--frame"
         };
+        if self.name.is_empty() {
+            return format!("give `{option} x,y,z,rx,ry,rz` (mm, deg) or its name in the profile");
+        }
         format!(
             "give the file that declares it too, or `{option} {}=x,y,z,rx,ry,rz` (mm, deg)",
             self.name
@@ -78,7 +86,13 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    pub fn of(program: &Program, profile: &Profile, given: &Given) -> Self {
+    pub fn of(
+        language: &dyn Language,
+        program: &Program,
+        profile: &Profile,
+        given: &Given,
+    ) -> Self {
+        let unframed = language.frame_of_unframed();
         let mut tools: Vec<_> = program
             .tools
             .iter()
@@ -88,7 +102,10 @@ impl Setting {
         let mut frames: Vec<_> = program
             .frames
             .iter()
-            .map(|frame| frame_of(frame, given))
+            .map(|frame| {
+                let is_unframed = Some(frame.name.as_str()) == unframed;
+                frame_of(frame, given).or_else(|| is_unframed.then(Pose::identity))
+            })
             .collect();
         frames.extend([given.frames.get(&None).copied(), Some(Pose::identity())]);
         Self { tools, frames }
@@ -248,21 +265,18 @@ fn same_pose(a: &Pose, b: &Pose) -> bool {
 fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
     let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
     let of_profile = profile.tool(&tool.name);
-    let found = match tool.flange_from_tool {
-        Some(flange_from_tool) => {
-            let load = of_profile.and_then(|tool| tool.load);
-            Some(Mounted {
-                name: tool.name.clone(),
-                flange_from_tool,
-                load,
-            })
-        }
-        None => {
-            let named = given.tools.get(&Some(tool.name.clone())).cloned();
-            named
-                .or(of_profile)
-                .or_else(|| given.tools.get(&None).cloned())
-        }
+    let found = if let Some(flange_from_tool) = tool.flange_from_tool {
+        let load = of_profile.and_then(|tool| tool.load);
+        Some(Mounted {
+            name: tool.name.clone(),
+            flange_from_tool,
+            load,
+        })
+    } else {
+        let named = given.tools.get(&Some(tool.name.clone())).cloned();
+        named
+            .or(of_profile)
+            .or_else(|| given.tools.get(&None).cloned())
     };
     found.map(|found| Mounted {
         load: load.or(found.load),

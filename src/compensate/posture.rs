@@ -166,6 +166,7 @@ fn task(
         branch,
         nominal_q,
         direction: [0; 6],
+        honoured,
     })
 }
 

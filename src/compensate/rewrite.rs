@@ -2,7 +2,7 @@
 
 use super::outcome::TargetReport;
 use super::placement::name_of;
-use super::{Equipped, Job, Task};
+use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
@@ -82,7 +82,10 @@ impl Portion {
         if shift.distance_m < NO_SHIFT.distance_m && shift.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
-        let (written, changed) = self.write(job, task, outcome, &fake, fractions);
+        let Some((written, changed)) = self.write(job, task, outcome, &fake, fractions) else {
+            (report.fake, report.shift) = (None, Separation::default());
+            return;
+        };
         report.changed = changed;
         report.rounding = landing(job, task, outcome, &written);
         let beside = report.rounding.distance_m;
@@ -92,7 +95,8 @@ impl Portion {
         }
     }
 
-    /// Puts the new numbers' text into the edits; returns the numbers as they are written and whether any changed.
+    /// Puts the new numbers' text into the edits; returns the numbers as they are written and whether any changed,
+    /// or nothing where the target has to stay.
     fn write(
         &mut self,
         job: &Job,
@@ -100,7 +104,7 @@ impl Portion {
         outcome: &Outcome,
         fake: &Pose,
         fractions: &[Fraction],
-    ) -> (Vec<f64>, bool) {
+    ) -> Option<(Vec<f64>, bool)> {
         let target = &job.program.targets[task.target];
         let numbers = job.program.numbers_of(target);
         let roles = job.language.roles(target.layout);
@@ -123,6 +127,10 @@ impl Portion {
             job.settings,
             &mut new,
         );
+        if let Some(joint) = kept_configuration(job, task, outcome, &new) {
+            self.findings.push(kept_finding(job, task, joint));
+            return None;
+        }
         let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
         if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
             self.findings
@@ -154,11 +162,11 @@ impl Portion {
                 changed = true;
                 let start = number.start as usize;
                 edits.replace(start..start + usize::from(number.length), |out| {
-                    out.extend_from_slice(&digits)
+                    out.extend_from_slice(&digits);
                 });
             }
         }
-        (new, changed)
+        Some((new, changed))
     }
 }
 
@@ -199,12 +207,12 @@ fn landing(job: &Job, task: &Task, outcome: &Outcome, written: &[f64]) -> Separa
         .value
     {
         Value::Joints(q) => q,
-        Value::Pose(frame_from_tool) => controller_joints(
-            job,
-            task,
-            &(*job.world_from_frame(task.frame) * frame_from_tool),
-            outcome,
-        ),
+        Value::Pose(frame_from_tool) => {
+            let given = *job.world_from_frame(task.frame) * frame_from_tool;
+            let equipped = job.equipped(task.tool);
+            let (q, _) = equipped.controller_joints(&given, task.branch, &outcome.q);
+            q
+        }
     };
     job.equipped(task.tool)
         .inverse
@@ -229,19 +237,6 @@ fn rounding_finding(job: &Job, task: &Task, rounding: Separation, shift: Separat
     )
 }
 
-/// The joints that the controller computes for a pose near the one found.
-fn controller_joints(job: &Job, task: &Task, given: &Pose, outcome: &Outcome) -> [f64; 6] {
-    let Equipped {
-        arm,
-        calibrated_controller,
-        ..
-    } = job.equipped(task.tool);
-    match calibrated_controller {
-        None => arm.solve_branch(given, task.branch, &outcome.q).q,
-        Some(controller) => controller.solve(given, task.branch, &outcome.q).q,
-    }
-}
-
 fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {
     let start = number.start as usize;
     &job.sources[target.file as usize].bytes[start..start + usize::from(number.length)]
@@ -254,6 +249,38 @@ pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {
         behind_axis_1: branch.behind_axis_1,
         behind_lower_arm: branch.behind_lower_arm,
     }
+}
+
+/// A joint that the correction takes out of the range that the configuration data name, where these stay as they are
+/// because the language cannot write them for one target alone.
+fn kept_configuration(job: &Job, task: &Task, outcome: &Outcome, new: &[f64]) -> Option<usize> {
+    let target = &job.program.targets[task.target];
+    if !task.honoured || target.layout.shape != Shape::Pose {
+        return None;
+    }
+    let decoded = job.language.decode(target.layout, new, job.settings);
+    let is_inside = |q: f64, (low, high): (f64, f64)| (low..=high).contains(&q);
+    (0..6).find(|&i| {
+        decoded.configuration.joints[i].is_some_and(|range| {
+            is_inside(task.nominal_q[i], range) && !is_inside(outcome.q[i], range)
+        })
+    })
+}
+
+fn kept_finding(job: &Job, task: &Task, joint: usize) -> Finding {
+    let message = format!(
+        "the correction takes joint {} of {} across the border of its configuration data, which are those of other \
+         targets too and stay: a joint move would come out a turn away",
+        joint + 1,
+        name_of(job, task.target)
+    );
+    job.at_target(
+        "configuration-kept",
+        Severity::Error,
+        task.target,
+        message,
+        "go there on a straight line, or move the target away from the border",
+    )
 }
 
 fn configuration_finding(

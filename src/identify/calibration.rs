@@ -124,7 +124,11 @@ pub(super) fn begin(problem: &Problem, estimate: &mut Estimate, start: &Start) {
             continue;
         }
         // the tool's origin was measured: its frame moves there
-        let turned = start.turned.iter().find(|(name, _)| name == tool).map(|(_, r)| *r);
+        let turned = start
+            .turned
+            .iter()
+            .find(|(name, _)| name == tool)
+            .map(|(_, r)| *r);
         let real = Pose {
             rotation: turned.unwrap_or(mounted.flange_from_tool.rotation),
             translation: *on_flange,
@@ -133,7 +137,11 @@ pub(super) fn begin(problem: &Problem, estimate: &mut Estimate, start: &Start) {
             Subject::Effect(slot) => estimate.effects[slot.effect].kind == kind,
             Subject::Point { .. } => false,
         };
-        if !problem.parameters.iter().any(|p| fitted(Kind::ToolFrame, p.subject)) {
+        if !problem
+            .parameters
+            .iter()
+            .any(|p| fitted(Kind::ToolFrame, p.subject))
+        {
             continue;
         }
         let deviation = (mounted.flange_from_tool.inverse() * real).xyz_rxryrz();
@@ -150,13 +158,20 @@ pub(super) fn begin(problem: &Problem, estimate: &mut Estimate, start: &Start) {
 }
 
 fn base_is_sought(selection: &Selection) -> bool {
-    !selection.fix.iter().any(|pick| pick.kind == Some(Kind::BaseFrame) && pick.key.is_none())
+    !selection
+        .fix
+        .iter()
+        .any(|pick| pick.kind == Some(Kind::BaseFrame) && pick.key.is_none())
 }
 
 /// Fits base, tool and points of a model to measurements and leaves its arm as it is.
 ///
 /// # Errors
 /// As [`calibrate`].
+#[allow(
+    clippy::missing_panics_doc,
+    reason = "what is expected holds by construction"
+)]
 pub fn fit_frames(
     profile: &Profile,
     measurements: &Measurements,
@@ -165,13 +180,20 @@ pub fn fit_frames(
 ) -> Result<(Problem, Solution), IdentifyError> {
     let mut selection = Selection::level(Level::Frames);
     if points_too && measurements.rows.iter().any(|row| row.point.is_some()) {
-        selection.identify = super::parameters::Pick::parse_list("points").expect("a word of the list");
+        selection.identify =
+            super::parameters::Pick::parse_list("points").expect("a word of the list");
     }
     let guess = start::find(profile, measurements);
-    let base = guess.as_ref().map_or(profile.world_from_base, |s| s.world_from_base);
+    let base = guess
+        .as_ref()
+        .map_or(profile.world_from_base, |s| s.world_from_base);
     let (problem, mut estimate) = Problem::new(profile, measurements, &selection, base)?;
     if let Some(guess) = &guess {
-        estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame).for_each(|e| e.parameters = [0.0; 6]);
+        estimate
+            .effects
+            .iter_mut()
+            .filter(|e| e.kind == Kind::BaseFrame)
+            .for_each(|e| e.parameters = [0.0; 6]);
         begin(&problem, &mut estimate, guess);
     }
     let solution = solve(&problem, estimate, shape, true)?;
@@ -209,7 +231,8 @@ pub fn calibrate(
         },
     };
     let moved_base = guess.world_from_base != profile.world_from_base;
-    let (problem, mut estimate) = Problem::new(profile, &fit, &options.selection, guess.world_from_base)?;
+    let (problem, mut estimate) =
+        Problem::new(profile, &fit, &options.selection, guess.world_from_base)?;
     if problem.numbers() <= problem.parameters.len() {
         return Err(IdentifyError::TooFew {
             numbers: problem.numbers(),
@@ -223,12 +246,22 @@ pub fn calibrate(
     };
     let before = Quality::of(&problem.rows, &misses(&problem, &before_estimate));
     if moved_base {
-        estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame).for_each(|e| e.parameters = [0.0; 6]);
+        estimate
+            .effects
+            .iter_mut()
+            .filter(|e| e.kind == Kind::BaseFrame)
+            .for_each(|e| e.parameters = [0.0; 6]);
     }
     begin(&problem, &mut estimate, &guess);
     let frames_selection = Selection {
         level: Level::Frames,
-        identify: options.selection.identify.iter().filter(|p| p.kind.is_none()).cloned().collect(),
+        identify: options
+            .selection
+            .identify
+            .iter()
+            .filter(|p| p.kind.is_none())
+            .cloned()
+            .collect(),
         ..options.selection.clone()
     };
     let frames_only = {
@@ -245,8 +278,17 @@ pub fn calibrate(
         solve(&frames, start, options.shape, sought)?
     };
     let frames_only_quality = Quality::of(&problem.rows, &misses(&problem, &frames_only.estimate));
-    let mut solution = solve(&problem, frames_only.estimate.clone(), options.shape, sought)?;
-    let counts: Vec<usize> = problem.rows.iter().map(|row| row.observed.count()).collect();
+    let mut solution = solve(
+        &problem,
+        frames_only.estimate.clone(),
+        options.shape,
+        sought,
+    )?;
+    let counts: Vec<usize> = problem
+        .rows
+        .iter()
+        .map(|row| row.observed.count())
+        .collect();
     let uncertainty = Uncertainty::of(
         &solution.normal,
         &solution.parameters,
@@ -258,7 +300,11 @@ pub fn calibrate(
     let after = Quality::of(&problem.rows, &after_misses);
     remarks.extend(screening::doubt_fit(&after, &frames_only_quality)?);
     let configurations = fit.configurations().last().map_or(0, |last| last + 1);
-    let values = solution.normal.factor().map(|r| singular_values(&r)).unwrap_or_default();
+    let values = solution
+        .normal
+        .factor()
+        .map(|r| singular_values(&r))
+        .unwrap_or_default();
     let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
     let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
@@ -298,7 +344,8 @@ pub fn judge(
     estimate: &Estimate,
 ) -> Result<Quality, IdentifyError> {
     let selection = Selection::level(Level::Frames);
-    let (other, mut values) = Problem::new(profile, measurements, &selection, estimate.world_from_base)?;
+    let (other, mut values) =
+        Problem::new(profile, measurements, &selection, estimate.world_from_base)?;
     for (point, value) in other.points.iter().zip(&mut values.points_m) {
         let same = problem.points.iter().position(|p| p.name == point.name);
         if let Some(index) = same {
@@ -335,7 +382,12 @@ fn base_policy(
         });
     }
     let deviation = (profile.world_from_base.inverse() * measured).xyz_rxryrz();
-    for effect in solution.estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame) {
+    for effect in solution
+        .estimate
+        .effects
+        .iter_mut()
+        .filter(|e| e.kind == Kind::BaseFrame)
+    {
         effect.parameters = deviation;
     }
     solution.estimate.world_from_base = profile.world_from_base;
@@ -351,7 +403,12 @@ fn outliers(
     let counts = problem.rows.iter().map(|row| row.observed.count());
     let scale = super::robust::scale_of(&solution.normal.squares, counts);
     let mut found = Vec::new();
-    for ((row, miss), squared) in problem.rows.iter().zip(misses).zip(&solution.normal.squares) {
+    for ((row, miss), squared) in problem
+        .rows
+        .iter()
+        .zip(misses)
+        .zip(&solution.normal.squares)
+    {
         let count = row.observed.count();
         let typical = scale * (count as f64).sqrt();
         let most = OUTLIER * limit(count) * scale;
@@ -381,11 +438,15 @@ impl Calibration {
 
     /// Every parameter that was asked for with its value and, where the data determine it, its standard deviation, SI.
     pub fn parameters(&self) -> impl Iterator<Item = (&Parameter, f64, Option<f64>)> {
-        self.problem.parameters.iter().enumerate().map(|(i, parameter)| {
-            let at = self.solution.identifiable.kept.iter().position(|k| *k == i);
-            let value = self.solution.estimate.value(parameter.subject);
-            (parameter, value, at.map(|at| self.uncertainty.sigma[at]))
-        })
+        self.problem
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(i, parameter)| {
+                let at = self.solution.identifiable.kept.iter().position(|k| *k == i);
+                let value = self.solution.estimate.value(parameter.subject);
+                (parameter, value, at.map(|at| self.uncertainty.sigma[at]))
+            })
     }
 
     /// The calibrated robot: the profile with the identified effects, points and, where it was replaced, base.
@@ -393,8 +454,20 @@ impl Calibration {
     pub fn profile(&self) -> Profile {
         let mut profile = self.problem.profile.clone();
         profile.world_from_base = self.solution.estimate.world_from_base;
-        profile.effects = self.solution.estimate.effects.iter().filter(|e| !e.is_zero()).cloned().collect();
-        for (point, value) in self.problem.points.iter().zip(&self.solution.estimate.points_m) {
+        profile.effects = self
+            .solution
+            .estimate
+            .effects
+            .iter()
+            .filter(|e| !e.is_zero())
+            .cloned()
+            .collect();
+        for (point, value) in self
+            .problem
+            .points
+            .iter()
+            .zip(&self.solution.estimate.points_m)
+        {
             profile.points.insert(point.name.clone(), *value);
         }
         profile

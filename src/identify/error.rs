@@ -102,7 +102,9 @@ pub enum IdentifyError {
     #[error("no parameter is left to identify")]
     NoParameters,
     /// The iteration did not come to rest.
-    #[error("not solved after {passes} passes: the last step was {step:.2e} of the typical size, the limit is {limit:.0e}")]
+    #[error(
+        "not solved after {passes} passes: the last step was {step:.2e} of the typical size, the limit is {limit:.0e}"
+    )]
     NotConverged {
         /// Passes over the data.
         passes: usize,

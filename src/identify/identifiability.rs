@@ -1,13 +1,15 @@
 //! What the data can tell apart, and how well: rank, confounding, observability.
 
 use super::normal::Normal;
-use super::parameters::Parameter;
+use super::parameters::{FIRST_PHYSICAL, Parameter};
 use nalgebra::{DMatrix, DVector};
 
 /// A column is redundant where less than this part of it is left when earlier columns have explained the rest.
 pub const REDUNDANT: f64 = 1e-4;
 /// A column shows nothing where a typical size of its parameter moves all rows together by fewer standard deviations.
 const INVISIBLE: f64 = 1e-3;
+/// A parameter is hardly seen that the data would tell with a standard deviation of more than this many typical sizes.
+pub const WEAK: f64 = 3.0;
 /// The part of a redundant column that another parameter must explain to be named.
 const NAMED: f64 = 0.1;
 
@@ -18,6 +20,8 @@ pub struct Dropped {
     pub parameter: usize,
     /// Parameters that do the same to the data together, strongest first; empty where it does nothing.
     pub confounded_with: Vec<usize>,
+    /// Its standard deviation in its typical sizes, where it is seen but known less well than before.
+    pub weak: Option<f64>,
 }
 
 /// Which parameters the data determine.
@@ -30,12 +34,13 @@ pub struct Identifiable {
 }
 
 /// Finds redundant columns in the order of the parameters, earlier ones are kept: a Cholesky factorisation of the scaled
-/// normal matrix that leaves out every column whose pivot vanishes.
+/// normal matrix that leaves out every column whose pivot vanishes. With the residuals' size `noise` in standard
+/// deviations, a column is left out as well whose parameter the data would tell less well than [`WEAK`] times its typical size.
 ///
 /// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it, the limit is
 /// [`REDUNDANT`] squared.
 #[must_use]
-pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
+pub fn identifiable(normal: &Normal, parameters: &[Parameter], noise: Option<f64>) -> Identifiable {
     let count = parameters.len();
     let mut found = Identifiable::default();
     // rows of the factor for the kept columns
@@ -46,6 +51,7 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
             found.dropped.push(Dropped {
                 parameter: j,
                 confounded_with: Vec::new(),
+                weak: None,
             });
             continue;
         }
@@ -55,7 +61,10 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
             row.push((normal.matrix[(j, *other)] - known) / factor[k][k]);
         }
         let left = length - row.iter().map(|x| x * x).sum::<f64>();
-        if left > REDUNDANT * REDUNDANT * length {
+        let known = noise.map_or(0.0, |noise| noise / left.max(0.0).sqrt());
+        let weak = parameters[j].rank >= FIRST_PHYSICAL && known > WEAK;
+        let redundant = left <= REDUNDANT * REDUNDANT * length;
+        if !redundant && !weak {
             row.push(left.sqrt());
             factor.push(row);
             found.kept.push(j);
@@ -73,13 +82,19 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter]) -> Identifiable {
             .kept
             .iter()
             .zip(&weights)
-            .map(|(other, w)| (w.abs() * (normal.matrix[(*other, *other)] / length).sqrt(), *other))
+            .map(|(other, w)| {
+                (
+                    w.abs() * (normal.matrix[(*other, *other)] / length).sqrt(),
+                    *other,
+                )
+            })
             .filter(|(part, _)| *part > NAMED)
             .collect();
         parts.sort_by(|a, b| b.0.total_cmp(&a.0));
         found.dropped.push(Dropped {
             parameter: j,
             confounded_with: parts.into_iter().map(|(_, other)| other).collect(),
+            weak: (!redundant).then_some(known),
         });
     }
     found
@@ -197,7 +212,9 @@ impl Normal {
     #[must_use]
     pub fn gain(&self, present: &[usize], new: &[usize]) -> Option<(f64, DVector<f64>)> {
         let block = |rows: &[usize], columns: &[usize]| {
-            DMatrix::from_fn(rows.len(), columns.len(), |i, j| self.matrix[(rows[i], columns[j])])
+            DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
+                self.matrix[(rows[i], columns[j])]
+            })
         };
         let take = |rows: &[usize]| DVector::from_fn(rows.len(), |i, _| self.gradient[rows[i]]);
         let mut rest = block(new, new);
@@ -210,7 +227,11 @@ impl Normal {
             rest -= across.transpose() * factor.solve(&across);
         }
         // what the present columns explain already is no candidate
-        let seen = rest.diagonal().iter().zip(&before).all(|(now, then)| *now > REDUNDANT * REDUNDANT * then);
+        let seen = rest
+            .diagonal()
+            .iter()
+            .zip(&before)
+            .all(|(now, then)| *now > REDUNDANT * REDUNDANT * then);
         if !seen {
             return None;
         }
@@ -226,7 +247,11 @@ mod tests {
     #[test]
     fn singular_values_agree_with_the_eigenvalues_of_the_product() {
         let a = DMatrix::from_fn(7, 7, |i, j| ((3 * i + 5 * j * j + 1) as f64).sin());
-        let mut peer: Vec<f64> = (a.transpose() * &a).symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
+        let mut peer: Vec<f64> = (a.transpose() * &a)
+            .symmetric_eigenvalues()
+            .iter()
+            .map(|v| v.max(0.0).sqrt())
+            .collect();
         peer.sort_by(|a, b| b.total_cmp(a));
         for (mine, peer) in singular_values(&a).iter().zip(&peer) {
             assert!((mine - peer).abs() < 1e-7, "{mine} {peer}");

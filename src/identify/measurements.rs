@@ -4,8 +4,9 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion, Vector};
 use crate::model::Conditions;
 
-/// How far a quaternion's length may be from 1.
-const UNIT_TOLERANCE: f64 = 1e-3;
+pub use super::fault::{MeasurementError, MeasurementFault};
+
+use super::fault::UNIT_TOLERANCE;
 
 /// Columns of joint angles.
 pub const JOINT_COLUMNS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
@@ -114,94 +115,6 @@ pub struct Measurements {
     pub columns: Vec<String>,
 }
 
-/// A fault at its place in the file.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{fault}")]
-pub struct MeasurementError {
-    /// Line, from 1; 0 is the whole file.
-    pub line: usize,
-    /// Column in bytes, from 1.
-    pub column: usize,
-    /// Length of what is to blame, bytes; 0 where it is not known.
-    pub length: usize,
-    /// What is wrong.
-    pub fault: MeasurementFault,
-}
-
-/// What is wrong with a file of measurements.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum MeasurementFault {
-    /// No CSV.
-    #[error("{message}")]
-    Csv {
-        /// What the parser says.
-        message: String,
-    },
-    /// Columns that must be there are not.
-    #[error("columns are missing: {}", missing.join(", "))]
-    MissingColumns {
-        /// Which.
-        missing: Vec<&'static str>,
-        /// Those that are there.
-        header: Vec<String>,
-    },
-    /// A column of the format that stands twice.
-    #[error("the column {column} stands twice")]
-    TwiceColumn {
-        /// Which.
-        column: &'static str,
-    },
-    /// Nothing was measured.
-    #[error("no rows")]
-    NoRows,
-    /// A cell that is no finite number.
-    #[error("column {column}: {} is not a finite number", if found.is_empty() { "an empty cell".to_owned() } else { format!("`{found}`") })]
-    NotFinite {
-        /// The column.
-        column: &'static str,
-        /// What stands there.
-        found: String,
-    },
-    /// A number outside its range.
-    #[error("column {column}: {found} is not {allowed}")]
-    NotAllowed {
-        /// The column.
-        column: &'static str,
-        /// What stands there.
-        found: String,
-        /// What may stand there.
-        allowed: &'static str,
-    },
-    /// A quaternion that is no rotation.
-    #[error("the quaternion's length is {norm:.6}; it may differ from 1 by {UNIT_TOLERANCE}")]
-    NotUnit {
-        /// Its length.
-        norm: f64,
-    },
-    /// A row with both a position and a distance, or with neither.
-    #[error("the row has {} a position and a distance; it must have one of them", if *both { "both" } else { "neither" })]
-    Kind {
-        /// Both, or neither.
-        both: bool,
-    },
-}
-
-impl MeasurementError {
-    /// The way out; empty where the message says it all.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        match &self.fault {
-            MeasurementFault::MissingColumns { header, .. } => {
-                format!("the header has: {}", header.join(", "))
-            }
-            MeasurementFault::Kind { .. } => {
-                "leave the cells of the other kind empty: x_mm,y_mm,z_mm or distance_mm,from_x_mm,from_y_mm,from_z_mm".into()
-            }
-            _ => String::new(),
-        }
-    }
-}
-
 fn whole_file(fault: MeasurementFault) -> MeasurementError {
     MeasurementError {
         line: 0,
@@ -220,7 +133,7 @@ struct Reader<'a> {
 struct Cells<'a> {
     reader: &'a Reader<'a>,
     line: usize,
-    cells: csv::StringRecord,
+    record: csv::StringRecord,
 }
 
 impl Reader<'_> {
@@ -257,14 +170,14 @@ impl Reader<'_> {
 
 impl Cells<'_> {
     fn text(&self, column: &str) -> Option<&str> {
-        let text = self.cells.get(self.reader.index(column)?)?;
+        let text = self.record.get(self.reader.index(column)?)?;
         (!text.is_empty()).then_some(text)
     }
 
     fn error(&self, column: &'static str, fault: MeasurementFault) -> MeasurementError {
         let index = self.reader.index(column).unwrap_or(0);
-        let lines = self.reader.bytes.split(|b| *b == b'\n');
-        let line = lines.skip(self.line.saturating_sub(1)).next().unwrap_or_default();
+        let mut lines = self.reader.bytes.split(|b| *b == b'\n');
+        let line = lines.nth(self.line.saturating_sub(1)).unwrap_or_default();
         let commas = line.iter().enumerate().filter(|(_, b)| **b == b',');
         let starts = std::iter::once(0).chain(commas.map(|(at, _)| at + 1));
         MeasurementError {
@@ -310,7 +223,14 @@ impl Cells<'_> {
             (Some(_), None) => {
                 let found = "an empty cell".to_owned();
                 let allowed = "a name";
-                Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }))
+                Err(self.error(
+                    column,
+                    MeasurementFault::NotAllowed {
+                        column,
+                        found,
+                        allowed,
+                    },
+                ))
             }
         }
     }
@@ -335,7 +255,14 @@ impl Cells<'_> {
             if distance < 0.0 {
                 let (column, allowed) = ("distance_mm", "zero or more");
                 let found = distance.to_string();
-                return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+                return Err(self.error(
+                    column,
+                    MeasurementFault::NotAllowed {
+                        column,
+                        found,
+                        allowed,
+                    },
+                ));
             }
             return Ok(Observed::Distance {
                 distance_m: m_from_mm(distance),
@@ -352,7 +279,10 @@ impl Cells<'_> {
         if (norm - 1.0).abs() > UNIT_TOLERANCE {
             return Err(self.error("qw", MeasurementFault::NotUnit { norm }));
         }
-        Ok(Observed::Pose(Pose::from_parts(position, quaternion.normalized())))
+        Ok(Observed::Pose(Pose::from_parts(
+            position,
+            quaternion.normalized(),
+        )))
     }
 
     fn measurement(&self, number: usize, kinds: Kinds) -> Result<Measurement, MeasurementError> {
@@ -374,7 +304,14 @@ impl Cells<'_> {
                 *slot = self.number(column)?;
                 if ![-1.0, 0.0, 1.0].contains(slot) {
                     let (found, allowed) = (slot.to_string(), "-1, 0 or 1");
-                    return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+                    return Err(self.error(
+                        column,
+                        MeasurementFault::NotAllowed {
+                            column,
+                            found,
+                            allowed,
+                        },
+                    ));
                 }
             }
         }
@@ -385,7 +322,14 @@ impl Cells<'_> {
         if sigma_m.is_some_and(|sigma| sigma <= 0.0) {
             let (column, allowed) = ("sigma_mm", "greater than zero");
             let found = self.text(column).unwrap_or_default().to_owned();
-            return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+            return Err(self.error(
+                column,
+                MeasurementFault::NotAllowed {
+                    column,
+                    found,
+                    allowed,
+                },
+            ));
         }
         let purpose = match self.name("set")?.as_deref() {
             None => None,
@@ -393,12 +337,21 @@ impl Cells<'_> {
             Some("validate") => Some(Purpose::Validate),
             Some(found) => {
                 let (column, allowed, found) = ("set", "fit or validate", format!("`{found}`"));
-                return Err(self.error(column, MeasurementFault::NotAllowed { column, found, allowed }));
+                return Err(self.error(
+                    column,
+                    MeasurementFault::NotAllowed {
+                        column,
+                        found,
+                        allowed,
+                    },
+                ));
             }
         };
         Ok(Measurement {
             line: self.line,
-            id: self.text("id").map_or_else(|| number.to_string(), str::to_owned),
+            id: self
+                .text("id")
+                .map_or_else(|| number.to_string(), str::to_owned),
             q,
             observed: self.observed(kinds)?,
             tool: self.name("tool")?,
@@ -413,6 +366,7 @@ impl Cells<'_> {
 
 /// Which groups of columns a file has.
 #[derive(Clone, Copy)]
+#[allow(clippy::struct_excessive_bools, reason = "one a group of columns")]
 struct Kinds {
     position: bool,
     quaternion: bool,
@@ -469,7 +423,15 @@ impl Measurements {
             directions: reader.group(&DIRECTION_COLUMNS)?,
             force: reader.group(&FORCE_COLUMNS)?,
         };
-        for single in ["id", "tool", "point", "temperature_c", "time_s", "sigma_mm", "set"] {
+        for single in [
+            "id",
+            "tool",
+            "point",
+            "temperature_c",
+            "time_s",
+            "sigma_mm",
+            "set",
+        ] {
             reader.group(&[single])?;
         }
         if !kinds.position && (!kinds.distance || kinds.quaternion) {
@@ -482,7 +444,7 @@ impl Measurements {
             let cells = Cells {
                 reader: &reader,
                 line: usize::try_from(line).unwrap_or(0),
-                cells: record,
+                record,
             };
             rows.push(cells.measurement(rows.len() + 1, kinds)?);
         }
@@ -508,7 +470,11 @@ impl Measurements {
     /// Those rows that `keep` wants.
     #[must_use]
     pub fn filtered(&self, mut keep: impl FnMut(usize, &Measurement) -> bool) -> Self {
-        let kept = self.rows.iter().enumerate().filter(|(i, row)| keep(*i, row));
+        let kept = self
+            .rows
+            .iter()
+            .enumerate()
+            .filter(|(i, row)| keep(*i, row));
         Self {
             rows: kept.map(|(_, row)| row.clone()).collect(),
             columns: self.columns.clone(),
@@ -553,7 +519,13 @@ mod tests {
         let columns = "x_mm,y_mm,z_mm,qw,qx,qy,qz,distance_mm,from_x_mm,from_y_mm,from_z_mm";
         let rows = ["1,2,3,,,,,,,,", "1,2,3,1,0,0,0,,,,", ",,,,,,,500,1,2,3"];
         let all = read(columns, &rows).expect("a mixed file");
-        assert_eq!(all.rows.iter().map(|r| r.observed.count()).collect::<Vec<_>>(), [3, 6, 1]);
+        assert_eq!(
+            all.rows
+                .iter()
+                .map(|r| r.observed.count())
+                .collect::<Vec<_>>(),
+            [3, 6, 1]
+        );
         assert_eq!(all.rows[0].q[1], 2.0 * DEG);
         assert_eq!(all.rows[2].line, 5);
         let both = fault(columns, &["1,2,3,,,,,500,1,2,3"]);
@@ -575,7 +547,10 @@ mod tests {
             ("x_mm,y_mm,z_mm,sigma_mm", "1,2,3,0"),
             ("x_mm,y_mm,z_mm,set", "1,2,3,other"),
             ("x_mm,y_mm,z_mm,point", "1,2,3,"),
-            ("x_mm,y_mm,z_mm,dir1,dir2,dir3,dir4,dir5,dir6", "1,2,3,1,1,1,1,1,2"),
+            (
+                "x_mm,y_mm,z_mm,dir1,dir2,dir3,dir4,dir5,dir6",
+                "1,2,3,1,1,1,1,1,2",
+            ),
             ("x_mm,y_mm,z_mm,qw,qx,qy,qz", "1,2,3,1,1,0,0"),
             ("distance_mm,from_x_mm,from_y_mm,from_z_mm", "-1,0,0,0"),
             ("sigma_mm", "1"),
@@ -587,7 +562,10 @@ mod tests {
 
     #[test]
     fn named_points_may_have_no_coordinates() {
-        let all = read("x_mm,y_mm,z_mm,point,px_mm,py_mm,pz_mm", &["1,2,3,a,,,", "1,2,3,b,4,5,6"]);
+        let all = read(
+            "x_mm,y_mm,z_mm,point,px_mm,py_mm,pz_mm",
+            &["1,2,3,a,,,", "1,2,3,b,4,5,6"],
+        );
         let all = all.expect("a file of two points");
         assert_eq!(all.rows[0].point_in_tool_m, None);
         assert_eq!(all.rows[1].point_in_tool_m, Some([0.004, 0.005, 0.006]));

@@ -111,7 +111,10 @@ impl pulp::NullaryFnOnce for Pass<'_> {
     fn call(self) -> Sums {
         let width = self.parameters.len() + 1;
         let mut sums = Sums::new(width);
-        let effects = self.parameters.iter().filter(|p| matches!(p.subject, Subject::Effect(_)));
+        let effects = self
+            .parameters
+            .iter()
+            .filter(|p| matches!(p.subject, Subject::Effect(_)));
         let mut motions = vec![Motion::default(); effects.count()];
         let mut slopes = vec![[0.0; MOST_NUMBERS]; width - 1];
         for row in self.rows {

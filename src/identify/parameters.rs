@@ -7,6 +7,8 @@ use crate::model::{JOINTS, Slot};
 
 /// Axes are parallel where the sine of the angle between them is below this: there β stands for the d it makes redundant.
 const PARALLEL: f64 = 0.1;
+/// Parameters of this rank and above have a typical size; base, tool and points may be anywhere.
+pub const FIRST_PHYSICAL: u32 = 2;
 /// How far a measured point may be from where it is believed, one standard deviation, metres.
 const POINT_SIGMA_M: f64 = 0.01;
 
@@ -58,6 +60,10 @@ impl Pick {
     ///
     /// # Errors
     /// An unknown effect or key, too many places, a number out of range.
+    #[allow(
+        clippy::missing_panics_doc,
+        reason = "what is expected holds by construction"
+    )]
     pub fn parse(text: &str) -> Result<Self, SelectionError> {
         let (head, key) = match text.split_once('.') {
             Some((head, key)) => (head, Some(key)),
@@ -72,7 +78,8 @@ impl Pick {
                 key: None,
             });
         }
-        let kind = Kind::by_id(id).ok_or_else(|| SelectionError::UnknownEffect { id: id.into() })?;
+        let kind =
+            Kind::by_id(id).ok_or_else(|| SelectionError::UnknownEffect { id: id.into() })?;
         let definition = kind.definition();
         let counted: Vec<Place> = definition
             .site
@@ -95,9 +102,11 @@ impl Pick {
             let parsed = first.parse().ok().zip(last.parse().ok());
             let range = parsed.filter(|(a, b)| low <= *a && a <= b && *b <= high);
             let name = place.key();
-            places.push(range.ok_or_else(|| {
-                bad(format!("{name}: a number or range from {low} to {high}"))
-            })?);
+            places.push(
+                range.ok_or_else(|| {
+                    bad(format!("{name}: a number or range from {low} to {high}"))
+                })?,
+            );
         }
         let key = match key {
             None => None,
@@ -127,10 +136,18 @@ impl Pick {
     }
 
     fn holds(&self, effect: &Effect, key: &str) -> bool {
-        let numbers = effect.definition().site.iter().filter_map(|p| number(effect, *p));
+        let numbers = effect
+            .definition()
+            .site
+            .iter()
+            .filter_map(|p| number(effect, *p));
         self.kind == Some(effect.kind)
             && self.key.is_none_or(|k| k == key)
-            && self.places.iter().zip(numbers).all(|((a, b), n)| (*a..=*b).contains(&n))
+            && self
+                .places
+                .iter()
+                .zip(numbers)
+                .all(|((a, b), n)| (*a..=*b).contains(&n))
     }
 
     /// Whether it means an effect, or one of its parameters.
@@ -147,7 +164,11 @@ impl Pick {
             return Vec::new();
         };
         let mut sites = vec![Site::default()];
-        let counted = kind.definition().site.iter().filter(|p| p.range().is_some());
+        let counted = kind
+            .definition()
+            .site
+            .iter()
+            .filter(|p| p.range().is_some());
         for (n, place) in counted.enumerate() {
             let default = match place {
                 Place::Order | Place::Row => (1, 1),
@@ -298,45 +319,68 @@ pub(super) fn choose(
     let mut effects = profile.effects.clone();
     let mut wanted: Vec<(usize, &'static str)> = Vec::new();
     let want = |effects: &mut Vec<Effect>,
-                    wanted: &mut Vec<(usize, &'static str)>,
-                    effect: &Effect,
-                    keep: &dyn Fn(&str) -> bool| {
-        let index = effects.iter().position(|e| e.same_place(effect)).unwrap_or_else(|| {
-            effects.push(effect.clone());
-            effects.len() - 1
-        });
+                wanted: &mut Vec<(usize, &'static str)>,
+                effect: &Effect,
+                keep: &dyn Fn(&str) -> bool| {
+        let index = effects
+            .iter()
+            .position(|e| e.same_place(effect))
+            .unwrap_or_else(|| {
+                effects.push(effect.clone());
+                effects.len() - 1
+            });
         for parameter in effect.definition().parameters {
             if keep(parameter.key) && !wanted.contains(&(index, parameter.key)) {
                 wanted.push((index, parameter.key));
             }
         }
     };
-    want(&mut effects, &mut wanted, &at(Kind::BaseFrame, 0), &|_| true);
+    want(&mut effects, &mut wanted, &at(Kind::BaseFrame, 0), &|_| {
+        true
+    });
     for (tool, turning) in seen.tools.iter().filter(|_| seen.tool_frame) {
         let mut effect = at(Kind::ToolFrame, 0);
         if !effects.iter().any(|e| e.same_place(&effect)) || seen.tools.len() > 1 {
             effect.site.tool = Some(tool.clone());
         }
-        want(&mut effects, &mut wanted, &effect, &|key| *turning || key.ends_with("_mm"));
+        want(&mut effects, &mut wanted, &effect, &|key| {
+            *turning || key.ends_with("_mm")
+        });
     }
     if selection.level == Level::Joints {
         for joint in 0..JOINTS {
-            want(&mut effects, &mut wanted, &at(Kind::LinkGeometry, joint), &|key| {
-                key == "theta_deg" && joint > 0
-            });
-            want(&mut effects, &mut wanted, &at(Kind::JointScale, joint), &|_| true);
+            want(
+                &mut effects,
+                &mut wanted,
+                &at(Kind::LinkGeometry, joint),
+                &|key| key == "theta_deg" && joint > 0,
+            );
+            want(
+                &mut effects,
+                &mut wanted,
+                &at(Kind::JointScale, joint),
+                &|_| true,
+            );
         }
     }
     if matches!(selection.level, Level::Geometry | Level::Compliance) {
         for link in 1..JOINTS {
-            want(&mut effects, &mut wanted, &at(Kind::LinkGeometry, link), &|key| {
-                minimal(profile, link, key)
-            });
+            want(
+                &mut effects,
+                &mut wanted,
+                &at(Kind::LinkGeometry, link),
+                &|key| minimal(profile, link, key),
+            );
         }
     }
     if selection.level == Level::Compliance {
         for joint in (0..JOINTS).filter(|joint| seen.loaded[*joint]) {
-            want(&mut effects, &mut wanted, &at(Kind::JointCompliance, joint), &|_| true);
+            want(
+                &mut effects,
+                &mut wanted,
+                &at(Kind::JointCompliance, joint),
+                &|_| true,
+            );
         }
     }
     for pick in &selection.identify {
@@ -345,10 +389,17 @@ pub(super) fn choose(
             if effect.kind == Kind::ToolFrame {
                 effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
             }
-            want(&mut effects, &mut wanted, &effect, &|key| pick.holds(&effect, key));
+            want(&mut effects, &mut wanted, &effect, &|key| {
+                pick.holds(&effect, key)
+            });
         }
     }
-    wanted.retain(|(index, key)| !selection.fix.iter().any(|pick| pick.holds(&effects[*index], key)));
+    wanted.retain(|(index, key)| {
+        !selection
+            .fix
+            .iter()
+            .any(|pick| pick.holds(&effects[*index], key))
+    });
     let mut parameters = Vec::new();
     for (index, key) in wanted {
         let effect = &effects[index];
@@ -408,8 +459,18 @@ mod tests {
         assert!(pick.holds(&at(Kind::LinkGeometry, 2), "beta_deg"));
         assert!(!pick.holds(&at(Kind::LinkGeometry, 2), "a_mm"));
         assert!(!pick.holds(&at(Kind::LinkGeometry, 1), "beta_deg"));
-        assert_eq!(Pick::parse("joint_coupling").expect("all").effects().len(), 30);
-        for bad in ["nothing", "joint_scale:7", "joint_scale:1:1", "link_geometry.b_mm", "joint_scale:3-2", "points:1"] {
+        assert_eq!(
+            Pick::parse("joint_coupling").expect("all").effects().len(),
+            30
+        );
+        for bad in [
+            "nothing",
+            "joint_scale:7",
+            "joint_scale:1:1",
+            "link_geometry.b_mm",
+            "joint_scale:3-2",
+            "points:1",
+        ] {
             assert!(Pick::parse(bad).is_err(), "{bad}");
         }
     }

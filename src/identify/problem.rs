@@ -14,7 +14,9 @@ pub const DEFAULT_SIGMA_M: f64 = 1e-4;
 /// An orientation weighs as much as a position at this distance from the tool, metres.
 pub const LEVER_M: f64 = 0.3;
 /// A joint's torque must change by this part of the largest change to tell its compliance.
-const TORQUE_PART: f64 = 0.02;
+const TORQUE_PART: f64 = 1e-3;
+/// And that of joint 1, which carries none where the arm stands upright: 1 % is half a degree of tilt.
+const UPRIGHT_PART: f64 = 0.02;
 
 /// Where the measured point of a row is in the tool frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,11 +118,13 @@ pub struct Problem {
 fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyError> {
     let known = || profile.tools.keys().cloned().collect::<Vec<_>>();
     match &row.tool {
-        Some(name) => profile.tool(name).ok_or_else(|| IdentifyError::UnknownTool {
-            line: row.line,
-            tool: name.clone(),
-            known: known(),
-        }),
+        Some(name) => profile
+            .tool(name)
+            .ok_or_else(|| IdentifyError::UnknownTool {
+                line: row.line,
+                tool: name.clone(),
+                known: known(),
+            }),
         None => match profile.tools.len() {
             0 => Ok(Mounted::flange()),
             1 => Ok(profile.tool(&known()[0]).expect("a key of the map")),
@@ -175,10 +179,16 @@ fn loaded(profile: &Profile, tools: &[Mounted], rows: &[Row], gravity_known: boo
         }
     }
     let count = rows.len() as f64;
-    let spread: [f64; 6] =
-        std::array::from_fn(|i| (squares[i] / count - (sum[i] / count).powi(2)).max(0.0).sqrt());
+    let spread: [f64; 6] = std::array::from_fn(|i| {
+        (squares[i] / count - (sum[i] / count).powi(2))
+            .max(0.0)
+            .sqrt()
+    });
     let largest = spread.iter().copied().fold(0.0, f64::max);
-    spread.map(|s| s > TORQUE_PART * largest)
+    std::array::from_fn(|i| {
+        let part = if i == 0 { UPRIGHT_PART } else { TORQUE_PART };
+        spread[i] > part * largest
+    })
 }
 
 impl Problem {
@@ -187,6 +197,10 @@ impl Problem {
     ///
     /// # Errors
     /// Unknown tools; an effect asked for that lacks a column or masses; no parameter.
+    #[allow(
+        clippy::missing_panics_doc,
+        reason = "what is expected holds by construction"
+    )]
     pub fn new(
         profile: &Profile,
         measurements: &Measurements,
@@ -230,15 +244,17 @@ impl Problem {
             PointRef::Named(_) => true,
         };
         let turning = |tool: usize| {
-            rows.iter().filter(|row| row.tool == tool).any(|row| {
-                matches!(row.observed, Observed::Pose(_)) || somewhere(row)
-            })
+            rows.iter()
+                .filter(|row| row.tool == tool)
+                .any(|row| matches!(row.observed, Observed::Pose(_)) || somewhere(row))
         };
         let all_points_unknown = rows.iter().all(|row| match row.point {
             PointRef::Named(i) => !points[i].known,
             PointRef::Known(_) => false,
         });
-        let pose = rows.iter().any(|row| matches!(row.observed, Observed::Pose(_)));
+        let pose = rows
+            .iter()
+            .any(|row| matches!(row.observed, Observed::Pose(_)));
         let seen = Seen {
             tools: tools
                 .iter()
@@ -289,8 +305,15 @@ impl Problem {
                 continue;
             };
             let definition = effects[slot.effect].definition();
-            let asked = selection.identify.iter().any(|p| p.kind == Some(effects[slot.effect].kind));
-            for need in definition.needs.iter().filter(|_| asked || definition.needs_masses()) {
+            let asked = selection
+                .identify
+                .iter()
+                .any(|p| p.kind == Some(effects[slot.effect].kind));
+            for need in definition
+                .needs
+                .iter()
+                .filter(|_| asked || definition.needs_masses())
+            {
                 let met = match need {
                     Need::Masses => masses,
                     Need::Directions => measurements.has(&super::measurements::DIRECTION_COLUMNS),
@@ -329,7 +352,11 @@ impl Problem {
                 Conditions::default()
             };
             let bits = |value: Option<f64>| value.map_or(u64::MAX, f64::to_bits);
-            let key = (row.tool, bits(conditions.temperature_c), bits(conditions.time_s));
+            let key = (
+                row.tool,
+                bits(conditions.temperature_c),
+                bits(conditions.time_s),
+            );
             row.rig = *known.entry(key).or_insert_with(|| {
                 self.rigs.push(Rig {
                     tool: row.tool,

@@ -116,8 +116,13 @@ mod tests {
                 for k in 1..200 {
                     let squared = f64::from(k) * 1.3;
                     let step = 1e-5;
-                    let slope = (loss.of(squared + step, count).0 - loss.of(squared - step, count).0) / (2.0 * step);
-                    assert!((slope - loss.of(squared, count).1).abs() < 1e-5, "{shape:?} {squared}");
+                    let slope = (loss.of(squared + step, count).0
+                        - loss.of(squared - step, count).0)
+                        / (2.0 * step);
+                    assert!(
+                        (slope - loss.of(squared, count).1).abs() < 1e-5,
+                        "{shape:?} {squared}"
+                    );
                 }
             }
         }

@@ -64,16 +64,21 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
     let rows = &measurements.rows;
     let mut remarks = Vec::new();
     let range = |i: usize| {
-        let (low, high) = rows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), r| {
-            (low.min(r.q[i]), high.max(r.q[i]))
-        });
+        let (low, high) = rows
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), r| {
+                (low.min(r.q[i]), high.max(r.q[i]))
+            });
         high - low
     };
     let still: Vec<usize> = (0..6).filter(|i| range(*i) < STILL_RAD).collect();
     if still.len() == 6 {
         let most = (0..6).map(range).fold(0.0, f64::max) / DEG;
         return Err(suspicious(
-            format!("all {} rows have the same pose: no joint moves by more than {most:.3} deg", rows.len()),
+            format!(
+                "all {} rows have the same pose: no joint moves by more than {most:.3} deg",
+                rows.len()
+            ),
             "measure configurations over the whole workspace: `poseshift plan` chooses them",
         ));
     }
@@ -124,7 +129,11 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
         remarks.push(remark(
             "beyond-limit",
             line,
-            format!("joint {} stands at {:.3} deg, beyond its limit", joint + 1, q / DEG),
+            format!(
+                "joint {} stands at {:.3} deg, beyond its limit",
+                joint + 1,
+                q / DEG
+            ),
             "check the order and the unit of the joint columns, and the limits in the profile",
         ));
     }
@@ -160,7 +169,10 @@ fn reread(
     seen: impl Fn(usize, Vector) -> Vector,
 ) -> Vec<Sight> {
     let arm = bare_arm(profile);
-    let rows = measurements.rows.iter().filter(|r| r.observed.point_m().is_some());
+    let rows = measurements
+        .rows
+        .iter()
+        .filter(|r| r.observed.point_m().is_some());
     rows.zip(known)
         .enumerate()
         .map(|(i, (row, sight))| Sight {
@@ -206,7 +218,8 @@ fn readings(profile: &Profile, measurements: &Measurements, known: &[Sight]) -> 
         let names = ["x_mm", "y_mm", "z_mm"];
         add(
             format!("the columns {} and {} are swapped", names[a], names[b]),
-            "or one of the axes points the other way: the device's frame must be right-handed".into(),
+            "or one of the axes points the other way: the device's frame must be right-handed"
+                .into(),
             read(&same, &|_, mut p| {
                 p.swap(a, b);
                 p
@@ -230,7 +243,11 @@ fn readings(profile: &Profile, measurements: &Measurements, known: &[Sight]) -> 
         }
         add(
             format!("joint {} counts the other way", a + 1),
-            format!("negate q{}_deg, or set the sign of joint {} in the profile", a + 1, a + 1),
+            format!(
+                "negate q{}_deg, or set the sign of joint {} in the profile",
+                a + 1,
+                a + 1
+            ),
             read(
                 &|q| {
                     let mut q = *q;
@@ -243,7 +260,11 @@ fn readings(profile: &Profile, measurements: &Measurements, known: &[Sight]) -> 
     }
     let count = known.len();
     for by in [1, count - 1] {
-        let word = if by == 1 { "one row later" } else { "one row earlier" };
+        let word = if by == 1 {
+            "one row later"
+        } else {
+            "one row earlier"
+        };
         add(
             format!("the measured points belong to the joint angles {word}"),
             "check that joints and points are in the same order and none is missing".into(),
@@ -304,8 +325,12 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
         return remarks;
     }
     for ((name, point), on_flange) in &start.points_on_flange_m {
-        let Some(tool) = profile.tool(name) else { continue };
-        let known = point.as_ref().map_or(Some([0.0; 3]), |p| profile.points.get(p).copied());
+        let Some(tool) = profile.tool(name) else {
+            continue;
+        };
+        let known = point
+            .as_ref()
+            .map_or(Some([0.0; 3]), |p| profile.points.get(p).copied());
         let Some(known) = known else { continue };
         let gap = norm(sub(*on_flange, tool.flange_from_tool.transform(known)));
         if gap > WRONG_TOOL_M {
@@ -344,7 +369,10 @@ pub fn doubt_fit(after: &Quality, frames_only: &Quality) -> Result<Vec<Remark>, 
         return Ok(vec![remark(
             "poor-fit",
             0,
-            format!("the fitted model misses by {:.3} mm rms, more than a calibrated arm does", after.rms),
+            format!(
+                "the fitted model misses by {:.3} mm rms, more than a calibrated arm does",
+                after.rms
+            ),
             "look at the outliers, the tool and the masses; `poseshift diagnose` looks for what is missing",
         )]);
     }

@@ -10,6 +10,8 @@ use crate::geometry::Pose;
 use crate::model::effects::{Kind, MOST_PARAMETERS};
 use nalgebra::DVector;
 
+/// Passes over the data before parameters that are hardly seen are looked for.
+const FIRST_PASSES: usize = 12;
 /// Passes over the data before the iteration counts as failed.
 const MOST_PASSES: usize = 60;
 /// A step below this part of every parameter's typical size ends the iteration.
@@ -40,9 +42,9 @@ impl Stop {
             Self::Step(step) => format!(
                 "the last step was {step:.1e} of the parameters' typical sizes (limit {STEP_LIMIT:.0e})"
             ),
-            Self::Fall(part) => format!(
-                "the sum of squares fell by {part:.1e} of itself (limit {FALL_LIMIT:.0e})"
-            ),
+            Self::Fall(part) => {
+                format!("the sum of squares fell by {part:.1e} of itself (limit {FALL_LIMIT:.0e})")
+            }
         }
     }
 }
@@ -76,8 +78,13 @@ fn moved(estimate: &Estimate, parameters: &[Parameter], step: &DVector<f64>) -> 
 
 /// Moves the deviation of the base into its place, so that its angles stay small.
 pub fn absorb_base(estimate: &mut Estimate) {
-    for effect in estimate.effects.iter_mut().filter(|e| e.kind == Kind::BaseFrame) {
-        estimate.world_from_base = estimate.world_from_base * Pose::from_xyz_rxryrz(effect.parameters);
+    for effect in estimate
+        .effects
+        .iter_mut()
+        .filter(|e| e.kind == Kind::BaseFrame)
+    {
+        estimate.world_from_base =
+            estimate.world_from_base * Pose::from_xyz_rxryrz(effect.parameters);
         effect.parameters = [0.0; MOST_PARAMETERS];
     }
 }
@@ -102,11 +109,11 @@ impl Iteration<'_> {
         &mut self,
         estimate: &mut Estimate,
         normal: &mut Normal,
-        step_limit: f64,
+        most_passes: usize,
     ) -> Result<Stop, IdentifyError> {
         let mut damping = 0.0;
         let mut largest = f64::INFINITY;
-        while self.passes < MOST_PASSES {
+        while self.passes < most_passes {
             let mut damped = normal.matrix.clone();
             for i in 0..damped.nrows() {
                 damped[(i, i)] *= 1.0 + damping;
@@ -119,7 +126,7 @@ impl Iteration<'_> {
             let step = factor.solve(&normal.gradient);
             largest = step.amax();
             let promised = step.dot(&normal.gradient) / normal.cost.max(f64::MIN_POSITIVE);
-            if largest < step_limit {
+            if largest < STEP_LIMIT {
                 *estimate = moved(estimate, self.parameters, &step);
                 return Ok(Stop::Step(largest));
             }
@@ -148,7 +155,7 @@ impl Iteration<'_> {
         Err(IdentifyError::NotConverged {
             passes: self.passes,
             step: largest,
-            limit: step_limit,
+            limit: STEP_LIMIT,
         })
     }
 }
@@ -167,14 +174,15 @@ pub fn solve(
     shape: Shape,
     free_base: bool,
 ) -> Result<Solution, IdentifyError> {
-    let mut estimate = start;
+    let mut estimate = start.clone();
+    let origin = start;
     if free_base {
         absorb_base(&mut estimate);
     }
     let all = &problem.parameters;
     let found = |problem: &Problem, estimate: &Estimate, loss: Loss| {
         let normal = Normal::of(problem, estimate, all, loss);
-        (identifiable(&normal, all), normal)
+        (identifiable(&normal, all, None), normal)
     };
     let pick = |kept: &[usize]| kept.iter().map(|i| all[*i].clone()).collect::<Vec<_>>();
     let mut loss = Loss::squares();
@@ -193,7 +201,7 @@ pub fn solve(
         };
         let mut normal = iteration.normal(&estimate);
         // what the sample cannot settle, all rows may
-        let _ = iteration.run(&mut estimate, &mut normal, STEP_LIMIT);
+        let _ = iteration.run(&mut estimate, &mut normal, FIRST_PASSES);
         if shape != Shape::Squares {
             let counts = sample.rows.iter().map(|row| row.observed.count());
             loss = Loss {
@@ -205,7 +213,6 @@ pub fn solve(
     let (mut known, first) = found(problem, &estimate, loss);
     passes += 1;
     let mut normal = first.part(&known.kept);
-    let mut stop;
     let mut rounds = 0;
     loop {
         let parameters = pick(&known.kept);
@@ -223,10 +230,28 @@ pub fn solve(
             passes,
             free_base,
         };
-        stop = iteration.run(&mut estimate, &mut normal, STEP_LIMIT)?;
+        let most = if rounds == 0 {
+            FIRST_PASSES
+        } else {
+            MOST_PASSES
+        };
+        let rested = iteration.run(&mut estimate, &mut normal, most);
         passes = iteration.passes;
-        // far from the start the columns may have become redundant
-        let again = identifiable(&normal, &parameters);
+        // far from the start columns may have become redundant; and only now the noise is known
+        let counts = problem.rows.iter().map(|row| row.observed.count());
+        let noise = scale_of(&normal.squares, counts);
+        let again = identifiable(&normal, &parameters, Some(noise));
+        let stop = match rested {
+            Ok(stop) => stop,
+            Err(_) if rounds == 0 => {
+                if again.kept.len() == known.kept.len() {
+                    rounds += 1;
+                    continue;
+                }
+                Stop::Step(f64::NAN)
+            }
+            Err(error) => return Err(error),
+        };
         if again.kept.len() < known.kept.len() && rounds < 10 {
             let back = &known.kept.clone();
             for mut dropped in again.dropped {
@@ -235,9 +260,13 @@ pub fn solve(
                     *other = back[*other];
                 }
                 known.kept.retain(|i| *i != dropped.parameter);
+                // it may have wandered: back to where it was
+                let subject = all[dropped.parameter].subject;
+                *estimate.value_mut(subject) = origin.value(subject);
                 known.dropped.push(dropped);
             }
-            normal = normal.part(&again.kept);
+            normal = Normal::of(problem, &estimate, &pick(&known.kept), loss);
+            passes += 1;
             rounds += 1;
             continue;
         }

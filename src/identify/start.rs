@@ -25,6 +25,8 @@ pub(super) struct Sight {
     pub carrier: usize,
 }
 
+/// Tool and name of a measured point.
+pub(super) type CarrierName = (String, Option<String>);
 /// The measured points and where they are believed on the flange; `None` where that is not known.
 pub(super) type Carriers = Vec<Option<Vector>>;
 
@@ -50,10 +52,17 @@ pub(super) fn bare_arm(profile: &Profile) -> Model {
     let effects: Vec<_> = profile
         .effects
         .iter()
-        .filter(|e| !e.definition().deflects && !matches!(e.kind, Kind::BaseFrame | Kind::ToolFrame))
+        .filter(|e| {
+            !e.definition().deflects && !matches!(e.kind, Kind::BaseFrame | Kind::ToolFrame)
+        })
         .cloned()
         .collect();
-    Model::build(&geometry, &profile.mechanism, &effects, &Conditions::default())
+    Model::build(
+        &geometry,
+        &profile.mechanism,
+        &effects,
+        &Conditions::default(),
+    )
 }
 
 /// `b_from_a` that takes the points `a` nearest to the points `b`.
@@ -115,14 +124,21 @@ pub(super) fn spreads(points: &[Vector]) -> [f64; 3] {
 
 fn rms(sights: &[Sight], base: &Pose, points: &[Vector]) -> f64 {
     let squares = sights.iter().map(|s| {
-        let gap = sub(base.transform(s.flange.transform(points[s.carrier])), s.seen);
+        let gap = sub(
+            base.transform(s.flange.transform(points[s.carrier])),
+            s.seen,
+        );
         dot(gap, gap)
     });
     (squares.sum::<f64>() / sights.len().max(1) as f64).sqrt()
 }
 
 fn place(sights: &[Sight], points: &[Vector]) -> Pose {
-    align(sights.iter().map(|s| (s.flange.transform(points[s.carrier]), s.seen)))
+    align(
+        sights
+            .iter()
+            .map(|s| (s.flange.transform(points[s.carrier]), s.seen)),
+    )
 }
 
 /// The points on the flange that fit best with the base here.
@@ -134,7 +150,9 @@ fn points_at(sights: &[Sight], base: &Pose, count: usize) -> Vec<Vector> {
         *sum = add(*sum, s.flange.inverse().transform(back.transform(s.seen)));
         *n += 1.0;
     }
-    sums.iter().map(|(sum, n)| scale(1.0 / f64::max(*n, 1.0), *sum)).collect()
+    sums.iter()
+        .map(|(sum, n)| scale(1.0 / f64::max(*n, 1.0), *sum))
+        .collect()
 }
 
 /// Base and points from `Rᵀp − t' − R_j c = t_j`, which is linear in the nine cells of R, in t' and in the points c.
@@ -181,9 +199,9 @@ fn linear(sights: &[Sight], count: usize) -> Option<Pose> {
             ([solved[j], solved[3 + j], solved[6 + j]], unit)
         })
         .collect();
-    let both = images.iter().flat_map(|(a, b)| {
-        [(*a, *b), (scale(-1.0, *a), scale(-1.0, *b))]
-    });
+    let both = images
+        .iter()
+        .flat_map(|(a, b)| [(*a, *b), (scale(-1.0, *a), scale(-1.0, *b))]);
     let rotation = align(both).rotation;
     Some(Pose {
         rotation,
@@ -217,7 +235,9 @@ fn alternate(sights: &[Sight], mut base: Pose, count: usize) -> (Pose, Vec<Vecto
         for a in 0..width {
             normal[(a, a)] *= 1.0 + 1e-9;
         }
-        let Some(factor) = normal.cholesky() else { break };
+        let Some(factor) = normal.cholesky() else {
+            break;
+        };
         let solved = factor.solve(&right);
         base.translation = [solved[0], solved[1], solved[2]];
         let points: Vec<Vector> = (0..count)
@@ -264,7 +284,8 @@ pub(super) fn solve(sights: &[Sight], carriers: &Carriers) -> Placed {
     }
     let guessed: Vec<Vector> = carriers.iter().map(|c| c.unwrap_or_default()).collect();
     found.push(alternate(sights, place(sights, &guessed), carriers.len()));
-    found.extend(linear(sights, carriers.len()).map(|base| alternate(sights, base, carriers.len())));
+    found
+        .extend(linear(sights, carriers.len()).map(|base| alternate(sights, base, carriers.len())));
     let best = found
         .into_iter()
         .map(|(base, points)| (rms(sights, &base, &points), base, points))
@@ -285,10 +306,18 @@ fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> 
         let Observed::Distance { distance_m, from_m } = row.observed else {
             continue;
         };
-        let tool = row.tool.as_deref().or_else(|| profile.tools.keys().next().map(String::as_str));
-        let tool = tool.and_then(|t| profile.tool(t)).unwrap_or_else(Mounted::flange);
+        let tool = row
+            .tool
+            .as_deref()
+            .or_else(|| profile.tools.keys().next().map(String::as_str));
+        let tool = tool
+            .and_then(|t| profile.tool(t))
+            .unwrap_or_else(Mounted::flange);
         let flange = arm.forward(&row.q, &Conditions::default());
-        let named = row.point.as_ref().and_then(|p| profile.points.get(p).copied());
+        let named = row
+            .point
+            .as_ref()
+            .and_then(|p| profile.points.get(p).copied());
         let point = row.point_in_tool_m.or(named).unwrap_or_default();
         let at = (flange * tool.flange_from_tool).transform(point);
         match fixed.iter_mut().find(|(from, _)| *from == from_m) {
@@ -341,7 +370,7 @@ pub(super) fn tool_name(profile: &Profile, tool: Option<&str>) -> String {
 pub(super) fn sights(
     profile: &Profile,
     measurements: &Measurements,
-) -> (Vec<Sight>, Vec<(String, Option<String>)>, Carriers) {
+) -> (Vec<Sight>, Vec<CarrierName>, Carriers) {
     let arm = bare_arm(profile);
     let mut names: Vec<(String, Option<String>, Option<[u64; 3]>)> = Vec::new();
     let mut carriers: Carriers = Vec::new();
@@ -352,9 +381,16 @@ pub(super) fn sights(
         };
         let tool = tool_name(profile, row.tool.as_deref());
         let mounted = profile.tool(&tool).unwrap_or_else(Mounted::flange);
-        let named = row.point.as_ref().and_then(|p| profile.points.get(p).copied());
+        let named = row
+            .point
+            .as_ref()
+            .and_then(|p| profile.points.get(p).copied());
         let given = row.point_in_tool_m.or(named);
-        let key = (tool, row.point.clone(), row.point_in_tool_m.map(|p| p.map(f64::to_bits)));
+        let key = (
+            tool,
+            row.point.clone(),
+            row.point_in_tool_m.map(|p| p.map(f64::to_bits)),
+        );
         let carrier = names.iter().position(|k| *k == key).unwrap_or_else(|| {
             let point = given.or_else(|| row.point.is_none().then_some([0.0; 3]));
             let real = profile.effects.iter().find(|e| {
@@ -371,7 +407,10 @@ pub(super) fn sights(
             carrier,
         });
     }
-    let names = names.into_iter().map(|(tool, point, _)| (tool, point)).collect();
+    let names = names
+        .into_iter()
+        .map(|(tool, point, _)| (tool, point))
+        .collect();
     (all, names, carriers)
 }
 
@@ -397,7 +436,10 @@ pub fn find(profile: &Profile, measurements: &Measurements) -> Option<Start> {
     }
     let placed = solve(&sights, &carriers);
     let mut turned: Vec<(String, Rotation)> = Vec::new();
-    let rows = measurements.rows.iter().filter(|row| row.observed.point_m().is_some());
+    let rows = measurements
+        .rows
+        .iter()
+        .filter(|row| row.observed.point_m().is_some());
     for (row, sight) in rows.zip(&sights) {
         if let Observed::Pose(pose) = row.observed {
             let tool = &names[sight.carrier].0;

@@ -38,10 +38,18 @@ impl Uncertainty {
         let degrees_of_freedom = (numbers + priors).saturating_sub(parameters.len());
         let clipped = normal.squares.iter().zip(counts).map(|(squared, count)| {
             let most = (limit(*count) * loss.scale).powi(2);
-            if loss.shape == Shape::Squares { *squared } else { squared.min(most) }
+            if loss.shape == Shape::Squares {
+                *squared
+            } else {
+                squared.min(most)
+            }
         });
         let sigma_factor = (clipped.sum::<f64>() / degrees_of_freedom.max(1) as f64).sqrt();
-        let applied_factor = if assumed { sigma_factor } else { sigma_factor.max(1.0) };
+        let applied_factor = if assumed {
+            sigma_factor
+        } else {
+            sigma_factor.max(1.0)
+        };
         let count = parameters.len();
         let inverse = normal
             .matrix

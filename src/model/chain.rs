@@ -170,6 +170,17 @@ impl<S: Scalar> Chain<S> {
         pose * Pose::from_xyz_rxryrz(deflection.tool)
     }
 
+    /// `world_from_link`: the frame after each row of the chain.
+    #[must_use]
+    pub fn link_frames(&self, turns: &[Turn<S>; 6]) -> [Pose<S>; 6] {
+        let mut pose = self.fixed[0];
+        std::array::from_fn(|i| {
+            let turning = pose.turned(turns[i]);
+            pose = turning * self.fixed[i + 1];
+            turning * self.turning_from_link[i]
+        })
+    }
+
     /// Torque of gravity and an external force about each joint in the controller's sense, N·m.
     ///
     /// The field is carried outward and the first moment inward, from frame to frame; no pose is needed. The torque about

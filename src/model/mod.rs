@@ -11,6 +11,7 @@ pub mod effects;
 mod geometry;
 pub mod profile;
 mod real;
+mod rows;
 mod sensitivity;
 
 pub use batch::forward_batch;
@@ -18,6 +19,7 @@ pub use chain::{Chain, Frames};
 pub use conditions::Conditions;
 pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};
 pub use real::Model;
+pub use rows::{Axes, RowsError};
 pub use sensitivity::{Motion, Sensitivity, Slot};
 
 /// Number of joints of every robot here.

@@ -175,12 +175,7 @@ struct Torques {
 }
 
 impl Torques {
-    fn of(
-        chain: &Chain,
-        turns: &[Turn; 6],
-        hanging: &Hanging,
-        field: Vector,
-    ) -> Self {
+    fn of(chain: &Chain, turns: &[Turn; 6], hanging: &Hanging, field: Vector) -> Self {
         let mut all = Self {
             moments: [[0.0; 3]; 6],
             masses: hanging.mass_kg,
@@ -215,10 +210,7 @@ impl Torques {
             let k = twist.at;
             let turn = self.before[k] * twist.turn;
             let shift = self.before[k] * twist.shift;
-            let moment = add(
-                cross(turn, self.moments[k]),
-                scale(self.masses[k], shift),
-            );
+            let moment = add(cross(turn, self.moments[k]), scale(self.masses[k], shift));
             for i in 0..k {
                 slopes[i] += dot(self.by_moment[i], moment);
             }
@@ -400,12 +392,7 @@ impl Sensitivity {
 
     /// `world_from_tool` at the controller's joint angles `q` in radians; `motions` receives one motion a parameter.
     #[inline(always)]
-    pub fn evaluate(
-        &self,
-        q: &[f64; 6],
-        conditions: &Conditions,
-        motions: &mut [Motion],
-    ) -> Pose {
+    pub fn evaluate(&self, q: &[f64; 6], conditions: &Conditions, motions: &mut [Motion]) -> Pose {
         let model = &self.model;
         let commanded = model.mechanism.commanded(q);
         let turns = Turn::of_each(&commanded);
@@ -433,7 +420,14 @@ impl Sensitivity {
                 motion.shift_m = add(motion.shift_m, shift);
             }
         }
-        self.add_own_deflections(&commanded, &turns, conditions, &deflection, &layout, motions);
+        self.add_own_deflections(
+            &commanded,
+            &turns,
+            conditions,
+            &deflection,
+            &layout,
+            motions,
+        );
         if model.bends {
             self.add_bending(q, conditions, &deflection, &layout, motions);
         } else if !self.torque_effects.is_empty() {

@@ -5,12 +5,17 @@
 //! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
 //! stays as it was ([`Edits`]).
 
+pub mod csv;
 mod edit;
 mod error;
+pub mod fanuc;
+pub mod inform;
+pub mod krl;
 mod marker;
 pub mod number;
 pub mod rapid;
 mod source;
+pub mod urscript;
 
 pub use edit::Edits;
 pub use error::ReadError;
@@ -23,7 +28,14 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every language there is.
-pub const LANGUAGES: &[&dyn Language] = &[&rapid::Rapid];
+pub const LANGUAGES: &[&dyn Language] = &[
+    &rapid::Rapid,
+    &krl::Krl,
+    &fanuc::Fanuc,
+    &urscript::UrScript,
+    &inform::Inform,
+    &csv::Csv,
+];
 
 /// Whether a file's name ends as programs of a language do.
 #[must_use]
@@ -85,6 +97,11 @@ pub trait Language: Sync {
     /// # Errors
     /// Where the text is not a program of this language or is broken.
     fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError>;
+
+    /// Name of the work frame that targets without one stand in: the world unless the command line gives another for it.
+    fn frame_of_unframed(&self) -> Option<&'static str> {
+        None
+    }
 
     /// What each number of a target is, in the order of [`Target::numbers`].
     fn roles(&self, layout: Layout) -> &'static [Role];
@@ -150,6 +167,8 @@ pub struct Layout {
 pub struct Settings {
     /// Encoder pulses of one degree of each joint, where programs count in pulses.
     pub pulses_per_deg: Option<[f64; 6]>,
+    /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
+    pub accept_absolutely_accurate: bool,
 }
 
 /// What one number of a target is.

@@ -119,8 +119,9 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
         max_rounding_m,
     } = compensation.summary;
     let mut lines = vec![format!(
-        "{} file(s), {targets} targets: {compensated} shifted, {unchanged} unchanged",
-        header.inputs.len()
+        "{} file(s) of {}, {targets} targets: {compensated} shifted, {unchanged} unchanged",
+        header.inputs.len(),
+        header.language.about().name
     )];
     if joint_targets > 0 {
         lines.push(format!(

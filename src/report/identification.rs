@@ -10,7 +10,11 @@ use serde_json::{Value, json};
 
 /// A number for JSON: what is not finite becomes null.
 fn finite(value: f64) -> Value {
-    if value.is_finite() { json!(value) } else { Value::Null }
+    if value.is_finite() {
+        json!(value)
+    } else {
+        Value::Null
+    }
 }
 
 /// Statistics of errors in a unit, `mm` or `deg`.
@@ -72,7 +76,11 @@ pub fn observability(o: &Observability) -> Value {
 pub fn findings(remarks: &[Remark], file: &str) -> Vec<Finding> {
     let one = |r: &Remark| Finding {
         id: r.id,
-        severity: if r.warning { Severity::Warning } else { Severity::Note },
+        severity: if r.warning {
+            Severity::Warning
+        } else {
+            Severity::Note
+        },
         file: file.into(),
         line: r.line,
         column: usize::from(r.line > 0),
@@ -96,7 +104,9 @@ pub fn parameters(calibration: &Calibration) -> Vec<Value> {
                 .map(|d| d.confounded_with.iter().map(|other| names[*other].key.as_str()).collect())
                 .unwrap_or_default();
             let unit = parameter.unit.in_si();
+            let weak = dropped.and_then(|d| d.weak).map(|w| w * parameter.scale / unit);
             json!({
+                "sigma_if_identified": weak,
                 "key": parameter.key, "value": value / unit, "unit": parameter.unit.symbol(),
                 "sigma": sigma.map(|s| s / unit), "identifiable": sigma.is_some(), "confounded_with": confounded,
             })
@@ -108,7 +118,9 @@ pub fn parameters(calibration: &Calibration) -> Vec<Value> {
 #[must_use]
 pub fn correlations(calibration: &Calibration) -> Vec<Value> {
     let names = &calibration.solution.parameters;
-    let strong = calibration.uncertainty.strong_correlations(STRONG_CORRELATION);
+    let strong = calibration
+        .uncertainty
+        .strong_correlations(STRONG_CORRELATION);
     let one = |(i, j, c): (usize, usize, f64)| json!({"a": names[i].key, "b": names[j].key, "correlation": c});
     strong.into_iter().map(one).collect()
 }
@@ -169,9 +181,24 @@ pub fn profile_quality(calibration: &Calibration) -> Value {
         .map(|(i, p)| json!({"key": p.key, "unit": p.unit.symbol(), "sigma": u.sigma[i] / p.unit.in_si()}))
         .collect();
     let rows: Vec<Vec<f64>> = (0..parameters.len())
-        .map(|i| (0..=i).map(|j| u.covariance[(i, j)] * unit(i) * unit(j)).collect())
+        .map(|i| {
+            (0..=i)
+                .map(|j| u.covariance[(i, j)] * unit(i) * unit(j))
+                .collect()
+        })
         .collect();
+    let seen: Vec<[f64; 3]> = calibration
+        .problem
+        .rows
+        .iter()
+        .filter_map(|r| r.observed.point_m())
+        .collect();
+    let middle = seen
+        .iter()
+        .fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
+    let middle = middle.map(|x| mm_from_m(x / seen.len().max(1) as f64));
     json!({
+        "middle_mm": middle,
         "before": quality(&calibration.before),
         "frames_only": quality(&calibration.frames_only_quality),
         "after": quality(&calibration.after),

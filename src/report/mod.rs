@@ -1,5 +1,6 @@
 //! What commands tell: texts for people and JSON for programs.
 
+pub mod approach;
 pub mod compensation;
 pub mod findings;
 pub mod identification;

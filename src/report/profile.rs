@@ -2,8 +2,8 @@
 
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::model::Conditions;
 use crate::model::profile::{ControllerModel, Mounted, Profile};
+use crate::model::{Conditions, Model};
 
 /// How far a robot's real tool is from where its controller believes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +89,10 @@ pub fn facts(profile: &Profile) -> Vec<(String, String)> {
     for (name, point) in &profile.points {
         fact(format!("point {name}"), triple(*point));
     }
-    for effect in &profile.effects {
+    let own = profile.own_effects.iter().flatten();
+    let of_controller = own.map(|effect| ("controller effect", effect));
+    let of_arm = profile.effects.iter().map(|effect| ("effect", effect));
+    for (whose, effect) in of_controller.chain(of_arm) {
         let units = effect
             .definition()
             .parameters
@@ -99,7 +102,7 @@ pub fn facts(profile: &Profile) -> Vec<(String, String)> {
         let values =
             units.map(|(p, value)| format!("{} {}", p.key, number(value / p.unit.in_si())));
         fact(
-            format!("effect {}", effect.label()),
+            format!("{whose} {}", effect.label()),
             values.collect::<Vec<_>>().join(" "),
         );
     }
@@ -109,27 +112,42 @@ pub fn facts(profile: &Profile) -> Vec<(String, String)> {
 /// Mean and largest distance between the real and the controller's tool over an even grid of postures.
 #[must_use]
 pub fn typical_deviation(profile: &Profile, conditions: &Conditions) -> Deviation {
+    let tool = first_tool(profile);
+    deviation(
+        profile,
+        &profile.real_model(&tool, conditions),
+        &profile.controller_model(&tool),
+        conditions,
+    )
+}
+
+/// Mean and largest distance between the tools of two controllers of one type of arm over an even grid of postures.
+#[must_use]
+pub fn typical_deviation_of(a: &Profile, b: &Profile) -> Deviation {
+    let tool = first_tool(a);
+    let models = (a.controller_model(&tool), b.controller_model(&tool));
+    deviation(a, &models.0, &models.1, &Conditions::default())
+}
+
+fn first_tool(profile: &Profile) -> Mounted {
+    let name = profile.tools.keys().next();
+    name.and_then(|name| profile.tool(name))
+        .unwrap_or_else(Mounted::flange)
+}
+
+fn deviation(profile: &Profile, a: &Model, b: &Model, conditions: &Conditions) -> Deviation {
     /// Postures: enough for two digits of the mean.
     const POSTURES: u32 = 1000;
-    let name = profile.tools.keys().next();
-    let tool = name
-        .and_then(|name| profile.tool(name))
-        .unwrap_or_else(Mounted::flange);
-    let (real, controller) = (
-        profile.real_model(&tool, conditions),
-        profile.controller_model(&tool),
-    );
     let distances: Vec<f64> = (1..=POSTURES)
         .map(|n| {
             let q = std::array::from_fn(|i| {
                 let joint = &profile.mechanism.joints[i];
                 joint.min_rad + (joint.max_rad - joint.min_rad) * halton(n, i)
             });
-            mm_from_m(
-                real.forward(&q, conditions)
-                    .separation(&controller.forward(&q, conditions))
-                    .distance_m,
-            )
+            let gap = a
+                .forward(&q, conditions)
+                .separation(&b.forward(&q, conditions));
+            mm_from_m(gap.distance_m)
         })
         .collect();
     Deviation {

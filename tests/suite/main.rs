@@ -6,4 +6,6 @@ mod documents;
 mod golden;
 mod laws;
 mod oracle;
+mod path;
+mod recover;
 mod support;

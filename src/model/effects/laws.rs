@@ -301,13 +301,7 @@ fn fast_derivatives_agree_with_full_duals() {
             let count = e.definition().parameters.len();
             slots.extend((0..count).map(|parameter| Slot { effect, parameter }));
         }
-        let fast = Sensitivity::build(
-            &geometry,
-            &profile.mechanism,
-            effects,
-            &slots,
-            &conditions,
-        );
+        let fast = Sensitivity::build(&geometry, &profile.mechanism, effects, &slots, &conditions);
         let mut motions = vec![Motion::default(); slots.len()];
         for q in &POSTURES {
             let pose = fast.evaluate(q, &conditions, &mut motions);
@@ -329,7 +323,8 @@ fn fast_derivatives_agree_with_full_duals() {
                     assert!(gap < SLOPE_TOLERANCE, "{label}: {gap}");
                 }
                 // dR = [ω]× R
-                let slope = crate::geometry::Rotation(full.rotation.0.map(|r| r.map(|x| x.slope[0])));
+                let slope =
+                    crate::geometry::Rotation(full.rotation.0.map(|r| r.map(|x| x.slope[0])));
                 let turn = (slope * pose.rotation.transpose()).sine_axis();
                 for i in 0..3 {
                     let gap = (turn[i] - motion.turn_rad[i]).abs();

@@ -104,6 +104,17 @@ pub enum Fault {
         /// Which.
         label: String,
     },
+    /// Effects of a controller that has none.
+    #[error("the controller has effects, but computes with the nominal chain")]
+    EffectsOfNominal,
+    /// An effect that no controller can compute.
+    #[error("`{label}` cannot be part of a controller's own model: it needs {need}")]
+    NotOfController {
+        /// Which.
+        label: String,
+        /// What it needs.
+        need: &'static str,
+    },
 }
 
 impl Fault {
@@ -133,6 +144,8 @@ impl ProfileError {
             Fault::Format { .. } | Fault::Yaml { .. } => {
                 "`poseshift profile schema` prints the format".into()
             }
+            Fault::EffectsOfNominal => "set `model: calibrated`, or take the effects away".into(),
+            Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
             Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),
             _ => String::new(),
         }

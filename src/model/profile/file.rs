@@ -83,6 +83,11 @@ pub struct ControllerFile {
     pub language: Option<Spanned<String>>,
     /// Whether it computes with the nominal chain or with a calibrated one of its own.
     pub model: ControllerModel,
+    /// What the calibrated chain of the controller has that the nominal one has not (usually `link_geometry`), in the form
+    /// of `calibration.effects`. Where it is absent, a calibrated controller applies the link geometry of the calibration.
+    #[serde(default)]
+    #[schemars(schema_with = "effects_schema")]
+    pub effects: Option<Vec<EffectFile>>,
     /// Encoder pulses of one degree of each joint, for programs that count in pulses (INFORM).
     #[serde(default)]
     pub pulses_per_deg: Option<[Number; 6]>,
@@ -94,7 +99,8 @@ pub struct ControllerFile {
 pub enum ControllerModel {
     /// The nominal chain.
     Nominal,
-    /// A calibrated chain: it already applies the link geometry of the calibration.
+    /// A calibrated chain: its own where the file gives the controller's effects, else that of the calibration's link
+    /// geometry.
     Calibrated,
 }
 
@@ -211,6 +217,9 @@ pub struct ToolFile {
     pub cog_mm: Option<[Number; 3]>,
 }
 
+/// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them.
+pub type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
+
 /// What was identified.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -218,7 +227,7 @@ pub struct CalibrationFile {
     /// Effects with their parameters.
     #[serde(default)]
     #[schemars(schema_with = "effects_schema")]
-    pub effects: Vec<Spanned<BTreeMap<String, Spanned<serde_json::Value>>>>,
+    pub effects: Vec<EffectFile>,
     /// Statistics of the fit.
     #[serde(default)]
     pub quality: Option<serde_json::Value>,

@@ -2,15 +2,18 @@
 
 mod error;
 mod file;
+mod rewrite;
 mod shipped;
+pub mod universal_robots;
 mod write;
 
 pub use error::{Fault, ProfileError};
 pub use file::{ControllerModel, FORMAT, ProfileFile};
+pub use rewrite::with_controller;
 pub use shipped::SHIPPED;
 pub use write::{WriteError, rewritten};
 
-use super::effects::{Effect, Kind};
+use super::effects::{Effect, Kind, Need};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion, Vector};
@@ -34,6 +37,8 @@ pub struct Profile {
     pub language: Option<String>,
     /// What the controller computes with.
     pub controller: ControllerModel,
+    /// The effects of the controller's own calibrated chain, where the file gives them.
+    pub own_effects: Option<Vec<Effect>>,
     /// Encoder pulses of one degree of each joint, for programs that count in pulses.
     pub pulses_per_deg: Option<[f64; 6]>,
     /// Where the base stands.
@@ -110,6 +115,7 @@ impl Profile {
             .at(file.poseshift.defined));
         }
         let kinematics = file.kinematics;
+        let own_effects = own_effects(file.controller.model, file.controller.effects)?;
         let mut bodies = Vec::new();
         for body in &file.bodies {
             let at = body.defined;
@@ -147,6 +153,7 @@ impl Profile {
             serial: file.robot.serial,
             language: file.controller.language.map(|language| language.value),
             controller: file.controller.model,
+            own_effects,
             pulses_per_deg: file
                 .controller
                 .pulses_per_deg
@@ -215,17 +222,30 @@ impl Profile {
         }
     }
 
-    /// The effects that the controller already applies itself.
+    /// The effects that the controller already applies itself: those of its own calibrated chain; where the profile does
+    /// not give them, the link geometry of the calibration.
     #[must_use]
     pub fn controller_effects(&self) -> Vec<Effect> {
-        match self.controller {
-            ControllerModel::Nominal => Vec::new(),
-            ControllerModel::Calibrated => self
+        match (self.controller, &self.own_effects) {
+            (ControllerModel::Nominal, _) => Vec::new(),
+            (ControllerModel::Calibrated, Some(effects)) => effects.clone(),
+            (ControllerModel::Calibrated, None) => self
                 .effects
                 .iter()
                 .filter(|effect| effect.kind == Kind::LinkGeometry)
                 .cloned()
                 .collect(),
+        }
+    }
+
+    /// The effects of the arm as it really is: those of the calibration. Where there are none, nothing better is known
+    /// than what the controller computes with.
+    #[must_use]
+    pub fn real_effects(&self) -> Vec<Effect> {
+        if self.effects.is_empty() {
+            self.controller_effects()
+        } else {
+            self.effects.clone()
         }
     }
 
@@ -246,7 +266,7 @@ impl Profile {
         Model::build(
             &self.geometry(tool),
             &self.mechanism,
-            &self.effects,
+            &self.real_effects(),
             conditions,
         )
     }
@@ -386,9 +406,33 @@ fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
     }
 }
 
-fn effects(
-    entries: Vec<Spanned<BTreeMap<String, Spanned<serde_json::Value>>>>,
-) -> Result<Vec<Effect>, ProfileError> {
+/// The effects of a controller's own chain. It knows its masses, but not how the arm came to a posture.
+fn own_effects(
+    model: ControllerModel,
+    entries: Option<Vec<file::EffectFile>>,
+) -> Result<Option<Vec<Effect>>, ProfileError> {
+    let Some(entries) = entries else {
+        return Ok(None);
+    };
+    let places: Vec<Location> = entries.iter().map(|entry| entry.defined).collect();
+    let effects = effects(entries)?;
+    for (effect, at) in effects.iter().zip(places) {
+        if model == ControllerModel::Nominal {
+            return Err(Fault::EffectsOfNominal.at(at));
+        }
+        let needs = effect.definition().needs;
+        if let Some(need) = needs.iter().find(|need| **need != Need::Masses) {
+            return Err(Fault::NotOfController {
+                label: effect.label(),
+                need: need.describe(),
+            }
+            .at(at));
+        }
+    }
+    Ok(Some(effects))
+}
+
+fn effects(entries: Vec<file::EffectFile>) -> Result<Vec<Effect>, ProfileError> {
     let mut out: Vec<Effect> = Vec::new();
     for entry in entries {
         let at = entry.defined;
@@ -424,3 +468,6 @@ fn effects(
     }
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests;

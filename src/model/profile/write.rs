@@ -26,7 +26,10 @@ pub enum WriteError {
 fn sections(text: &str) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = vec![(String::new(), String::new())];
     for line in text.split_inclusive('\n') {
-        let starts = line.chars().next().is_some_and(|c| c.is_alphabetic() || c == '_' || c == '"');
+        let starts = line
+            .chars()
+            .next()
+            .is_some_and(|c| c.is_alphabetic() || c == '_' || c == '"');
         if let Some((key, _)) = line.split_once(':').filter(|_| starts) {
             all.push((key.trim().trim_matches('"').to_owned(), String::new()));
         }
@@ -102,7 +105,10 @@ fn calibration(profile: &Profile) -> String {
             .collect();
         out += &format!("    - {{{}}}\n", entry.join(", "));
     }
-    for (key, value) in [("quality", &profile.quality), ("provenance", &profile.provenance)] {
+    for (key, value) in [
+        ("quality", &profile.quality),
+        ("provenance", &profile.provenance),
+    ] {
         let Some(value) = value else { continue };
         match value.as_object() {
             Some(map) if !map.is_empty() => {
@@ -121,7 +127,10 @@ fn calibration(profile: &Profile) -> String {
 fn rows(value: &Value) -> String {
     match value.as_array() {
         Some(list) if list.iter().any(|item| item.is_array() || item.is_object()) => {
-            let lines: Vec<String> = list.iter().map(|item| format!("\n      - {}", flow(item))).collect();
+            let lines: Vec<String> = list
+                .iter()
+                .map(|item| format!("\n      - {}", flow(item)))
+                .collect();
             lines.concat()
         }
         _ => flow(value),
@@ -129,7 +138,8 @@ fn rows(value: &Value) -> String {
 }
 
 fn plain_or_flow(value: &Value) -> String {
-    let plain = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_lowercase() || c == '_');
+    let plain =
+        |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_lowercase() || c == '_');
     match value.as_str() {
         Some(text) if plain(text) => text.to_owned(),
         _ => flow(value),
@@ -189,14 +199,19 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
         return differs("base");
     }
     if back.effects.len() != profile.effects.len()
-        || back.effects.iter().zip(&profile.effects).any(|(a, b)| !a.same_place(b))
+        || back
+            .effects
+            .iter()
+            .zip(&profile.effects)
+            .any(|(a, b)| !a.same_place(b))
     {
         return differs("effects");
     }
     if back.points.len() != profile.points.len() {
         return differs("points");
     }
-    let same = back.links == profile.links && back.tools == profile.tools && back.bodies == profile.bodies;
+    let same =
+        back.links == profile.links && back.tools == profile.tools && back.bodies == profile.bodies;
     if !same {
         return differs("kinematics");
     }
@@ -239,7 +254,10 @@ mod tests {
     #[test]
     fn a_base_over_several_lines_is_replaced_whole() {
         let text = include_str!("../../../robots/abb_irb120.yaml");
-        let line = text.lines().find(|l| l.trim_start().starts_with("base:")).expect("a base");
+        let line = text
+            .lines()
+            .find(|l| l.trim_start().starts_with("base:"))
+            .expect("a base");
         let long = line.replace(", y_mm", ",\n    y_mm");
         let text = text.replace(line, &long);
         let mut profile = Profile::from_yaml(&text).expect("a profile");

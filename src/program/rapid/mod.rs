@@ -41,7 +41,7 @@ mod findings;
 mod frames;
 mod instruction;
 mod moves;
-mod names;
+pub(in crate::program) mod names;
 mod reader;
 mod sniff;
 mod syntax;

@@ -1,4 +1,6 @@
 //! The command line as a user meets it: files, exit statuses, messages.
 
 mod compensate;
+mod identify;
+mod jobs_and_tables_of_poses;
 mod tables;

@@ -95,6 +95,7 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
         let language = program::language_of(&written[0]).expect("a known language");
         let settings = Settings {
             pulses_per_deg: profile.pulses_per_deg,
+            ..Settings::default()
         };
         let after = language.read(&written, &settings).expect("a program");
         let before = language

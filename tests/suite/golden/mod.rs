@@ -2,10 +2,12 @@
 //!
 //! `POSESHIFT_BLESS=1 cargo test golden` writes the present output into `out/`: look at the difference before it is kept.
 
+mod agree;
 mod landing;
 mod posts;
 
 use crate::support::{files_below, poseshift, repository, scratch};
+use poseshift::program::{self, Marker, Source};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -119,7 +121,7 @@ fn a_profile_without_effects_changes_nothing_but_the_header() {
             };
             let before = std::fs::read(folder.join("in").join(&file)).expect("a sample");
             assert_eq!(
-                unmarked(&after),
+                unmarked(&after, &before, &file),
                 before,
                 "{} {}",
                 folder.display(),
@@ -135,18 +137,18 @@ fn without_effects(profile: &str) -> String {
     format!("{}calibration: {{effects: []}}\n", &profile[..start])
 }
 
-/// The file without the lines of its marker: the one that says so and the two hashes behind it.
-fn unmarked(bytes: &[u8]) -> Vec<u8> {
-    let lines: Vec<&[u8]> = bytes.split_inclusive(|b| *b == b'\n').collect();
-    let word = b"poseshift compensated this file";
-    let marker = lines
-        .iter()
-        .position(|line| line.windows(word.len()).any(|window| window == word));
-    let is_marker = |index: usize| marker.is_some_and(|at| (at..at + 3).contains(&index));
-    lines
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| !is_marker(*index))
-        .flat_map(|(_, line)| line.iter().copied())
-        .collect()
+/// The file without its marker: what stands where its language puts one, as many bytes as it has grown by.
+fn unmarked(after: &[u8], before: &[u8], file: &Path) -> Vec<u8> {
+    let source = Source::new(file.display().to_string(), before.to_vec());
+    let language = program::language_of(&source).expect("a known language");
+    let marker = Marker {
+        version: String::new(),
+        profile_sha256: String::new(),
+        source_sha256: String::new(),
+    };
+    let (at, _) = language.mark(&source, &marker);
+    let grown = after.len().saturating_sub(before.len());
+    let inserted = &after[at..at + grown];
+    assert!(grown == 0 || Marker::find(inserted).is_some());
+    [&after[..at], &after[at + grown..]].concat()
 }

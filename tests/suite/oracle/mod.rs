@@ -2,3 +2,4 @@
 
 mod forward;
 mod inverse;
+mod ur_calibration;

@@ -1,0 +1,62 @@
+//! What must hold for any bytes as a program: no panic, no hang; what is written reads back as the same program; a profile
+//! without effects changes nothing.
+
+use poseshift::compensate::{Given, Options, compensate};
+use poseshift::geometry::Pose;
+use poseshift::model::profile::{Mounted, Profile};
+use poseshift::program::{LANGUAGES, Language, Marker, Settings, Source};
+use std::sync::OnceLock;
+
+/// A calibrated arm, and the same without its calibration.
+fn profiles() -> &'static [Profile; 2] {
+    static PROFILES: OnceLock<[Profile; 2]> = OnceLock::new();
+    PROFILES.get_or_init(|| {
+        let text = include_str!("../../robots/abb_irb120_thesis.yaml");
+        let mut calibrated = Profile::from_yaml(text).expect("a shipped profile");
+        calibrated.pulses_per_deg = Some([1000.0; 6]);
+        let mut nominal = calibrated.clone();
+        nominal.effects.clear();
+        [calibrated, nominal]
+    })
+}
+
+fn options() -> &'static Options {
+    static OPTIONS: OnceLock<Options> = OnceLock::new();
+    OPTIONS.get_or_init(|| {
+        let mut given = Given::default();
+        given.tools.insert(None, Mounted::flange());
+        given.frames.insert(None, Pose::from_translation(0.3, 0.0, 0.4));
+        Options { given, correct_joint_targets: true, ..Options::default() }
+    })
+}
+
+/// Reads, compensates and reads again.
+///
+/// # Panics
+/// Where something does not hold.
+pub fn check(id: &str, bytes: &[u8]) {
+    let language = LANGUAGES.iter().find(|language| language.about().id == id).expect("a language");
+    let name = format!("fuzz.{}", language.about().extensions[0]);
+    let sources = [Source::new(name, bytes.to_vec())];
+    let _ = language.recognises(&sources[0]);
+    let [calibrated, nominal] = profiles();
+    let settings = Settings { pulses_per_deg: calibrated.pulses_per_deg, ..Settings::default() };
+    let Ok(program) = language.read(&sources, &settings) else { return };
+    for number in &program.numbers {
+        let end = number.start as usize + usize::from(number.length);
+        assert!(end <= bytes.len() && number.value.is_finite());
+    }
+    if let Ok(same) = compensate(*language, &sources, nominal, options()) {
+        assert!(same.edits.iter().all(poseshift::program::Edits::is_empty), "identity changes the file");
+    }
+    if let Ok(mut compensation) = compensate(*language, &sources, calibrated, options()) {
+        let mut edits = compensation.edits.remove(0);
+        let marker = Marker { version: "0".into(), profile_sha256: "0".repeat(64), source_sha256: "1".repeat(64) };
+        let (at, text) = language.mark(&sources[0], &marker);
+        edits.replace(at..at, |out| out.extend(text));
+        let written = [Source::new(sources[0].name.clone(), edits.apply(bytes))];
+        assert!(Marker::find(&written[0].bytes).is_some(), "the marker is not found");
+        let again = language.read(&written, &settings).expect("what is written is a program");
+        assert_eq!((again.targets.len(), again.moves.len()), (program.targets.len(), program.moves.len()));
+    }
+}

@@ -1,0 +1,300 @@
+//! `plan`: which configurations to measure.
+
+use super::failure::Failure;
+use super::measurements::{identify_failure, picks};
+use super::table::{JOINTS, Table, aligned, cell};
+use super::{Answer, Output, files, print, print_json, values};
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::identify::parameters::{Level, Selection};
+use crate::identify::plan::{Constraints, Plan, Request, plan};
+use crate::report::{approach, identification};
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Choose configurations to measure by observability
+#[derive(Args)]
+pub struct PlanCommand {
+    /// Robot profile (YAML)
+    #[arg(long, value_name = "FILE")]
+    profile: PathBuf,
+    /// How many configurations
+    #[arg(long, value_name = "N")]
+    count: usize,
+    /// Joint angles to write (CSV); without it they are printed
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// A program that drives there, every joint arriving from below
+    #[arg(long, value_name = "FILE")]
+    program: Option<PathBuf>,
+    /// Language of the program (default: that of the profile)
+    #[arg(long, value_name = "NAME")]
+    language: Option<String>,
+    /// Random configurations to choose from
+    #[arg(long, value_name = "N", default_value_t = 5000)]
+    candidates: usize,
+    /// Random sets to start from
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    starts: usize,
+    /// Seed of the random numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// 0 frames alone; 1 and joint offsets and scales; 2 and link geometry; 3 and joint compliance
+    #[arg(long, value_name = "0..3", default_value_t = 3, value_parser = clap::value_parser!(u8).range(0..=3))]
+    level: u8,
+    /// Effects to identify as well
+    #[arg(long, value_name = "LIST")]
+    identify: Option<String>,
+    /// Effects that are known
+    #[arg(long, value_name = "LIST")]
+    fix: Option<String>,
+    /// Tool of the profile (default: its only one)
+    #[arg(long, value_name = "NAME")]
+    tool: Option<String>,
+    /// Standard deviation of a coordinate of the device
+    #[arg(long, value_name = "MM", default_value_t = 0.05)]
+    sigma_mm: f64,
+    /// The device measures orientations too
+    #[arg(long)]
+    poses: bool,
+    /// Configurations that are in the set already (CSV)
+    #[arg(long, value_name = "FILE")]
+    given: Option<PathBuf>,
+    /// Distance from the joint limits
+    #[arg(long, value_name = "DEG", default_value_t = 1.0)]
+    margin_deg: f64,
+    /// Every joint arrives from so far below
+    #[arg(long, value_name = "DEG", default_value_t = 5.0)]
+    approach_deg: f64,
+    /// The tool stays inside this box of the world: x0,y0,z0,x1,y1,z1 in mm
+    #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
+    inside_mm: Option<String>,
+    /// Tool, wrist and elbow stay outside this box; may be given again
+    #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
+    keep_out_mm: Vec<String>,
+    /// Where the device stands: x,y,z in mm; the tool's z axis points to it within --cone-deg
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    device_mm: Option<String>,
+    /// Half angle in which the reflector is seen
+    #[arg(long, value_name = "DEG", default_value_t = 30.0)]
+    cone_deg: f64,
+}
+
+fn metres<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
+    let parsed: Option<Vec<f64>> = text
+        .split(',')
+        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
+        .collect();
+    let numbers: Option<[f64; N]> = parsed.and_then(|n| n.try_into().ok());
+    let numbers = numbers.ok_or_else(|| {
+        Failure::new(format!(
+            "{option} {text}: expected {N} numbers with commas between"
+        ))
+    })?;
+    Ok(numbers.map(m_from_mm))
+}
+
+fn metres_box(option: &str, text: &str) -> Result<[[f64; 3]; 2], Failure> {
+    let [a, b, c, d, e, f] = metres::<6>(option, text)?;
+    Ok([
+        [a.min(d), b.min(e), c.min(f)],
+        [a.max(d), b.max(e), c.max(f)],
+    ])
+}
+
+impl PlanCommand {
+    fn request(&self) -> Result<Request, Failure> {
+        let given = match &self.given {
+            None => Vec::new(),
+            Some(path) => {
+                let table = Table::read(path)?;
+                table.require(&JOINTS)?;
+                let rows = table
+                    .rows()
+                    .map(|row| Ok(row.numbers(JOINTS)?.map(|q| q * DEG)));
+                rows.collect::<Result<Vec<_>, Failure>>()?
+            }
+        };
+        for (option, value) in [("--sigma-mm", self.sigma_mm), ("--cone-deg", self.cone_deg)] {
+            if value.is_nan() || value <= 0.0 {
+                return Err(Failure::new(format!(
+                    "{option} is {value}; it must be greater than 0"
+                )));
+            }
+        }
+        for (option, value) in [
+            ("--margin-deg", self.margin_deg),
+            ("--approach-deg", self.approach_deg),
+        ] {
+            if !(0.0..=90.0).contains(&value) {
+                return Err(Failure::new(format!(
+                    "{option} is {value}; it must be from 0 to 90"
+                )));
+            }
+        }
+        if self.count == 0 || self.candidates < self.count || self.candidates > 1_000_000 {
+            return Err(Failure::new(format!(
+                "{} of {} candidates: at least 1, and at most 1000000 to choose from",
+                self.count, self.candidates
+            )));
+        }
+        let keep_out = self
+            .keep_out_mm
+            .iter()
+            .map(|t| metres_box("--keep-out-mm", t));
+        let device = self
+            .device_mm
+            .as_deref()
+            .map(|t| metres::<3>("--device-mm", t))
+            .transpose()?;
+        Ok(Request {
+            count: self.count,
+            candidates: self.candidates,
+            starts: self.starts,
+            seed: self.seed,
+            sigma_m: m_from_mm(self.sigma_mm),
+            poses: self.poses,
+            given,
+            constraints: Constraints {
+                margin_rad: self.margin_deg * DEG,
+                approach_rad: self.approach_deg * DEG,
+                inside: self
+                    .inside_mm
+                    .as_deref()
+                    .map(|t| metres_box("--inside-mm", t))
+                    .transpose()?,
+                keep_out: keep_out.collect::<Result<_, _>>()?,
+                sight: device.map(|at| (at, self.cone_deg * DEG)),
+            },
+        })
+    }
+
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let request = self.request()?;
+        let (profile, _) = files::read_profile(&self.profile)?;
+        let tool = values::chosen_tool(self.tool.as_deref(), &profile)?;
+        let selection = Selection {
+            level: match self.level {
+                0 => Level::Frames,
+                1 => Level::Joints,
+                2 => Level::Geometry,
+                _ => Level::Compliance,
+            },
+            identify: picks("--identify", self.identify.as_deref())?,
+            fix: picks("--fix", self.fix.as_deref())?,
+            priors: false,
+        };
+        let name = self.profile.display().to_string();
+        let found = plan(&profile, &tool, &selection, &request)
+            .map_err(|error| identify_failure(&name, &error))?;
+        let mut table = format!("id,{}\n", JOINTS.join(","));
+        for (i, q) in found.joints.iter().enumerate() {
+            let cells: Vec<String> = q.iter().map(|q| cell(q / DEG)).collect();
+            table += &format!("{},{}\n", i + 1, cells.join(","));
+        }
+        let mut written = Vec::new();
+        if let Some(path) = &self.output {
+            written.push((path.clone(), table.clone().into_bytes()));
+        }
+        if let Some(path) = &self.program {
+            let language = self
+                .language
+                .as_deref()
+                .or(profile.language.as_deref())
+                .unwrap_or_default();
+            let text = approach::program(language, &found.joints, self.approach_deg * DEG)
+                .ok_or_else(|| {
+                    Failure::with_hint(
+                        format!("no program can be written in `{language}`"),
+                        format!("--language is one of: {}", approach::LANGUAGES.join(", ")),
+                    )
+                })?;
+            written.push((path.clone(), text.into_bytes()));
+        }
+        files::write_all(&written)?;
+        if output.json {
+            let mut report = report(&found);
+            let names: Vec<String> = written
+                .iter()
+                .map(|(p, _)| p.display().to_string())
+                .collect();
+            report["output"] = json!(names);
+            return print_json(&report).map(|()| Answer::Yes);
+        }
+        if self.output.is_none() {
+            print(&table)?;
+        } else if !output.quiet {
+            print(&text(&found, self.sigma_mm))?;
+        }
+        Ok(Answer::Yes)
+    }
+}
+
+fn report(found: &Plan) -> Value {
+    let mut report = identification::observability(&found.observability);
+    report["poseshift"] = json!("plan/1");
+    let kept = found.identifiable.kept.iter().zip(&found.sigma);
+    report["expected_sigma"] = kept
+        .map(|(i, sigma)| {
+            let p = &found.parameters[*i];
+            json!({"key": p.key, "sigma": sigma / p.unit.in_si(), "unit": p.unit.symbol()})
+        })
+        .collect();
+    report["not_determined"] = found
+        .identifiable
+        .dropped
+        .iter()
+        .map(|d| {
+            let with: Vec<&str> = d
+                .confounded_with
+                .iter()
+                .map(|i| found.parameters[*i].key.as_str())
+                .collect();
+            json!({"key": found.parameters[d.parameter].key, "confounded_with": with})
+        })
+        .collect();
+    report["joints_deg"] = found
+        .joints
+        .iter()
+        .map(|q| json!(q.map(|q| q / DEG)))
+        .collect();
+    report["starts_o1"] = json!(found.starts_o1);
+    report["exchanges"] = json!(found.exchanges);
+    report["admitted"] = json!(found.admitted);
+    report
+}
+
+fn text(found: &Plan, sigma_mm: f64) -> String {
+    let o = &found.observability;
+    let mut out = format!(
+        "{} configurations; {:.1} % of random ones meet the constraints\n",
+        found.joints.len(),
+        100.0 * found.admitted
+    );
+    out += &format!(
+        "O1 {:.4}, condition number {:.3e}, rank {}\n",
+        o.o1, o.condition_number, o.rank
+    );
+    out += &format!(
+        "O2 {:.3e}, O3 {:.3e}, O4 {:.3e}, O5 {:.3e}\n\n",
+        o.o2, o.o3, o.o4, o.o5
+    );
+    out += &format!("expected standard deviations with {sigma_mm} mm a coordinate\n");
+    let mut rows = vec![["parameter", "sigma", "unit"].map(str::to_owned).to_vec()];
+    for (i, sigma) in found.identifiable.kept.iter().zip(&found.sigma) {
+        let p = &found.parameters[*i];
+        rows.push(vec![
+            p.key.clone(),
+            format!("{:.3e}", sigma / p.unit.in_si()),
+            p.unit.symbol().into(),
+        ]);
+    }
+    out += &aligned(&rows);
+    for dropped in &found.identifiable.dropped {
+        out += &format!(
+            "not determined: {}\n",
+            found.parameters[dropped.parameter].key
+        );
+    }
+    out
+}

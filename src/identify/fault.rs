@@ -1,0 +1,92 @@
+//! What can be wrong with a file of measurements, and where.
+
+/// How far a quaternion's length may be from 1.
+pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// A fault at its place in the file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{fault}")]
+pub struct MeasurementError {
+    /// Line, from 1; 0 is the whole file.
+    pub line: usize,
+    /// Column in bytes, from 1.
+    pub column: usize,
+    /// Length of what is to blame, bytes; 0 where it is not known.
+    pub length: usize,
+    /// What is wrong.
+    pub fault: MeasurementFault,
+}
+
+/// What is wrong with a file of measurements.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeasurementFault {
+    /// No CSV.
+    #[error("{message}")]
+    Csv {
+        /// What the parser says.
+        message: String,
+    },
+    /// Columns that must be there are not.
+    #[error("columns are missing: {}", missing.join(", "))]
+    MissingColumns {
+        /// Which.
+        missing: Vec<&'static str>,
+        /// Those that are there.
+        header: Vec<String>,
+    },
+    /// A column of the format that stands twice.
+    #[error("the column {column} stands twice")]
+    TwiceColumn {
+        /// Which.
+        column: &'static str,
+    },
+    /// Nothing was measured.
+    #[error("no rows")]
+    NoRows,
+    /// A cell that is no finite number.
+    #[error("column {column}: {} is not a finite number", if found.is_empty() { "an empty cell".to_owned() } else { format!("`{found}`") })]
+    NotFinite {
+        /// The column.
+        column: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// A number outside its range.
+    #[error("column {column}: {found} is not {allowed}")]
+    NotAllowed {
+        /// The column.
+        column: &'static str,
+        /// What stands there.
+        found: String,
+        /// What may stand there.
+        allowed: &'static str,
+    },
+    /// A quaternion that is no rotation.
+    #[error("the quaternion's length is {norm:.6}; it may differ from 1 by {UNIT_TOLERANCE}")]
+    NotUnit {
+        /// Its length.
+        norm: f64,
+    },
+    /// A row with both a position and a distance, or with neither.
+    #[error("the row has {} a position and a distance; it must have one of them", if *both { "both" } else { "neither" })]
+    Kind {
+        /// Both, or neither.
+        both: bool,
+    },
+}
+
+impl MeasurementError {
+    /// The way out; empty where the message says it all.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match &self.fault {
+            MeasurementFault::MissingColumns { header, .. } => {
+                format!("the header has: {}", header.join(", "))
+            }
+            MeasurementFault::Kind { .. } => {
+                "leave the cells of the other kind empty: x_mm,y_mm,z_mm or distance_mm,from_x_mm,from_y_mm,from_z_mm".into()
+            }
+            _ => String::new(),
+        }
+    }
+}

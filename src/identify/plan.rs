@@ -1,0 +1,470 @@
+//! Which configurations to measure, before anything is measured.
+
+use super::error::IdentifyError;
+use super::exchange::{Chooser, Rows};
+use super::identifiability::{
+    Identifiable, Observability, identifiable, observability, singular_values,
+};
+use super::measurements::{Measurement, Measurements, Observed};
+use super::normal::Normal;
+use super::observation::Observation;
+use super::parameters::{Parameter, Selection, Subject};
+use super::problem::{Estimate, Problem};
+use super::random::Random;
+use super::robust::Loss;
+use crate::geometry::{Pose, Vector, dot, norm, sub};
+use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Motion};
+use nalgebra::DMatrix;
+
+/// Draws for one candidate before the constraints count as impossible to meet.
+const DRAWS: usize = 2000;
+
+/// An axis-aligned box of the world, metres.
+pub type Box3 = [Vector; 2];
+
+/// What a configuration must meet.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Constraints {
+    /// Distance from the joint limits, radians. Room for the approach stands beside it.
+    pub margin_rad: f64,
+    /// Every joint arrives from so far below, radians; 0 without such an approach.
+    pub approach_rad: f64,
+    /// The tool must be inside.
+    pub inside: Option<Box3>,
+    /// The tool, the wrist and the elbow must be outside.
+    pub keep_out: Vec<Box3>,
+    /// Where the measuring device stands, metres, and how far the tool's z axis may point away from it, radians.
+    pub sight: Option<(Vector, f64)>,
+}
+
+/// What to choose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// How many configurations.
+    pub count: usize,
+    /// How many to choose from.
+    pub candidates: usize,
+    /// How many random sets to start from.
+    pub starts: usize,
+    /// Seed.
+    pub seed: u64,
+    /// Standard deviation of a coordinate, metres.
+    pub sigma_m: f64,
+    /// Whether orientations are measured too.
+    pub poses: bool,
+    /// Configurations that are in the set already, radians.
+    pub given: Vec<[f64; 6]>,
+    /// What they must meet.
+    pub constraints: Constraints,
+}
+
+/// A chosen set.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Joint angles, radians: the given ones first.
+    pub joints: Vec<[f64; 6]>,
+    /// Indices of the candidates chosen.
+    pub chosen: Vec<usize>,
+    /// Parameters, determined or not.
+    pub parameters: Vec<Parameter>,
+    /// Which are determined.
+    pub identifiable: Identifiable,
+    /// Expected standard deviation of each determined parameter, SI.
+    pub sigma: Vec<f64>,
+    /// Indices of the set in SI units: metres a metre, a radian, a radian a newton metre.
+    pub observability: Observability,
+    /// O1 of each start.
+    pub starts_o1: Vec<f64>,
+    /// Exchanges of the best start.
+    pub exchanges: usize,
+    /// Part of the random configurations that met the constraints.
+    pub admitted: f64,
+}
+
+fn within(box3: &Box3, p: Vector) -> bool {
+    (0..3).all(|k| box3[0][k] <= p[k] && p[k] <= box3[1][k])
+}
+
+/// Random configurations that meet the constraints. The second value is the part of draws that did.
+///
+/// # Errors
+/// Constraints that no draw meets.
+pub fn candidates(
+    profile: &Profile,
+    tool: &Mounted,
+    constraints: &Constraints,
+    count: usize,
+    seed: u64,
+) -> Result<(Vec<[f64; 6]>, f64), IdentifyError> {
+    let mut random = Random::new(seed);
+    let nothing = Conditions::default();
+    let to_tool = profile.real_model(tool, &nothing);
+    let mut range = [[0.0; 2]; 6];
+    for (i, joint) in profile.mechanism.joints.iter().enumerate() {
+        let low = joint.min_rad + constraints.margin_rad + constraints.approach_rad;
+        let high = joint.max_rad - constraints.margin_rad;
+        if low >= high {
+            return Err(IdentifyError::Suspicious {
+                message: format!(
+                    "joint {} has no room between its limits for the margin and the approach",
+                    i + 1
+                ),
+                hint: "a smaller --margin-deg or --approach-deg".into(),
+            });
+        }
+        range[i] = [low, high];
+    }
+    let checks = constraints.inside.is_some()
+        || !constraints.keep_out.is_empty()
+        || constraints.sight.is_some();
+    let mut found = Vec::with_capacity(count);
+    let mut draws = 0;
+    while found.len() < count {
+        draws += 1;
+        if draws > DRAWS * (found.len() + 1) {
+            return Err(IdentifyError::Suspicious {
+                message: format!(
+                    "of {draws} random configurations {} meet the constraints; {count} are needed",
+                    found.len()
+                ),
+                hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates".into(),
+            });
+        }
+        let q: [f64; 6] = std::array::from_fn(|i| random.between(range[i][0], range[i][1]));
+        if !checks
+            || admitted(
+                &to_tool.forward(&q, &nothing),
+                profile,
+                tool,
+                &q,
+                constraints,
+            )
+        {
+            found.push(q);
+        }
+    }
+    Ok((found, count as f64 / draws as f64))
+}
+
+fn admitted(
+    world_from_tool: &Pose,
+    profile: &Profile,
+    tool: &Mounted,
+    q: &[f64; 6],
+    constraints: &Constraints,
+) -> bool {
+    let tip = world_from_tool.translation;
+    if constraints.inside.is_some_and(|b| !within(&b, tip)) {
+        return false;
+    }
+    if let Some((device, most)) = constraints.sight {
+        let toward = sub(device, tip);
+        let cosine = dot(world_from_tool.rotation.axis(2), toward) / norm(toward).max(1e-9);
+        if cosine < most.cos() {
+            return false;
+        }
+    }
+    if constraints.keep_out.is_empty() {
+        return true;
+    }
+    let geometry = profile.geometry(tool);
+    let chain = crate::model::Chain::of(&geometry, &profile.mechanism);
+    let turns = crate::geometry::Turn::of_each(&profile.mechanism.commanded(q));
+    let places = chain.link_frames(&turns);
+    let arm = places[2..].iter().map(|frame| frame.translation);
+    arm.chain([tip])
+        .all(|p| constraints.keep_out.iter().all(|b| !within(b, p)))
+}
+
+/// A problem whose rows are these configurations, to take derivatives of.
+fn imagined(
+    profile: &Profile,
+    tool: &Mounted,
+    selection: &Selection,
+    joints: &[[f64; 6]],
+    poses: bool,
+) -> Result<(Problem, Estimate), IdentifyError> {
+    let row = |q: &[f64; 6], point: Option<&String>| Measurement {
+        line: 0,
+        id: String::new(),
+        q: *q,
+        observed: if poses {
+            Observed::Pose(Pose::identity())
+        } else {
+            Observed::Position([0.0; 3])
+        },
+        tool: profile
+            .tools
+            .contains_key(&tool.name)
+            .then(|| tool.name.clone()),
+        point: point.cloned(),
+        point_in_tool_m: None,
+        conditions: Conditions::default(),
+        sigma_m: None,
+        purpose: None,
+    };
+    let mut rows = Vec::new();
+    for q in joints {
+        if profile.points.is_empty() {
+            rows.push(row(q, None));
+        }
+        rows.extend(profile.points.keys().map(|name| row(q, Some(name))));
+    }
+    let measurements = Measurements {
+        rows,
+        columns: super::measurements::DIRECTION_COLUMNS
+            .map(str::to_owned)
+            .to_vec(),
+    };
+    Problem::new(profile, &measurements, selection, profile.world_from_base)
+}
+
+/// Derivatives of each configuration by the parameters, in their scales and the standard deviation.
+fn jacobians(
+    problem: &Problem,
+    estimate: &Estimate,
+    parameters: &[Parameter],
+    configurations: usize,
+    sigma_m: f64,
+) -> Vec<DMatrix<f64>> {
+    let models = problem.models(estimate, parameters);
+    let effects = parameters
+        .iter()
+        .filter(|p| matches!(p.subject, Subject::Effect(_)))
+        .count();
+    let mut motions = vec![Motion::default(); effects];
+    let each = problem.rows.len() / configurations.max(1);
+    problem
+        .rows
+        .chunks(each.max(1))
+        .map(|rows| {
+            let height: usize = rows.iter().map(|row| row.observed.count()).sum();
+            let mut matrix = DMatrix::zeros(height, parameters.len());
+            let mut top = 0;
+            for row in rows {
+                let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
+                let seen = Observation::new(row, pose, problem.point_in_tool_m(estimate, row));
+                let weights = seen.weights();
+                let mut motion = motions.iter();
+                for (column, parameter) in parameters.iter().enumerate() {
+                    let slope = match parameter.subject {
+                        Subject::Effect(_) => motion.next().map_or([0.0; 6], |m| seen.slope(m)),
+                        Subject::Point { point, axis } => seen.slope_of_point(point, axis),
+                    };
+                    for k in 0..row.observed.count() {
+                        let by = weights[k] * row.sigma_m / sigma_m;
+                        matrix[(top + k, column)] = slope[k] * by * parameter.scale;
+                    }
+                }
+                top += row.observed.count();
+            }
+            matrix
+        })
+        .collect()
+}
+
+/// Chooses configurations that tell the parameters best: the largest determinant of the information matrix, which is the
+/// largest O1, by exchanges from random sets.
+///
+/// # Errors
+/// Constraints that cannot be met; fewer numbers than parameters; parameters that cannot be determined at all.
+#[allow(
+    clippy::missing_panics_doc,
+    reason = "what is expected holds by construction"
+)]
+pub fn plan(
+    profile: &Profile,
+    tool: &Mounted,
+    selection: &Selection,
+    request: &Request,
+) -> Result<Plan, IdentifyError> {
+    let (pool, admitted) = candidates(
+        profile,
+        tool,
+        &request.constraints,
+        request.candidates,
+        request.seed,
+    )?;
+    let mut all = request.given.clone();
+    all.extend(&pool);
+    let (problem, estimate) = imagined(profile, tool, selection, &all, request.poses)?;
+    let normal = Normal::of(&problem, &estimate, &problem.parameters, Loss::squares());
+    let known = identifiable(&normal, &problem.parameters, None);
+    let parameters: Vec<Parameter> = known
+        .kept
+        .iter()
+        .map(|i| problem.parameters[*i].clone())
+        .collect();
+    let per_row = problem.numbers() / all.len().max(1);
+    if (request.count + request.given.len()) * per_row < parameters.len()
+        || request.count > pool.len()
+    {
+        return Err(IdentifyError::TooFew {
+            numbers: (request.count + request.given.len()) * per_row,
+            rows: request.count.min(pool.len()) + request.given.len(),
+            parameters: parameters.len(),
+        });
+    }
+    let jacobians = jacobians(&problem, &estimate, &parameters, all.len(), request.sigma_m);
+    let (given, free) = jacobians.split_at(request.given.len());
+    let width = parameters.len();
+    let mut base = DMatrix::zeros(width, width);
+    for j in given {
+        base.gemm_tr(1.0, j, j, 1.0);
+    }
+    let height = free.first().map_or(0, DMatrix::nrows);
+    let mut rows = Rows {
+        lanes: free.len(),
+        height,
+        width,
+        cells: vec![0.0; height * width * free.len()],
+    };
+    for (lane, j) in free.iter().enumerate() {
+        for r in 0..height {
+            for c in 0..width {
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    reason = "what is chosen by it is checked in double precision"
+                )]
+                {
+                    rows.cells[(r * width + c) * rows.lanes + lane] = j[(r, c)] as f32;
+                }
+            }
+        }
+    }
+    let chooser = Chooser {
+        jacobians: free,
+        rows: &rows,
+        base: &base,
+    };
+    let count = request.count + request.given.len();
+    // O1 in SI units: the scales and the standard deviation are taken out again
+    let scales: f64 = parameters
+        .iter()
+        .map(|p| (p.scale / request.sigma_m).ln())
+        .sum();
+    let o1 = |log_determinant: f64| {
+        ((0.5 * log_determinant - scales) / width as f64).exp() / (count as f64).sqrt()
+    };
+    let mut random = Random::new(request.seed ^ 0x5eed);
+    let mut best: Option<(f64, Vec<usize>, usize)> = None;
+    let mut starts_o1 = Vec::new();
+    for _ in 0..request.starts.max(1) {
+        let found = chooser.run(request.count, &mut random);
+        starts_o1.push(o1(found.0));
+        if best.as_ref().is_none_or(|(value, _, _)| found.0 > *value) {
+            best = Some(found);
+        }
+    }
+    let (_, mut chosen, exchanges) = best.expect("at least one start");
+    chosen.sort_unstable();
+    let information = chooser.information(&chosen);
+    let Some(factor) = information.clone().cholesky() else {
+        return Err(IdentifyError::NoStart {
+            reason: "no set of these configurations determines every parameter".into(),
+        });
+    };
+    let covariance = factor.inverse();
+    let sigma = parameters
+        .iter()
+        .enumerate()
+        .map(|(i, p)| p.scale * covariance[(i, i)].sqrt())
+        .collect();
+    let mut r = factor.l().transpose();
+    for (i, p) in parameters.iter().enumerate() {
+        let by = request.sigma_m / p.scale;
+        r.column_mut(i).scale_mut(by);
+    }
+    let mut joints = request.given.clone();
+    joints.extend(chosen.iter().map(|i| pool[*i]));
+    Ok(Plan {
+        joints,
+        chosen,
+        identifiable: known,
+        parameters: problem.parameters,
+        sigma,
+        observability: observability(singular_values(&r), count),
+        starts_o1,
+        exchanges,
+        admitted,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::parameters::Level;
+
+    #[test]
+    fn an_exchanged_set_is_better_than_random_ones_and_meets_the_limits() {
+        let profile = Profile::from_yaml(include_str!("../../robots/abb_irb120_thesis.yaml"))
+            .expect("a shipped profile");
+        let tool = profile.tool("artifact").expect("its tool");
+        let mut selection = Selection::level(Level::Compliance);
+        selection.fix = super::super::parameters::Pick::parse_list("tool_frame").expect("a word");
+        let request = |starts| Request {
+            count: 20,
+            candidates: 400,
+            starts,
+            seed: 3,
+            sigma_m: 5e-5,
+            poses: false,
+            given: Vec::new(),
+            constraints: Constraints {
+                approach_rad: 0.09,
+                ..Constraints::default()
+            },
+        };
+        let one = plan(&profile, &tool, &selection, &request(1)).expect("a plan");
+        let random: f64 = {
+            let (pool, _) =
+                candidates(&profile, &tool, &request(1).constraints, 400, 3).expect("a pool");
+            let (problem, estimate) =
+                imagined(&profile, &tool, &selection, &pool[..20], false).expect("rows");
+            let kept: Vec<Parameter> = one
+                .identifiable
+                .kept
+                .iter()
+                .map(|i| one.parameters[*i].clone())
+                .collect();
+            let mut r = Normal::of(&problem, &estimate, &kept, Loss::squares())
+                .factor()
+                .expect("full rank");
+            for (i, p) in kept.iter().enumerate() {
+                r.column_mut(i)
+                    .scale_mut(super::super::problem::DEFAULT_SIGMA_M / p.scale);
+            }
+            observability(singular_values(&r), 20).o1
+        };
+        assert!(
+            one.observability.o1 > 1.1 * random,
+            "{} {random}",
+            one.observability.o1
+        );
+        assert!((one.observability.o1 / one.starts_o1[0] - 1.0).abs() < 1e-6);
+        for q in &one.joints {
+            assert!(
+                profile
+                    .mechanism
+                    .beyond_limit(&q.map(|x| x - 0.09), 1e-9)
+                    .is_none()
+            );
+        }
+        let several = plan(&profile, &tool, &selection, &request(4)).expect("a plan");
+        assert!(several.observability.o1 >= one.observability.o1);
+        // the set that is there already counts
+        let mut grown = request(1);
+        grown.given.clone_from(&one.joints);
+        grown.count = 5;
+        let grown = plan(&profile, &tool, &selection, &grown).expect("a plan");
+        assert_eq!(grown.joints.len(), 25);
+        assert!(
+            grown
+                .sigma
+                .iter()
+                .zip(&one.sigma)
+                .all(|(new, old)| new < old)
+        );
+    }
+}

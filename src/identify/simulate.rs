@@ -1,0 +1,149 @@
+//! Measurements of the robot that a profile describes: the truth that an identification must find again.
+
+use super::measurements::{Measurement, Observed};
+use super::random::Random;
+use crate::geometry::{Pose, Rotation, Vector, add, norm, sub};
+use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Model};
+
+/// What the imagined device gives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Device {
+    /// Positions.
+    Position,
+    /// Positions and orientations.
+    Pose,
+    /// Distances from these points of the world, in turn, metres.
+    Distance(Vec<Vector>),
+}
+
+/// How to measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Session {
+    /// What the device gives.
+    pub device: Device,
+    /// Standard deviation of a coordinate or distance, metres.
+    pub noise_m: f64,
+    /// Standard deviation of an angle about each axis, radians.
+    pub noise_rad: f64,
+    /// Part of the rows that are wrong.
+    pub outliers: f64,
+    /// Size of a wrong row's error, metres.
+    pub outlier_m: f64,
+    /// Temperature of the first and last row, °C.
+    pub temperature_c: Option<[f64; 2]>,
+    /// Time from row to row, seconds.
+    pub interval_s: Option<f64>,
+    /// Seed.
+    pub seed: u64,
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        Self {
+            device: Device::Position,
+            noise_m: 0.0,
+            noise_rad: 0.0,
+            outliers: 0.0,
+            outlier_m: 0.01,
+            temperature_c: None,
+            interval_s: None,
+            seed: 1,
+        }
+    }
+}
+
+/// A configuration to measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// Joint angles, radians.
+    pub q: [f64; 6],
+    /// Directions and force; directions are those from the configuration before where they are not given.
+    pub conditions: Option<Conditions>,
+}
+
+fn noise(random: &mut Random, sigma: f64) -> Vector {
+    std::array::from_fn(|_| sigma * random.normal())
+}
+
+/// Measures a robot in these configurations, all of `points` (names with places in the tool frame, metres) at each.
+///
+/// The same seed gives the same noise for every profile: a difference between two files is that of the robots.
+#[must_use]
+pub fn simulate(
+    profile: &Profile,
+    tool: &Mounted,
+    points: &[(Option<String>, Vector)],
+    commands: &[Command],
+    session: &Session,
+) -> Vec<Measurement> {
+    let mut random = Random::new(session.seed);
+    let mut rows = Vec::new();
+    let count = commands.len();
+    for (i, command) in commands.iter().enumerate() {
+        let mut conditions = command.conditions.unwrap_or_else(|| {
+            let before = &commands[i.saturating_sub(1)].q;
+            let moved = |j: usize| match command.q[j].total_cmp(&before[j]) {
+                std::cmp::Ordering::Less => -1.0,
+                std::cmp::Ordering::Equal => 0.0,
+                std::cmp::Ordering::Greater => 1.0,
+            };
+            Conditions {
+                direction: std::array::from_fn(moved),
+                ..Conditions::default()
+            }
+        });
+        let part = i as f64 / (count.max(2) - 1) as f64;
+        if let Some([first, last]) = session.temperature_c {
+            conditions.temperature_c = Some(first + part * (last - first));
+        }
+        if let Some(interval) = session.interval_s {
+            conditions.time_s = Some(interval * i as f64);
+        }
+        let model: Model = profile.real_model(tool, &conditions);
+        let pose = model.forward(&command.q, &conditions);
+        for (name, point) in points {
+            let (shift, turn) = (
+                noise(&mut random, session.noise_m),
+                noise(&mut random, session.noise_rad),
+            );
+            let direction = noise(&mut random, 1.0);
+            let wrong = random.even() < session.outliers;
+            let size = if wrong {
+                session.outlier_m / norm(direction).max(1e-9)
+            } else {
+                0.0
+            };
+            let shift = add(shift, direction.map(|x| x * size));
+            let seen = add(pose.transform(*point), shift);
+            let observed = match &session.device {
+                Device::Position => Observed::Position(seen),
+                Device::Pose => Observed::Pose(Pose {
+                    rotation: Rotation::from_vector(turn) * pose.rotation,
+                    translation: seen,
+                }),
+                Device::Distance(from) => {
+                    let from_m = from[rows.len() % from.len().max(1)];
+                    let true_m = norm(sub(pose.transform(*point), from_m));
+                    Observed::Distance {
+                        distance_m: true_m + shift[0],
+                        from_m,
+                    }
+                }
+            };
+            rows.push(Measurement {
+                line: rows.len() + 2,
+                id: (rows.len() + 1).to_string(),
+                q: command.q,
+                observed,
+                tool: Some(tool.name.clone()),
+                point: name.clone(),
+                point_in_tool_m: None,
+                conditions,
+                sigma_m: (session.noise_m > 0.0).then_some(session.noise_m),
+                purpose: None,
+            });
+        }
+    }
+    rows
+}

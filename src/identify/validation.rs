@@ -1,0 +1,389 @@
+//! What a calibrated model is worth on measurements it has not seen.
+
+use super::calibration::{begin, fit_frames};
+use super::error::IdentifyError;
+use super::measurements::Measurements;
+use super::parameters::{Level, Parameter, Selection, Subject};
+use super::problem::{Estimate, Problem};
+use super::robust::Shape;
+use super::solver::solve;
+use super::start;
+use super::statistics::{Miss, Pairs, Quality, Spread, misses, pairs};
+use crate::geometry::units::mm_from_m;
+use crate::geometry::{Vector, norm, sub};
+use crate::model::effects::Kind;
+use crate::model::profile::Profile;
+use std::collections::BTreeMap;
+
+/// Regions of distance from the middle of the calibration that errors are told by.
+pub const REGIONS: usize = 5;
+
+/// One model on the measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// Position, orientation, distances from fixed points.
+    pub quality: Quality,
+    /// Distances between all pairs of points, mm.
+    pub distance: Option<Pairs>,
+    /// Every row.
+    pub misses: Vec<Miss>,
+}
+
+/// Errors of a part of the rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// What divides: `point`, `tool`, `set`, `region`.
+    pub by: &'static str,
+    /// Which part.
+    pub name: String,
+    /// Errors of the real model, mm.
+    pub spread: Spread,
+}
+
+/// Pose accuracy and repeatability of one configuration measured several times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeated {
+    /// Line of its first row.
+    pub line: usize,
+    /// How often it was measured.
+    pub count: usize,
+    /// AP: distance of the mean of what was attained from what the real model expects, mm.
+    pub accuracy_mm: f64,
+    /// RP: mean plus three standard deviations of the distances from their mean, mm.
+    pub repeatability_mm: f64,
+    /// vAP: largest distance between the means of different approach directions, mm; `None` from one direction only.
+    pub variation_mm: Option<f64>,
+}
+
+/// What a validation found.
+#[derive(Clone, Debug)]
+pub struct Validation {
+    /// The rows.
+    pub problem: Problem,
+    /// The controller's model.
+    pub controller: Judged,
+    /// The controller's model with base, tool and points fitted to these rows.
+    pub frames_only: Judged,
+    /// The real model.
+    pub real: Judged,
+    /// Whether base and points were fitted to these rows for the real model too.
+    pub refitted: bool,
+    /// Errors of the real model by parts.
+    pub parts: Vec<Part>,
+    /// Repeated poses.
+    pub repeated: Vec<Repeated>,
+    /// Root mean square of residuals in standard deviations; near one where the rows' sigmas are right.
+    pub normalised_rms: Option<f64>,
+    /// Errors of every row by a model that was identified without it, and the same for frames alone.
+    pub folds: Option<(usize, Quality, Quality)>,
+}
+
+fn judged(problem: &Problem, estimate: &Estimate) -> Judged {
+    let misses = misses(problem, estimate);
+    let mut measured: Vec<Vector> = Vec::new();
+    let mut expected: Vec<Vector> = Vec::new();
+    for (row, miss) in problem.rows.iter().zip(&misses) {
+        if let Some(point) = row.observed.point_m() {
+            measured.push(point.map(mm_from_m));
+            expected.push(miss.expected_m.map(mm_from_m));
+        }
+    }
+    Judged {
+        quality: Quality::of(&problem.rows, &misses),
+        distance: pairs(&measured, &expected),
+        misses,
+    }
+}
+
+/// The profile with what its controller computes with.
+fn controller_profile(profile: &Profile) -> Profile {
+    let mut controller = profile.clone();
+    controller.effects = profile.controller_effects();
+    controller
+}
+
+/// Compares measurements with a profile's models.
+///
+/// `refit` fits base, tool and points of the real model to these rows first: the device or the tool was set up anew. With
+/// `folds` the effects of the profile are identified again without each part of the configurations in turn.
+///
+/// # Errors
+/// As [`super::calibrate`]; points without coordinates where they are not to be fitted.
+pub fn validate(
+    profile: &Profile,
+    measurements: &Measurements,
+    refit: bool,
+    folds: Option<usize>,
+) -> Result<Validation, IdentifyError> {
+    let selection = Selection::level(Level::Frames);
+    let unknown = measurements.rows.iter().find(|row| {
+        row.point_in_tool_m.is_none()
+            && row
+                .point
+                .as_ref()
+                .is_some_and(|name| !profile.points.contains_key(name))
+    });
+    if let Some(row) = unknown.filter(|_| !refit) {
+        return Err(IdentifyError::Suspicious {
+            message: format!(
+                "line {}: where point `{}` is on the tool is neither in the file nor in the profile",
+                row.line,
+                row.point.as_deref().unwrap_or_default()
+            ),
+            hint: "with --refit-frames base and points are fitted to these rows first".into(),
+        });
+    }
+    let controller = controller_profile(profile);
+    let at_rest = |profile: &Profile| {
+        Problem::new(profile, measurements, &selection, profile.world_from_base)
+    };
+    let (_, nominal) = at_rest(&controller)?;
+    let (problem, own) = at_rest(profile)?;
+    // the controller knows nothing of fitted frames: the effects that the selection added are zero
+    let mut controller_problem = problem.clone();
+    controller_problem.sort_rigs(&nominal.effects);
+    let (frames_problem, frames) = fit_frames(&controller, measurements, Shape::Squares, refit)?;
+    let mut frames_problem = frames_problem;
+    frames_problem.rows.clone_from(&problem.rows);
+    frames_problem.sort_rigs(&frames.estimate.effects);
+    let (real_problem, real) = if refit {
+        let (problem, solution) = fit_frames(profile, measurements, Shape::Squares, true)?;
+        (problem, solution.estimate)
+    } else {
+        (problem, own)
+    };
+    let judged_real = judged(&real_problem, &real);
+    let given = !real_problem.sigma_assumed;
+    let squares = judged_real
+        .misses
+        .iter()
+        .map(|m| m.normalised * m.normalised);
+    let normalised = (squares.sum::<f64>() / judged_real.misses.len() as f64).sqrt();
+    let folds = match folds {
+        Some(count) => Some(cross_validate(profile, measurements, count)?),
+        None => None,
+    };
+    Ok(Validation {
+        controller: judged(&controller_problem, &nominal),
+        frames_only: judged(&frames_problem, &frames.estimate),
+        parts: parts(profile, measurements, &judged_real.misses),
+        repeated: repeated(measurements, &judged_real.misses),
+        real: judged_real,
+        refitted: refit,
+        normalised_rms: given.then_some(normalised),
+        problem: real_problem,
+        folds,
+    })
+}
+
+fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec<Part> {
+    let mut groups: BTreeMap<(&'static str, String), Vec<f64>> = BTreeMap::new();
+    let seen: Vec<Vector> = measurements
+        .rows
+        .iter()
+        .filter_map(|r| r.observed.point_m())
+        .collect();
+    let middle = calibration_middle(profile).unwrap_or_else(|| {
+        let sum = seen
+            .iter()
+            .fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
+        sum.map(|x| x / seen.len().max(1) as f64)
+    });
+    let far = seen
+        .iter()
+        .map(|p| norm(sub(*p, middle)))
+        .fold(0.0, f64::max);
+    for (row, miss) in measurements.rows.iter().zip(misses) {
+        let error = mm_from_m(miss.length_m);
+        let mut add = |by, name: String| groups.entry((by, name)).or_default().push(error);
+        if let Some(point) = &row.point {
+            add("point", point.clone());
+        }
+        if let Some(tool) = &row.tool {
+            let mass = profile
+                .tool(tool)
+                .and_then(|t| t.load)
+                .map_or(0.0, |(mass, _)| mass);
+            add("tool", format!("{tool} ({mass} kg)"));
+        }
+        if let Some(purpose) = row.purpose {
+            add("set", purpose.id().into());
+        }
+        if let Some(point) = row.observed.point_m().filter(|_| far > 0.0) {
+            let width = far / REGIONS as f64;
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "0 to REGIONS"
+            )]
+            let ring = ((norm(sub(point, middle)) / width) as usize).min(REGIONS - 1);
+            let (from, to) = (
+                mm_from_m(width) * ring as f64,
+                mm_from_m(width) * (ring + 1) as f64,
+            );
+            add("region", format!("{}: {from:.0} to {to:.0} mm", ring + 1));
+        }
+    }
+    let several = |by: &str| groups.keys().filter(|(b, _)| *b == by).count() > 1;
+    groups
+        .iter()
+        .filter(|((by, _), _)| several(by))
+        .filter_map(|((by, name), errors)| {
+            Some(Part {
+                by,
+                name: name.clone(),
+                spread: Spread::of(errors)?,
+            })
+        })
+        .collect()
+}
+
+/// The middle of the points that the profile was calibrated with, metres, where it says so.
+fn calibration_middle(profile: &Profile) -> Option<Vector> {
+    let middle = profile.quality.as_ref()?.get("middle_mm")?.as_array()?;
+    let numbers: Vec<f64> = middle
+        .iter()
+        .filter_map(serde_json::Value::as_f64)
+        .collect();
+    let [x, y, z]: [f64; 3] = numbers.try_into().ok()?;
+    Some([x, y, z].map(crate::geometry::units::m_from_mm))
+}
+
+/// ISO 9283 figures of configurations measured at least three times.
+fn repeated(measurements: &Measurements, misses: &[Miss]) -> Vec<Repeated> {
+    type Key = (Vec<u64>, Option<String>);
+    let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+    for (i, row) in measurements.rows.iter().enumerate() {
+        if row.observed.point_m().is_some() {
+            let key = (
+                row.q.iter().map(|q| q.to_bits()).collect(),
+                row.point.clone(),
+            );
+            groups.entry(key).or_default().push(i);
+        }
+    }
+    let mean = |of: &[Vector]| {
+        let sum = of
+            .iter()
+            .fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
+        sum.map(|x| x / of.len().max(1) as f64)
+    };
+    let mut found = Vec::new();
+    for rows in groups.values().filter(|rows| rows.len() >= 3) {
+        let gap =
+            |i: &usize| [misses[*i].gap[0], misses[*i].gap[1], misses[*i].gap[2]].map(mm_from_m);
+        let gaps: Vec<Vector> = rows.iter().map(gap).collect();
+        let middle = mean(&gaps);
+        let about: Vec<f64> = gaps.iter().map(|g| norm(sub(*g, middle))).collect();
+        let spread = Spread::of(&about).expect("at least three rows");
+        let mut ways: BTreeMap<Vec<i64>, Vec<Vector>> = BTreeMap::new();
+        for (i, g) in rows.iter().zip(&gaps) {
+            #[allow(clippy::cast_possible_truncation, reason = "-1, 0 or 1")]
+            let way = measurements.rows[*i]
+                .conditions
+                .direction
+                .map(|d| d as i64)
+                .to_vec();
+            ways.entry(way).or_default().push(*g);
+        }
+        let means: Vec<Vector> = ways.values().map(|g| mean(g)).collect();
+        let apart = means
+            .iter()
+            .flat_map(|a| means.iter().map(move |b| norm(sub(*a, *b))));
+        found.push(Repeated {
+            line: measurements.rows[rows[0]].line,
+            count: rows.len(),
+            accuracy_mm: norm(middle),
+            repeatability_mm: spread.mean_plus_3std(),
+            variation_mm: (means.len() > 1).then(|| apart.fold(0.0, f64::max)),
+        });
+    }
+    found.sort_by_key(|r| r.line);
+    found
+}
+
+/// Errors of every row by models that were identified without it: the profile's effects and frames, and frames alone.
+///
+/// Rows of one configuration stay together; part k has every k-th configuration.
+fn cross_validate(
+    profile: &Profile,
+    measurements: &Measurements,
+    count: usize,
+) -> Result<(usize, Quality, Quality), IdentifyError> {
+    let configurations = measurements.configurations();
+    let total = configurations.last().map_or(0, |last| last + 1);
+    let count = count.clamp(2, total.max(2));
+    let free = measurements
+        .rows
+        .iter()
+        .any(|row| row.point.is_some() && row.point_in_tool_m.is_none());
+    let mut selection = Selection::level(Level::Frames);
+    if free {
+        selection.identify =
+            super::parameters::Pick::parse_list("points").expect("a word of the list");
+    }
+    let guess = start::find(profile, measurements);
+    let base = guess
+        .as_ref()
+        .map_or(profile.world_from_base, |s| s.world_from_base);
+    let (mut problem, mut begun) = Problem::new(profile, measurements, &selection, base)?;
+    let frames = problem.parameters.clone();
+    problem.parameters.extend(present(&begun, &frames));
+    problem.parameters.sort_by_key(|p| p.rank);
+    begun
+        .effects
+        .iter_mut()
+        .filter(|e| e.kind == Kind::BaseFrame)
+        .for_each(|e| e.parameters = [0.0; 6]);
+    if let Some(guess) = &guess {
+        begin(&problem, &mut begun, guess);
+    }
+    let (mut full, mut alone) = (Vec::new(), Vec::new());
+    let mut rows = Vec::new();
+    let nominal = {
+        let mut bare = begun.clone();
+        for effect in &mut bare.effects {
+            if !matches!(effect.kind, Kind::BaseFrame | Kind::ToolFrame) {
+                effect.parameters = [0.0; 6];
+            }
+        }
+        bare
+    };
+    for part in 0..count {
+        let inside = |i: usize| configurations[i] % count == part;
+        let training = problem.with_rows(|i| !inside(i));
+        let test = problem.with_rows(inside);
+        let mut only_frames = training.clone();
+        only_frames.parameters.clone_from(&frames);
+        let solved = solve(&only_frames, nominal.clone(), Shape::Squares, true)?;
+        alone.extend(misses(&test, &solved.estimate));
+        let solved = solve(&training, solved.estimate, Shape::Huber, true)?;
+        full.extend(misses(&test, &solved.estimate));
+        rows.extend(test.rows);
+    }
+    Ok((count, Quality::of(&rows, &full), Quality::of(&rows, &alone)))
+}
+
+/// A parameter for each number of the profile's effects that is not zero and not sought already.
+fn present(estimate: &Estimate, sought: &[Parameter]) -> Vec<Parameter> {
+    let mut all = Vec::new();
+    for (index, effect) in estimate.effects.iter().enumerate() {
+        for (number, parameter) in effect.definition().parameters.iter().enumerate() {
+            let subject = Subject::Effect(crate::model::Slot {
+                effect: index,
+                parameter: number,
+            });
+            if effect.parameters[number] != 0.0 && sought.iter().all(|p| p.subject != subject) {
+                all.push(Parameter {
+                    key: format!("{} {}", effect.label(), parameter.key),
+                    subject,
+                    unit: parameter.unit,
+                    scale: parameter.prior_sigma * parameter.unit.in_si(),
+                    rank: 7,
+                    prior: None,
+                });
+            }
+        }
+    }
+    all
+}

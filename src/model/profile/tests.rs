@@ -1,0 +1,155 @@
+//! The controller's own effects, and what import writes.
+
+use super::universal_robots::{UrError, link_geometry};
+use super::*;
+
+const UR5: &str = include_str!("../../../robots/universal_robots_ur5.yaml");
+const CONF: &str = include_str!("../../../tests/data/ur_calibration/ur5_usual.calibration.conf");
+
+fn ur5(controller: &str, calibration: &str) -> Result<Profile, ProfileError> {
+    let text = UR5.replace("{language: urscript, model: nominal}", controller);
+    let start = text.find("calibration:\n").expect("the last block");
+    Profile::from_yaml(&(text[..start].to_owned() + calibration))
+}
+
+const ONE: &str = "{effect: link_geometry, link: 3, a_mm: 0.5}";
+const OTHER: &str = "{effect: link_geometry, link: 4, a_mm: 0.25}";
+
+#[test]
+fn a_calibrated_controller_has_its_own_effects_or_the_geometry_of_the_calibration() {
+    let spring = "{effect: joint_compliance, joint: 2, rad_per_n_m: 1.0e-6}";
+    let calibration = format!("calibration: {{effects: [{ONE}, {spring}]}}\n");
+    let labels =
+        |effects: Vec<Effect>| -> Vec<String> { effects.iter().map(Effect::label).collect() };
+    for (controller, computes) in [
+        ("{model: nominal}".to_owned(), vec![]),
+        (
+            "{model: calibrated}".to_owned(),
+            vec!["link_geometry link 3"],
+        ),
+        (
+            format!("{{model: calibrated, effects: [{OTHER}]}}"),
+            vec!["link_geometry link 4"],
+        ),
+        ("{model: calibrated, effects: []}".to_owned(), vec![]),
+    ] {
+        let profile = ur5(&controller, &calibration).expect(&controller);
+        assert_eq!(
+            labels(profile.controller_effects()),
+            computes,
+            "{controller}"
+        );
+        assert_eq!(profile.real_effects(), profile.effects, "{controller}");
+    }
+    // nothing was identified: the arm is as the controller computes it
+    let profile = ur5(
+        &format!("{{model: calibrated, effects: [{OTHER}]}}"),
+        "calibration: {}\n",
+    );
+    assert_eq!(
+        labels(profile.expect("valid").real_effects()),
+        ["link_geometry link 4"]
+    );
+}
+
+#[test]
+fn effects_that_no_controller_has_are_faults_with_their_place() {
+    let backlash = "{effect: backlash, joint: 1, width_deg: 0.01}";
+    for (controller, wanted) in [
+        (
+            format!("{{model: nominal, effects: [{ONE}]}}"),
+            "computes with the nominal chain",
+        ),
+        (
+            format!("{{model: calibrated, effects: [{backlash}]}}"),
+            "cannot be part",
+        ),
+        (
+            format!("{{model: calibrated, effects: [{ONE}, {ONE}]}}"),
+            "stands twice",
+        ),
+    ] {
+        let error = ur5(&controller, "calibration: {}\n").expect_err(&controller);
+        assert!(error.to_string().contains(wanted), "{error}");
+        assert!(!error.hint().is_empty() && error.line > 10, "{error:?}");
+    }
+}
+
+#[test]
+fn the_controller_of_a_text_is_replaced_and_nothing_else() {
+    let profile = Profile::from_yaml(UR5).expect("a shipped profile");
+    let effects = link_geometry(CONF, &profile).expect("a calibration");
+    let block = UR5.replace(
+        "controller: {language: urscript, model: nominal}",
+        "controller:   # of the cell\n  language: urscript\n\n  # still\n  model: nominal\n\n# the arm",
+    );
+    let crlf = UR5.replace('\n', "\r\n");
+    for text in [UR5, &block, &crlf] {
+        let written = with_controller(text, &profile, &effects, "note").expect("a block");
+        let read = Profile::from_yaml(&written).expect("a profile");
+        assert_eq!(read.own_effects.map(|own| own.len()), Some(6));
+        let (start, end) = (
+            text.find("controller:").expect("a key"),
+            text.find("kinematics:").expect("a key"),
+        );
+        assert!(written.starts_with(&text[..start]) && written.ends_with(&text[end..]));
+        assert_eq!(written.contains("\r\n"), text.contains("\r\n"));
+        assert_eq!(written.matches('\n').count(), written.lines().count());
+        assert!(text.contains("# the arm") == written.contains("# the arm"));
+    }
+    // one long line has no block
+    let flow = "{poseshift: profile/1}";
+    assert_eq!(with_controller(flow, &profile, &effects, "note"), None);
+}
+
+#[test]
+fn what_is_no_calibration_of_this_arm_is_told() {
+    let profile = Profile::from_yaml(UR5).expect("a shipped profile");
+    let told = |text: &str| link_geometry(text, &profile).expect_err(text);
+    assert_eq!(told("a: 1"), UrError::Unknown);
+    let without = CONF.replace("delta_d ", "delta_x ");
+    assert_eq!(told(&without), UrError::Missing { key: "delta_d" });
+    let twice = format!("{CONF}delta_a = [0, 0, 0, 0, 0, 0]\n");
+    assert!(matches!(
+        told(&twice),
+        UrError::Twice {
+            key: "delta_a",
+            line: 8
+        }
+    ));
+    let five = CONF.replacen(", 0]", "]", 1);
+    assert!(matches!(
+        told(&five),
+        UrError::NotSix {
+            key: "delta_a",
+            line: 3
+        }
+    ));
+    let wild = CONF.replacen(", 0]", ", 1e999]", 1);
+    assert!(matches!(
+        told(&wild),
+        UrError::NotSix {
+            key: "delta_a",
+            line: 3
+        }
+    ));
+    let off = CONF.replace("calibration_status = 2", "calibration_status = 0");
+    assert!(matches!(told(&off), UrError::NotCalibrated { line: 7 }));
+    let moved = CONF.replacen(", 0]", ", 0.001]", 1);
+    assert!(matches!(
+        told(&moved),
+        UrError::Rows(crate::model::RowsError::Flange { .. })
+    ));
+    let far = CONF.replace("439.846", "439.946");
+    assert!(matches!(
+        told(&far),
+        UrError::Rows(crate::model::RowsError::TooDifferent { .. })
+    ));
+    assert!(matches!(
+        told("kinematics:\n  shoulder: {x: 0}\n"),
+        UrError::Yaml { line: 2, .. }
+    ));
+    let other = Profile::from_yaml(include_str!("../../../robots/abb_irb120.yaml"));
+    let error = link_geometry(CONF, &other.expect("a shipped profile")).expect_err("an ABB");
+    assert!(matches!(error, UrError::NotTheTable { .. }), "{error}");
+}

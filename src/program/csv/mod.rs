@@ -1,0 +1,426 @@
+//! Poses or joints as CSV, for controllers without a language here.
+//!
+//! A header names the columns, in any order: `x_mm,y_mm,z_mm,qw,qx,qy,qz` for poses, `q1_deg … q6_deg` for joints. Each row is a
+//! target and a move to it: a line to a pose, joints interpolated to joints. Optional columns:
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `id` | the target's name in messages |
+//! | `branch` | which solution of the inverse, 0 to 7: 4 behind axis 1, 2 behind the lower arm, 1 joint 5 negative |
+//! | `near1_deg` … `near6_deg` | joints that the solution is near to |
+//! | `tool` | the tool's name; without it the tool is the nameless one |
+//! | `frame` | the work frame's name; `world` is the world |
+//!
+//! Without `frame`, or where its cell is empty, poses are in the frame that `--frame` gives, and in the world without it.
+//!
+//! Other columns are kept. `#` starts a comment line.
+//!
+//! # Limits
+//! Cells are separated by commas, and numbers have a point. `GOTO` lines of APT and CL files are not read: they give a
+//! position and the axis of the tool, and a robot's pose has one turn more, on which the joints depend.
+
+mod header;
+mod records;
+
+use super::{
+    About, Configuration, Decoded, Displacement, Frame, FrameId, Language, Layout, Marker, Motion,
+    Move, Number, Posture, Program, ReadError, Role, Settings, Shape, Source, Target, Tool, ToolId,
+    Value, number,
+};
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::{Pose, Quaternion};
+use header::{Header, Wrong};
+use records::{Cell, Records};
+use std::collections::HashMap;
+
+/// Poses or joints as CSV.
+#[derive(Debug)]
+pub struct Csv;
+
+static ABOUT: About = About {
+    id: "csv",
+    name: "CSV of poses or joints",
+    extensions: &["csv"],
+    rewrites: &[
+        "poses: columns x_mm, y_mm, z_mm, qw, qx, qy, qz",
+        "joints: columns q1_deg to q6_deg",
+    ],
+    leaves: &[
+        "other columns, comment lines, quotes, blanks, line ends, encoding",
+        "branch and near1_deg to near6_deg, which choose the solution; tool and frame",
+    ],
+    refuses: &[
+        "tables with poses and joints: they are measurements",
+        "cells separated by semicolons or tabs, numbers with a decimal comma",
+        "GOTO lines of APT and CL files: they do not tell the turn about the tool's axis",
+    ],
+};
+
+/// The frame that poses are in which name none, unless the command line gives another.
+const WORLD: &str = "world";
+/// Farther from 1 the length of a quaternion is a mistake.
+const LENGTH: std::ops::RangeInclusive<f64> = 0.99..=1.01;
+
+const POSE_ROLES: [Role; 7] = [
+    Role::Position,
+    Role::Position,
+    Role::Position,
+    Role::Orientation,
+    Role::Orientation,
+    Role::Orientation,
+    Role::Orientation,
+];
+
+impl Language for Csv {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn recognises(&self, source: &Source) -> bool {
+        header::recognises(source)
+    }
+
+    fn read(&self, sources: &[Source], _: &Settings) -> Result<Program, ReadError> {
+        let mut reader = Reader::default();
+        for (file, source) in sources.iter().enumerate() {
+            check_text(source)?;
+            reader.read(source, index(file))?;
+        }
+        Ok(reader.program)
+    }
+
+    fn frame_of_unframed(&self) -> Option<&'static str> {
+        Some(WORLD)
+    }
+
+    fn roles(&self, layout: Layout) -> &'static [Role] {
+        match layout.shape {
+            Shape::Pose => &POSE_ROLES,
+            Shape::Joints => &[Role::Joint; 6],
+        }
+    }
+
+    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
+        match role {
+            Role::Position => millimetre_decimals,
+            // a thousandth of a millimetre is a millionth of a quaternion part at one metre, 6e-5 degrees
+            Role::Orientation => millimetre_decimals + 3,
+            Role::Joint => millimetre_decimals + 2,
+            Role::Configuration => 0,
+        }
+    }
+
+    fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
+        match layout.shape {
+            Shape::Pose => {
+                let n: &[f64; 7] = numbers.try_into().expect("a pose has 7 numbers");
+                let translation = [n[0], n[1], n[2]].map(m_from_mm);
+                let rotation = Quaternion([n[3], n[4], n[5], n[6]]).normalized();
+                Decoded {
+                    value: Value::Pose(Pose::from_parts(translation, rotation)),
+                    configuration: header::configuration(layout.variant),
+                }
+            }
+            Shape::Joints => {
+                let n: &[f64; 6] = numbers.try_into().expect("six joint angles");
+                Decoded {
+                    value: Value::Joints(n.map(|degrees| degrees * DEG)),
+                    configuration: Configuration::default(),
+                }
+            }
+        }
+    }
+
+    fn encode(
+        &self,
+        layout: Layout,
+        value: &Value,
+        _: &Posture,
+        _: &Posture,
+        _: &Settings,
+        numbers: &mut [f64],
+    ) {
+        match (layout.shape, value) {
+            (Shape::Pose, Value::Pose(pose)) => {
+                let present = Quaternion([numbers[3], numbers[4], numbers[5], numbers[6]]);
+                let new = pose.rotation.quaternion().nearest_to(&present);
+                numbers[..3].copy_from_slice(&pose.translation.map(mm_from_m));
+                numbers[3..].copy_from_slice(&new.0);
+            }
+            (Shape::Joints, Value::Joints(joints)) => {
+                numbers.copy_from_slice(&joints.map(|angle| angle / DEG));
+            }
+            _ => panic!("a value of the other shape"),
+        }
+    }
+
+    /// Comment lines at the top.
+    fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
+        let mut text = Vec::new();
+        for line in marker.lines() {
+            text.extend_from_slice(b"# ");
+            text.extend_from_slice(line.as_bytes());
+            text.extend_from_slice(source.line_end());
+        }
+        (records::content_start(&source.bytes), text)
+    }
+}
+
+/// Reads tables into one program.
+#[derive(Default)]
+struct Reader {
+    program: Program,
+    tools: HashMap<String, ToolId>,
+    /// By name and whether a cell gives it.
+    frames: HashMap<(String, bool), FrameId>,
+}
+
+impl Reader {
+    fn read(&mut self, source: &Source, file: u32) -> Result<(), ReadError> {
+        let mut records = Records::of(&source.bytes);
+        let mut cells = Vec::new();
+        let unclosed = |at| {
+            let (line, column) = source.line_column(at);
+            ReadError::Unclosed {
+                file: source.name.clone(),
+                line,
+                column,
+                what: "a quoted cell",
+            }
+        };
+        if !records.next(&mut cells).map_err(unclosed)? {
+            return Err(no_table(source));
+        }
+        let header = read_header(source, &cells)?;
+        while records.next(&mut cells).map_err(unclosed)? {
+            self.row(source, file, &header, &cells)?;
+        }
+        Ok(())
+    }
+
+    fn row(
+        &mut self,
+        source: &Source,
+        file: u32,
+        header: &Header,
+        cells: &[Cell],
+    ) -> Result<(), ReadError> {
+        if cells.len() != header.count {
+            let last = cells.last().expect("a record has a cell");
+            let found = format!("a row of {} cells", cells.len());
+            let expected = "as many cells as the header has";
+            return Err(unexpected(source, last.end, found, expected));
+        }
+        let offset = index(cells[0].start - usize::from(cells[0].quoted));
+        let start = index(self.program.numbers.len());
+        for &column in &header.numbers {
+            let found = read_number(source, cells[column])?;
+            self.program.numbers.push(found);
+        }
+        let values = &self.program.numbers[start as usize..];
+        if header.shape == Shape::Pose {
+            let length = Quaternion(std::array::from_fn(|i| values[3 + i].value)).norm();
+            if !LENGTH.contains(&length) {
+                let cell = cells[header.numbers[3]];
+                let (line, column) = source.line_column(cell.start);
+                return Err(ReadError::BadValue {
+                    file: source.name.clone(),
+                    line,
+                    column,
+                    value: format!("the quaternion of length {length}"),
+                    meaning: "rotation",
+                    limit: "the length must be 1",
+                });
+            }
+        }
+        let branch = header
+            .branch
+            .map(|column| read_branch(source, cells[column]));
+        let near = match header.near {
+            None => None,
+            Some(columns) => {
+                let mut near = [0.0; 6];
+                for (angle, column) in near.iter_mut().zip(columns) {
+                    *angle = read_number(source, cells[column])?.value * DEG;
+                }
+                Some(Box::new(near))
+            }
+        };
+        let text = |column: Option<usize>| column.map(|column| cell_text(source, cells[column]));
+        let name = text(header.id).filter(|name| !name.is_empty());
+        let tool = self.tool(text(header.tool).unwrap_or_default());
+        let frame = self.frame(text(header.frame).unwrap_or_default());
+        let program = &mut self.program;
+        program.targets.push(Target {
+            name: name.map(Into::into),
+            file,
+            offset,
+            layout: header.layout(branch.transpose()?),
+            numbers: start..index(program.numbers.len()),
+            blocked: false,
+        });
+        program.moves.push(Move {
+            file,
+            offset,
+            motion: match header.shape {
+                Shape::Pose => Motion::Linear,
+                Shape::Joints => Motion::Joint,
+            },
+            target: program.targets.len() - 1,
+            tool,
+            frame,
+            displacement: Displacement::None,
+            configured: header.branch.is_some(),
+            near,
+        });
+        Ok(())
+    }
+
+    fn tool(&mut self, name: String) -> ToolId {
+        let tools = &mut self.program.tools;
+        *self.tools.entry(name).or_insert_with_key(|name| {
+            tools.push(Tool {
+                name: name.clone(),
+                flange_from_tool: None,
+                load: None,
+            });
+            tools.len() - 1
+        })
+    }
+
+    fn frame(&mut self, name: String) -> FrameId {
+        let is_named = !name.is_empty();
+        let name = if is_named { name } else { WORLD.to_owned() };
+        let frames = &mut self.program.frames;
+        *self
+            .frames
+            .entry((name, is_named))
+            .or_insert_with_key(|(name, is_named)| {
+                frames.push(Frame {
+                    name: name.clone(),
+                    world_from_frame: (*is_named && name == WORLD).then(Pose::identity),
+                });
+                frames.len() - 1
+            })
+    }
+}
+
+fn no_table(source: &Source) -> ReadError {
+    ReadError::NotThisLanguage {
+        file: source.name.clone(),
+        language: ABOUT.name,
+        missing: "a header with x_mm, y_mm, z_mm, qw, qx, qy, qz or with q1_deg to q6_deg",
+    }
+}
+
+fn read_header(source: &Source, cells: &[Cell]) -> Result<Header, ReadError> {
+    Header::of(&header::names(source, cells)).map_err(|wrong| {
+        let shown = |cell: Cell| format!("`{}`", cell_text(source, cell));
+        match wrong {
+            Wrong::Missing => no_table(source),
+            Wrong::Both => {
+                let found = "a header with poses and joints".to_owned();
+                let expected = "a table of poses or one of joints";
+                unexpected(source, cells[0].start, found, expected)
+            }
+            Wrong::Twice(at) => {
+                let found = format!("{} once more", shown(cells[at]));
+                unexpected(source, cells[at].start, found, "another column")
+            }
+            Wrong::Near => {
+                let found = "some of them".to_owned();
+                unexpected(
+                    source,
+                    cells[0].start,
+                    found,
+                    "near1_deg to near6_deg or none of them",
+                )
+            }
+        }
+    })
+}
+
+fn read_number(source: &Source, cell: Cell) -> Result<Number, ReadError> {
+    let text = &source.bytes[cell.start..cell.end];
+    match (number::parse(text), u16::try_from(text.len())) {
+        (Some(value), Ok(length)) => Ok(Number {
+            start: index(cell.start),
+            length,
+            value,
+        }),
+        _ => Err(unexpected(
+            source,
+            cell.start,
+            shown(text),
+            "a finite number",
+        )),
+    }
+}
+
+fn read_branch(source: &Source, cell: Cell) -> Result<u8, ReadError> {
+    let value = read_number(source, cell)?.value;
+    let branch = (0..8).find(|&branch| f64::from(branch) == value);
+    branch.ok_or_else(|| {
+        let found = shown(&source.bytes[cell.start..cell.end]);
+        unexpected(
+            source,
+            cell.start,
+            found,
+            "a branch, a whole number from 0 to 7,",
+        )
+    })
+}
+
+/// A cell for messages.
+fn shown(text: &[u8]) -> String {
+    match text {
+        [] => "an empty cell".to_owned(),
+        _ => format!("`{}`", Source::text(&text[..text.len().min(40)])),
+    }
+}
+
+/// The text that a cell stands for.
+fn cell_text(source: &Source, cell: Cell) -> String {
+    let text = Source::text(&source.bytes[cell.start..cell.end]);
+    if cell.quoted {
+        text.replace("\"\"", "\"")
+    } else {
+        text
+    }
+}
+
+fn unexpected(source: &Source, at: usize, found: String, expected: &'static str) -> ReadError {
+    let (line, column) = source.line_column(at);
+    ReadError::Unexpected {
+        file: source.name.clone(),
+        line,
+        column,
+        found,
+        expected,
+    }
+}
+
+/// A place or count in 32 bits; larger files are refused.
+fn index(place: usize) -> u32 {
+    u32::try_from(place).expect("sources are smaller than 4 GiB")
+}
+
+/// No text has a zero byte, and places are kept in 32 bits.
+fn check_text(source: &Source) -> Result<(), ReadError> {
+    let limit = u32::MAX as usize;
+    let (file, size) = (source.name.clone(), source.bytes.len());
+    if size >= limit {
+        return Err(ReadError::TooLarge { file, size, limit });
+    }
+    match memchr::memchr(0, &source.bytes) {
+        Some(offset) => Err(ReadError::Binary {
+            file,
+            byte: 0,
+            offset,
+        }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

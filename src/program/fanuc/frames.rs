@@ -1,0 +1,237 @@
+//! Tools and work frames in files of the controller: `SYSFRAME.VA` and `FRAME.DG`.
+
+use super::angles;
+use crate::geometry::Pose;
+use crate::geometry::units::m_from_mm;
+use crate::program::number;
+use std::collections::BTreeMap;
+
+/// Tools and work frames of group 1, by number.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[allow(clippy::struct_field_names)]
+pub struct Frames {
+    /// `flange_from_tool`
+    pub tools: BTreeMap<u32, Pose>,
+    /// `world_from_frame`
+    pub frames: BTreeMap<u32, Pose>,
+    /// They are shown with one decimal only.
+    pub rounded: bool,
+}
+
+/// A number that no robot can use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadNumber {
+    pub at: usize,
+    pub length: usize,
+}
+
+/// Millimetres or degrees.
+const LARGEST: f64 = 1e6;
+
+/// The kinds of files that show frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Variables as text.
+    Variables,
+    /// The list of frames.
+    List,
+}
+
+/// Which kind the bytes are; `None` where they show no frames.
+pub fn kind(bytes: &[u8]) -> Option<Kind> {
+    let variable = |name: &[u8]| {
+        memchr::memmem::find_iter(bytes, name).any(|at| {
+            let rest = &bytes[at + name.len()..];
+            rest.starts_with(b" ") && starts(lines(rest).next(), b"Storage:")
+        })
+    };
+    if variable(b"]$MNUTOOL") || variable(b"]$MNUFRAME") {
+        return Some(Kind::Variables);
+    }
+    // the list is short and starts with a few lines about the controller
+    let headings =
+        lines(&bytes[..bytes.len().min(LIST_HEAD)]).filter_map(|(_, line)| heading(line));
+    let rows = || lines(&bytes[..bytes.len().min(LIST_HEAD)]).any(|(_, line)| row(line).is_some());
+    (headings.count() > 0 && rows()).then_some(Kind::List)
+}
+
+/// Bytes of a list that hold a heading and a row.
+const LIST_HEAD: usize = 4096;
+
+fn starts(line: Option<(usize, &[u8])>, word: &[u8]) -> bool {
+    line.is_some_and(|(_, line)| line.trim_ascii_start().starts_with(word))
+}
+
+/// The frames of a file of this kind.
+pub fn read(bytes: &[u8], kind: Kind) -> Result<Frames, BadNumber> {
+    match kind {
+        Kind::Variables => variables(bytes),
+        Kind::List => Ok(list(bytes)),
+    }
+}
+
+/// Lines without their ends, with their first bytes.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut at = 0;
+    bytes
+        .split(|&b| matches!(b, b'\n' | b'\r'))
+        .map(move |line| {
+            let start = at;
+            at += line.len() + 1;
+            (start, line)
+        })
+}
+
+/// What is being listed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Section {
+    Tools,
+    Frames,
+    Other,
+}
+
+/// `[*SYSTEM*]$MNUTOOL … ARRAY[1,10] OF POSITION`, then for each element `[1,2] =`, `X: … Y: … Z: …`, `W: … P: … R: …`.
+fn variables(bytes: &[u8]) -> Result<Frames, BadNumber> {
+    let mut frames = Frames::default();
+    let mut section = Section::Other;
+    let mut element = None;
+    let mut values: [Option<f64>; 6] = [None; 6];
+    for (start, line) in lines(bytes) {
+        let text = line.trim_ascii_start();
+        if text.starts_with(b"[*") || text.starts_with(b"[") && text.contains(&b'$') {
+            let name = memchr::memchr(b'$', text).map_or(&b""[..], |at| &text[at..]);
+            let word = name.iter().take_while(|b| !b.is_ascii_whitespace()).count();
+            section = match &name[..word] {
+                b"$MNUTOOL" => Section::Tools,
+                b"$MNUFRAME" => Section::Frames,
+                _ => Section::Other,
+            };
+            element = None;
+        } else if section == Section::Other {
+            continue;
+        } else if text.starts_with(b"[") {
+            element = index(text).filter(|(group, _)| *group == 1);
+            values = [None; 6];
+        }
+        let Some((_, number)) = element else { continue };
+        // behind a comment in quotes
+        let text = memchr::memrchr(b'\'', text).map_or(text, |quote| &text[quote + 1..]);
+        coordinates(text, start + line.len() - text.len(), &mut values)?;
+        if let [Some(x), Some(y), Some(z), Some(w), Some(p), Some(r)] = values {
+            let pose = pose([x, y, z, w, p, r]);
+            let place = match section {
+                Section::Tools => &mut frames.tools,
+                _ => &mut frames.frames,
+            };
+            place.insert(number, pose);
+            element = None;
+        }
+    }
+    Ok(frames)
+}
+
+/// 1 and 2 of `[1,2] =`.
+fn index(text: &[u8]) -> Option<(u32, u32)> {
+    let close = memchr::memchr(b']', text)?;
+    let inside = std::str::from_utf8(&text[1..close]).ok()?;
+    let (group, number) = inside.split_once(',')?;
+    Some((group.trim().parse().ok()?, number.trim().parse().ok()?))
+}
+
+/// The values behind `X:`, `Y:`, … of a line.
+fn coordinates(text: &[u8], start: usize, values: &mut [Option<f64>; 6]) -> Result<(), BadNumber> {
+    for colon in memchr::memchr_iter(b':', text) {
+        let Some(key) = colon.checked_sub(1).map(|at| text[at]) else {
+            continue;
+        };
+        let alone = colon < 2 || text[colon - 2].is_ascii_whitespace();
+        let Some(slot) = b"XYZWPR".iter().position(|&k| alone && k == key) else {
+            continue;
+        };
+        let rest = &text[colon + 1..];
+        let blanks = rest.iter().take_while(|b| b.is_ascii_whitespace()).count();
+        let rest = &rest[blanks..];
+        let length = rest
+            .iter()
+            .take_while(|b| !b.is_ascii_whitespace() && **b != b',')
+            .count();
+        // uninitialised: the frame is not known
+        if rest[..length].contains(&b'*') {
+            continue;
+        }
+        let value = number::parse(&rest[..length]).filter(|value| value.abs() <= LARGEST);
+        let at = start + colon + 1 + blanks;
+        values[slot] = Some(value.ok_or(BadNumber { at, length })?);
+    }
+    Ok(())
+}
+
+/// `Tool Frame`, `Jog Frame`, `User Frame`, then a row of six numbers and a comment for each; rows count from 1.
+fn list(bytes: &[u8]) -> Frames {
+    let mut frames = Frames {
+        rounded: true,
+        ..Frames::default()
+    };
+    let mut section = Section::Other;
+    let (mut number, mut seen) = (0, [false; 2]);
+    for (_, line) in lines(bytes) {
+        if let Some(found) = heading(line) {
+            section = found;
+            number = 0;
+            let again = match section {
+                Section::Tools => std::mem::replace(&mut seen[0], true),
+                Section::Frames => std::mem::replace(&mut seen[1], true),
+                Section::Other => false,
+            };
+            // a second list is that of another group
+            if again {
+                section = Section::Other;
+            }
+            continue;
+        }
+        let Some(values) = row(line) else { continue };
+        number += 1;
+        let Some(values) = values else { continue };
+        match section {
+            Section::Tools => frames.tools.insert(number, pose(values)),
+            Section::Frames => frames.frames.insert(number, pose(values)),
+            Section::Other => None,
+        };
+    }
+    frames
+}
+
+fn heading(line: &[u8]) -> Option<Section> {
+    match line.trim_ascii() {
+        b"Tool Frame" => Some(Section::Tools),
+        b"User Frame" => Some(Section::Frames),
+        b"Jog Frame" => Some(Section::Other),
+        _ => None,
+    }
+}
+
+/// The six numbers that a line starts with; `Some(None)` where stars stand for some.
+#[allow(clippy::option_option)]
+fn row(line: &[u8]) -> Option<Option<[f64; 6]>> {
+    let mut words = line
+        .split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty());
+    let mut values = [0.0; 6];
+    let mut known = true;
+    for value in &mut values {
+        let word = words.next()?;
+        if word.iter().all(|&b| b == b'*') {
+            known = false;
+        } else {
+            *value = number::parse(word).filter(|value| value.abs() <= LARGEST)?;
+        }
+    }
+    Some(known.then_some(values))
+}
+
+fn pose([x, y, z, w, p, r]: [f64; 6]) -> Pose {
+    Pose {
+        rotation: angles::rotation([w, p, r]),
+        translation: [x, y, z].map(m_from_mm),
+    }
+}

@@ -1,0 +1,521 @@
+//! `/POS`: the points of a program.
+
+use super::sections::line_end;
+use crate::program::Number;
+use crate::program::number;
+use std::ops::Range;
+
+/// Bytes of a number and the blanks before it.
+const WIDEST_FIELD: usize = 4096;
+/// Millimetres or degrees.
+const LARGEST: f64 = 1e6;
+/// The numbers of a pose: X Y Z W P R, three flags, three turns.
+pub const POSE_NUMBERS: usize = 12;
+
+/// A tool's or frame's number in a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Selected {
+    /// `UF : 2`
+    Number(u32),
+    /// `UF : F`, or nothing: the one that is active when the robot goes there.
+    Active,
+}
+
+/// Why a point cannot be rewritten.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trouble {
+    /// `X = ********`
+    Uninitialised,
+    /// `RX = …`: the tool stands still, the robot holds the work piece.
+    RemoteTool,
+    /// Other axes, or other units.
+    Axes,
+    /// Other letters than those of six joints.
+    Configuration,
+}
+
+/// What group 1 of a point holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Content {
+    /// X Y Z W P R, and configuration data where there are any.
+    Pose { configured: bool },
+    /// J1 to J6.
+    Joints,
+    /// Nothing that can be rewritten.
+    Trouble(Trouble),
+}
+
+/// One point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Its number.
+    pub number: u32,
+    /// First byte.
+    pub offset: u32,
+    /// Group 1; `None` where it has none: another robot or a positioner.
+    pub content: Option<Content>,
+    /// Its numbers among those of its listing.
+    pub numbers: Range<usize>,
+    /// Its work frame.
+    pub frame: Selected,
+    /// Its tool.
+    pub tool: Selected,
+    /// An axis beside the six of the arm is away from zero.
+    pub extended: bool,
+}
+
+/// What is wrong with the text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// Something is not closed.
+    Unclosed { at: usize, what: &'static str },
+    /// Something else stands here.
+    Unexpected { at: usize, expected: &'static str },
+    /// A number that no robot can use.
+    BadValue { at: usize, length: usize },
+}
+
+/// Reads the points of a section.
+pub struct Points<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    /// The numbers of all points so far.
+    pub numbers: Vec<Number>,
+}
+
+impl<'a> Points<'a> {
+    /// The points from `at` on.
+    pub fn new(bytes: &'a [u8], at: usize) -> Self {
+        Self {
+            bytes,
+            at,
+            numbers: Vec::new(),
+        }
+    }
+
+    fn byte(&self) -> Option<u8> {
+        self.bytes.get(self.at).copied()
+    }
+
+    fn skip_blanks(&mut self) {
+        while self.byte().is_some_and(|b| b.is_ascii_whitespace()) {
+            self.at += 1;
+        }
+    }
+
+    fn skip_blanks_in_line(&mut self) {
+        while matches!(self.byte(), Some(b' ' | b'\t')) {
+            self.at += 1;
+        }
+    }
+
+    fn expect(&mut self, byte: u8, expected: &'static str) -> Result<(), Fault> {
+        self.skip_blanks();
+        if self.byte() == Some(byte) {
+            self.at += 1;
+            return Ok(());
+        }
+        Err(self.unexpected(expected))
+    }
+
+    fn unexpected(&self, expected: &'static str) -> Fault {
+        Fault::Unexpected {
+            at: self.at,
+            expected,
+        }
+    }
+
+    /// The next point; `None` at the end of the section.
+    pub fn next(&mut self) -> Result<Option<Point>, Fault> {
+        loop {
+            self.skip_blanks();
+            match self.byte() {
+                None | Some(b'/' | 0x1a) => return Ok(None),
+                Some(b';') => self.at += 1,
+                Some(b'!') => self.at = line_end(self.bytes, self.at),
+                Some(_) => return self.point().map(Some),
+            }
+        }
+    }
+
+    fn point(&mut self) -> Result<Point, Fault> {
+        let start = self.at;
+        if !matches!(self.byte(), Some(b'P' | b'p')) {
+            return Err(self.unexpected("a point `P[1]{` or /END"));
+        }
+        self.at += 1;
+        self.expect(b'[', "[")?;
+        self.skip_blanks();
+        let number = self
+            .whole_number()
+            .ok_or_else(|| self.unexpected("the number of the point"))?;
+        self.name(start)?;
+        let mut point = Point {
+            number,
+            offset: offset(start),
+            content: None,
+            numbers: 0..0,
+            frame: Selected::Active,
+            tool: Selected::Active,
+            extended: false,
+        };
+        self.expect(b'{', "{")?;
+        self.groups(start, &mut point)?;
+        Ok(point)
+    }
+
+    fn whole_number(&mut self) -> Option<u32> {
+        let digits = self.bytes[self.at..]
+            .iter()
+            .take_while(|b| b.is_ascii_digit());
+        let length = digits.take(10).count();
+        let text = std::str::from_utf8(&self.bytes[self.at..self.at + length]).ok()?;
+        let value = text.parse().ok()?;
+        self.at += length;
+        Some(value)
+    }
+
+    /// `:"a name"]` or `]`.
+    fn name(&mut self, start: usize) -> Result<(), Fault> {
+        let end = line_end(self.bytes, self.at);
+        let line = &self.bytes[self.at..end];
+        let quoted = line
+            .trim_ascii_start()
+            .strip_prefix(b":")
+            .is_some_and(|rest| rest.trim_ascii_start().starts_with(b"\""));
+        let close = if quoted {
+            memchr::memmem::find(line, b"\"]").map(|k| k + 1)
+        } else {
+            memchr::memchr(b']', line)
+        };
+        match close {
+            Some(close) => {
+                self.at += close + 1;
+                Ok(())
+            }
+            None => Err(Fault::Unclosed {
+                at: start,
+                what: "the name of a point",
+            }),
+        }
+    }
+
+    /// What stands between the braces of a point.
+    fn groups(&mut self, start: usize, point: &mut Point) -> Result<(), Fault> {
+        let mut group = None;
+        let mut first = Group::default();
+        loop {
+            self.skip_blanks();
+            match self.byte() {
+                None => {
+                    return Err(Fault::Unclosed {
+                        at: start,
+                        what: "a point",
+                    });
+                }
+                Some(b'}') => {
+                    self.at += 1;
+                    break;
+                }
+                Some(b',' | b';') => self.at += 1,
+                Some(_) => {
+                    let key = self.key()?;
+                    self.skip_blanks_in_line();
+                    match self.byte() {
+                        Some(b':') => {
+                            self.at += 1;
+                            if let Some(number) = group_number(&self.bytes[key.clone()]) {
+                                group = Some(number);
+                                first.there |= number == 1;
+                            } else {
+                                let within = self.in_group(group, &key)?;
+                                self.setting(key, within, &mut first, point)?;
+                            }
+                        }
+                        Some(b'=') => {
+                            self.at += 1;
+                            let within = self.in_group(group, &key)?;
+                            self.value(key, within, &mut first)?;
+                        }
+                        _ => return Err(self.unexpected("= or :")),
+                    }
+                }
+            }
+        }
+        if first.there {
+            first.finish(point, &mut self.numbers);
+        }
+        Ok(())
+    }
+
+    /// Whether what stands here is of group 1.
+    fn in_group(&self, group: Option<u32>, key: &Range<usize>) -> Result<bool, Fault> {
+        match group {
+            Some(number) => Ok(number == 1),
+            None => Err(Fault::Unexpected {
+                at: key.start,
+                expected: "GP1:",
+            }),
+        }
+    }
+
+    fn key(&mut self) -> Result<Range<usize>, Fault> {
+        let word = |b: &&u8| b.is_ascii_alphanumeric() || **b == b'_' || !b.is_ascii();
+        let length = self.bytes[self.at..].iter().take_while(word).count();
+        if length == 0 {
+            return Err(self.unexpected("a coordinate or }"));
+        }
+        self.at += length;
+        Ok(self.at - length..self.at)
+    }
+
+    /// `UF : 1`, `CONFIG : 'N U T, 0, 0, 0'`.
+    fn setting(
+        &mut self,
+        key: Range<usize>,
+        within: bool,
+        first: &mut Group,
+        point: &mut Point,
+    ) -> Result<(), Fault> {
+        self.skip_blanks_in_line();
+        if self.byte() == Some(b'\'') {
+            let end = line_end(self.bytes, self.at);
+            let inside = self.at + 1;
+            let Some(length) = memchr::memchr(b'\'', &self.bytes[inside..end]) else {
+                return Err(Fault::Unclosed {
+                    at: self.at,
+                    what: "a string",
+                });
+            };
+            self.at = inside + length + 1;
+            if within {
+                first.configuration(self.bytes, inside..inside + length);
+            }
+            return Ok(());
+        }
+        let length = self.bytes[self.at..]
+            .iter()
+            .take_while(|b| !matches!(b, b',' | b'}') && !b.is_ascii_whitespace())
+            .count();
+        let text = &self.bytes[self.at..self.at + length];
+        let selected = match text {
+            b"F" | b"f" | b"" => Some(Selected::Active),
+            stars if stars.iter().all(|&b| b == b'*') => Some(Selected::Active),
+            digits => std::str::from_utf8(digits)
+                .ok()
+                .and_then(|text| text.parse().ok())
+                .filter(|&number: &u32| number <= 255)
+                .map(Selected::Number),
+        };
+        if within {
+            let place = match &self.bytes[key] {
+                b"UF" => Some(&mut point.frame),
+                b"UT" => Some(&mut point.tool),
+                _ => None,
+            };
+            if let Some(place) = place {
+                *place = selected.ok_or(Fault::BadValue {
+                    at: self.at,
+                    length,
+                })?;
+            }
+        }
+        self.at += length;
+        Ok(())
+    }
+
+    /// `X =  1922.978  mm`
+    fn value(&mut self, key: Range<usize>, within: bool, first: &mut Group) -> Result<(), Fault> {
+        let field = self.at;
+        self.skip_blanks_in_line();
+        let digits = self.at;
+        let rest = &self.bytes[digits..];
+        let part = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'+' | b'-' | b'.' | b'*');
+        // a unit may follow without a blank
+        let ends = |at: usize| {
+            rest.get(at)
+                .is_none_or(|b| matches!(b, b'm' | b'd') || !part(b))
+        };
+        let stars = rest.iter().take_while(|b| **b == b'*').count();
+        let quick = number::parse_start(rest).filter(|(_, length)| ends(*length));
+        let value = if stars > 0 && ends(stars) {
+            self.at += stars;
+            None
+        } else if let Some((value, length)) = quick {
+            self.at += length;
+            Some(value)
+        } else {
+            let length = rest.iter().take_while(|b| part(b)).count();
+            if length == 0 {
+                return Err(self.unexpected("a number"));
+            }
+            self.at += length;
+            let value = number::parse(&rest[..length]);
+            Some(value.ok_or(Fault::BadValue { at: digits, length })?)
+        };
+        let (end, length) = (self.at, self.at - digits);
+        if length > WIDEST_FIELD || value.is_some_and(|value| value.abs() > LARGEST) {
+            return Err(Fault::BadValue { at: digits, length });
+        }
+        self.skip_blanks_in_line();
+        let letters = self.bytes[self.at..]
+            .iter()
+            .take_while(|b| b.is_ascii_alphabetic());
+        let letters = letters.count();
+        let unit = &self.bytes[self.at..self.at + letters];
+        self.at += letters;
+        if within {
+            // the field keeps its last column where blanks stand before the number; a tab is none of its
+            let blanks = self.bytes[field..digits].iter().rev();
+            let blanks = blanks.take_while(|&&b| b == b' ').count();
+            let start = digits - blanks.min(WIDEST_FIELD);
+            let length = u16::try_from(end - start).expect("two widths of a field");
+            let start = offset(start);
+            let found = value.map(|value| Number {
+                start,
+                length,
+                value,
+            });
+            first.coordinate(&self.bytes[key], found, unit);
+        }
+        Ok(())
+    }
+}
+
+/// A place as it is kept; a source is smaller than 4 GiB.
+pub fn offset(at: usize) -> u32 {
+    u32::try_from(at).expect("sources are smaller than 4 GiB")
+}
+
+/// 2 of `GP2`.
+fn group_number(key: &[u8]) -> Option<u32> {
+    let digits = key
+        .strip_prefix(b"GP")
+        .or_else(|| key.strip_prefix(b"gp"))?;
+    std::str::from_utf8(digits).ok()?.parse().ok()
+}
+
+/// Group 1 of a point while it is read.
+#[derive(Default)]
+#[allow(clippy::struct_excessive_bools, clippy::option_option)]
+struct Group {
+    there: bool,
+    uninitialised: bool,
+    remote: bool,
+    other: bool,
+    extended: bool,
+    pose: [Option<Number>; 6],
+    joints: [Option<Number>; 6],
+    /// The six numbers of the configuration data, or that they are not understood.
+    flags: Option<Option<[Number; 6]>>,
+}
+
+impl Group {
+    fn coordinate(&mut self, key: &[u8], found: Option<Number>, unit: &[u8]) {
+        let (slot, wanted) = match key {
+            b"X" => (&mut self.pose[0], "mm"),
+            b"Y" => (&mut self.pose[1], "mm"),
+            b"Z" => (&mut self.pose[2], "mm"),
+            b"W" => (&mut self.pose[3], "deg"),
+            b"P" => (&mut self.pose[4], "deg"),
+            b"R" => (&mut self.pose[5], "deg"),
+            [b'J', digit @ b'1'..=b'6'] => (&mut self.joints[usize::from(*digit - b'1')], "deg"),
+            [b'R', b'X' | b'Y' | b'Z' | b'W' | b'P' | b'R'] => {
+                self.remote = true;
+                return;
+            }
+            [b'E', b'1'..=b'9'] | [b'J', b'7'..=b'9'] => {
+                self.extended |= found.is_some_and(|n| n.value != 0.0);
+                return;
+            }
+            _ => {
+                self.other = true;
+                return;
+            }
+        };
+        self.uninitialised |= found.is_none();
+        self.other |= slot.is_some() || !unit.eq_ignore_ascii_case(wanted.as_bytes());
+        *slot = found;
+    }
+
+    /// The letters and numbers between the quotes.
+    fn configuration(&mut self, bytes: &[u8], inside: Range<usize>) {
+        let text = &bytes[inside.clone()];
+        if text.trim_ascii().is_empty() {
+            return;
+        }
+        self.flags = Some(flags(text, inside.start));
+    }
+
+    fn finish(self, point: &mut Point, numbers: &mut Vec<Number>) {
+        let start = numbers.len();
+        point.extended = self.extended;
+        let complete = |numbers: [Option<Number>; 6]| numbers.iter().all(Option::is_some);
+        let trouble = if self.uninitialised {
+            Some(Trouble::Uninitialised)
+        } else if self.remote {
+            Some(Trouble::RemoteTool)
+        } else if self.other || complete(self.pose) == complete(self.joints) {
+            Some(Trouble::Axes)
+        } else if complete(self.pose) && self.flags == Some(None) {
+            Some(Trouble::Configuration)
+        } else {
+            None
+        };
+        point.content = Some(match trouble {
+            Some(trouble) => Content::Trouble(trouble),
+            None if complete(self.joints) => {
+                numbers.extend(self.joints.into_iter().flatten());
+                Content::Joints
+            }
+            None => {
+                numbers.extend(self.pose.into_iter().flatten());
+                let configuration = self.flags.flatten();
+                numbers.extend(configuration.into_iter().flatten());
+                Content::Pose {
+                    configured: configuration.is_some(),
+                }
+            }
+        });
+        point.numbers = start..numbers.len();
+    }
+}
+
+/// The numbers of `N U T, 0, 0, 0`; `None` where the text is anything else.
+fn flags(text: &[u8], start: usize) -> Option<[Number; 6]> {
+    let mut found = [Number {
+        start: 0,
+        length: 1,
+        value: 0.0,
+    }; 6];
+    let mut at = 0;
+    for (k, number) in found.iter_mut().enumerate() {
+        while matches!(text.get(at), Some(b' ' | b'\t' | b',')) {
+            at += 1;
+        }
+        let rest = text.get(at..).filter(|rest| !rest.is_empty())?;
+        let (value, length) = if let Some([zero, one]) = super::config::LETTERS.get(k) {
+            let letter = rest[0];
+            let value = if letter == *zero {
+                0.0
+            } else if letter == *one {
+                1.0
+            } else {
+                return None;
+            };
+            (value, 1)
+        } else {
+            let sign = usize::from(matches!(rest[0], b'-' | b'+'));
+            let digits = rest[sign..].iter().take_while(|b| b.is_ascii_digit());
+            let length = sign + digits.take(3).count();
+            (number::parse(&rest[..length])?, length)
+        };
+        *number = Number {
+            start: offset(start + at),
+            length: u16::try_from(length).ok()?,
+            value,
+        };
+        at += length;
+    }
+    text[at..].trim_ascii().is_empty().then_some(found)
+}

@@ -1,0 +1,155 @@
+//! The lines of a file, and the words and numbers in them.
+
+use crate::program::{Number, ReadError, Source, number};
+
+/// A line without its end and the blanks around it, and its first byte's place.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<'a> {
+    pub start: usize,
+    pub text: &'a [u8],
+}
+
+/// The lines of a text; they end with LF, CR LF or CR.
+#[derive(Clone, Debug)]
+pub struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Lines<'a> {
+    /// The lines from a byte on.
+    pub fn from(bytes: &'a [u8], at: usize) -> Self {
+        Self { bytes, at }
+    }
+
+    /// The lines behind a byte order mark.
+    pub fn of(bytes: &'a [u8]) -> Self {
+        let mark = bytes.starts_with(b"\xef\xbb\xbf");
+        Self::from(bytes, if mark { 3 } else { 0 })
+    }
+
+    /// First byte of the line that comes next.
+    pub fn position(&self) -> usize {
+        self.at
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let text = &rest[..length];
+        let blank = |b: &&u8| is_blank(**b);
+        let before = text.iter().take_while(blank).count();
+        let start = self.at + before;
+        // the CR of CR LF ends a line, the LF an empty one
+        self.at += length + 1;
+        let behind = text[before..].iter().rev().take_while(blank).count();
+        let text = &text[before..length - behind];
+        Some(Line { start, text })
+    }
+}
+
+/// Blanks, tabs, and the Ctrl-Z that some editors put at the end.
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | 0x1a)
+}
+
+/// The words of a line: what stands between blanks.
+pub fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(|&b| is_blank(b)).filter(|word| !word.is_empty())
+}
+
+/// What follows `prefix` and a blank or nothing; `None` where the text starts otherwise.
+pub fn after<'a>(text: &'a [u8], prefix: &[u8]) -> Option<&'a [u8]> {
+    let rest = text.strip_prefix(prefix)?;
+    match rest.first() {
+        None => Some(rest),
+        Some(&b) if is_blank(b) => Some(rest.trim_ascii_start()),
+        Some(_) => None,
+    }
+}
+
+/// The whole number that is all of a text.
+pub fn whole(text: &[u8]) -> Option<u32> {
+    let digits = !text.is_empty() && text.len() <= 9 && text.iter().all(u8::is_ascii_digit);
+    digits.then(|| {
+        text.iter()
+            .fold(0, |value, b| 10 * value + u32::from(b - b'0'))
+    })
+}
+
+/// The numbers between commas from a byte of the source to the end of the line.
+pub fn numbers(source: &Source, from: usize, to: usize) -> Result<Vec<Number>, ReadError> {
+    let mut found = Vec::with_capacity(8);
+    add_numbers(source, from, to, &mut found)?;
+    Ok(found)
+}
+
+/// Adds these numbers to others.
+pub fn add_numbers(
+    source: &Source,
+    from: usize,
+    to: usize,
+    found: &mut Vec<Number>,
+) -> Result<(), ReadError> {
+    let mut at = from;
+    for field in source.bytes[from..to].split(|&b| b == b',') {
+        let before = field.iter().take_while(|&&b| is_blank(b)).count();
+        let text = &field[before..];
+        let behind = text.iter().rev().take_while(|&&b| is_blank(b)).count();
+        let text = &text[..text.len() - behind];
+        let length = u16::try_from(text.len()).ok();
+        let (Some(value), Some(length)) = (number::parse(text), length) else {
+            return Err(unexpected(source, at + before, text, "a number"));
+        };
+        found.push(Number {
+            start: index(at + before),
+            length,
+            value,
+        });
+        at += field.len() + 1;
+    }
+    Ok(())
+}
+
+/// What stands at a place is not what belongs there.
+pub fn unexpected(source: &Source, at: usize, found: &[u8], expected: &'static str) -> ReadError {
+    let (line, column) = source.line_column(at);
+    let shown = &found[..found.len().min(40)];
+    let found = match shown {
+        [] => "nothing".to_owned(),
+        _ => format!("`{}`", Source::text(shown)),
+    };
+    ReadError::Unexpected {
+        file: source.name.clone(),
+        line,
+        column,
+        found,
+        expected,
+    }
+}
+
+/// A place or count in 32 bits; larger files are refused.
+pub fn index(place: usize) -> u32 {
+    u32::try_from(place).expect("sources are smaller than 4 GiB")
+}
+
+/// No text has a zero byte, and places are kept in 32 bits.
+pub fn check_text(source: &Source) -> Result<(), ReadError> {
+    let limit = u32::MAX as usize;
+    let (file, size) = (source.name.clone(), source.bytes.len());
+    if size >= limit {
+        return Err(ReadError::TooLarge { file, size, limit });
+    }
+    match memchr::memchr(0, &source.bytes) {
+        Some(offset) => Err(ReadError::Binary {
+            file,
+            byte: 0,
+            offset,
+        }),
+        None => Ok(()),
+    }
+}

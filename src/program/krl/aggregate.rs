@@ -1,0 +1,307 @@
+//! Aggregates: `{X 1.0,Y 2.0,Z 3.0,A 0,B 90,C 0,S 2,T 35}`, `{E6AXIS: A1 0,...}`, keys in any case and order.
+
+use super::tokens::{Cursor, Fault, Kind, Token, bits_value, capitals, offset};
+use crate::program::{Number, number};
+
+/// Coordinates and angles beyond this are no robot's.
+pub const LARGEST: f64 = 1e6;
+/// S and T have fewer bits than this number needs.
+const MOST_STATUS: f64 = 65_535.0;
+
+/// The value of one component.
+#[derive(Clone, Copy, Debug)]
+pub enum Field {
+    /// A number, or a bit literal.
+    Number(Number),
+    /// `#NAME`; the name.
+    Enum(Token),
+    /// An aggregate inside; where it starts.
+    Nested(usize),
+    /// Anything else.
+    Other,
+}
+
+/// Reads an aggregate: calls `visit` with each key in capitals and its value. Returns the type in front of the colon.
+///
+/// # Errors
+/// Where the aggregate is broken or `visit` says so.
+pub fn each(
+    cursor: &mut Cursor,
+    mut visit: impl FnMut(&[u8], Token, Field) -> Result<(), Fault>,
+) -> Result<Option<Token>, Fault> {
+    let open = cursor.at;
+    let unclosed = Fault::Unclosed {
+        at: offset(open),
+        what: "an aggregate",
+    };
+    cursor.take(b'{');
+    let mut of_type = None;
+    let mut ahead = *cursor;
+    let first = ahead.next();
+    if first.kind == Kind::Name && ahead.take(b':') {
+        of_type = Some(first);
+        *cursor = ahead;
+    }
+    if cursor.take(b'}') {
+        return Ok(of_type);
+    }
+    loop {
+        let key = cursor.next();
+        if key.kind == Kind::End {
+            return Err(unclosed);
+        }
+        if key.kind != Kind::Name {
+            return Err(Fault::unexpected(key, "a component"));
+        }
+        cursor.brackets()?;
+        let (field, ended) = value(cursor).ok_or(unclosed)?;
+        let mut buffer = [0; 24];
+        visit(capitals(cursor.text(key), &mut buffer), key, field)?;
+        if ended == b'}' {
+            return Ok(of_type);
+        }
+    }
+}
+
+/// The value in front and the sign behind it, a comma or the closing brace, both taken; `None` where the line ends.
+fn value(cursor: &mut Cursor) -> Option<(Field, u8)> {
+    let first = cursor.blanks();
+    let start = cursor.at;
+    let mut field = Field::Other;
+    match first {
+        b'-' | b'+' | b'.' | b'0'..=b'9' => {
+            if let Some((value, length)) = number::parse_start(&cursor.bytes[start..cursor.end]) {
+                cursor.at += length;
+                field = Field::Number(spanned(start, length, value));
+            } else {
+                cursor.at += usize::from(matches!(first, b'-' | b'+'));
+                let token = cursor.next();
+                let text = &cursor.bytes[start..token.end as usize];
+                if let Some(value) = number::parse(text) {
+                    field = Field::Number(spanned(start, text.len(), value));
+                }
+            }
+        }
+        b'\'' => {
+            let token = cursor.next();
+            if let Some(value) = bits_value(cursor.text(token)) {
+                let length = token.end as usize - start;
+                field = Field::Number(spanned(start, length, f64::from(value)));
+            }
+        }
+        b'#' => {
+            cursor.at += 1;
+            let name = cursor.next();
+            if name.kind == Kind::Name {
+                field = Field::Enum(name);
+            }
+        }
+        b'{' => field = Field::Nested(start),
+        b',' | b'}' => {
+            cursor.at += 1;
+            return Some((Field::Other, first));
+        }
+        _ => {}
+    }
+    match cursor.blanks() {
+        end @ (b',' | b'}') if !matches!(field, Field::Other) => {
+            cursor.at += 1;
+            return Some((field, end));
+        }
+        _ => {}
+    }
+    // an expression, or something inside
+    if !matches!(field, Field::Nested(_)) {
+        field = Field::Other;
+    }
+    let mut depth = 0_u32;
+    loop {
+        let token = cursor.next();
+        match token.kind {
+            Kind::Sign(b'(' | b'[' | b'{') => depth += 1,
+            Kind::Sign(b')' | b']') => depth = depth.saturating_sub(1),
+            Kind::Sign(sign @ (b',' | b'}')) if depth == 0 => return Some((field, sign)),
+            Kind::Sign(b'}') => depth -= 1,
+            Kind::End => return None,
+            _ => {}
+        }
+    }
+}
+
+fn spanned(start: usize, length: usize, value: f64) -> Number {
+    Number {
+        start: offset(start),
+        length: u16::try_from(length).unwrap_or(u16::MAX),
+        value,
+    }
+}
+
+const NOTHING: Number = Number {
+    start: 0,
+    length: 0,
+    value: 0.0,
+};
+
+/// The components of a position or of axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Aggregate {
+    /// X Y Z A B C S T.
+    pub position: [Number; 8],
+    /// Which of them stand there, by bit.
+    pub has: u8,
+    /// A1 to A6.
+    pub axes: [Number; 6],
+    /// Which of them stand there, by bit.
+    pub has_axes: u8,
+    /// A component is no number.
+    pub computed: bool,
+}
+
+/// Bits of X Y Z A B C.
+pub const WHOLE: u8 = 0b11_1111;
+/// Bit of S in [`Aggregate::has`].
+pub const STATUS: u8 = 1 << 6;
+/// Bit of T.
+pub const TURN: u8 = 1 << 7;
+
+impl Aggregate {
+    /// Whether its components are axes.
+    pub fn is_axes(&self) -> bool {
+        self.has_axes != 0
+    }
+
+    /// X Y Z A B C, where all stand there as numbers.
+    pub fn frame(&self) -> Option<[f64; 6]> {
+        let whole = self.has & WHOLE == WHOLE && !self.computed;
+        whole.then(|| std::array::from_fn(|i| self.position[i].value))
+    }
+}
+
+/// Reads the aggregate of a position or of axes.
+///
+/// # Errors
+/// Where it is broken.
+pub fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
+    let mut found = Aggregate {
+        position: [NOTHING; 8],
+        has: 0,
+        axes: [NOTHING; 6],
+        has_axes: 0,
+        computed: false,
+    };
+    each(cursor, |key, token, field| {
+        let (list, mask, at): (&mut [Number], &mut u8, usize) = match *key {
+            [letter] => {
+                let Some(at) = b"XYZABCST".iter().position(|&known| known == letter) else {
+                    found.computed = true;
+                    return Ok(());
+                };
+                (&mut found.position, &mut found.has, at)
+            }
+            [b'A', digit @ b'1'..=b'6'] => (
+                &mut found.axes,
+                &mut found.has_axes,
+                usize::from(digit - b'1'),
+            ),
+            // external axes stay as they are
+            [b'E', b'1'..=b'6'] => return Ok(()),
+            _ => {
+                found.computed = true;
+                return Ok(());
+            }
+        };
+        if *mask & 1 << at != 0 {
+            return Err(Fault::unexpected(
+                token,
+                "a component that is not yet given",
+            ));
+        }
+        *mask |= 1 << at;
+        match field {
+            Field::Number(number) => {
+                list[at] = check(number, at >= 6 && list.len() == 8)?;
+            }
+            _ => found.computed = true,
+        }
+        Ok(())
+    })?;
+    Ok(found)
+}
+
+fn check(number: Number, is_status: bool) -> Result<Number, Fault> {
+    let wrong = |meaning, limit| Fault::BadValue {
+        start: number.start,
+        end: number.start + u32::from(number.length),
+        meaning,
+        limit,
+    };
+    if is_status {
+        let whole = number.value.fract() == 0.0 && (0.0..=MOST_STATUS).contains(&number.value);
+        if !whole {
+            return Err(wrong(
+                "status or turn",
+                "it is a whole number from 0 to 65535",
+            ));
+        }
+    } else if number.value.abs() >= LARGEST {
+        return Err(wrong(
+            "coordinate or angle",
+            "the limit is 1000000 either way",
+        ));
+    }
+    Ok(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Aggregate, Fault> {
+        read(&mut Cursor {
+            bytes: text.as_bytes(),
+            at: 0,
+            end: text.len(),
+        })
+    }
+
+    #[test]
+    fn keys_stand_in_any_case_and_order_with_or_without_a_type() {
+        let found = parsed("{E6POS: z 3,Y -.5, x 1.0E-1 ,c 6,B +5,a 4,t 'B10',S 2,E1 q[1,2]}");
+        let found = found.expect("an aggregate");
+        assert_eq!(found.frame(), Some([0.1, -0.5, 3.0, 4.0, 5.0, 6.0]));
+        assert_eq!(found.has, 0xff);
+        assert!((found.position[7].value - 2.0).abs() < 1e-12);
+        assert_eq!(found.position[7].length, 5);
+    }
+
+    #[test]
+    fn expressions_and_strange_keys_are_seen() {
+        assert!(parsed("{X a+1,Y 2}").expect("an aggregate").computed);
+        assert!(parsed("{X 1+1,Y 2}").expect("an aggregate").computed);
+        assert!(parsed("{X - 1,Y 2}").expect("an aggregate").computed);
+        assert!(parsed("{X 1,RX 2}").expect("an aggregate").computed);
+        assert!(
+            parsed("{X f({X 1},\"}\"),Y 2}")
+                .expect("an aggregate")
+                .computed
+        );
+        assert_eq!(parsed("{X 1,Y 2,Z 3}").expect("an aggregate").has, 0b111);
+        assert!(parsed("{}").is_ok_and(|found| found.has == 0));
+    }
+
+    #[test]
+    fn broken_ones_are_faults() {
+        for text in [
+            "{X 1,Y 2",
+            "{X 1,,Y 2}",
+            "{X 1,X 2}",
+            "{X 1e7}",
+            "{X 1,S -1}",
+            "{X 1,T 2.5}",
+            "{1,2}",
+            "{X f(1}",
+        ] {
+            assert!(parsed(text).is_err(), "{text}");
+        }
+    }
+}

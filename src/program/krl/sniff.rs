@@ -1,0 +1,125 @@
+//! Whether bytes look like KRL, and where the marker goes.
+
+use super::notes::DataKind;
+use super::statements::is_motion;
+use super::tokens::{Cursor, Kind, capitals, content_start, lines};
+use crate::program::{Marker, Source};
+
+/// Bytes that are looked at: enough for long comments in front.
+const LOOKED_AT: usize = 1 << 16;
+
+/// Whether the bytes look like KRL.
+///
+/// A header line such as `&ACCESS`, a data list, a declaration of a position or a move says so; `DEF name(...)` alone is
+/// other languages' too, so something else of KRL's has to come with it.
+pub fn recognises(bytes: &[u8]) -> bool {
+    let bytes = &bytes[..bytes.len().min(LOOKED_AT)];
+    if memchr::memchr(0, bytes).is_some() {
+        return false;
+    }
+    let (mut defines, mut hints) = (false, false);
+    for (start, end) in lines(bytes, content_start(bytes)) {
+        let mut cursor = Cursor {
+            bytes,
+            at: start,
+            end,
+        };
+        let mut buffer = [0; 24];
+        if cursor.take(b'&') {
+            let word = cursor.next();
+            let word = capitals(cursor.text(word), &mut buffer);
+            if matches!(
+                word,
+                b"ACCESS" | b"REL" | b"PARAM" | b"COMMENT" | b"USER" | b"KD"
+            ) {
+                return true;
+            }
+            continue;
+        }
+        if cursor.take(b';') {
+            let word = cursor.next();
+            let word = capitals(cursor.text(word), &mut buffer);
+            hints |= matches!(word, b"FOLD" | b"ENDFOLD");
+            continue;
+        }
+        let first = cursor.next();
+        if first.kind != Kind::Name {
+            continue;
+        }
+        let text = cursor.text(first);
+        let word = capitals(text, &mut buffer);
+        let next = cursor.next();
+        let behind = cursor.peek();
+        match word {
+            b"DEF" | b"DEFFCT" if next.kind == Kind::Name => {
+                let text = bytes[start..end].trim_ascii();
+                defines |= text.last() != Some(&b':') && text.contains(&b'(');
+            }
+            b"DECL" if next.kind == Kind::Name && behind.kind == Kind::Name => {
+                let mut buffer = [0; 24];
+                let word = capitals(cursor.text(next), &mut buffer);
+                if DataKind::named(word) != DataKind::Other {
+                    return true;
+                }
+                hints = true;
+            }
+            b"DEFDAT" | b"E6POS" | b"E6AXIS" if next.kind == Kind::Name => return true,
+            b"BAS" if next.is(b'(') && behind.is(b'#') => return true,
+            word if is_motion(word) && next.is(b'{') => return true,
+            // another maker writes END in lower case
+            b"END" | b"ENDFCT" if text[0] == b'E' && next.kind == Kind::End => hints = true,
+            word if is_motion(word) && next.kind == Kind::Name => hints = true,
+            b"$TOOL" | b"$BASE" | b"$OUT" | b"$ADVANCE" => hints = true,
+            _ => {}
+        }
+        if defines && hints {
+            return true;
+        }
+    }
+    false
+}
+
+/// Where the marker goes, and its text: behind the line that opens the first routine or the data list, else at the top.
+pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
+    let bytes = &source.bytes;
+    let end = source.line_end();
+    let mut text = Vec::new();
+    for line in marker.lines() {
+        text.extend_from_slice(b"; ");
+        text.extend_from_slice(line.as_bytes());
+        text.extend_from_slice(end);
+    }
+    let top = content_start(bytes);
+    let mut behind_header = top;
+    for (start, stop) in lines(bytes, top) {
+        let mut cursor = Cursor {
+            bytes,
+            at: start,
+            end: stop,
+        };
+        if cursor.blanks() == b'&' {
+            behind_header = next_line(bytes, stop).unwrap_or(behind_header);
+            continue;
+        }
+        let mut buffer = [0; 24];
+        let mut word = cursor.next();
+        if capitals(cursor.text(word), &mut buffer) == b"GLOBAL" {
+            word = cursor.next();
+        }
+        let mut buffer = [0; 24];
+        let opens = matches!(
+            capitals(cursor.text(word), &mut buffer),
+            b"DEF" | b"DEFFCT" | b"DEFDAT"
+        );
+        if opens && let Some(at) = next_line(bytes, stop) {
+            return (at, text);
+        }
+    }
+    (behind_header, text)
+}
+
+/// The first byte of the line behind the one that ends here.
+fn next_line(bytes: &[u8], end: usize) -> Option<usize> {
+    let crlf = bytes.get(end..end + 2) == Some(b"\r\n");
+    (end < bytes.len()).then_some(end + 1 + usize::from(crlf))
+}

@@ -1,0 +1,274 @@
+//! Which tool and base hold at a move.
+
+use super::*;
+
+const CONFIG: &str = "&ACCESS RV\n&REL 2\nDEFDAT  $CONFIG\nBOOL B_IN\nDECL E6AXIS XHOME={A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\n\
+    FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nTOOL_DATA[2]={x 0,y 0,z 50,a 0,b 90,c 0}\n\
+    FRAME BASE_DATA[32]\nBASE_DATA[1]={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nBASE_DATA[2]={X 500.0,Y 0.0,Z 0.0,A 90.0,B 0.0,C 0.0}\n\
+    LOAD_DATA[1]={M 5.5,CM {X 10.0,Y 0.0,Z 80.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}\n\
+    LOAD_DATA[2]={M -1.0,CM {X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}\n\
+    DECL MACHINE_FRAME_DATA_TYPE x\nMACHINE_FRAME_DAT[7]={MACH_DEF_INDEX 2,COOP_KRC_INDEX 0,PARENT[] \" \",GEO \" \"}\nENDDAT\n";
+
+fn in_cell(statements: &str) -> Program {
+    let text = format!("DEF M()\n{statements}\nEND\n");
+    read_files(&[
+        ("System/$config.dat", CONFIG),
+        ("m.src", &text),
+        ("m.dat", DATA),
+    ])
+}
+
+fn used(program: &Program) -> Vec<(&str, &str)> {
+    let moves = program.moves.iter();
+    moves
+        .map(|used| {
+            (
+                program.tools[used.tool].name.as_str(),
+                program.frames[used.frame].name.as_str(),
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn tools_bases_and_loads_are_in_the_config_given_with_the_program() {
+    let program = in_cell("BAS(#TOOL,1)\nBAS (#BASE,2)\nLIN XP1");
+    assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
+    let Tool {
+        flange_from_tool,
+        load,
+        ..
+    } = &program.tools[0];
+    assert_eq!(
+        flange_from_tool.expect("a tool").translation,
+        [0.1, 0.0, 0.0]
+    );
+    let load = load.expect("a load");
+    assert_eq!((load.mass_kg, load.cog_m), (5.5, [0.01, 0.0, 0.08]));
+    let base = program.frames[0].world_from_frame.expect("a base");
+    assert_eq!(base.translation, [0.5, 0.0, 0.0]);
+    assert!((base.rotation.0[1][0] - 1.0).abs() < 1e-12);
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
+fn entries_without_the_config_are_asked_for_by_name() {
+    let program = path("LIN XP1");
+    assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
+    assert_eq!(program.tools[0].flange_from_tool, None);
+    assert_eq!(program.frames[0].world_from_frame, None);
+    let program = read("DEF M()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND");
+    assert_eq!(used(&program), [("$TOOL", "$BASE")]);
+    assert_eq!(program.tools[0].flange_from_tool, None);
+}
+
+#[test]
+fn every_way_to_set_tool_and_base_is_understood() {
+    for set in [
+        "$TOOL=TOOL_DATA[2]\n$BASE=BASE_DATA[2]",
+        "$tool = tool_data[2] ; the gun\n$Base = Base_Data[2]",
+        "FDAT_ACT={TOOL_NO 2,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \"}\nBAS(#FRAMES)",
+        "PDAT_ACT=PPDAT1\nFDAT_ACT=FP9\nBAS(#PTP_PARAMS,100)",
+        "FDAT_ACT=FP9\nBAS(#CP_PARAMS,2)",
+    ] {
+        let data = "DEFDAT M\nDECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 0,C 0}\n\
+            DECL FDAT FP9={TOOL_NO 2,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \",TQ_STATE FALSE}\nENDDAT\n";
+        let text = format!("DEF M()\n{set}\nLIN XP1\nEND\n");
+        let files = [("$config.dat", CONFIG), ("m.src", &text), ("m.dat", data)];
+        let program = read_files(&files);
+        assert_eq!(used(&program), [("TOOL_DATA[2]", "BASE_DATA[2]")], "{set}");
+        assert!(program.tools[0].flange_from_tool.is_some());
+        assert_eq!(ids(&program), [""; 0], "{set}");
+    }
+}
+
+#[test]
+fn inline_forms_of_newer_controllers_set_tool_and_base_in_the_move() {
+    let program = in_cell(
+        ";FOLD SLIN P1 Vel=2 m/s CPDAT1 Tool[1]:gun Base[2] ;%{PE}\n;FOLD Parameters ;%{h}\n\
+         ;Params IlfProvider=kukaroboter.basistech.inlineforms.movement.spline; Kuka.PointName=P1\n;ENDFOLD\n\
+         SLIN XP1 WITH $VEL=SVEL_CP(2.0, , LCPDAT1), $TOOL=STOOL2(FP1), $BASE=SBASE(FP1.BASE_NO), \
+         $IPO_MODE=SIPO_MODE(FP1.IPO_FRAME), $LOAD=SLOAD(FP1.TOOL_NO), $ACC=SACC_CP(LCPDAT1) C_Spl\n;ENDFOLD",
+    );
+    assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
+fn frames_written_out_have_their_value() {
+    let program = in_cell(
+        "$TOOL={FRAME: X 1,Y 2,Z 3,A 0,B 0,C 90}\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\nLIN XP1\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN XP2\n\
+         BAS(#TOOL,0)\nBAS(#BASE)\nLIN XP3",
+    );
+    assert_eq!(
+        used(&program),
+        [
+            ("$TOOL", "$BASE"),
+            ("$NULLFRAME", "$WORLD"),
+            ("TOOL_DATA[0]", "BASE_DATA[0]")
+        ]
+    );
+    let tool = program.tools[0].flange_from_tool.expect("a tool");
+    assert_eq!(tool.translation, [0.001, 0.002, 0.003]);
+    // C turns about x
+    assert!((tool.rotation.0[2][1] - 1.0).abs() < 1e-12);
+    assert!(program.tools[2].flange_from_tool.is_some());
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
+fn entries_that_the_program_writes_once_have_that_value() {
+    let program = path(
+        "TOOL_DATA[1]={X 0,Y 0,Z 120,A 0,B 0,C 0}\nBASE_DATA[2]={FRAME: X 1,Y 0,Z 0,A 0,B 0,C 0}\nLIN XP1",
+    );
+    let tool = program.tools[0].flange_from_tool.expect("a tool");
+    assert_eq!(tool.translation, [0.0, 0.0, 0.12]);
+    assert_eq!(told(&program), [""; 0]);
+    for change in [
+        "BASE_DATA[2].X=BASE_DATA[2].X+1",
+        "BASE_DATA[i]=new",
+        "BASE_DATA[2]=BASE_DATA[1]",
+        "BASE_DATA[2]={X 9,Y 0,Z 0,A 0,B 0,C 0}",
+    ] {
+        let program = path(&format!(
+            "BASE_DATA[2]={{X 1,Y 0,Z 0,A 0,B 0,C 0}}\n{change}\nLIN XP1"
+        ));
+        assert_eq!(told(&program), ["frame-assigned-at-run-time"], "{change}");
+        assert_eq!(blocked(&program), ["XP1"], "{change}");
+    }
+}
+
+#[test]
+fn frames_that_only_the_running_program_knows_are_refused() {
+    for set in [
+        "$BASE=measured()",
+        "$BASE=BASE_DATA[n]",
+        "BAS(#BASE,n)",
+        "$BASE=BASE_DATA[1]:shift",
+        "$BASE.X=100",
+        "$TOOL=tools[1]",
+        "IF $IN[1] THEN\nBAS(#BASE,2)\nENDIF",
+        "WHILE $IN[1]\nLIN XP2\nBAS(#BASE,2)\nENDWHILE",
+        "SWITCH n\nCASE 1\nBAS(#BASE,2)\nDEFAULT\nBAS(#BASE,3)\nENDSWITCH",
+    ] {
+        let program = in_cell(&format!(
+            "DECL FRAME tools[2]\nDECL FRAME shift\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1"
+        ));
+        assert!(
+            told(&program).contains(&"frame-chosen-at-run-time"),
+            "{set}: {:?}",
+            program.findings
+        );
+        assert!(blocked(&program).contains(&"XP1"), "{set}");
+    }
+}
+
+#[test]
+fn ways_that_agree_are_followed() {
+    for set in [
+        "IF $IN[1] THEN\nBAS(#BASE,1)\nELSE\nBAS(#BASE,1)\nENDIF",
+        "SWITCH n\nCASE 1,2\nLIN XP2\nBAS(#BASE,1)\nDEFAULT\nBAS(#BASE,1)\nENDSWITCH",
+        "LOOP\nBAS(#BASE,1)\nEXIT\nENDLOOP",
+        "REPEAT\nBAS(#BASE,1)\nUNTIL $IN[1]",
+        "sub()",
+        "GOTO over\nBAS(#BASE,2)\nover:\nBAS(#BASE,1)",
+        "ptp_home()\nBAS(#BASE,1)",
+    ] {
+        let text = format!(
+            "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1\nEND\nDEF sub()\nBAS(#BASE,1)\nEND\n"
+        );
+        let program = read_files(&[("$config.dat", CONFIG), ("m.src", &text), ("m.dat", DATA)]);
+        assert_eq!(told(&program), [""; 0], "{set}");
+        assert!(
+            used(&program)
+                .iter()
+                .all(|names| *names == ("TOOL_DATA[1]", "BASE_DATA[1]"))
+        );
+    }
+}
+
+#[test]
+fn routines_take_what_their_callers_have() {
+    let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nsub()\nEND\nDEF sub()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    assert_eq!(used(&read(text)), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
+    let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nsub()\nBAS(#BASE,3)\nsub()\nEND\nDEF sub()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    assert_eq!(told(&read(text)), ["frame-chosen-at-run-time"]);
+}
+
+#[test]
+fn routines_outside_the_files_matter_where_several_frames_are_in_use() {
+    let one =
+        "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\ngripper(1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    assert_eq!(told(&read(one)), [""; 0]);
+    let two = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nBAS(#BASE,2)\ngripper(1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    assert_eq!(told(&read(two)), ["frame-chosen-at-run-time"]);
+}
+
+#[test]
+fn fixed_tools_are_refused_by_name() {
+    for set in [
+        "$IPO_MODE=#TCP",
+        "FDAT_ACT={TOOL_NO 1,BASE_NO 2,IPO_FRAME #TCP,POINT2[] \" \"}\nBAS(#FRAMES)",
+    ] {
+        let program = in_cell(&format!("BAS(#TOOL,1)\nBAS(#BASE,2)\n{set}\nLIN XP1"));
+        assert_eq!(told(&program), ["external-tcp"], "{set}");
+        assert_eq!(blocked(&program), ["XP1"]);
+    }
+    let program = in_cell("BAS(#TOOL,1)\nBAS(#BASE,2)\n$IPO_MODE=#TCP\n$IPO_MODE=#BASE\nLIN XP1");
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
+fn bases_on_other_kinematics_are_refused() {
+    for set in [
+        "BAS(#BASE,7)",
+        "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 0,Y 0,Z 0,A 0,B 0,C 0})",
+        "SLIN XP1 WITH $BASE=EK(K_ROOT(FP1.BASE_NO),K_TYPE(FP1.BASE_NO),K_OFFS(FP1.BASE_NO)), $APO=SAPO(L) C_SPL",
+    ] {
+        let program = in_cell(&format!("BAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1"));
+        assert_eq!(told(&program), ["moving-frame"], "{set}");
+        assert_eq!(blocked(&program), ["XP1"], "{set}");
+    }
+}
+
+#[test]
+fn an_entry_that_one_of_several_programs_writes_is_ambiguous_where_the_config_differs() {
+    let writes = |x: &str| {
+        format!(
+            "DEF a()\nBASE_DATA[2]={{X {x},Y 0.0,Z 0,A 90,B 0,C -0.0}}\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {{X 1,Y 2,Z 3,A 0,B 0,C 0}}\nEND\n"
+        )
+    };
+    let other = "DEF b()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    for (text, others, expected) in [
+        (writes("500.000001"), other, None),
+        (writes("9"), other, Some("frame-name-ambiguous")),
+        (writes("9"), "DEF b()\nEND\n", None),
+    ] {
+        let files = [
+            ("$config.dat", CONFIG),
+            ("a.src", &*text),
+            ("b.src", others),
+        ];
+        let program = read_files(&files);
+        assert_eq!(told(&program).first().copied(), expected);
+    }
+}
+
+#[test]
+fn two_configs_that_disagree_are_refused() {
+    let other = CONFIG.replace("X 500.0", "X 501.0");
+    let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    let files = [
+        ("a/$config.dat", CONFIG),
+        ("b/$config.dat", &*other),
+        ("m.src", text),
+    ];
+    assert_eq!(told(&read_files(&files)), ["frame-name-ambiguous"]);
+}
+
+#[test]
+fn a_target_that_is_a_base_too_is_refused() {
+    let program = in_cell("BAS(#TOOL,1)\n$BASE=XP3\nLIN XP1\nBAS(#BASE,1)\nLIN XP3");
+    assert_eq!(blocked(&program), ["XP3"]);
+    assert_eq!(told(&program), ["target-used-as-frame"]);
+}

@@ -1,0 +1,405 @@
+//! KRL text as lines of tokens over bytes.
+//!
+//! A statement is one line; nothing goes on to the next. Nothing is decoded or copied. Bytes of 0x80 and above count as
+//! letters, so Latin-1 and UTF-8 both pass. A line may end with LF, CR LF or CR.
+
+use crate::program::{ReadError, Source};
+
+/// A place in the sources.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Place {
+    pub file: u32,
+    pub offset: u32,
+}
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A name or keyword, `$` included.
+    Name,
+    /// Something that starts like a number, with everything that clings to it: `12`, `.5`, `1.5E-12`, `12.3.4`.
+    Number,
+    /// `'B0101'` or `'HFF'`, quotes included.
+    Bits,
+    /// A string with its quotes.
+    Text,
+    /// Any other sign, one byte.
+    Sign(u8),
+    /// End of the line, or a comment.
+    End,
+}
+
+/// A token at its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Token {
+    pub kind: Kind,
+    pub start: u32,
+    pub end: u32,
+}
+
+impl Token {
+    /// Whether it is this sign.
+    pub fn is(self, sign: u8) -> bool {
+        self.kind == Kind::Sign(sign)
+    }
+}
+
+/// Why the text cannot be read, by offsets; becomes a [`ReadError`] with the source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// What opens here is not closed.
+    Unclosed { at: u32, what: &'static str },
+    /// Something else stands where one thing belongs.
+    Unexpected {
+        start: u32,
+        end: u32,
+        expected: &'static str,
+    },
+    /// A number no robot can use.
+    BadValue {
+        start: u32,
+        end: u32,
+        meaning: &'static str,
+        limit: &'static str,
+    },
+}
+
+/// Bytes of a wrong token that an error message repeats at most.
+const SHOWN: usize = 40;
+
+impl Fault {
+    /// This token where something else belongs.
+    pub fn unexpected(token: Token, expected: &'static str) -> Self {
+        Self::Unexpected {
+            start: token.start,
+            end: token.end,
+            expected,
+        }
+    }
+
+    /// The error with file, line and column.
+    pub fn in_source(self, source: &Source) -> ReadError {
+        let file = source.name.clone();
+        let place = |at: u32| source.line_column(at as usize);
+        let shown = |start: u32, end: u32| {
+            let end = (end as usize).min(start as usize + SHOWN);
+            match source.bytes.get(start as usize..end) {
+                Some(text) if !text.is_empty() => Source::text(text),
+                _ => "the end of the line".to_owned(),
+            }
+        };
+        match self {
+            Self::Unclosed { at, what } => {
+                let (line, column) = place(at);
+                ReadError::Unclosed {
+                    file,
+                    line,
+                    column,
+                    what,
+                }
+            }
+            Self::Unexpected {
+                start,
+                end,
+                expected,
+            } => {
+                let (line, column) = place(start);
+                ReadError::Unexpected {
+                    file,
+                    line,
+                    column,
+                    found: shown(start, end),
+                    expected,
+                }
+            }
+            Self::BadValue {
+                start,
+                end,
+                meaning,
+                limit,
+            } => {
+                let (line, column) = place(start);
+                ReadError::BadValue {
+                    file,
+                    line,
+                    column,
+                    value: shown(start, end),
+                    meaning,
+                    limit,
+                }
+            }
+        }
+    }
+}
+
+/// Offset of a byte; [`super::check_bytes`] keeps files below 4 GiB.
+#[allow(clippy::cast_possible_truncation)]
+pub fn offset(at: usize) -> u32 {
+    at as u32
+}
+
+/// Index in a list that has fewer entries than a file of 4 GiB has bytes.
+#[allow(clippy::cast_possible_truncation)]
+pub fn index(at: usize) -> u32 {
+    at as u32
+}
+
+const LETTER: u8 = 1;
+const DIGIT: u8 = 2;
+
+const CLASSES: [u8; 256] = {
+    let mut classes = [0; 256];
+    let mut at = 0;
+    while at < 256 {
+        // at is below 256
+        #[allow(clippy::cast_possible_truncation)]
+        let byte = at as u8;
+        classes[at] = if byte.is_ascii_alphabetic() || byte == b'_' || byte == b'$' || byte >= 0x80
+        {
+            LETTER
+        } else if byte.is_ascii_digit() {
+            DIGIT
+        } else {
+            0
+        };
+        at += 1;
+    }
+    classes
+};
+
+fn class(byte: u8) -> u8 {
+    CLASSES[usize::from(byte)]
+}
+
+/// Reads the tokens of one line, one after another.
+#[derive(Clone, Copy, Debug)]
+pub struct Cursor<'a> {
+    pub bytes: &'a [u8],
+    pub at: usize,
+    /// The end of the line.
+    pub end: usize,
+}
+
+impl<'a> Cursor<'a> {
+    /// The bytes of a token.
+    pub fn text(&self, token: Token) -> &'a [u8] {
+        &self.bytes[token.start as usize..token.end as usize]
+    }
+
+    /// Skips blanks; the byte behind them, 0 at the end of the line.
+    pub fn blanks(&mut self) -> u8 {
+        while self.at < self.end {
+            match self.bytes[self.at] {
+                // a control character is a blank, too
+                0..=b' ' => self.at += 1,
+                other => return other,
+            }
+        }
+        0
+    }
+
+    /// The next token; a comment ends the line.
+    pub fn next(&mut self) -> Token {
+        let first = self.blanks();
+        let start = self.at;
+        if start >= self.end || first == b';' {
+            return Token {
+                kind: Kind::End,
+                start: offset(start),
+                end: offset(start),
+            };
+        }
+        let kind = match first {
+            b'"' => self.string(),
+            b'\'' => self.bits(),
+            b'.' if self
+                .bytes
+                .get(start + 1)
+                .is_some_and(|&b| class(b) == DIGIT) =>
+            {
+                self.number()
+            }
+            byte if class(byte) == LETTER => self.name(),
+            byte if class(byte) == DIGIT => self.number(),
+            byte => {
+                self.at += 1;
+                Kind::Sign(byte)
+            }
+        };
+        Token {
+            kind,
+            start: offset(start),
+            end: offset(self.at),
+        }
+    }
+
+    /// The next token, left where it is.
+    pub fn peek(&self) -> Token {
+        let mut copy = *self;
+        copy.next()
+    }
+
+    /// Takes the next token where it is this sign.
+    pub fn take(&mut self, sign: u8) -> bool {
+        let is = self.blanks() == sign;
+        self.at += usize::from(is);
+        is
+    }
+
+    fn name(&mut self) -> Kind {
+        while self.at < self.end && class(self.bytes[self.at]) != 0 {
+            self.at += 1;
+        }
+        Kind::Name
+    }
+
+    fn number(&mut self) -> Kind {
+        while self.at < self.end {
+            let byte = self.bytes[self.at];
+            let exponent = matches!(byte, b'+' | b'-')
+                && matches!(self.bytes[self.at - 1], b'e' | b'E')
+                && self
+                    .bytes
+                    .get(self.at + 1)
+                    .is_some_and(|&b| class(b) == DIGIT);
+            if class(byte) == 0 && byte != b'.' && !exponent {
+                break;
+            }
+            self.at += 1;
+        }
+        Kind::Number
+    }
+
+    fn string(&mut self) -> Kind {
+        let rest = &self.bytes[self.at + 1..self.end];
+        self.at = memchr::memchr(b'"', rest).map_or(self.end, |close| self.at + 2 + close);
+        Kind::Text
+    }
+
+    fn bits(&mut self) -> Kind {
+        let rest = &self.bytes[self.at + 1..self.end];
+        let digits = rest
+            .iter()
+            .take_while(|b| b.is_ascii_alphanumeric())
+            .count();
+        if rest.get(digits) == Some(&b'\'') && digits > 0 {
+            self.at += digits + 2;
+            return Kind::Bits;
+        }
+        self.at += 1;
+        Kind::Sign(b'\'')
+    }
+
+    /// Takes `[...]` where it stands here.
+    ///
+    /// # Errors
+    /// Where it is not closed.
+    pub fn brackets(&mut self) -> Result<Option<(usize, usize)>, Fault> {
+        if self.blanks() != b'[' {
+            return Ok(None);
+        }
+        let open = self.at;
+        let mut depth = 0_u32;
+        loop {
+            let token = self.next();
+            match token.kind {
+                Kind::Sign(b'[') => depth += 1,
+                Kind::Sign(b']') if depth == 1 => {
+                    return Ok(Some((open + 1, token.start as usize)));
+                }
+                Kind::Sign(b']') => depth -= 1,
+                Kind::End => {
+                    return Err(Fault::Unclosed {
+                        at: offset(open),
+                        what: "a bracket",
+                    });
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A word in capitals; empty where it is longer than any keyword.
+pub fn capitals<'b>(word: &[u8], buffer: &'b mut [u8; 24]) -> &'b [u8] {
+    match buffer.get_mut(..word.len()) {
+        Some(copy) => {
+            copy.copy_from_slice(word);
+            copy.make_ascii_uppercase();
+            copy
+        }
+        None => &[],
+    }
+}
+
+/// The value of `'B0101'` or `'HFF'`.
+pub fn bits_value(text: &[u8]) -> Option<u32> {
+    let inner = text.strip_prefix(b"'")?.strip_suffix(b"'")?;
+    let (&kind, digits) = inner.split_first()?;
+    let radix = match kind.to_ascii_uppercase() {
+        b'B' => 2,
+        b'H' => 16,
+        _ => return None,
+    };
+    u32::from_str_radix(std::str::from_utf8(digits).ok()?, radix).ok()
+}
+
+/// The lines of a file: first byte and the byte behind the last, line end not included. Empty ones may be left out.
+pub fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = (usize, usize)> {
+    let mut at = start;
+    let mut ends = memchr::memchr2_iter(b'\n', b'\r', &bytes[start.min(bytes.len())..]);
+    std::iter::from_fn(move || {
+        if at >= bytes.len() {
+            return None;
+        }
+        let end = ends.next().map_or(bytes.len(), |end| start + end);
+        let line = (at, end);
+        at = end + 1;
+        Some(line)
+    })
+}
+
+/// Where the text starts: behind a byte order mark.
+pub fn content_start(bytes: &[u8]) -> usize {
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_numbers_bits_and_strings_are_told_apart() {
+        let text = b"LIN {X -1.5E-12,s'B010'} \"a;b\" $TOOL[1].x ; rest";
+        let mut cursor = Cursor {
+            bytes: text,
+            at: 0,
+            end: text.len(),
+        };
+        let mut found = Vec::new();
+        loop {
+            let token = cursor.next();
+            if token.kind == Kind::End {
+                break;
+            }
+            found.push(std::str::from_utf8(cursor.text(token)).expect("ASCII"));
+        }
+        let expected = [
+            "LIN", "{", "X", "-", "1.5E-12", ",", "s", "'B010'", "}", "\"a;b\"", "$TOOL", "[", "1",
+            "]", ".", "x",
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn bit_literals_have_two_bases() {
+        assert_eq!(bits_value(b"'B110000'"), Some(48));
+        assert_eq!(bits_value(b"'h1F'"), Some(31));
+        assert_eq!(bits_value(b"'B2'"), None);
+        assert_eq!(bits_value(b"'B'"), None);
+    }
+}

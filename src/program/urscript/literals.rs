@@ -1,0 +1,105 @@
+//! The numbers between the brackets of a pose or a list of joints.
+
+use super::syntax::{Content, Literal, index};
+use super::tokens::number_length;
+use crate::program::Number;
+use crate::program::number::{parse, parse_start};
+
+/// What the brackets hold.
+pub enum Found {
+    /// Six numbers, and the byte behind the closing bracket.
+    Six(Content, usize),
+    /// Not six numbers.
+    Else,
+    /// A number too large for any robot, at this place.
+    TooLarge(usize, usize),
+}
+
+fn blanks(bytes: &[u8], mut at: usize) -> usize {
+    while matches!(bytes.get(at), Some(b' ' | b'\t' | b'\n' | b'\r')) {
+        at += 1;
+    }
+    at
+}
+
+/// Reads six numbers from the byte behind the opening bracket into `numbers`, which stays as it was where they are not
+/// six.
+pub fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) -> Found {
+    let first = numbers.len();
+    let mut degrees = [false; 6];
+    let mut at = start;
+    for k in 0..6 {
+        at = blanks(bytes, at);
+        let rest = &bytes[at..];
+        degrees[k] = rest.starts_with(b"d2r(");
+        if degrees[k] {
+            at = blanks(bytes, at + 4);
+        }
+        let rest = &bytes[at..];
+        let sign = usize::from(matches!(rest.first(), Some(b'+' | b'-')));
+        let fits = |length: usize| length >= sign + number_length(&rest[sign..]);
+        let quick = parse_start(rest).filter(|(_, length)| fits(*length));
+        let (value, length) = if let Some(found) = quick {
+            found
+        } else {
+            let length = sign + number_length(&rest[sign..]);
+            let Some(value) = parse(&rest[..length]) else {
+                numbers.truncate(first);
+                let text = std::str::from_utf8(&rest[..length]).ok();
+                let digits = rest[sign..length].first().is_some_and(u8::is_ascii_digit);
+                let value = text.and_then(|text| text.parse::<f64>().ok());
+                return if digits && value.is_some_and(f64::is_infinite) {
+                    Found::TooLarge(at, at + length)
+                } else {
+                    Found::Else
+                };
+            };
+            (value, length)
+        };
+        let Ok(short) = u16::try_from(length) else {
+            numbers.truncate(first);
+            return Found::Else;
+        };
+        numbers.push(Number {
+            start: index(at),
+            length: short,
+            value,
+        });
+        at = blanks(bytes, at + length);
+        if degrees[k] {
+            if bytes.get(at) != Some(&b')') {
+                break;
+            }
+            at = blanks(bytes, at + 1);
+        }
+        let wanted = if k == 5 { b']' } else { b',' };
+        if bytes.get(at) != Some(&wanted) {
+            break;
+        }
+        at += 1;
+        if k == 5 {
+            let angles = if pose { &degrees[3..] } else { &degrees[..] };
+            let all = angles.iter().all(|inside| *inside);
+            let none = !degrees.contains(&true);
+            if none {
+                return Found::Six(Content::Numbers, at);
+            }
+            if all && !(pose && degrees[..3].contains(&true)) {
+                return Found::Six(Content::Degrees, at);
+            }
+        }
+    }
+    numbers.truncate(first);
+    Found::Else
+}
+
+/// A literal whose elements are not six numbers.
+pub fn other(offset: usize, pose: bool, elements: u32) -> Literal {
+    Literal {
+        offset: index(offset),
+        pose,
+        content: Content::Expressions,
+        numbers: 0..0,
+        elements,
+    }
+}

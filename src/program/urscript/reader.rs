@@ -1,0 +1,363 @@
+//! Statements: functions, blocks, assignments.
+
+use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, Notes, Reach, index};
+use super::tokens::{Kind, Scanner, Token};
+use super::verbs;
+use crate::program::{ReadError, Source};
+
+/// Blocks inside each other that a program may have.
+const MOST_BLOCKS: usize = 200;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum BlockKind {
+    Function,
+    Branch,
+    Loop,
+}
+
+struct Block {
+    kind: BlockKind,
+    offset: usize,
+    what: &'static str,
+}
+
+/// Reads one file.
+pub struct Reader<'a> {
+    source: &'a Source,
+    pub(super) scanner: Scanner<'a>,
+    pub notes: Notes<'a>,
+    pub(super) function: FunctionId,
+    blocks: Vec<Block>,
+    /// Calls around the one that is being read.
+    pub(super) depth: u32,
+    /// The file has a function, a move or another word of the language.
+    pub recognised: bool,
+}
+
+pub(super) type Read<T> = Result<T, ReadError>;
+
+impl<'a> Reader<'a> {
+    pub fn new(source: &'a Source) -> Self {
+        let mut notes = Notes::default();
+        notes.add(Expr::Other);
+        notes.functions.push(Function::default());
+        Self {
+            source,
+            scanner: Scanner::new(&source.bytes),
+            notes,
+            function: 0,
+            blocks: Vec::new(),
+            depth: 0,
+            recognised: false,
+        }
+    }
+
+    /// Reads the whole file.
+    ///
+    /// # Errors
+    /// Where a block, bracket or text is not closed, or something else stands where the language wants one thing.
+    pub fn read(mut self) -> Read<Self> {
+        loop {
+            let token = self.next()?;
+            match token.kind {
+                Kind::End => break,
+                Kind::Line => {}
+                Kind::Word => self.statement(token)?,
+                _ => self.rest(token)?,
+            }
+        }
+        match self.blocks.last() {
+            Some(block) => Err(self.unclosed(block.offset, block.what)),
+            None => Ok(self),
+        }
+    }
+
+    pub(super) fn next(&mut self) -> Read<Token> {
+        self.scanner
+            .next()
+            .map_err(|open| self.unclosed(open.start, "a string"))
+    }
+
+    pub(super) fn text(&self, token: Token) -> &'a [u8] {
+        &self.scanner.bytes[token.start..token.end]
+    }
+
+    pub(super) fn place(&self, offset: usize) -> (String, usize, usize) {
+        let (line, column) = self.source.line_column(offset);
+        (self.source.name.clone(), line, column)
+    }
+
+    pub(super) fn unclosed(&self, offset: usize, what: &'static str) -> ReadError {
+        let (file, line, column) = self.place(offset);
+        ReadError::Unclosed {
+            file,
+            line,
+            column,
+            what,
+        }
+    }
+
+    pub(super) fn unexpected(&self, token: Token, expected: &'static str) -> ReadError {
+        let (file, line, column) = self.place(token.start);
+        let found = match token.kind {
+            Kind::End => "the end of the file".into(),
+            Kind::Line => "the end of the line".into(),
+            _ => {
+                let text = self.text(token);
+                format!("`{}`", Source::text(&text[..text.len().min(40)]))
+            }
+        };
+        ReadError::Unexpected {
+            file,
+            line,
+            column,
+            found,
+            expected,
+        }
+    }
+
+    pub(super) fn event(&mut self, event: Event) {
+        self.notes.functions[self.function as usize]
+            .events
+            .push(event);
+    }
+
+    /// A statement by its first word.
+    fn statement(&mut self, first: Token) -> Read<()> {
+        match self.text(first) {
+            b"def" => self.function(first, false),
+            b"thread" => self.function(first, true),
+            b"sec" | b"secondary" if self.scanner.peek().kind == Kind::Word => {
+                self.function(first, true)
+            }
+            b"if" => {
+                self.header()?;
+                self.open(BlockKind::Branch, first, "`if`")?;
+                self.event(Event::If);
+                Ok(())
+            }
+            b"elif" => {
+                self.branch(first)?;
+                self.event(Event::ElseIf);
+                self.header()
+            }
+            b"else" => {
+                self.branch(first)?;
+                self.header()?;
+                self.event(Event::Else);
+                Ok(())
+            }
+            b"while" => {
+                self.open(BlockKind::Loop, first, "`while`")?;
+                self.event(Event::Loop);
+                self.header()
+            }
+            b"switch" if self.scanner.peek().kind != Kind::Sign(b'=') => {
+                self.header()?;
+                self.open(BlockKind::Branch, first, "`switch`")?;
+                self.event(Event::If);
+                Ok(())
+            }
+            b"case" | b"default" if self.in_branch() && !self.assigns() => {
+                self.header()?;
+                self.event(Event::ElseIf);
+                Ok(())
+            }
+            b"end" => self.end(first),
+            b"break" => {
+                self.event(Event::Break);
+                Ok(())
+            }
+            b"continue" => {
+                self.event(Event::Continue);
+                Ok(())
+            }
+            b"return" => {
+                let next = self.scanner.peek();
+                let word = next.kind == Kind::Word && verbs::starts_statement(self.text(next));
+                if !word {
+                    let next = self.next()?;
+                    self.rest(next)?;
+                }
+                self.event(Event::Return);
+                Ok(())
+            }
+            b"halt" => {
+                self.event(Event::Return);
+                Ok(())
+            }
+            b"global" => self.declared(Reach::Global),
+            b"local" => self.declared(Reach::Local),
+            _ => self.plain(first, Reach::Plain),
+        }
+    }
+
+    fn assigns(&self) -> bool {
+        self.scanner.peek().is(b'=')
+    }
+
+    fn in_branch(&self) -> bool {
+        self.blocks
+            .last()
+            .is_some_and(|block| block.kind == BlockKind::Branch)
+    }
+
+    fn branch(&self, token: Token) -> Read<()> {
+        if self.in_branch() {
+            Ok(())
+        } else {
+            Err(self.unexpected(token, "a statement outside `if`"))
+        }
+    }
+
+    fn open(&mut self, kind: BlockKind, at: Token, what: &'static str) -> Read<()> {
+        if self.blocks.len() >= MOST_BLOCKS {
+            return Err(self.unexpected(at, "a block inside at most 199 others"));
+        }
+        self.blocks.push(Block {
+            kind,
+            offset: at.start,
+            what,
+        });
+        Ok(())
+    }
+
+    /// `def name(parameters):`
+    fn function(&mut self, first: Token, thread: bool) -> Read<()> {
+        let what = if thread { "`thread`" } else { "`def`" };
+        let name = self.next()?;
+        if name.kind != Kind::Word {
+            return Err(self.unexpected(name, "the name of a function"));
+        }
+        self.open(BlockKind::Function, first, what)?;
+        self.recognised = true;
+        let mut parameters = Vec::new();
+        let open = self.next()?;
+        if !open.is(b'(') {
+            return Err(self.unexpected(open, "an opening bracket"));
+        }
+        let mut wants_name = true;
+        loop {
+            let token = self.next()?;
+            match token.kind {
+                Kind::Sign(b')') => break,
+                Kind::End => return Err(self.unclosed(open.start, "a bracket")),
+                Kind::Sign(b',') => wants_name = true,
+                Kind::Word if wants_name => {
+                    let symbol = self.notes.symbol(self.text(token));
+                    parameters.push(symbol);
+                    wants_name = false;
+                }
+                _ => {}
+            }
+        }
+        self.header()?;
+        let symbol = self.notes.symbol(self.text(name));
+        self.notes.functions.push(Function {
+            name: Some(symbol),
+            parent: self.function,
+            thread,
+            parameters,
+            events: Vec::new(),
+        });
+        self.function = index(self.notes.functions.len() - 1);
+        Ok(())
+    }
+
+    fn end(&mut self, token: Token) -> Read<()> {
+        let Some(block) = self.blocks.pop() else {
+            return Err(self.unexpected(token, "a statement outside blocks"));
+        };
+        match block.kind {
+            BlockKind::Function => {
+                self.function = self.notes.functions[self.function as usize].parent;
+            }
+            BlockKind::Branch => self.event(Event::EndIf),
+            BlockKind::Loop => self.event(Event::EndLoop),
+        }
+        Ok(())
+    }
+
+    /// What follows `if`, `while`, `def name()`: to the colon or the end of the line.
+    fn header(&mut self) -> Read<()> {
+        loop {
+            let token = self.next()?;
+            match token.kind {
+                Kind::Line | Kind::End | Kind::Sign(b':') => return Ok(()),
+                _ => self.part(token)?,
+            }
+        }
+    }
+
+    fn declared(&mut self, reach: Reach) -> Read<()> {
+        let name = self.next()?;
+        match name.kind {
+            Kind::Word => self.plain(name, reach),
+            Kind::Line | Kind::End => Ok(()),
+            _ => self.rest(name),
+        }
+    }
+
+    /// `name = …`, `name[…] = …`, or any other expression.
+    fn plain(&mut self, name: Token, reach: Reach) -> Read<()> {
+        let next = self.scanner.peek();
+        if next.is(b'=') {
+            self.next()?;
+            if self.scanner.bytes.get(self.scanner.at) == Some(&b'=') {
+                return self.rest(next);
+            }
+            let value = self.value(name.start)?;
+            self.assign(name, reach, value, false);
+            return Ok(());
+        }
+        if next.is(b'[') {
+            self.next()?;
+            self.brackets(next)?;
+            while self.scanner.peek().is(b'[') {
+                let more = self.next()?;
+                self.brackets(more)?;
+            }
+            let after = self.scanner.peek();
+            let compared = self.scanner.bytes.get(after.end) == Some(&b'=');
+            if after.is(b'=') && !compared {
+                self.next()?;
+                let value = self.value(name.start)?;
+                self.assign(name, reach, value, true);
+                return Ok(());
+            }
+            return Ok(());
+        }
+        self.part(name)
+    }
+
+    fn assign(&mut self, name: Token, reach: Reach, value: ExprId, part: bool) {
+        let text = self.text(name);
+        // `a.b = …` changes a part of a
+        let dot = memchr::memchr(b'.', text);
+        let symbol = self.notes.symbol(&text[..dot.unwrap_or(text.len())]);
+        self.notes.assignments.push(Assignment {
+            name: symbol,
+            function: self.function,
+            reach,
+            value,
+            offset: index(name.start),
+            part: part || dot.is_some(),
+        });
+    }
+
+    /// Everything to the end of the line.
+    fn rest(&mut self, first: Token) -> Read<()> {
+        let mut token = first;
+        loop {
+            match token.kind {
+                Kind::Line | Kind::End => return Ok(()),
+                _ => self.part(token)?,
+            }
+            let next = self.scanner.peek();
+            if next.kind == Kind::Word && verbs::starts_statement(self.text(next)) {
+                return Ok(());
+            }
+            token = self.next()?;
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Whether bytes look like `URScript`, and where the marker goes.
+
+use super::tokens::content_start;
+use crate::program::{Marker, Source};
+
+/// Bytes that are looked at: exports start with long libraries.
+const LOOKED_AT: usize = 4 << 20;
+
+/// Calls that no other language has under these names at the start of a statement.
+const CALLS: [&[u8]; 12] = [
+    b"movej(",
+    b"movel(",
+    b"movep(",
+    b"movec(",
+    b"servoj(",
+    b"servoc(",
+    b"speedl(",
+    b"set_tcp(",
+    b"set_payload(",
+    b"textmsg(",
+    b"get_inverse_kin(",
+    b"pose_trans(",
+];
+
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut at = content_start(bytes);
+    std::iter::from_fn(move || {
+        if at >= bytes.len() {
+            return None;
+        }
+        let rest = &bytes[at..];
+        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let line = (at, rest[..length].trim_ascii());
+        at += length + 1;
+        Some(line)
+    })
+}
+
+/// `def name(…):`, `thread name():`
+fn opens(line: &[u8]) -> bool {
+    let rest = line
+        .strip_prefix(b"def ")
+        .or_else(|| line.strip_prefix(b"thread "))
+        .or_else(|| line.strip_prefix(b"sec "));
+    rest.is_some_and(|rest| {
+        let colon = memchr::memchr(b':', rest);
+        memchr::memchr(b'(', rest).is_some_and(|bracket| colon.is_some_and(|colon| bracket < colon))
+    })
+}
+
+fn calls(line: &[u8]) -> bool {
+    CALLS.iter().any(|call| {
+        memchr::memmem::find(line, call).is_some_and(|at| {
+            at == 0
+                || !(line[at - 1].is_ascii_alphanumeric() || matches!(line[at - 1], b'_' | b'.'))
+        })
+    })
+}
+
+/// Whether the bytes look like `URScript`.
+pub fn recognises(bytes: &[u8]) -> bool {
+    let bytes = &bytes[..bytes.len().min(LOOKED_AT)];
+    if memchr::memchr(0, bytes).is_some() {
+        return false;
+    }
+    let (mut opened, mut ended, mut called, mut poses) = (false, false, false, false);
+    for (_, line) in lines(bytes) {
+        if line.starts_with(b"import ") || line.starts_with(b"from ") || line.starts_with(b"#!") {
+            return false;
+        }
+        if line.starts_with(b"#") || line.starts_with(b"$") {
+            continue;
+        }
+        opened |= opens(line);
+        ended |= line == b"end" || line.starts_with(b"end ") || line.starts_with(b"end#");
+        called |= !called && calls(line);
+        poses |= !poses && CALLS[..4].iter().any(|call| line.starts_with(call));
+    }
+    if opened {
+        ended && called
+    } else {
+        poses && !ended
+    }
+}
+
+/// Where the marker goes, and its text: behind the line that opens the first function, else at the top.
+pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
+    let bytes = &source.bytes;
+    let end = source.line_end();
+    let mut text = Vec::new();
+    for line in marker.lines() {
+        text.extend_from_slice(b"  # ");
+        text.extend_from_slice(line.as_bytes());
+        text.extend_from_slice(end);
+    }
+    let header = lines(bytes).find(|(_, line)| opens(line));
+    let behind = header.and_then(|(at, _)| {
+        let stop = at + memchr::memchr2(b'\n', b'\r', &bytes[at..])?;
+        let crlf = bytes[stop] == b'\r' && bytes.get(stop + 1) == Some(&b'\n');
+        Some(stop + 1 + usize::from(crlf))
+    });
+    (behind.unwrap_or_else(|| content_start(bytes)), text)
+}

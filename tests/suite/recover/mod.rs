@@ -1,0 +1,4 @@
+//! Hidden truths found again.
+
+mod identify;
+mod real;
