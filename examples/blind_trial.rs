@@ -84,11 +84,14 @@ fn main() {
         let right = all.iter().filter(|t| t.right(group)).count();
         let part = right as f64 / all.len() as f64;
         let floors: Vec<f64> = all.iter().filter(|t| t.right(group)).filter_map(|t| t.floor).collect();
-        let mean = floors.iter().sum::<f64>() / floors.len().max(1) as f64;
+        let mut sorted = floors.clone();
+        sorted.sort_by(f64::total_cmp);
+        let mean = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let tail = sorted.get(sorted.len() * 9 / 10).copied().unwrap_or(0.0);
         let slow = all.iter().map(|t| t.seconds).fold(0.0, f64::max);
         let typical = all.iter().map(|t| t.seconds).sum::<f64>() / all.len() as f64;
         println!(
-            "{:13} {right:4} of {:4} = {:5.1} % (goal {:.0} %)  held-out / noise {mean:.3}  {typical:.2} s, at most {slow:.2} s",
+            "{:13} {right:4} of {:4} = {:5.1} % (goal {:.0} %)  held-out / noise {mean:.3} (90 %: {tail:.3})  {typical:.2} s, at most {slow:.2} s",
             group.name, all.len(), 100.0 * part, 100.0 * group.goal
         );
         let undetermined = all.iter().filter(|t| t.verdict == Some(Verdict::Undetermined)).count();

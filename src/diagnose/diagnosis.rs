@@ -26,6 +26,8 @@ pub const NEARLY: f64 = 6.0;
 const TIE: f64 = 1.0;
 /// A function outside the registry is better than an effect where it gains this much more.
 const UNKNOWN_BETTER: f64 = 14.0;
+/// And this part: an effect's torque or time constant is known to a grid only.
+const UNKNOWN_PART: f64 = 0.01;
 /// Neighbours are alike where that is less likely by chance.
 const ALIKE: f64 = 2e-4;
 /// Noise is more than stated where that is less likely by chance, in standard deviations of its estimate.
@@ -284,39 +286,40 @@ fn attempt(
     progress("looking for what no effect explains");
     let library = Library::of(&session.problem, &session.estimate);
     let fit = world.fit(&chosen);
-    let mut unknown = library.scan(&session.layout, &fit);
+    let mut unknown = library.scan(&session.layout, &refit.fit);
     unknown.retain(|u| u.gain > library.cost(u.count));
     let mut rivalled = Vec::new();
     for i in 0..chosen.len() {
         let others: Vec<Chosen> = chosen.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, c)| c.clone()).collect();
         let without = fit.with_held(&session.layout, &session.residual, &world.held(&others));
         let own = &chosen[i];
+        let own_gain = (without.deviance - refit.fit.deviance.min(fit.deviance)) / fit.scale.powi(2);
         let parameters = own.values.len() + own.candidate.chosen;
         if let Some(best) = library.scan(&session.layout, &without).into_iter().next() {
             let fair = 3.0 * (best.count as f64 - parameters as f64).max(0.0);
-            if best.gain - fair > own.gain + UNKNOWN_BETTER {
+            if best.gain - fair > own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER {
                 rivalled.push((i, best));
             }
         }
     }
-    let likeness = likeness(&session.problem, &session.layout, &used, &fit);
+    let likeness = likeness(&session.problem, &session.layout, &used, &refit.fit);
     let strained = match trust {
         Trust::Calibrated { g } if refit.fit.strain.1 > 0 => {
-            let (strain, count) = fit.strain;
-            let p = chance(strain / (fit.scale.powi(2) * (1.0 + g)), count);
+            let (strain, count) = refit.fit.strain;
+            let p = chance(strain / (refit.fit.scale.powi(2) * (1.0 + g)), count);
             (p < 1e-4).then_some(p)
         }
         _ => None,
     };
-    let spread = (2.0 / fit.freedom).sqrt();
-    let excess = (fit.scale * fit.scale - 1.0) / spread;
-    let louder = (given && excess > LOUDER).then_some(fit.scale);
+    let spread = (2.0 / refit.fit.freedom).sqrt();
+    let excess = (refit.fit.scale * refit.fit.scale - 1.0) / spread;
+    let louder = (given && excess > LOUDER).then_some(refit.fit.scale);
     let columns = match trust {
         Trust::Nothing => session.shares.len() as f64,
         Trust::Calibrated { .. } => session.shares.iter().filter(|s| **s == 1.0).count() as f64,
     };
     let numbers = (0..session.layout.rows()).filter(|r| used[*r]).map(|r| session.layout.row(r).len()).sum::<usize>() as f64;
-    let merit = fit.deviance + columns * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>();
+    let merit = refit.fit.deviance + columns * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>();
     if matches!(trust, Trust::Calibrated { .. }) {
         shrink(&session.problem, &session.shares, &mut refit);
     }
@@ -440,10 +443,11 @@ fn held_out(
     let choice = for_choice(measurements);
     let validate: Vec<usize> = (0..rows).filter(|r| !choice[*r]).collect();
     let tests: Vec<Vec<usize>> = if validate.is_empty() {
-        // contiguous blocks, two for each part, whole configurations
+        // contiguous blocks, four for each part, whole configurations
         let configurations = measurements.configurations();
         let last = configurations.last().copied().unwrap_or(0) + 1;
-        let fold = |row: usize| (configurations[row] * 2 * FOLDS / last) % FOLDS;
+        let blocks = FOLDS * if last >= 80 { 4 } else { 1 };
+        let fold = |row: usize| (configurations[row] * blocks / last) % FOLDS;
         (0..FOLDS).map(|f| (0..rows).filter(|r| fold(*r) == f).collect()).collect()
     } else {
         vec![validate]
@@ -465,7 +469,19 @@ fn held_out(
             floor,
             accepted: &options.accept,
         };
-        let own = world.search(Vec::new());
+        let mut own = world.search(Vec::new());
+        // where a step lies is a fact of the data: rows left out beside it cannot say
+        for found in own.iter_mut().filter(|c| c.candidate.row.is_some()) {
+            let near = |w: &&Chosen| {
+                let apart = w.candidate.row.zip(found.candidate.row).map_or(u32::MAX, |(x, y)| x.abs_diff(y));
+                w.candidate.effect.kind == found.candidate.effect.kind && apart <= 20
+            };
+            if let Some(known) = attempt.chosen.iter().find(near) {
+                found.candidate.row = known.candidate.row;
+                found.candidate.effect.site.order = known.candidate.effect.site.order;
+                found.columns = world.columns(&found.candidate);
+            }
+        }
         let like = |a: &Candidate, b: &Candidate| {
             let rows = a.row.zip(b.row).is_none_or(|(x, y)| x.abs_diff(y) <= 5);
             a.effect.kind == b.effect.kind && rows && (a.row.is_some() || a.effect.site == b.effect.site)
@@ -557,7 +573,8 @@ fn conclude(
     rivals.sort_by(|a, b| a.behind.total_cmp(&b.behind));
     let mut reasons = Vec::new();
     let tied: Vec<&Rival> = rivals.iter().filter(|r| r.behind < TIE && !found[r.instead_of].accepted).collect();
-    for rival in &tied {
+    let plain = |r: &Rival| r.effect.kind == found[r.instead_of].effect.kind && r.effect.definition().of_data();
+    for rival in tied.iter().filter(|r| !plain(r)) {
         reasons.push(format!(
             "{} and {} explain the measurements equally well",
             found[rival.instead_of].effect.label(),

@@ -12,7 +12,7 @@ const INVISIBLE: f64 = 0.1;
 /// Turns of re-weighting.
 const TURNS: usize = 8;
 /// A parameter beyond its typical size by this factor is one standard deviation off.
-const PRIOR_WIDTH: f64 = 4.0;
+const PRIOR_WIDTH: f64 = 5.0;
 
 /// A column of a parameter that is fitted with the candidates, and how freely.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +45,8 @@ pub struct Fit {
     pub scale: f64,
     /// Measured numbers in use, by weight, minus free parameters.
     pub freedom: f64,
+    /// The scale is at least this.
+    pub floor: f64,
     /// Sum of squared parts along columns held by their calibration, and how many there are.
     pub strain: (f64, usize),
 }
@@ -116,6 +118,7 @@ impl Fit {
         let mean = (fit.deviance / fit.freedom).sqrt();
         // normal rows beyond the limit are cut: their part of the mean square is small
         fit.scale = mean.max(floor).max(1e-12);
+        fit.floor = floor;
         fit
     }
 
@@ -125,6 +128,7 @@ impl Fit {
         let mut fit = Self::weighted(layout, residual, held, self.roots.clone());
         fit.scale = self.scale;
         fit.freedom = self.freedom;
+        fit.floor = self.floor;
         fit
     }
 
@@ -146,6 +150,7 @@ impl Fit {
             deviance: 0.0,
             scale: 1.0,
             freedom: 1.0,
+            floor: 0.0,
             strain: (0.0, 0),
         };
         let mut whole = fit.left.clone();
@@ -252,6 +257,13 @@ impl Fit {
         dot(&a.column, &b.column) - along
     }
 
+    /// The square of one over a typical size, in numbers' units: the scale is that of the noise, not of what is missing.
+    fn ridge(&self) -> f64 {
+        let variance = self.scale * self.scale;
+        let noise = variance.min((self.floor * self.floor).max(0.01 * variance));
+        noise / (PRIOR_WIDTH * PRIOR_WIDTH)
+    }
+
     /// What a group of columns would gain together.
     #[must_use]
     pub fn gain(&self, group: &[&Projection], least: &[Option<f64>]) -> Option<Gain> {
@@ -266,7 +278,7 @@ impl Fit {
         }
         let slopes: Vec<f64> = group.iter().map(|p| p.slope).collect();
         let squares: Vec<f64> = group.iter().map(|p| p.square).collect();
-        gain_of(&gram, &slopes, &squares, least, self.scale)
+        gain_of(&gram, &slopes, &squares, least, self.scale, self.ridge())
     }
 
     /// Standard deviations of a group's parameters when all are fitted, in their typical sizes; infinite where redundant.
@@ -326,7 +338,7 @@ impl Fit {
                     rest[i][j] -= parts.map(|((x, y), s)| x * y * s).sum::<f64>();
                 }
             }
-            if let Some(gain) = gain_of(&rest, &slopes, &squares, &vec![None; count], self.scale) {
+            if let Some(gain) = gain_of(&rest, &slopes, &squares, &vec![None; count], self.scale, self.ridge()) {
                 found.push((row, gain));
             }
         }
@@ -354,7 +366,14 @@ pub struct Gain {
     pub count: usize,
 }
 
-fn gain_of(gram: &[Vec<f64>], slopes: &[f64], squares: &[f64], least: &[Option<f64>], scale: f64) -> Option<Gain> {
+fn gain_of(
+    gram: &[Vec<f64>],
+    slopes: &[f64],
+    squares: &[f64],
+    least: &[Option<f64>],
+    scale: f64,
+    ridge: f64,
+) -> Option<Gain> {
     let mut active: Vec<usize> = (0..slopes.len())
         .filter(|i| squares[*i].sqrt() > INVISIBLE && gram[*i][*i] > REDUNDANT * squares[*i])
         .collect();
@@ -374,7 +393,6 @@ fn gain_of(gram: &[Vec<f64>], slopes: &[f64], squares: &[f64], least: &[Option<f
                 let known: f64 = (0..k).map(|l| row[l] * factor[k][l]).sum();
                 row.push((gram[i][other] - known) / factor[k][k]);
             }
-            let ridge = variance / (PRIOR_WIDTH * PRIOR_WIDTH);
             let left = gram[i][i] - row.iter().map(|x| x * x).sum::<f64>();
             if left > 1e-6 * gram[i][i] {
                 row.push((left + ridge).sqrt());

@@ -114,7 +114,8 @@ impl World<'_> {
         parameters * self.numbers().ln() + 2.0 * (candidate.peers as f64).ln() + 2.0 * kinds.ln() + MARGIN
     }
 
-    fn columns(&self, candidate: &Candidate) -> Vec<Column> {
+    /// The columns of a candidate, from its first row on.
+    pub(super) fn columns(&self, candidate: &Candidate) -> Vec<Column> {
         let all = candidate.columns.iter().map(|i| self.candidates.columns[*i].clone());
         let mut columns: Vec<Column> = all.collect();
         if let Some(row) = candidate.row {
@@ -265,6 +266,33 @@ impl World<'_> {
         chosen
     }
 
+    /// Puts one effect in the place of two where it is better. Whether anything changed.
+    fn merge(&self, chosen: &mut Vec<Chosen>) -> bool {
+        if chosen.len() < 2 {
+            return false;
+        }
+        let full = self.fit(chosen);
+        for i in 0..chosen.len() {
+            for j in i + 1..chosen.len() {
+                if self.wanted(&chosen[i].candidate) || self.wanted(&chosen[j].candidate) {
+                    continue;
+                }
+                let others: Vec<Chosen> =
+                    chosen.iter().enumerate().filter(|(k, _)| *k != i && *k != j).map(|(_, c)| c.clone()).collect();
+                let without = full.with_held(self.layout, self.residual, &self.held(&others));
+                let both = (without.deviance - full.deviance) / full.scale.powi(2) - chosen[i].cost - chosen[j].cost;
+                let taken: Vec<&Candidate> = others.iter().map(|c| &c.candidate).collect();
+                if let Some(best) = self.scan(&without, &taken).first().filter(|s| s.merit() > both + BETTER) {
+                    let one = self.chosen(best);
+                    chosen.remove(j);
+                    chosen[i] = one;
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
     /// The effects that explain the residuals, in the order found, beginning with `first`.
     #[must_use]
     pub fn search(&self, first: Vec<Chosen>) -> Vec<Chosen> {
@@ -272,7 +300,8 @@ impl World<'_> {
         let mut seen: Vec<String> = Vec::new();
         for _ in 0..2 * MOST_EFFECTS {
             for _ in 0..MOST_TURNS {
-                if !self.revise(&mut chosen) {
+                let revised = self.revise(&mut chosen);
+                if !revised && !self.merge(&mut chosen) {
                     break;
                 }
             }

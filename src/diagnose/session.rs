@@ -2,6 +2,7 @@
 
 use super::candidates::{Candidates, Tried};
 use super::fit::Held;
+use super::refit::refit;
 use super::table::{Column, Layout, table};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -87,6 +88,14 @@ fn selection(profile: &Profile) -> Selection {
         !matches!(e.kind, Kind::BaseFrame | Kind::ToolFrame | Kind::LinkGeometry | Kind::ThermalGrowth | Kind::WarmUpDrift | Kind::ComplianceKnee | Kind::PayloadError)
     });
     selection.identify = own.map(pick_of).collect();
+    let masses = !profile.bodies.is_empty() || profile.tools.values().any(|t| t.load.is_some());
+    if nominal && masses {
+        selection.identify.push(Pick {
+            kind: Some(Kind::JointCompliance),
+            places: Vec::new(),
+            key: None,
+        });
+    }
     selection
 }
 
@@ -162,10 +171,20 @@ pub fn session(
                 shape: Shape::Huber,
                 base: BasePolicy::Device,
             };
-            let found = calibrate(profile, &fit, &options)?;
-            let mut estimate = own.clone();
-            take_over(&mut estimate, &found.solution.estimate, &problem, &found.problem);
-            estimate
+            match calibrate(profile, &fit, &options) {
+                Ok(found) => {
+                    let mut estimate = own.clone();
+                    take_over(&mut estimate, &found.solution.estimate, &problem, &found.problem);
+                    estimate
+                }
+                // what is missing may keep it from resting: a few robust steps are enough to start from
+                Err(IdentifyError::NotConverged { .. }) => {
+                    let shares = vec![1.0; problem.parameters.len()];
+                    let used = for_choice(measurements);
+                    refit(&problem, &layout, &present_estimate, &shares, &[], &used, 1e-6).estimate
+                }
+                Err(other) => return Err(other),
+            }
         }
         Trust::Calibrated { .. } => present_estimate.clone(),
     };

@@ -13,6 +13,15 @@ use rayon::prelude::*;
 /// A function must be better than nothing by this beyond the logarithm of how many there are, in twice a log likelihood.
 const MARGIN: f64 = 10.0;
 
+/// What effects of the registry do already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Registered {
+    /// At this joint.
+    Of(usize),
+    /// At every joint.
+    OfAll,
+}
+
 /// A function of the rows.
 #[derive(Clone, Debug)]
 struct Feature {
@@ -23,6 +32,8 @@ struct Feature {
     joint: Option<usize>,
     /// Moves the base and the tool as well.
     moves_frames: bool,
+    /// An effect does this.
+    registered: Option<Registered>,
 }
 
 /// The functions, and the motions that each may cause.
@@ -44,10 +55,27 @@ pub struct Unknown {
     pub count: usize,
 }
 
+/// Which functions are a joint's scale, coupling, harmonic, compliance or backlash.
+fn registered(name: &str) -> Option<Registered> {
+    let joint = |digits: &str| digits.parse::<usize>().ok().map(|n| Registered::Of(n - 1));
+    let words: Vec<&str> = name.split(' ').collect();
+    match words.as_slice() {
+        [q] if q.ends_with("^1") && q.starts_with('q') => Some(Registered::OfAll),
+        ["cos" | "sin", order, q] if q.starts_with('q') => {
+            let known = order.parse::<u32>().is_ok_and(|n| n <= super::candidates::MOST_ORDERS);
+            known.then(|| joint(&q[1..])).flatten()
+        }
+        ["torque", n] => joint(n),
+        [d] if d.starts_with("dir") => joint(&d[3..]),
+        _ => None,
+    }
+}
+
 fn features(problem: &Problem, estimate: &Estimate) -> Vec<Feature> {
     let rows = &problem.rows;
     let mut all: Vec<Feature> = Vec::new();
     let mut push = |name: String, joint: Option<usize>, moves_frames: bool, values: Vec<f64>| {
+        let registered = registered(&name);
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let spread = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
@@ -59,6 +87,7 @@ fn features(problem: &Problem, estimate: &Estimate) -> Vec<Feature> {
                 values,
                 joint,
                 moves_frames,
+                registered,
             });
         }
     };
@@ -174,7 +203,11 @@ impl Library {
         let mut all = Vec::new();
         for (m, _) in self.motions.iter().enumerate() {
             for (f, feature) in self.features.iter().enumerate() {
-                let fits = if m < JOINTS { feature.joint.is_none_or(|j| j == m) } else { feature.moves_frames };
+                let fits = if m < JOINTS {
+                    feature.joint.is_none_or(|j| j == m) && feature.registered != Some(Registered::Of(m)) && feature.registered != Some(Registered::OfAll)
+                } else {
+                    feature.moves_frames
+                };
                 if fits {
                     all.push((m, f));
                 }

@@ -282,15 +282,31 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
     let all_kinds = kinds(group.start);
     for k in 0..group.hidden {
         let kind = if k == 0 { all_kinds[(number / 4) % all_kinds.len()] } else { all_kinds[random.random_range(0..all_kinds.len())] };
-        size = random.random_range(group.size.0..group.size.1);
+        let wanted = random.random_range(group.size.0..group.size.1);
         loop {
+            size = wanted;
             let unit = hidden(kind, rows, length_s, &torques, group.start, &mut random);
             let moved = rms(&see(std::slice::from_ref(&unit), &[]));
             let again = effects.iter().any(|e: &Effect| label(e) == label(&unit));
             if moved < 1e-9 || again {
                 continue;
             }
-            effects.push(scaled(&unit, size * noise_m * 3.0_f64.sqrt() / moved));
+            let mut by = size * noise_m * 3.0_f64.sqrt() / moved;
+            // sizes stay physical: within four typical ones
+            let most = |e: &Effect| {
+                let typical = e.definition().parameters.iter().map(|p| p.prior_sigma * p.unit.in_si());
+                let sizes = scaled(e, by).parameters.into_iter().zip(scaled(e, 0.0).parameters).zip(typical);
+                sizes.filter(|((_, fixed), _)| *fixed == 0.0).map(|((p, _), t)| p.abs() / t).fold(0.0, f64::max)
+            };
+            let largest = most(&unit);
+            if largest > 4.0 {
+                size *= 4.0 / largest;
+                if size < group.size.0 {
+                    continue;
+                }
+                by *= 4.0 / largest;
+            }
+            effects.push(scaled(&unit, by));
             break;
         }
         what = if k == 0 { kind.definition().id.to_owned() } else { format!("{what} + {}", kind.definition().id) };

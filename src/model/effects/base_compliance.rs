@@ -15,8 +15,8 @@ impl Equation for BaseCompliance {
         source: "A. Nubiola, thesis, eqs. I.5–I.10, with the base as one more link",
         site: &[],
         parameters: &[
-            Parameter { key: "x_rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 5e-6 },
-            Parameter { key: "y_rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 5e-6 },
+            Parameter { key: "x_rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 2e-5 },
+            Parameter { key: "y_rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 2e-5 },
         ],
         needs: &[Need::Masses],
         deflects: true,

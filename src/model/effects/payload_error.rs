@@ -16,7 +16,7 @@ impl Equation for PayloadError {
         source: "A. Nubiola, thesis, eqs. I.5–I.10",
         site: &[Place::Tool],
         parameters: &[
-            Parameter { key: "mass_kg", unit: Unit::Kilogram, prior_sigma: 1.0 },
+            Parameter { key: "mass_kg", unit: Unit::Kilogram, prior_sigma: 5.0 },
             Parameter { key: "cog_x_mm", unit: Unit::Millimetre, prior_sigma: 50.0 },
             Parameter { key: "cog_y_mm", unit: Unit::Millimetre, prior_sigma: 50.0 },
             Parameter { key: "cog_z_mm", unit: Unit::Millimetre, prior_sigma: 50.0 },
