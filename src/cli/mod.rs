@@ -3,6 +3,7 @@
 mod calibrate;
 mod catalogue;
 mod compensate;
+mod diagnose;
 mod failure;
 mod files;
 mod import_ur;
@@ -58,6 +59,7 @@ enum Command {
     Compensate(compensate::Compensate),
     Calibrate(calibrate::Calibrate),
     Validate(validate::Validate),
+    Diagnose(diagnose::Diagnose),
     Plan(plan::PlanCommand),
     Simulate(simulate::Simulate),
     Fk(kinematics::Fk),
@@ -87,6 +89,7 @@ pub fn run() -> ExitCode {
         Command::Compensate(command) => command.run(output),
         Command::Calibrate(command) => command.run(output),
         Command::Validate(command) => command.run(output),
+        Command::Diagnose(command) => command.run(output),
         Command::Plan(command) => command.run(output),
         Command::Simulate(command) => command.run(output),
         Command::Fk(command) => command.run(output),

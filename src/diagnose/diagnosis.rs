@@ -1,7 +1,8 @@
 //! From measurements to a verdict.
 
 use super::candidates::{Candidate, CannotTest};
-use super::refit::{Refit, put, refit, shrink};
+use super::poses::{Telling, telling};
+use super::refit::{Refit, refit, shrink};
 use super::search::{Chosen, Scored, World};
 use super::session::{Session, Trust, for_choice, is_nominal, session};
 use super::table::Layout;
@@ -9,7 +10,7 @@ use super::unknown::{Library, Likeness, Unknown, chance, likeness};
 use super::whereabouts::{Spot, spots};
 use crate::geometry::units::mm_from_m;
 use crate::identify::IdentifyError;
-use crate::identify::measurements::{Measurements, Purpose};
+use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::robust::limit;
@@ -32,6 +33,8 @@ const UNKNOWN_PART: f64 = 0.01;
 const ALIKE: f64 = 2e-4;
 /// Noise is more than stated where that is less likely by chance, in standard deviations of its estimate.
 const LOUDER: f64 = 4.0;
+/// Configurations that tell rivals apart.
+const TELLING: usize = 12;
 /// Parts of the measurements that are left out in turn.
 const FOLDS: usize = 5;
 /// A row is an outlier beyond this many times the length that 99.7 % of normal rows stay below.
@@ -141,8 +144,8 @@ pub struct Diagnosis {
     pub reasons: Vec<String>,
     /// Effects in the order found; the first ones explain most.
     pub found: Vec<Found>,
-    /// Effects that fit but are not believed: what an undetermined case looks like.
-    pub tentative: Vec<Found>,
+    /// Configurations that would tell the strongest rival from the effect found.
+    pub telling: Vec<Telling>,
     /// Effects that explain the data nearly as well.
     pub rivals: Vec<Rival>,
     /// Functions outside the registry that explain more.
@@ -581,7 +584,7 @@ fn conclude(
             rival.effect.label()
         ));
     }
-    for (i, unknown) in &attempt.rivalled {
+    for (i, unknown) in attempt.rivalled.iter().filter(|(i, _)| !found[*i].accepted) {
         reasons.push(format!(
             "{} looks like the answer among the effects known, but {} explains more (chi-squared {:.0} against {:.0})",
             found[*i].effect.label(),
@@ -634,15 +637,40 @@ fn conclude(
         }
     }
     outliers.sort_by(|a, b| b.times.total_cmp(&a.times));
+    // the rival takes the place of the effect found, everything is fitted again, and where the two models differ tells
+    let mut telling_poses = Vec::new();
+    let of_robot = rivals.iter().find(|r| !r.effect.definition().of_data() && !found[r.instead_of].effect.definition().of_data());
+    if let Some(rival) = of_robot {
+        let scored = attempt.chosen[rival.instead_of].rivals.iter().find(|s| {
+            let other = &session.candidates.list[s.index].effect;
+            other.kind == rival.effect.kind && other.site == rival.effect.site
+        });
+        if let Some(scored) = scored {
+            let world = World {
+                layout: &session.layout,
+                residual: &session.residual,
+                held: &session.columns,
+                shares: &session.shares,
+                candidates: &session.candidates,
+                used: &used,
+                floor,
+                accepted: &options.accept,
+            };
+            let mut other = attempt.chosen.clone();
+            other[rival.instead_of] = world.chosen(scored);
+            let refitted = refit(&session.problem, &session.layout, &session.estimate, &session.shares, &other, &used, floor);
+            telling_poses = telling(profile, &session.problem, &attempt.refit.estimate, &refitted.estimate, TELLING)?;
+        }
+    }
+    let telling = telling_poses;
     let last = spreads.len() - 1;
     let profile = improved(profile, session, &attempt.refit.estimate, attempt.trust);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
-    let _ = measurements.rows.iter().any(|r| r.purpose == Some(Purpose::Validate));
     Ok(Diagnosis {
         verdict,
         reasons,
         found,
-        tentative: Vec::new(),
+        telling,
         rivals,
         unknown: attempt.unknown.clone(),
         spots,
@@ -700,12 +728,4 @@ fn improved(profile: &Profile, session: &Session, estimate: &Estimate, trust: Tr
         improved.points.insert(point.name.clone(), *value);
     }
     improved
-}
-
-/// Effects of a choice put into an estimate, for callers that go on from it.
-#[must_use]
-pub fn with_effects(estimate: &Estimate, chosen: &[Chosen]) -> Estimate {
-    let mut with = estimate.clone();
-    put(&mut with, chosen);
-    with
 }

@@ -9,6 +9,7 @@ pub mod candidates;
 pub mod chances;
 pub mod diagnosis;
 pub mod fit;
+pub mod poses;
 pub mod refit;
 pub mod search;
 pub mod session;
@@ -16,4 +17,4 @@ pub mod table;
 pub mod unknown;
 pub mod whereabouts;
 
-pub use diagnosis::{Diagnosis, Options, Verdict, diagnose};
+pub use diagnosis::{Diagnosis, Found, NoiseSource, Options, Rival, Verdict, diagnose};

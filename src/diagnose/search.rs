@@ -257,6 +257,17 @@ impl World<'_> {
     fn first(&self) -> Vec<Chosen> {
         let mut chosen: Vec<Chosen> = Vec::new();
         for pick in self.accepted {
+            // one effect is wanted whatever the evidence; of several, those that the search finds
+            let mut sites: Vec<&Candidate> = Vec::new();
+            for candidate in &self.candidates.list {
+                let means = pick.means(&candidate.effect) || candidate.row.is_some() && pick.kind == Some(candidate.effect.kind);
+                if means && !sites.iter().any(|c| c.effect.site == candidate.effect.site) {
+                    sites.push(candidate);
+                }
+            }
+            if sites.len() != 1 {
+                continue;
+            }
             let fit = self.fit(&chosen);
             let taken: Vec<&Candidate> = chosen.iter().map(|c| &c.candidate).collect();
             let scored = self.scan(&fit, &taken);

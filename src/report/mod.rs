@@ -2,6 +2,7 @@
 
 pub mod approach;
 pub mod compensation;
+pub mod diagnosis;
 pub mod findings;
 pub mod identification;
 pub mod profile;

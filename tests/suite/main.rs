@@ -2,6 +2,7 @@
 
 mod architecture;
 mod cli;
+mod diagnose;
 mod documents;
 mod golden;
 mod laws;
@@ -9,3 +10,8 @@ mod oracle;
 mod path;
 mod recover;
 mod support;
+#[path = "../physics/mod.rs"]
+mod physics;
+#[path = "../trial/mod.rs"]
+#[allow(dead_code, reason = "the example prints more of it")]
+mod trial;

@@ -54,7 +54,11 @@ pub const GROUPS: [Group; 7] = [
 /// One case.
 pub struct Case {
     pub profile: Profile,
+    /// The profile as a file.
+    pub profile_text: String,
     pub measurements: Measurements,
+    /// The measurements as a file.
+    pub csv: String,
     /// The answer, as [`label`] writes it, sorted.
     pub answer: Vec<String>,
     /// What is hidden, for the table: the effect's name, or what it is.
@@ -213,8 +217,8 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
     let mut random = StdRng::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
     let which = number % 2;
     let independent = (number / 2) % 2 == 1 || group.unregistered;
-    let text = ROBOTS[which].replace("tools: {}\n", TOOLS[which]);
-    let nominal = Profile::from_yaml(&text).expect("a shipped profile with a tool");
+    let yaml = ROBOTS[which].replace("tools: {}\n", TOOLS[which]);
+    let nominal = Profile::from_yaml(&yaml).expect("a shipped profile with a tool");
     let name = nominal.tools.keys().next().expect("the tool").clone();
     let tool = nominal.tool(&name).expect("the tool");
     let own = calibration(&nominal, which == 1, &mut random);
@@ -352,8 +356,10 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
     let mut answer: Vec<String> = effects.iter().map(label).collect();
     answer.sort();
     Case {
+        profile_text: poseshift::model::profile::rewritten(&yaml, &profile).expect("a plain layout"),
         profile,
         measurements: Measurements::from_csv(text.as_bytes()).expect("rows in the format"),
+        csv: text,
         answer,
         what,
         size,

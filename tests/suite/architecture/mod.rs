@@ -11,6 +11,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("model", &["geometry"]),
     ("inverse", &["geometry", "model"]),
     ("identify", &["geometry", "inverse", "model"]),
+    ("diagnose", &["geometry", "identify", "model"]),
     ("program", &["geometry", "finding"]),
     (
         "compensate",
@@ -20,6 +21,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "report",
         &[
             "compensate",
+            "diagnose",
             "finding",
             "geometry",
             "identify",
@@ -32,6 +34,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "cli",
         &[
             "compensate",
+            "diagnose",
             "finding",
             "geometry",
             "identify",
