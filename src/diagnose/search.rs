@@ -9,7 +9,9 @@ use crate::model::effects::{Kind, REGISTRY};
 /// An effect must be better than nothing by this, in units of twice a log likelihood.
 const MARGIN: f64 = 3.0;
 /// Most effects found.
-const MOST_EFFECTS: usize = 6;
+const MOST_EFFECTS: usize = 12;
+/// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one turn a step.
+const FEW_EFFECTS: usize = 4;
 /// Turns of exchange and removal after a step.
 const MOST_TURNS: usize = 4;
 /// Another effect takes the place of one found where it is better by this.
@@ -279,7 +281,7 @@ impl World<'_> {
 
     /// Puts one effect in the place of two where it is better. Whether anything changed.
     fn merge(&self, chosen: &mut Vec<Chosen>) -> bool {
-        if chosen.len() < 2 {
+        if chosen.len() < 2 || chosen.len() > FEW_EFFECTS {
             return false;
         }
         let full = self.fit(chosen);
@@ -310,7 +312,8 @@ impl World<'_> {
         let mut chosen = if first.is_empty() { self.first() } else { first };
         let mut seen: Vec<String> = Vec::new();
         for _ in 0..2 * MOST_EFFECTS {
-            for _ in 0..MOST_TURNS {
+            let turns = if chosen.len() > FEW_EFFECTS { 1 } else { MOST_TURNS };
+            for _ in 0..turns {
                 let revised = self.revise(&mut chosen);
                 if !revised && !self.merge(&mut chosen) {
                     break;

@@ -21,6 +21,9 @@ const SAME_PLACE_M: f64 = 0.02;
 /// And turned by less, radians.
 const SAME_TURN_RAD: f64 = 1.0 * DEG;
 
+/// Numbers beyond the parameters that an estimate of the noise takes.
+const SPARE: usize = 10;
+
 /// What is known of the arm before its effects are sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trust {
@@ -151,7 +154,8 @@ pub fn session(
     let layout = Layout::of(&problem);
     let used = fit.rows.len();
     let numbers: usize = (0..layout.rows()).filter(|r| measurements.rows[*r].purpose != Some(Purpose::Validate)).map(|r| layout.row(r).len()).sum();
-    if numbers <= problem.parameters.len() {
+    // some numbers beyond the parameters, or there is no telling what is noise
+    if numbers < problem.parameters.len() + SPARE {
         return Err(IdentifyError::TooFew {
             numbers,
             rows: used,

@@ -285,9 +285,10 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
     let mut size = 0.0;
     let all_kinds = kinds(group.start);
     for k in 0..group.hidden {
-        let kind = if k == 0 { all_kinds[(number / 4) % all_kinds.len()] } else { all_kinds[random.random_range(0..all_kinds.len())] };
         let wanted = random.random_range(group.size.0..group.size.1);
+        let mut kind;
         loop {
+            kind = if k == 0 { all_kinds[(number / 4) % all_kinds.len()] } else { all_kinds[random.random_range(0..all_kinds.len())] };
             size = wanted;
             let unit = hidden(kind, rows, length_s, &torques, group.start, &mut random);
             let moved = rms(&see(std::slice::from_ref(&unit), &[]));
