@@ -96,8 +96,17 @@ pub fn commanded(robot: &Robot, q: &[f64; 6]) -> [f64; 6] {
 
 fn row_matrix(row: &[f64; 5], angle: f64) -> M4 {
     let [alpha, a, beta, theta, d] = *row;
-    let crossing = times(&matrix::turn_x(alpha), &times(&matrix::shift([a, 0.0, 0.0]), &matrix::turn_y(beta)));
-    times(&crossing, &times(&matrix::turn_z(theta + angle), &matrix::shift([0.0, 0.0, d])))
+    let crossing = times(
+        &matrix::turn_x(alpha),
+        &times(&matrix::shift([a, 0.0, 0.0]), &matrix::turn_y(beta)),
+    );
+    times(
+        &crossing,
+        &times(
+            &matrix::turn_z(theta + angle),
+            &matrix::shift([0.0, 0.0, d]),
+        ),
+    )
 }
 
 /// The frame after each row, each row's angle being `angles`.
@@ -110,7 +119,14 @@ fn frames(base: &M4, rows: &[[f64; 5]; 6], angles: &[f64; 6]) -> [M4; 6] {
 }
 
 /// Moment of all weights from link `from` on, and of the force, about a point of the world.
-fn moment_about(robot: &Robot, load: (f64, V3), links: &[M4; 6], from: usize, about: V3, at: &Moment) -> V3 {
+fn moment_about(
+    robot: &Robot,
+    load: (f64, V3),
+    links: &[M4; 6],
+    from: usize,
+    about: V3,
+    at: &Moment,
+) -> V3 {
     let mut sum = [0.0; 3];
     let mut weigh = |kg: f64, place: V3| {
         let weight = robot.gravity.map(|g| g * kg);
@@ -121,7 +137,10 @@ fn moment_about(robot: &Robot, load: (f64, V3), links: &[M4; 6], from: usize, ab
     }
     let flange = times(&links[5], &robot.flange);
     weigh(load.0, point(&flange, load.1));
-    let nominal_tip = point(&flange, [robot.tool[0][3], robot.tool[1][3], robot.tool[2][3]]);
+    let nominal_tip = point(
+        &flange,
+        [robot.tool[0][3], robot.tool[1][3], robot.tool[2][3]],
+    );
     add(sum, cross(sub(nominal_tip, about), at.force))
 }
 
@@ -143,8 +162,10 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
     let still = frames(&base, &rows, &plain);
     let origin = |m: &M4| [m[0][3], m[1][3], m[2][3]];
     let axis = |m: &M4, k: usize| [m[0][k], m[1][k], m[2][k]];
-    let moments: [V3; 6] = std::array::from_fn(|i| moment_about(robot, load, &still, i, origin(&still[i]), at));
-    let torques: [f64; 6] = std::array::from_fn(|i| robot.sign[i] * dot(moments[i], axis(&still[i], 2)));
+    let moments: [V3; 6] =
+        std::array::from_fn(|i| moment_about(robot, load, &still, i, origin(&still[i]), at));
+    let torques: [f64; 6] =
+        std::array::from_fn(|i| robot.sign[i] * dot(moments[i], axis(&still[i], 2)));
     let mut own = u;
     let mut bent = [[0.0; 2]; 6];
     let mut tilt = [0.0; 2];
@@ -178,18 +199,28 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
             _ => {}
         }
     }
-    let mut here = times(&base, &times(&matrix::turn_x(tilt[0]), &matrix::turn_y(tilt[1])));
+    let mut here = times(
+        &base,
+        &times(&matrix::turn_x(tilt[0]), &matrix::turn_y(tilt[1])),
+    );
     for i in 0..6 {
         here = times(&here, &row_matrix(&rows[i], angle(i, own[i])));
-        here = times(&here, &times(&matrix::turn_x(bent[i][0]), &matrix::turn_y(bent[i][1])));
+        here = times(
+            &here,
+            &times(&matrix::turn_x(bent[i][0]), &matrix::turn_y(bent[i][1])),
+        );
     }
     here = times(&here, &times(&robot.flange, &tool));
     for fault in faults {
         match fault {
             Fault::Slip(row, by) if at.row >= *row => here = times(&here, &matrix::shift(*by)),
-            Fault::BaseDrift(by, constant) => here = times(&matrix::shift(by.map(|x| x * warm(*constant))), &here),
+            Fault::BaseDrift(by, constant) => {
+                here = times(&matrix::shift(by.map(|x| x * warm(*constant))), &here)
+            }
             Fault::Shift(row, p) if at.row >= *row => here = times(&matrix::frame(p), &here),
-            Fault::World(of, size) => here = times(&matrix::shift(of(&here, &u, at).map(|x| x * size)), &here),
+            Fault::World(of, size) => {
+                here = times(&matrix::shift(of(&here, &u, at).map(|x| x * size)), &here)
+            }
             _ => {}
         }
     }

@@ -24,10 +24,17 @@ pub fn robot_of(profile: &Profile, tool: &Mounted) -> Robot {
     });
     Robot {
         base: matrix_of(&profile.world_from_base),
-        rows: profile.links.map(|l| [l.alpha_rad, l.a_m, l.beta_rad, l.theta_rad, l.d_m]),
+        rows: profile
+            .links
+            .map(|l| [l.alpha_rad, l.a_m, l.beta_rad, l.theta_rad, l.d_m]),
         sign: profile.mechanism.joints.map(|j| j.sign),
         offset: profile.mechanism.joints.map(|j| j.offset_rad),
-        counted: profile.mechanism.coupling.iter().map(|c| (c.joint, c.on, c.ratio)).collect(),
+        counted: profile
+            .mechanism
+            .coupling
+            .iter()
+            .map(|c| (c.joint, c.on, c.ratio))
+            .collect(),
         flange: matrix_of(&profile.link6_from_flange),
         tool: matrix_of(&tool.flange_from_tool),
         masses: masses.collect(),
@@ -66,25 +73,58 @@ type Make = fn(usize, f64) -> Fault;
 /// Faults that no effect of the registry describes.
 pub fn unregistered() -> Vec<(&'static str, Make)> {
     vec![
-        ("square of the angle", |i, k| Fault::Joint(i.max(1), SQUARES[i.max(1)], k)),
-        ("product of two angles", |_, k| Fault::Joint(1, |u, _, _| u[1] * u[2], k)),
-        ("square of the torque", |_, k| Fault::Joint(1, |_, t, _| t[1] * t[1].abs(), k)),
-        ("step of the encoder", |_, k| Fault::Joint(2, |u, _, _| f64::from(u8::from(u[2] > 0.3)), k)),
-        ("harmonic of a half order", |_, k| Fault::Joint(0, |u, _, _| (2.5 * u[0]).sin(), k)),
-        ("friction by torque and direction", |_, k| Fault::Joint(1, |_, t, at| at.direction[1] * t[1].abs(), k)),
-        ("oscillation in time", |_, k| Fault::World(|_, _, at| [(at.time / 900.0).sin(), 0.0, 0.5 * (at.time / 900.0).cos()], k)),
-        ("tool that sags", |_, k| Fault::World(|pose, _, _| {
-            // along the tool's x as far as gravity points that way
-            let down = -pose[2][0];
-            [pose[0][0] * down, pose[1][0] * down, pose[2][0] * down]
-        }, k)),
-        ("wrist that follows the elbow", |_, k| Fault::Joint(4, |u, _, _| u[2].sin() * u[3].cos(), k)),
-        ("joint that warms by its temperature", |_, k| Fault::Joint(2, |u, _, at| (at.temperature - 23.0) * u[2], k)),
-        ("device that refracts by distance", |_, k| Fault::World(|pose, _, _| {
-            let d = (pose[0][3].powi(2) + pose[1][3].powi(2)).sqrt();
-            [pose[0][3] * d, pose[1][3] * d, 0.0]
-        }, k)),
-        ("dead zone", |_, k| Fault::Joint(3, |u, _, _| (u[3] - 0.5).max(0.0), k)),
+        ("square of the angle", |i, k| {
+            Fault::Joint(i.max(1), SQUARES[i.max(1)], k)
+        }),
+        ("product of two angles", |_, k| {
+            Fault::Joint(1, |u, _, _| u[1] * u[2], k)
+        }),
+        ("square of the torque", |_, k| {
+            Fault::Joint(1, |_, t, _| t[1] * t[1].abs(), k)
+        }),
+        ("step of the encoder", |_, k| {
+            Fault::Joint(2, |u, _, _| f64::from(u8::from(u[2] > 0.3)), k)
+        }),
+        ("harmonic of a half order", |_, k| {
+            Fault::Joint(0, |u, _, _| (2.5 * u[0]).sin(), k)
+        }),
+        ("friction by torque and direction", |_, k| {
+            Fault::Joint(1, |_, t, at| at.direction[1] * t[1].abs(), k)
+        }),
+        ("oscillation in time", |_, k| {
+            Fault::World(
+                |_, _, at| [(at.time / 900.0).sin(), 0.0, 0.5 * (at.time / 900.0).cos()],
+                k,
+            )
+        }),
+        ("tool that sags", |_, k| {
+            Fault::World(
+                |pose, _, _| {
+                    // along the tool's x as far as gravity points that way
+                    let down = -pose[2][0];
+                    [pose[0][0] * down, pose[1][0] * down, pose[2][0] * down]
+                },
+                k,
+            )
+        }),
+        ("wrist that follows the elbow", |_, k| {
+            Fault::Joint(4, |u, _, _| u[2].sin() * u[3].cos(), k)
+        }),
+        ("joint that warms by its temperature", |_, k| {
+            Fault::Joint(2, |u, _, at| (at.temperature - 23.0) * u[2], k)
+        }),
+        ("device that refracts by distance", |_, k| {
+            Fault::World(
+                |pose, _, _| {
+                    let d = (pose[0][3].powi(2) + pose[1][3].powi(2)).sqrt();
+                    [pose[0][3] * d, pose[1][3] * d, 0.0]
+                },
+                k,
+            )
+        }),
+        ("dead zone", |_, k| {
+            Fault::Joint(3, |u, _, _| (u[3] - 0.5).max(0.0), k)
+        }),
     ]
 }
 

@@ -17,14 +17,19 @@ fn right(group: &Group, number: usize) -> (bool, String) {
         quick: true,
         ..Options::default()
     };
-    let found = diagnose(&case.profile, &case.measurements, &options, &mut |_| {}).expect("enough rows");
+    let found =
+        diagnose(&case.profile, &case.measurements, &options, &mut |_| {}).expect("enough rows");
     let mut named: Vec<String> = found.found.iter().map(|f| label(&f.effect)).collect();
     named.sort();
     named.dedup();
     let right = if group.unregistered {
         found.verdict != Verdict::Explained
     } else {
-        let wanted = if case.answer.is_empty() { Verdict::NothingMissing } else { Verdict::Explained };
+        let wanted = if case.answer.is_empty() {
+            Verdict::NothingMissing
+        } else {
+            Verdict::Explained
+        };
         named == case.answer && found.verdict == wanted
     };
     let words = format!(
@@ -40,8 +45,15 @@ fn right(group: &Group, number: usize) -> (bool, String) {
 
 /// Cases of one group; at most `wrong` of them may be wrong.
 fn trial(name: &str, numbers: impl Iterator<Item = usize>, wrong: usize) {
-    let group = GROUPS.iter().find(|g| g.name == name).expect("a group of the trial");
-    let failures: Vec<String> = numbers.map(|n| right(group, n)).filter(|(right, _)| !right).map(|(_, w)| w).collect();
+    let group = GROUPS
+        .iter()
+        .find(|g| g.name == name)
+        .expect("a group of the trial");
+    let failures: Vec<String> = numbers
+        .map(|n| right(group, n))
+        .filter(|(right, _)| !right)
+        .map(|(_, w)| w)
+        .collect();
     assert!(failures.len() <= wrong, "{}", failures.join("\n"));
 }
 

@@ -31,7 +31,12 @@ fn every_effect_is_the_same_in_two_implementations() {
         for kind in REGISTRY {
             let definition = kind.definition();
             for _ in 0..4 {
-                let mut site = Site { order: 3, on: 0, index: random.random_range(1..6), tool: None };
+                let mut site = Site {
+                    order: 3,
+                    on: 0,
+                    index: random.random_range(1..6),
+                    tool: None,
+                };
                 if definition.site.contains(&Place::JointOrBase) && random.random_range(0..2) == 0 {
                     site.index = BASE;
                 }
@@ -39,16 +44,28 @@ fn every_effect_is_the_same_in_two_implementations() {
                 for (value, p) in parameters.iter_mut().zip(definition.parameters) {
                     *value = 0.5 * p.prior_sigma * p.unit.in_si() * random.random_range(0.2..1.0);
                 }
-                let effect = Effect { kind: *kind, site, parameters };
+                let effect = Effect {
+                    kind: *kind,
+                    site,
+                    parameters,
+                };
                 // what a joint drifts by is not also the base's
                 let mut alone = effect.clone();
                 if definition.site.contains(&Place::JointOrBase) {
-                    if effect.site.index == BASE { alone.parameters[0] = 0.0 } else { alone.parameters[1..4].fill(0.0) }
+                    if effect.site.index == BASE {
+                        alone.parameters[0] = 0.0
+                    } else {
+                        alone.parameters[1..4].fill(0.0)
+                    }
                 }
                 // the load shows by what bends under it
                 let bent = Effect {
-                    kind: poseshift::model::effects::Kind::by_id("joint_compliance").expect("it is in the registry"),
-                    site: Site { index: 1, ..Site::default() },
+                    kind: poseshift::model::effects::Kind::by_id("joint_compliance")
+                        .expect("it is in the registry"),
+                    site: Site {
+                        index: 1,
+                        ..Site::default()
+                    },
                     parameters: [1e-5, 0.0, 0.0, 0.0, 0.0, 0.0],
                 };
                 let effects = [bent, alone];
@@ -71,9 +88,20 @@ fn every_effect_is_the_same_in_two_implementations() {
                 let mine = model.forward(&q, &conditions);
                 let all: Vec<_> = effects.iter().map(faults).collect();
                 let other = tool_pose(&robot, &all, &q, &moment);
-                let gap = (0..3).map(|k| (mine.translation[k] - other[k][3]).powi(2)).sum::<f64>().sqrt();
-                let tolerance = if definition.bends { SECOND_ORDER_M } else { ROUNDING_M };
-                assert!(gap < tolerance, "{name} {}: {gap:.1e} m", effects[1].label());
+                let gap = (0..3)
+                    .map(|k| (mine.translation[k] - other[k][3]).powi(2))
+                    .sum::<f64>()
+                    .sqrt();
+                let tolerance = if definition.bends {
+                    SECOND_ORDER_M
+                } else {
+                    ROUNDING_M
+                };
+                assert!(
+                    gap < tolerance,
+                    "{name} {}: {gap:.1e} m",
+                    effects[1].label()
+                );
                 compared += 1;
             }
         }
