@@ -30,6 +30,7 @@
 pub mod check;
 pub mod cli;
 pub mod compensate;
+pub mod diagnose;
 pub mod finding;
 pub mod geometry;
 pub mod identify;

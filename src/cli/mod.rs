@@ -5,6 +5,7 @@ mod calibrate;
 mod catalogue;
 mod check;
 mod compensate;
+mod diagnose;
 mod failure;
 mod files;
 mod handeye;
@@ -67,6 +68,7 @@ enum Command {
     Check(check::Check),
     Calibrate(calibrate::Calibrate),
     Validate(validate::Validate),
+    Diagnose(diagnose::Diagnose),
     Plan(plan::PlanCommand),
     Simulate(simulate::Simulate),
     Register(register::Register),
@@ -101,6 +103,7 @@ pub fn run() -> ExitCode {
         Command::Check(command) => command.run(output),
         Command::Calibrate(command) => command.run(output),
         Command::Validate(command) => command.run(output),
+        Command::Diagnose(command) => command.run(output),
         Command::Plan(command) => command.run(output),
         Command::Simulate(command) => command.run(output),
         Command::Register(command) => command.run(output),

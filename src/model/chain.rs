@@ -24,6 +24,7 @@ pub struct Chain<S = f64> {
     pub(super) fixed: [Pose<S>; 7],
     /// `Di · Trans(0, 0, di)`: the frame after each row, seen from the frame that its joint turns.
     pub(super) turning_from_link: [Pose<S>; 6],
+    pub(super) world_from_base: Pose<S>,
 }
 
 /// The links at one posture, without deflections.
@@ -33,6 +34,10 @@ pub struct Frames<S> {
     pub links: [Pose<S>; 6],
     /// Moment of gravity and external force about the origin of each link's frame, along the world's axes, N·m.
     pub moments: [Vector<S>; 6],
+    /// `world_from_base`.
+    pub base: Pose<S>,
+    /// Gravity and external force on the whole arm, along the world's axes, N.
+    pub force: Vector<S>,
 }
 
 /// What a field of acceleration acts on: the mass on each link and all links farther out.
@@ -132,6 +137,7 @@ impl<S: Scalar> Chain<S> {
         Self {
             fixed,
             turning_from_link,
+            world_from_base: geometry.world_from_base,
         }
     }
 
@@ -252,6 +258,8 @@ impl<S: Scalar> Chain<S> {
             pose = turning[i] * self.fixed[i + 1];
         }
         let mut moments = [[S::zero(); 3]; 6];
+        let mut force = force_n.map(S::constant);
+        force = add(force, scale(loads.masses.mass_kg[0], loads.gravity_m_s2));
         for (hanging, field) in [
             (&loads.masses, loads.gravity_m_s2),
             (&loads.unit_mass, force_n.map(S::constant)),
@@ -266,6 +274,8 @@ impl<S: Scalar> Chain<S> {
         Frames {
             links: std::array::from_fn(|i| turning[i] * self.turning_from_link[i]),
             moments,
+            base: self.world_from_base,
+            force,
         }
     }
 
@@ -305,6 +315,8 @@ impl Frames<f64> {
         Frames {
             links: self.links.map(|link| link.cast()),
             moments: self.moments.map(|moment| moment.map(S::constant)),
+            base: self.base.cast(),
+            force: self.force.map(S::constant),
         }
     }
 }
@@ -316,6 +328,7 @@ impl Chain {
         Chain {
             fixed: self.fixed.map(|p| p.cast()),
             turning_from_link: self.turning_from_link.map(|p| p.cast()),
+            world_from_base: self.world_from_base.cast(),
         }
     }
 }

@@ -3,6 +3,7 @@
 pub mod approach;
 pub mod check;
 pub mod compensation;
+pub mod diagnosis;
 pub mod findings;
 pub mod identification;
 pub mod profile;

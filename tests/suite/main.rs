@@ -3,11 +3,17 @@
 mod architecture;
 mod check;
 mod cli;
+mod diagnose;
 mod documents;
 mod golden;
 mod laws;
 mod oracle;
 mod path;
+#[path = "../physics/mod.rs"]
+mod physics;
 mod recover;
 mod register;
 mod support;
+#[path = "../trial/mod.rs"]
+#[allow(dead_code, reason = "the example prints more of it")]
+mod trial;

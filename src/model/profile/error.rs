@@ -134,6 +134,12 @@ pub enum Fault {
     /// A wrong entry in the list of effects.
     #[error(transparent)]
     Effect(EntryError),
+    /// An effect of the data in a robot's profile.
+    #[error("`{id}` is an effect of measurements, not of the robot: a profile cannot have it")]
+    EffectOfData {
+        /// Which.
+        id: &'static str,
+    },
     /// An effect that stands there twice.
     #[error("`{label}` stands twice in the list of effects")]
     DuplicateEffect {
@@ -173,6 +179,9 @@ impl ProfileError {
     pub fn hint(&self) -> String {
         match &self.fault {
             Fault::Effect(error) => error.hint(),
+            Fault::EffectOfData { .. } => {
+                "leave it out; `poseshift diagnose` finds it in measurements and repairs their analysis".into()
+            }
             Fault::DuplicateEffect { .. } => "add the two up into one entry".into(),
             Fault::Format {
                 reads: super::FORMAT,

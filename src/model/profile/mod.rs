@@ -500,6 +500,10 @@ fn effects(entries: Vec<file::EffectFile>) -> Result<Vec<Effect>, ProfileError> 
                 .unwrap_or(at);
             Fault::Effect(error).at(at)
         })?;
+        if effect.definition().of_data() {
+            let id = effect.definition().id;
+            return Err(Fault::EffectOfData { id }.at(at));
+        }
         if out.iter().any(|other| other.same_place(&effect)) {
             return Err(Fault::DuplicateEffect {
                 label: effect.label(),

@@ -12,6 +12,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("inverse", &["geometry", "model"]),
     ("identify", &["geometry", "inverse", "model"]),
     ("register", &["geometry", "inverse", "model"]),
+    ("diagnose", &["geometry", "identify", "model"]),
     ("program", &["geometry", "finding"]),
     (
         "compensate",
@@ -34,6 +35,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         &[
             "check",
             "compensate",
+            "diagnose",
             "finding",
             "geometry",
             "identify",
@@ -47,6 +49,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         &[
             "check",
             "compensate",
+            "diagnose",
             "finding",
             "geometry",
             "identify",
