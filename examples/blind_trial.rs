@@ -6,6 +6,7 @@
 #[allow(dead_code)]
 mod physics;
 #[path = "../tests/trial/mod.rs"]
+#[allow(dead_code)]
 mod trial;
 
 use poseshift::diagnose::{Options, Verdict, diagnose};

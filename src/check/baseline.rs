@@ -200,10 +200,10 @@ fn compare_move(
         let tolerance = if angle { tolerances.deg } else { tolerances.mm };
         match (old[key].as_f64(), new[key].as_f64()) {
             (Some(a), Some(b)) if sense * (b - a) > tolerance => {
-                comparison.worse.push(difference(key))
+                comparison.worse.push(difference(key));
             }
             (Some(a), Some(b)) if sense * (a - b) > tolerance => {
-                comparison.better.push(difference(key))
+                comparison.better.push(difference(key));
             }
             (Some(_), None) | (None, Some(_)) => comparison.worse.push(difference(key)),
             _ => {}

@@ -417,7 +417,6 @@ impl Search<'_> {
                         keep(*item, judged);
                     }
                     FixedForm::Mesh { triangles, .. } => {
-                        let triangles = triangles;
                         if let Some(t) = item.triangle {
                             let judged = judge(self, &triangles.bodies[t as usize], *item);
                             keep(*item, judged);

@@ -469,23 +469,22 @@ impl Job<'_> {
         };
         // where the robot comes from is unknown: its posture alone
         let standing;
-        let (leg, comes) = match self.walk.leg(index, self.options.turning) {
-            Some(leg) => (leg, true),
-            None => {
-                standing = Course::Joint {
-                    from: stop.q,
-                    to: stop.q,
-                };
-                let equipped = self.walk.equipped(&stop);
-                let leg = Leg {
-                    branch: stop.branch,
-                    equipped,
-                    course: standing,
-                    start: stop.q,
-                    conditions,
-                };
-                (leg, false)
-            }
+        let (leg, comes) = if let Some(leg) = self.walk.leg(index, self.options.turning) {
+            (leg, true)
+        } else {
+            standing = Course::Joint {
+                from: stop.q,
+                to: stop.q,
+            };
+            let equipped = self.walk.equipped(&stop);
+            let leg = Leg {
+                branch: stop.branch,
+                equipped,
+                course: standing,
+                start: stop.q,
+                conditions,
+            };
+            (leg, false)
         };
         let pieces = leg.pieces();
         if comes {

@@ -201,8 +201,7 @@ impl Body {
     #[must_use]
     pub fn some_point(&self) -> Vector {
         match &self.core {
-            Core::Segment([a, _]) => *a,
-            Core::Triangle([a, ..]) => *a,
+            Core::Segment([a, _]) | Core::Triangle([a, ..]) => *a,
             Core::Points(points) => {
                 let sum = points.iter().fold([0.0; 3], |sum, p| add(sum, *p));
                 scale((points.len() as f64).recip(), sum)

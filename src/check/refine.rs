@@ -286,13 +286,14 @@ impl Job<'_> {
         found.bound.distance_m
     }
 
-    /// The point through which a part of an arc goes.
-    fn via(&self, leg: &Leg, index: usize, a: &Point, b: &Point) -> Option<Option<Pose>> {
+    /// The point through which a part of an arc goes; none on other courses, an error where it cannot be reached.
+    fn via(&self, leg: &Leg, index: usize, a: &Point, b: &Point) -> Result<Option<Pose>, ()> {
         let is_arc = matches!(&leg.course, Course::Tool(course) if course.is_arc());
         if !is_arc {
-            return Some(None);
+            return Ok(None);
         }
-        Some(Some(self.point(leg, index, 0.5 * (a.s + b.s), &a.q)?.fake))
+        let middle = self.point(leg, index, 0.5 * (a.s + b.s), &a.q);
+        middle.map(|point| Some(point.fake)).ok_or(())
     }
 
     /// Appends the points behind `a` up to `b`; false where one cannot be reached or too many would be needed.
@@ -305,7 +306,7 @@ impl Job<'_> {
         depth: u32,
         out: &mut Vec<Point>,
     ) -> bool {
-        let Some(through) = self.via(leg, index, a, b) else {
+        let Ok(through) = self.via(leg, index, a, b) else {
             return false;
         };
         // the whole move is known to be too far off

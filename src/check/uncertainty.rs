@@ -16,8 +16,11 @@ pub(crate) struct Spread {
     correlation: Vec<Vec<f64>>,
 }
 
+/// Names and standard deviations of parameters, and their covariance.
+type Named<'a> = (Vec<(&'a str, f64)>, Vec<Vec<f64>>);
+
 /// Covariance and names as `calibrate` writes them into `calibration.quality`.
-fn covariance(quality: &Value) -> Option<(Vec<(&str, f64)>, Vec<Vec<f64>>)> {
+fn covariance(quality: &Value) -> Option<Named<'_>> {
     let parameters = quality["parameters"].as_array()?;
     let names = parameters
         .iter()

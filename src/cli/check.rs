@@ -51,7 +51,7 @@ pub struct Check {
     /// Differences from the baseline below this are none, mm and degrees
     #[arg(long, value_name = "MM", default_value_t = 0.0005)]
     tolerance: f64,
-    /// Write JUnit XML for a build server
+    /// Write `JUnit` XML for a build server
     #[arg(long, value_name = "XML")]
     junit: Option<PathBuf>,
     /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange

@@ -83,7 +83,7 @@ impl Diagnose {
             step: 0,
         };
         let found = diagnose(&profile, &measurements, &options, &mut |what| {
-            progress.tell(what)
+            progress.tell(what);
         });
         progress.end();
         let found = found.map_err(|error| identify_failure(&name, &error))?;

@@ -12,13 +12,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Landing farther from the wanted pose than this is a warning, metres.
 const LIMIT_M: f64 = 0.05 * MM;
 
-fn is_displaced(motion: &&Move) -> bool {
+fn is_displaced(motion: &Move) -> bool {
     motion.displacement != Displacement::None
 }
 
 /// The targets that points are derived from.
 pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
-    let displaced = job.program.moves.iter().filter(is_displaced);
+    let displaced = job.program.moves.iter().filter(|m| is_displaced(m));
     displaced.map(|motion| motion.target).collect()
 }
 
@@ -29,7 +29,7 @@ pub(super) fn check(
     fakes: &BTreeMap<usize, Pose>,
     findings: &mut Vec<Finding>,
 ) {
-    for motion in job.program.moves.iter().filter(is_displaced) {
+    for motion in job.program.moves.iter().filter(|m| is_displaced(m)) {
         let found = drafts.binary_search_by_key(&motion.target, |draft| draft.target as usize);
         let (Ok(draft), Some(fake)) = (found, fakes.get(&motion.target)) else {
             continue;

@@ -95,8 +95,11 @@ fn sites(kind: Kind, tools: &[String]) -> Vec<Site> {
     all
 }
 
+/// The parameters that are sought together, and a parameter with the value that a list chose for it.
+type Variant = (Vec<usize>, Option<(usize, f64)>);
+
 /// Which parameters are sought together, and the values of those that are chosen from a list.
-fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<(Vec<usize>, Option<(usize, f64)>)> {
+fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
     let all: Vec<usize> = (0..kind.definition().parameters.len()).collect();
     let plain = |list: &[&[usize]]| list.iter().map(|sought| (sought.to_vec(), None)).collect();
     match kind {
@@ -104,8 +107,9 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<(Vec<usize>, Option<(
         Kind::LinkGeometry if site.index == 0 => Vec::new(),
         Kind::LinkGeometry if site.index == 5 => plain(&[&[0], &[1]]),
         Kind::LinkGeometry => plain(&[&[0], &[1], &[2], &[3], &[4], &[0, 1, 2, 3, 4]]),
-        Kind::BaseFrame | Kind::FrameShift => plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]]),
-        Kind::ToolFrame => plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]]),
+        Kind::BaseFrame | Kind::FrameShift | Kind::ToolFrame => {
+            plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]])
+        }
         Kind::LinkCompliance | Kind::BaseCompliance => plain(&[&[0], &[1], &[0, 1]]),
         Kind::PayloadError => plain(&[&[0], &[1, 2, 3], &[0, 1, 2, 3]]),
         Kind::ThermalGrowth => tried
@@ -132,8 +136,7 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<(Vec<usize>, Option<(
 /// The smallest value of a parameter that is physical, SI.
 fn least(kind: Kind, parameter: usize) -> Option<f64> {
     match (kind, parameter) {
-        (Kind::JointCompliance, _)
-        | (Kind::LinkCompliance | Kind::BaseCompliance, _)
+        (Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance, _)
         | (Kind::ComplianceKnee, 1)
         | (Kind::ThermalGrowth, 0) => Some(0.0),
         _ => None,
@@ -326,7 +329,6 @@ impl Candidates {
                 all.cannot_test.push(CannotTest { kind, missing });
                 continue;
             }
-            let before = groups.len();
             let mut places = 0;
             for site in sites(kind, &tools) {
                 let mut any = false;
@@ -360,7 +362,6 @@ impl Candidates {
                 places += usize::from(any);
             }
             peers.resize(groups.len(), places);
-            let _ = before;
         }
         let columns = columns_of(problem, estimate, &wanted);
         let mut first = Vec::new();
@@ -372,21 +373,17 @@ impl Candidates {
             let (effect, numbers) = &wanted[at];
             let definition = effect.definition();
             let present = estimate.effects.iter().find(|e| e.same_place(effect));
-            let place = |number: &usize| {
-                numbers
-                    .iter()
-                    .position(|n| n == number)
-                    .expect("it was gathered")
-            };
             let bound = |number: &usize| {
                 let scale = definition.parameters[*number].prior_sigma
                     * definition.parameters[*number].unit.in_si();
                 let now = present.map_or(0.0, |e| e.parameters[*number]);
                 least(effect.kind, *number).map(|low| (low - now) / scale)
             };
+            let place = |n: &usize| numbers.iter().position(|known| known == n);
+            let columns = sought.iter().filter_map(place).map(|p| first[at] + p);
             let of_data = definition.of_data();
             all.list.push(Candidate {
-                columns: sought.iter().map(|n| first[at] + place(n)).collect(),
+                columns: columns.collect(),
                 least: sought.iter().map(bound).collect(),
                 effect: effect.clone(),
                 sought,

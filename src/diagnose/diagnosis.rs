@@ -428,7 +428,7 @@ pub fn diagnose(
             }
         }
     };
-    conclude(profile, measurements, options, best, remarks, progress)
+    conclude(profile, measurements, options, &best, remarks, progress)
 }
 
 impl Attempt {
@@ -527,7 +527,9 @@ fn held_out(
     let present = lengths_m(&session.problem, &session.layout, &session.present);
     for test in tests.into_iter().filter(|t| !t.is_empty()) {
         let mut used = choice.clone();
-        test.iter().for_each(|r| used[*r] = false);
+        for row in &test {
+            used[*row] = false;
+        }
         let world = World {
             layout: &session.layout,
             residual: &session.residual,
@@ -593,7 +595,7 @@ fn conclude(
     profile: &Profile,
     measurements: &Measurements,
     options: &Options,
-    attempt: Attempt,
+    attempt: &Attempt,
     remarks: Vec<Remark>,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Diagnosis, IdentifyError> {
@@ -620,7 +622,7 @@ fn conclude(
             vec![(0, 0); attempt.chosen.len()],
         )
     } else {
-        held_out(&attempt, measurements, options, floor)
+        held_out(attempt, measurements, options, floor)
     };
     let spreads: Vec<Option<Spread>> = lengths.iter().map(|l| spread_mm(l)).collect();
     let mut found = Vec::new();
@@ -844,7 +846,8 @@ fn improved(profile: &Profile, session: &Session, estimate: &Estimate, trust: Tr
         .effects
         .iter()
         .filter(|e| {
-            !e.is_zero() && !e.definition().of_data() && !(keep_base && e.kind == Kind::BaseFrame)
+            let kept_out = keep_base && e.kind == Kind::BaseFrame;
+            !(e.is_zero() || e.definition().of_data() || kept_out)
         })
         .cloned()
         .collect();

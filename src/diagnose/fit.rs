@@ -184,7 +184,9 @@ impl Fit {
                 continue;
             }
             let length = after.sqrt();
-            column.iter_mut().for_each(|x| *x /= length);
+            for x in &mut column {
+                *x /= length;
+            }
             along[fit.basis.len()] = length;
             let part = dot(&column, &whole);
             add_scaled(&mut whole, -part, &column);

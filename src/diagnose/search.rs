@@ -131,7 +131,9 @@ impl World<'_> {
         let mut columns: Vec<Column> = all.collect();
         if let Some(row) = candidate.row {
             let start = self.layout.row(row as usize - 1).start;
-            columns.iter_mut().for_each(|c| c[..start].fill(0.0));
+            for column in &mut columns {
+                column[..start].fill(0.0);
+            }
         }
         columns
     }

@@ -427,7 +427,7 @@ pub fn likeness(problem: &Problem, layout: &Layout, used: &[bool], fit: &Fit) ->
     let part = |row: usize| &fit.left[layout.row(row)];
     let place = |row: usize| {
         let q = problem.rows[row].q;
-        q.map(|q| q.sin_cos())
+        q.map(f64::sin_cos)
     };
     let distance = |a: usize, b: usize| {
         let (x, y) = (place(a), place(b));

@@ -228,11 +228,10 @@ pub fn spots(
         let statistic = between / within.max(scale * scale * 0.25);
         let sigma_m = problem.rows[0].sigma_m;
         let position = |g: usize| means(g)[..widest.min(3)].iter().map(|m| m * m).sum::<f64>();
-        let largest = live
-            .iter()
-            .copied()
-            .max_by(|a, b| position(*a).total_cmp(&position(*b)))
-            .expect("two or more");
+        let by_position = |a: &usize, b: &usize| position(*a).total_cmp(&position(*b));
+        let Some(largest) = live.iter().copied().max_by(by_position) else {
+            continue;
+        };
         let mean_square = live.iter().map(|g| counts[*g] * position(*g)).sum::<f64>() / count;
         found.push(Spot {
             column: grouping.column,

@@ -226,6 +226,7 @@ impl Mul for Jet {
 impl Div for Jet {
     type Output = Self;
     #[inline(always)]
+    #[allow(clippy::suspicious_arithmetic_impl)] // a quotient is the product with the reciprocal
     fn div(self, other: Self) -> Self {
         self * other.reciprocal()
     }

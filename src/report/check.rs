@@ -1,4 +1,4 @@
-//! The report of `check`: `check/1`, its text, and JUnit XML.
+//! The report of `check`: `check/1`, its text, and `JUnit` XML.
 
 use super::one_or_many;
 use crate::check::baseline::{Comparison, text as baseline_text};
@@ -202,7 +202,7 @@ pub fn text(header: &Header, check: &Check, comparison: Option<&Comparison>) -> 
     text
 }
 
-/// JUnit XML: one suite a file, one case a move; error findings and what got worse are failures.
+/// `JUnit` XML: one suite a file, one case a move; error findings and what got worse are failures.
 #[must_use]
 pub fn junit(header: &Header, check: &Check, comparison: Option<&Comparison>) -> String {
     let mut failures: BTreeMap<(&str, usize), Vec<String>> = BTreeMap::new();

@@ -215,11 +215,11 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
         match fault {
             Fault::Slip(row, by) if at.row >= *row => here = times(&here, &matrix::shift(*by)),
             Fault::BaseDrift(by, constant) => {
-                here = times(&matrix::shift(by.map(|x| x * warm(*constant))), &here)
+                here = times(&matrix::shift(by.map(|x| x * warm(*constant))), &here);
             }
             Fault::Shift(row, p) if at.row >= *row => here = times(&matrix::frame(p), &here),
             Fault::World(of, size) => {
-                here = times(&matrix::shift(of(&here, &u, at).map(|x| x * size)), &here)
+                here = times(&matrix::shift(of(&here, &u, at).map(|x| x * size)), &here);
             }
             _ => {}
         }

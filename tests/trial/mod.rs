@@ -229,7 +229,7 @@ fn hidden(
             Place::Order => site.order = random.random_range(1..5),
             Place::Row => {
                 site.order =
-                    u32::try_from(random.random_range(rows / 5..rows * 4 / 5)).expect("small")
+                    u32::try_from(random.random_range(rows / 5..rows * 4 / 5)).expect("small");
             }
             Place::Tool => {}
         }
@@ -262,7 +262,7 @@ fn hidden(
                 0.0,
                 0.0,
                 0.0,
-            ]
+            ];
         }
         Kind::ThermalGrowth => p = [p[0].abs(), 20.0, 0.0, 0.0, 0.0, 0.0],
         Kind::WarmUpDrift => {
@@ -343,7 +343,7 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
     let own = calibration(&nominal, which == 1, &mut random);
     let mut profile = nominal.clone();
     let mut truth = nominal.clone();
-    truth.effects = own.clone();
+    truth.effects.clone_from(&own);
     if group.start == Start::Calibrated {
         profile.effects = own;
     } else {
@@ -480,7 +480,7 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
             joint,
             1e-4 * size * noise_m * 3.0_f64.sqrt() / moved.max(1e-12),
         ));
-        what = (*name).to_owned();
+        (*name).clone_into(&mut what);
     }
     let seen = see(&effects, &more);
     let mut text = String::from(

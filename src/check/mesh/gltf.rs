@@ -101,7 +101,7 @@ fn base64(text: &str) -> Result<Vec<u8>, String> {
         count += 6;
         if count >= 8 {
             count -= 8;
-            out.push((bits >> count) as u8);
+            out.push((bits >> count & 0xff).to_le_bytes()[0]);
         }
     }
     Ok(out)

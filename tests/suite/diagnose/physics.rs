@@ -53,9 +53,9 @@ fn every_effect_is_the_same_in_two_implementations() {
                 let mut alone = effect.clone();
                 if definition.site.contains(&Place::JointOrBase) {
                     if effect.site.index == BASE {
-                        alone.parameters[0] = 0.0
+                        alone.parameters[0] = 0.0;
                     } else {
-                        alone.parameters[1..4].fill(0.0)
+                        alone.parameters[1..4].fill(0.0);
                     }
                 }
                 // the load shows by what bends under it
