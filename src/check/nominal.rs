@@ -9,6 +9,9 @@ use crate::geometry::{Pose, norm, sub};
 use crate::model::Conditions;
 use crate::program::Motion;
 
+/// Joints of the two programs that differ by less are the same, radians.
+const KEPT_RAD: f64 = 1e-9;
+
 /// A part of a move of the original.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Part {
@@ -89,12 +92,17 @@ pub(crate) fn align(
         let first = mine;
         let lands = |at: usize| {
             let ours = walk.route.stops[at]?;
+            // a joint target that was kept does not land where the original wanted it
+            let kept = (0..6).all(|k| (ours.q[k] - stop.q[k]).abs() < KEPT_RAD);
             let conditions = Conditions {
                 direction: ours.direction.map(f64::from),
                 ..Conditions::default()
             };
             let landed = walk.arms(&ours).plain.real.forward(&ours.q, &conditions);
-            Some((landed, landed.separation(&stop.pose).distance_m <= LANDED_M))
+            Some((
+                landed,
+                kept || landed.separation(&stop.pose).distance_m <= LANDED_M,
+            ))
         };
         let end = (first..ours.len())
             .filter(|&at| ours[at].motion != Motion::ArcVia)

@@ -55,6 +55,8 @@ pub struct Summary {
     pub max_residual_m: f64,
     /// Farthest landing from the wanted pose with the numbers as written.
     pub max_rounding_m: f64,
+    /// Likewise its largest turn, radians.
+    pub max_rounding_rad: f64,
 }
 
 /// What became of one target.
@@ -141,6 +143,7 @@ impl Tally {
             summary.max_shift_m = summary.max_shift_m.max(report.shift.distance_m);
             summary.max_residual_m = summary.max_residual_m.max(report.residual.distance_m);
             summary.max_rounding_m = summary.max_rounding_m.max(report.rounding.distance_m);
+            summary.max_rounding_rad = summary.max_rounding_rad.max(report.rounding.angle_rad);
         }
     }
 

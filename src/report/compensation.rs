@@ -49,6 +49,7 @@ pub fn json(header: &Header, compensation: &Compensation) -> Value {
             "max_shift_mm": mm_from_m(s.max_shift_m),
             "max_residual_mm": mm_from_m(s.max_residual_m),
             "max_rounding_mm": mm_from_m(s.max_rounding_m),
+            "max_rounding_deg": s.max_rounding_rad / DEG,
         },
         "findings": compensation.findings,
     })
@@ -112,6 +113,7 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
         max_shift_m,
         max_residual_m,
         max_rounding_m,
+        max_rounding_rad,
     } = compensation.summary;
     let mut lines = vec![format!(
         "{} file(s) of {}, {targets} targets: {compensated} shifted, {unchanged} unchanged",
@@ -134,8 +136,9 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
             mm_from_m(max_residual_m)
         ));
         lines.push(format!(
-            "  rounding  largest {:.4} mm (what the file's decimals cost)",
-            mm_from_m(max_rounding_m)
+            "  rounding  largest {:.4} mm, {:.4} deg (what the file's decimals cost)",
+            mm_from_m(max_rounding_m),
+            max_rounding_rad / DEG
         ));
     }
     lines.join("\n") + "\n"

@@ -222,7 +222,14 @@ impl Effect {
     /// Whether two entries are the same effect of the same place.
     #[must_use]
     pub fn same_place(&self, other: &Self) -> bool {
-        self.kind == other.kind && self.site == other.site
+        let (mine, others) = (&self.site, &other.site);
+        let same = |place: &Place| match place {
+            Place::Link | Place::Joint | Place::JointOrBase => mine.index == others.index,
+            Place::On => mine.on == others.on,
+            Place::Order | Place::Row => mine.order == others.order,
+            Place::Tool => mine.tool == others.tool,
+        };
+        self.kind == other.kind && self.definition().site.iter().all(same)
     }
 }
 
