@@ -231,8 +231,11 @@ impl PlanCommand {
 }
 
 fn report(found: &Plan) -> Value {
-    let mut report = identification::observability(&found.observability);
-    report["poseshift"] = json!("plan/1");
+    let mut report = json!({"poseshift": "plan/1"});
+    let observability = identification::observability(&found.observability);
+    if let (Value::Object(report), Value::Object(own)) = (&mut report, observability) {
+        report.extend(own);
+    }
     let kept = found.identifiable.kept.iter().zip(&found.sigma);
     report["expected_sigma"] = kept
         .map(|(i, sigma)| {
