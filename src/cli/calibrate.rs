@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -114,8 +115,10 @@ impl Calibrate {
         let (profile, profile_hash) = files::read_profile(&self.profile)?;
         let (measurements, hashes) = self.measurements.read()?;
         let name = self.measurements.name();
+        let progress = Progress::new(output, "identifying");
         let found = calibrate(&profile, &measurements, &options)
             .map_err(|error| identify_failure(&name, &error))?;
+        drop(progress);
         let mut report = identification::calibration(&found, &name);
         report["profile_sha256"] = json!(profile_hash);
         report["measurements_sha256"] = json!(hashes);

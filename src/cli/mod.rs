@@ -15,6 +15,7 @@ mod measurements;
 mod plan;
 mod points;
 mod profile;
+mod progress;
 mod register;
 mod registration;
 mod shell;

@@ -115,6 +115,20 @@ pub fn validate(
     refit: bool,
     folds: Option<usize>,
 ) -> Result<Validation, IdentifyError> {
+    validate_telling(profile, measurements, refit, folds, &mut |_, _| ())
+}
+
+/// As [`validate`]; `tell` hears how many of how many folds are done.
+///
+/// # Errors
+/// As [`validate`].
+pub fn validate_telling(
+    profile: &Profile,
+    measurements: &Measurements,
+    refit: bool,
+    folds: Option<usize>,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Validation, IdentifyError> {
     let selection = Selection::level(Level::Frames);
     let unknown = measurements.rows.iter().find(|row| {
         row.point_in_tool_m.is_none()
@@ -160,7 +174,7 @@ pub fn validate(
         .map(|m| m.normalised * m.normalised);
     let normalised = (squares.sum::<f64>() / judged_real.misses.len() as f64).sqrt();
     let folds = match folds {
-        Some(count) => Some(cross_validate(profile, measurements, count)?),
+        Some(count) => Some(cross_validate(profile, measurements, count, tell)?),
         None => None,
     };
     Ok(Validation {
@@ -309,6 +323,7 @@ fn cross_validate(
     profile: &Profile,
     measurements: &Measurements,
     count: usize,
+    tell: &mut dyn FnMut(usize, usize),
 ) -> Result<(usize, Quality, Quality), IdentifyError> {
     let configurations = measurements.configurations();
     let total = configurations.last().map_or(0, |last| last + 1);
@@ -350,6 +365,7 @@ fn cross_validate(
         bare
     };
     for part in 0..count {
+        tell(part, count);
         let inside = |i: usize| configurations[i] % count == part;
         let training = problem.with_rows(|i| !inside(i));
         let test = problem.with_rows(inside);

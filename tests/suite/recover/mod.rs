@@ -1,4 +1,6 @@
 //! Hidden truths found again.
 
 mod identify;
+mod judged;
+mod kinds;
 mod real;
