@@ -27,8 +27,10 @@
 //! # Ok::<(), poseshift::model::profile::ProfileError>(())
 //! ```
 
+pub mod check;
 pub mod cli;
 pub mod compensate;
+pub mod diagnose;
 pub mod finding;
 pub mod geometry;
 pub mod identify;
@@ -37,3 +39,4 @@ pub mod model;
 pub mod program;
 pub mod register;
 pub mod report;
+pub mod urdf;

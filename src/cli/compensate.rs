@@ -2,7 +2,10 @@
 
 use super::failure::Failure;
 use super::{Answer, Output, files, json_text, print, values};
+use crate::check::CheckError;
+use crate::check::refine::{Refined, refine};
 use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
+use crate::geometry::units::MM;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::program::{LANGUAGES, Language, Marker, Source};
 use crate::report;
@@ -39,6 +42,9 @@ pub struct Compensate {
     /// Write at least so many decimals of a millimetre (default: as many as the file has)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=9))]
     decimals: Option<u8>,
+    /// Insert targets until the path between targets, too, is within so many mm of the wanted one
+    #[arg(long, value_name = "MM", conflicts_with = "work_offset")]
+    max_path_error: Option<f64>,
     /// What to do with joint targets
     #[arg(long, value_enum, default_value = "keep")]
     joint_targets: JointTargets,
@@ -79,7 +85,8 @@ impl Compensate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let (profile, profile_sha256) = files::read_profile(&self.profile)?;
         refuse_doubtful(&profile, &self.profile)?;
-        let options = self.options(&profile)?;
+        let each = output.json || self.max_path_error.is_some();
+        let options = self.options(&profile, each)?;
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let found = self.find_programs(asked)?;
         let sources = found
@@ -95,8 +102,9 @@ impl Compensate {
         if !self.force {
             refuse_marked(&sources)?;
         }
-        let compensation = compensate(language, &sources, &profile, &options)
+        let mut compensation = compensate(language, &sources, &profile, &options)
             .map_err(|error| explain(&error, &sources))?;
+        let refined = self.refine(language, &sources, &profile, &options, &mut compensation)?;
         let refused = compensation.is_refused();
         let writes = !refused || self.keep_going;
         let outputs = found.iter().filter(|_| writes);
@@ -109,9 +117,16 @@ impl Compensate {
             language,
             profile_sha256: &profile_sha256,
         };
-        let told = tell(&header, &compensation, output);
+        let mut told = tell(&header, &compensation, output);
+        if refined.moves > 0 && !output.json && !output.quiet {
+            told += &format!(
+                "{} moves inserted, so that the path is within {} mm\n",
+                refined.moves,
+                self.max_path_error.unwrap_or_default()
+            );
+        }
         if writes {
-            let written = render(language, &sources, compensation, &profile_sha256)?;
+            let written = render(language, &sources, compensation, &profile_sha256, refined)?;
             let written = written.into_iter().map(|source| source.bytes);
             let outputs: Vec<_> = found
                 .into_iter()
@@ -124,7 +139,8 @@ impl Compensate {
         Ok(if refused { Answer::No } else { Answer::Yes })
     }
 
-    fn options(&self, profile: &Profile) -> Result<Options, Failure> {
+    /// `each`: each target is reported on.
+    fn options(&self, profile: &Profile, each: bool) -> Result<Options, Failure> {
         let mut given = Given::default();
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
@@ -151,7 +167,49 @@ impl Compensate {
             work_offset,
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
+            summary_only: !each,
             accept_absolutely_accurate: self.force,
+        })
+    }
+
+    /// Inserts targets where the path asks for them.
+    fn refine(
+        &self,
+        language: &'static dyn Language,
+        sources: &[Source],
+        profile: &Profile,
+        options: &Options,
+        compensation: &mut Compensation,
+    ) -> Result<Refined, Failure> {
+        let Some(limit) = self.max_path_error else {
+            return Ok(Refined::default());
+        };
+        if !(limit >= 0.001 && limit.is_finite()) {
+            let message = format!("--max-path-error is {limit}; it must be at least 0.001 mm");
+            return Err(Failure::new(message));
+        }
+        let scene = crate::check::Scene::default();
+        let subject = crate::check::Subject {
+            language,
+            sources,
+            nominal: None,
+            profile,
+            scene: &scene,
+        };
+        let checked = crate::check::Options {
+            given: options.given.clone(),
+            ..crate::check::Options::default()
+        };
+        refine(
+            &subject,
+            &checked,
+            limit * MM,
+            options.decimals,
+            compensation,
+        )
+        .map_err(|error| match error {
+            CheckError::Program(error) | CheckError::Nominal(error) => explain(&error, sources),
+            CheckError::NoCounterpart { .. } => Failure::new(error.to_string()),
         })
     }
 
@@ -241,7 +299,7 @@ fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
+pub(super) fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
     let known = || {
         LANGUAGES
             .iter()
@@ -259,7 +317,7 @@ fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
 }
 
 /// The language of all these files, by name and content.
-fn common_language(
+pub(super) fn common_language(
     sources: &[Source],
     profile: &Profile,
 ) -> Result<&'static dyn Language, Failure> {
@@ -304,7 +362,7 @@ fn common_language(
 }
 
 /// Program files in a folder and below, with their paths relative to it.
-fn programs_in(
+pub(super) fn programs_in(
     folder: &Path,
     asked: Option<&'static dyn Language>,
 ) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
@@ -351,6 +409,7 @@ fn render(
     sources: &[Source],
     compensation: Compensation,
     profile_sha256: &str,
+    refined: Refined,
 ) -> Result<Vec<Source>, Failure> {
     let Compensation {
         program,
@@ -359,7 +418,10 @@ fn render(
         compensated,
         ..
     } = compensation;
-    let before = (program.targets.len(), program.moves.len());
+    let before = (
+        program.targets.len() + refined.targets,
+        program.moves.len() + refined.moves,
+    );
     drop(program);
     let mut written = Vec::with_capacity(sources.len());
     for ((source, mut edits), compensated) in sources.iter().zip(edits).zip(compensated) {
@@ -384,7 +446,7 @@ fn render(
     Ok(written)
 }
 
-fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
+pub(super) fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
     let source_of = |file: &str| sources.iter().find(|source| source.name == file);
     match error {
         CompensateError::Read(read) => {

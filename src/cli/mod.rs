@@ -3,7 +3,9 @@
 mod axes;
 mod calibrate;
 mod catalogue;
+mod check;
 mod compensate;
+mod diagnose;
 mod failure;
 mod files;
 mod handeye;
@@ -64,8 +66,10 @@ pub struct Output {
 #[derive(Subcommand)]
 enum Command {
     Compensate(compensate::Compensate),
+    Check(check::Check),
     Calibrate(calibrate::Calibrate),
     Validate(validate::Validate),
+    Diagnose(diagnose::Diagnose),
     Plan(plan::PlanCommand),
     Simulate(simulate::Simulate),
     Register(register::Register),
@@ -97,8 +101,10 @@ pub fn run() -> ExitCode {
     let CommandLine { command, output } = CommandLine::parse();
     let answer = match command {
         Command::Compensate(command) => command.run(output),
+        Command::Check(command) => command.run(output),
         Command::Calibrate(command) => command.run(output),
         Command::Validate(command) => command.run(output),
+        Command::Diagnose(command) => command.run(output),
         Command::Plan(command) => command.run(output),
         Command::Simulate(command) => command.run(output),
         Command::Register(command) => command.run(output),

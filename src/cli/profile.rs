@@ -6,10 +6,11 @@ use crate::inverse::Arm;
 use crate::model::Conditions;
 use crate::model::profile::{ControllerModel, Mounted, Profile, SHIPPED};
 use crate::report::profile::{facts, typical_deviation};
+use crate::urdf::{Choice, UrdfArm, UrdfError, profile_text};
 use clap::{Args, Subcommand};
 use serde_json::json;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Make and inspect robot profiles
 #[derive(Args)]
@@ -44,6 +45,30 @@ enum Sub {
     ImportUr(super::import_ur::ImportUr),
     /// Print the JSON Schema of the format
     Schema,
+    /// Make a profile of a URDF: its six axes, limits, masses and collision shapes
+    FromUrdf(FromUrdf),
+}
+
+/// A URDF and what to take of it
+#[derive(Args)]
+struct FromUrdf {
+    /// The URDF (what xacro makes of a xacro file)
+    file: PathBuf,
+    /// The link that stands still (default: the one without a parent)
+    #[arg(long, value_name = "LINK")]
+    base: Option<String>,
+    /// The link that tools are mounted on (default: tool0, flange, or the only end)
+    #[arg(long, value_name = "LINK")]
+    tip: Option<String>,
+    /// Where packages are: a folder that holds them, or NAME=FOLDER of one
+    #[arg(long, value_name = "[NAME=]FOLDER")]
+    package_path: Vec<String>,
+    /// Leave the collision shapes out
+    #[arg(long)]
+    no_shapes: bool,
+    /// Where to write it (default: standard output)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 impl ProfileCommand {
@@ -61,7 +86,87 @@ impl ProfileCommand {
             ),
             Sub::ImportUr(command) => command.run(output),
             Sub::Schema => print_json(&Profile::schema()).map(|()| Answer::Yes),
+            Sub::FromUrdf(command) => command.run(output),
         }
+    }
+}
+
+impl FromUrdf {
+    fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let text = files::read_text(&self.file)?;
+        let told = |error: &UrdfError| {
+            let message = format!("{}: {error}", self.file.display());
+            Failure::with_hint(message, error.hint())
+        };
+        let choice = Choice {
+            base: self.base.clone(),
+            tip: self.tip.clone(),
+            shapes: !self.no_shapes,
+        };
+        let arm = UrdfArm::read(&text, &choice).map_err(|error| told(&error))?;
+        let source = self.file.file_name().unwrap_or_default().to_string_lossy();
+        let yaml =
+            profile_text(&arm, &source, &|file| self.mesh(file)).map_err(|error| told(&error))?;
+        let profile = Profile::from_yaml(&yaml)
+            .map_err(|error| Failure::profile(&self.file, &yaml, &error))?;
+        let inverse = Arm::of(&profile.geometry(&Mounted::flange()), &profile.mechanism)
+            .as_ref()
+            .map_or_else(ToString::to_string, |arm| {
+                format!("closed form, {}", arm.kind())
+            });
+        match &self.output {
+            Some(path) if path.exists() => {
+                return Err(Failure::new(format!(
+                    "{} exists; profiles are not written over",
+                    path.display()
+                )));
+            }
+            Some(path) => files::write_all(&[(path.clone(), yaml.clone().into_bytes())])?,
+            None => {}
+        }
+        if output.json {
+            print_json(&json!({
+                "poseshift": "new-profile/1", "robot": arm.name, "base": arm.ends[0], "tip": arm.ends[1],
+                "inverse": inverse, "notes": arm.notes, "profile": yaml,
+                "output": self.output.as_ref().map(|path| path.display().to_string()),
+            }))?;
+            return Ok(Answer::Yes);
+        }
+        let Some(path) = &self.output else {
+            print(&yaml)?;
+            return Ok(Answer::Yes);
+        };
+        if !output.quiet {
+            let mut told = format!(
+                "{}: {} to {}, the same as the URDF at 1000 postures\ninverse: {inverse}\n",
+                arm.name, arm.ends[0], arm.ends[1]
+            );
+            told.extend(arm.notes.iter().map(|note| format!("note: {note}\n")));
+            told += &format!("written to {}\n", path.display());
+            print(&told)?;
+        }
+        Ok(Answer::Yes)
+    }
+
+    /// Where a mesh is; `None` where it is not.
+    fn mesh(&self, file: &str) -> Option<String> {
+        let beside = self.file.parent().unwrap_or(Path::new(""));
+        let candidates: Vec<PathBuf> = if let Some(rest) = file.strip_prefix("package://") {
+            let (package, inside) = rest.split_once('/')?;
+            let place = |given: &String| match given.split_once('=') {
+                Some((name, folder)) if name == package => Some(Path::new(folder).join(inside)),
+                Some(_) => None,
+                None => Some(Path::new(given).join(rest)),
+            };
+            self.package_path.iter().filter_map(place).collect()
+        } else {
+            let plain = file.strip_prefix("file://").unwrap_or(file);
+            vec![beside.join(plain)]
+        };
+        let found = candidates.into_iter().find(|path| path.is_file())?;
+        // profiles name meshes relative to themselves, wherever they are written
+        let whole = std::fs::canonicalize(&found).ok()?;
+        Some(whole.display().to_string())
     }
 }
 

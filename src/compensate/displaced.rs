@@ -1,34 +1,42 @@
 //! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction along; here is told how far
 //! from their own wanted poses they land.
 
-use super::outcome::TargetReport;
 use super::placement::name_of;
-use super::{Job, Task};
+use super::{Draft, Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
 use crate::program::{Displacement, Move};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Landing farther from the wanted pose than this is a warning, metres.
 const LIMIT_M: f64 = 0.05 * MM;
 
-/// Adds a finding for each move to a displaced target.
+fn is_displaced(motion: &Move) -> bool {
+    motion.displacement != Displacement::None
+}
+
+/// The targets that points are derived from.
+pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
+    let displaced = job.program.moves.iter().filter(|m| is_displaced(m));
+    displaced.map(|motion| motion.target).collect()
+}
+
+/// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that points are derived from.
 pub(super) fn check(
     job: &Job,
-    tasks: &[Task],
-    reports: &[TargetReport],
+    drafts: &[Draft],
+    fakes: &BTreeMap<usize, Pose>,
     findings: &mut Vec<Finding>,
 ) {
-    let displaced = |motion: &&Move| motion.displacement != Displacement::None;
-    for motion in job.program.moves.iter().filter(displaced) {
-        let Ok(task) = tasks.binary_search_by_key(&motion.target, |task| task.target) else {
+    for motion in job.program.moves.iter().filter(|m| is_displaced(m)) {
+        let found = drafts.binary_search_by_key(&motion.target, |draft| draft.target as usize);
+        let (Ok(draft), Some(fake)) = (found, fakes.get(&motion.target)) else {
             continue;
         };
-        let (task, Some(fake)) = (&tasks[task], reports[motion.target].fake) else {
-            continue;
-        };
+        let task = job.task(&drafts[draft]);
         let name = name_of(job, motion.target);
-        let finding = match landing(job, task, &fake, motion) {
+        let finding = match landing(job, &task, fake, motion) {
             None => {
                 let message = format!(
                     "a point derived from {name} at run time takes its correction along; how well is unknown"

@@ -22,7 +22,9 @@ mod outcome;
 mod placement;
 mod posture;
 mod rewrite;
+pub(crate) mod route;
 
+use outcome::Tally;
 pub use outcome::{Compensation, Summary, TargetReport, meaning};
 pub use placement::{Given, MeasuredFrameError, PlacementError};
 use placement::{Place, Setting};
@@ -33,12 +35,12 @@ use crate::geometry::Pose;
 use crate::inverse::{Arm, Branch, Inverse, Status, Targets, Unsupported, solve_batch};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
-use crate::program::{Edits, Language, Program, ReadError, Settings, Source};
+use crate::program::{Edits, Language, Program, ReadError, Settings, Source, Value};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Targets solved by one thread at a time.
-const CHUNK: usize = 2048;
+const CHUNK: usize = 1024;
 
 /// What the user decides.
 #[derive(Clone, Debug, Default)]
@@ -52,6 +54,8 @@ pub struct Options {
     pub correct_joint_targets: bool,
     /// At least so many decimals of a millimetre, and as many of other units as that is worth.
     pub decimals: Option<usize>,
+    /// Report on the whole only, not on each target: a long program needs less memory.
+    pub summary_only: bool,
     /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
     pub accept_absolutely_accurate: bool,
 }
@@ -96,13 +100,13 @@ struct Job<'a> {
 }
 
 /// An arm with one of the program's tools.
-struct Equipped {
-    arm: Arm,
-    controller: Model,
+pub(crate) struct Equipped {
+    pub(crate) arm: Arm,
+    pub(crate) controller: Model,
     /// The inverse of a controller that computes with a calibrated chain of its own.
-    calibrated_controller: Option<Inverse>,
+    pub(crate) calibrated_controller: Option<Inverse>,
     /// The real arm without conditions.
-    inverse: Inverse,
+    pub(crate) inverse: Inverse,
 }
 
 impl Equipped {
@@ -147,6 +151,32 @@ struct Task {
     honoured: bool,
 }
 
+/// A task as it is kept: all but what the program's text tells again.
+#[derive(Clone, Copy, Debug)]
+struct Draft {
+    nominal_q: [f64; 6],
+    target: u32,
+    tool: u32,
+    frame: u32,
+    branch: Branch,
+    direction: [i8; 6],
+    honoured: bool,
+}
+
+impl Draft {
+    fn of(task: &Task) -> Self {
+        Self {
+            nominal_q: task.nominal_q,
+            target: outcome::small(task.target),
+            tool: outcome::small(task.tool),
+            frame: outcome::small(task.frame),
+            branch: task.branch,
+            direction: task.direction,
+            honoured: task.honoured,
+        }
+    }
+}
+
 impl Job<'_> {
     fn equipped(&self, tool: usize) -> &Equipped {
         self.arms[tool]
@@ -165,6 +195,33 @@ impl Job<'_> {
         self.options
             .work_offset
             .map_or(wanted, |offset| offset * wanted)
+    }
+
+    /// Where a target's numbers want the tool, in the world.
+    fn wanted(&self, value: &Value, tool: usize, frame: usize) -> Pose {
+        let controller = &self.equipped(tool).controller;
+        self.on_part(match value {
+            Value::Joints(q) => controller.forward(q, &Conditions::default()),
+            Value::Pose(frame_from_tool) => *self.world_from_frame(frame) * *frame_from_tool,
+        })
+    }
+
+    /// The task of a draft.
+    fn task(&self, draft: &Draft) -> Task {
+        let (target, tool, frame) = (draft.target, draft.tool, draft.frame);
+        let (target, tool, frame) = (target as usize, tool as usize, frame as usize);
+        let decoded = meaning(self.language, self.program, self.settings, target);
+        let value = decoded.expect("a task's target has numbers").value;
+        Task {
+            target,
+            tool,
+            frame,
+            wanted: self.wanted(&value, tool, frame),
+            branch: draft.branch,
+            nominal_q: draft.nominal_q,
+            direction: draft.direction,
+            honoured: draft.honoured,
+        }
     }
 
     /// The conditions of one task.
@@ -244,7 +301,7 @@ pub fn compensate(
     };
     let places = placement::place(&job, &mut findings)?;
     job.arms = equip(&job, &places)?;
-    let tasks = posture::choose(&job, &places, &mut findings);
+    let drafts = posture::choose(&job, &places, &mut findings);
     let placed = places.iter().flatten().count();
     let out_of_reach = findings
         .iter()
@@ -254,10 +311,17 @@ pub fn compensate(
         return Err(CompensateError::NothingInReach { targets: placed });
     }
     drop(places);
-    let (mut targets, edits) = solve(&job, &tasks, &mut findings);
-    displaced::check(&job, &tasks, &targets, &mut findings);
-    drop(tasks);
-    let (compensated, summary) = outcome::sum_up(&job, &mut targets, &mut findings);
+    let Solved {
+        reports: mut targets,
+        edits,
+        tally,
+        fakes,
+    } = solve(&job, &drafts, &mut findings);
+    displaced::check(&job, &drafts, &fakes, &mut findings);
+    drop(drafts);
+    outcome::name_places(&job, &mut targets);
+    outcome::sort(&job, &mut findings);
+    let (compensated, summary) = tally.finish();
     Ok(Compensation {
         program,
         settings,
@@ -306,34 +370,39 @@ fn mount(profile: &Profile, tool: &Mounted) -> Result<Equipped, Unsupported> {
     })
 }
 
-/// Solves and rewrites all tasks, those with the same tool and conditions side by side, on all processors. Returns a report
-/// for each of the program's targets and the edits of each source.
-fn solve(
-    job: &Job,
-    tasks: &[Task],
-    findings: &mut Vec<Finding>,
-) -> (Vec<TargetReport>, Vec<Edits>) {
-    let mut alike: BTreeMap<(usize, [i8; 6]), Vec<usize>> = BTreeMap::new();
-    for (index, task) in tasks.iter().enumerate() {
-        alike
-            .entry((task.tool, task.direction))
-            .or_default()
-            .push(index);
+/// What became of all tasks.
+struct Solved {
+    /// Of each of the program's targets, unless only the summary is asked for.
+    reports: Vec<TargetReport>,
+    /// Of each source.
+    edits: Vec<Edits>,
+    tally: Tally,
+    /// Fake targets that points are derived from.
+    fakes: BTreeMap<usize, Pose>,
+}
+
+/// Solves and rewrites all tasks, those with the same tool and conditions side by side, on all processors.
+fn solve(job: &Job, drafts: &[Draft], findings: &mut Vec<Finding>) -> Solved {
+    let mut alike: BTreeMap<(u32, [i8; 6]), Vec<u32>> = BTreeMap::new();
+    for (index, draft) in drafts.iter().enumerate() {
+        let same = alike.entry((draft.tool, draft.direction)).or_default();
+        same.push(outcome::small(index));
     }
     let fractions = rewrite::fractions(job);
-    let chunks: Vec<&[usize]> = alike
+    let chunks: Vec<&[u32]> = alike
         .values()
         .flat_map(|indices| indices.chunks(CHUNK))
         .collect();
-    let solve_chunk = |chunk: &&[usize]| {
-        let first = &tasks[chunk[0]];
+    let solve_chunk = |chunk: &&[u32]| {
+        let draft = |index: &u32| job.task(&drafts[*index as usize]);
+        let tasks: Vec<Task> = chunk.iter().map(draft).collect();
         let inverse = Inverse {
-            conditions: job.conditions(first),
-            ..job.equipped(first.tool).inverse.clone()
+            conditions: job.conditions(&tasks[0]),
+            ..job.equipped(tasks[0].tool).inverse.clone()
         };
-        let wanted: Vec<_> = chunk.iter().map(|&i| tasks[i].wanted).collect();
-        let branches: Vec<_> = chunk.iter().map(|&i| tasks[i].branch).collect();
-        let near: Vec<_> = chunk.iter().map(|&i| tasks[i].nominal_q).collect();
+        let wanted: Vec<_> = tasks.iter().map(|task| task.wanted).collect();
+        let branches: Vec<_> = tasks.iter().map(|task| task.branch).collect();
+        let near: Vec<_> = tasks.iter().map(|task| task.nominal_q).collect();
         let outcomes = solve_batch(
             &inverse,
             Targets {
@@ -343,25 +412,41 @@ fn solve(
             },
         );
         let mut portion = Portion::default();
-        for (&index, outcome) in chunk.iter().zip(&outcomes) {
-            portion.add(job, &tasks[index], outcome, &fractions);
+        for (task, outcome) in tasks.iter().zip(&outcomes) {
+            portion.add(job, task, outcome, &fractions);
         }
         portion
     };
-    let mut reports = vec![TargetReport::new(None); job.program.targets.len()];
-    let mut edits: Vec<Edits> = job.sources.iter().map(|_| Edits::default()).collect();
+    let reported = if job.options.summary_only {
+        0
+    } else {
+        job.program.targets.len()
+    };
+    let bases = displaced::bases(job);
+    let mut solved = Solved {
+        reports: vec![TargetReport::new(None); reported],
+        edits: job.sources.iter().map(|_| Edits::default()).collect(),
+        tally: Tally::new(job),
+        fakes: BTreeMap::new(),
+    };
     // a few chunks for each thread at a time: what they return is not in memory twice for a long program
     for some in chunks.chunks(4 * rayon::current_num_threads()) {
         let portions: Vec<Portion> = some.par_iter().map(solve_chunk).collect();
         for portion in portions {
             for (target, report) in portion.reports {
-                reports[target] = report;
+                solved.tally.add(job, target, &report);
+                if let Some(fake) = report.fake.filter(|_| bases.contains(&target)) {
+                    solved.fakes.insert(target, fake);
+                }
+                if reported > 0 {
+                    solved.reports[target] = report;
+                }
             }
             for (source, changes) in &portion.edits {
-                edits[*source as usize].append(changes);
+                solved.edits[*source as usize].append(changes);
             }
             findings.extend(portion.findings);
         }
     }
-    (reports, edits)
+    solved
 }

@@ -4,7 +4,7 @@ use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
 use crate::inverse::{Branch, Outcome, Status};
-use crate::program::{Decoded, Edits, Program, Settings, Shape};
+use crate::program::{Decoded, Edits, Program, Settings, Shape, Target};
 use std::collections::BTreeMap;
 
 /// A program with fake targets, not yet written.
@@ -14,7 +14,7 @@ pub struct Compensation {
     pub program: Program,
     /// What its language had to know beside the files.
     pub settings: Settings,
-    /// What became of each of its targets.
+    /// What became of each of its targets; none with [`super::Options::summary_only`].
     pub targets: Vec<TargetReport>,
     /// What a person should look at, by file and place.
     pub findings: Vec<Finding>,
@@ -55,6 +55,8 @@ pub struct Summary {
     pub max_residual_m: f64,
     /// Farthest landing from the wanted pose with the numbers as written.
     pub max_rounding_m: f64,
+    /// Likewise its largest turn, radians.
+    pub max_rounding_rad: f64,
 }
 
 /// What became of one target.
@@ -103,55 +105,77 @@ impl TargetReport {
     }
 }
 
-/// Brings all findings into the order of the files, names each target's tool and frame, and counts: which sources have
-/// compensated targets, and the numbers of the whole.
-pub(super) fn sum_up(
-    job: &Job,
-    reports: &mut [TargetReport],
-    findings: &mut [Finding],
-) -> (Vec<bool>, Summary) {
-    let program = job.program;
-    for motion in program.moves.iter().rev() {
-        let report = &mut reports[motion.target];
-        (report.tool, report.frame) = (Some(small(motion.tool)), Some(small(motion.frame)));
+/// Counts what became of the targets.
+pub(super) struct Tally {
+    summary: Summary,
+    /// All shifts added up, metres.
+    shifts_m: f64,
+    compensated: Vec<bool>,
+}
+
+impl Tally {
+    /// Nothing is changed yet.
+    pub fn new(job: &Job) -> Self {
+        let targets = &job.program.targets;
+        let is_joints = |target: &&Target| target.layout.shape == Shape::Joints;
+        Self {
+            summary: Summary {
+                targets: targets.len(),
+                joint_targets: targets.iter().filter(is_joints).count(),
+                ..Summary::default()
+            },
+            shifts_m: 0.0,
+            compensated: vec![false; job.sources.len()],
+        }
     }
-    let order: BTreeMap<&str, usize> = job
-        .sources
-        .iter()
-        .enumerate()
-        .map(|(i, s)| (s.name.as_str(), i))
-        .collect();
-    findings.sort_by_cached_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
-    let mut compensated = vec![false; job.sources.len()];
-    let mut summary = Summary {
-        targets: reports.len(),
-        ..Summary::default()
-    };
-    let mut shifts = 0.0;
-    for (report, target) in reports.iter().zip(&program.targets) {
-        summary.compensated += usize::from(report.changed);
-        summary.unchanged += usize::from(!report.changed);
-        summary.joint_targets +=
-            usize::from(target.layout.shape == Shape::Joints && !report.changed);
+
+    /// Adds one target.
+    pub fn add(&mut self, job: &Job, target: usize, report: &TargetReport) {
+        let target = &job.program.targets[target];
+        let summary = &mut self.summary;
+        if report.changed {
+            summary.compensated += 1;
+            summary.joint_targets -= usize::from(target.layout.shape == Shape::Joints);
+            self.shifts_m += report.shift.distance_m;
+        }
         if report.status == Some(Status::Converged) {
-            compensated[target.file as usize] = true;
-            shifts += if report.changed {
-                report.shift.distance_m
-            } else {
-                0.0
-            };
+            self.compensated[target.file as usize] = true;
             summary.max_shift_m = summary.max_shift_m.max(report.shift.distance_m);
             summary.max_residual_m = summary.max_residual_m.max(report.residual.distance_m);
             summary.max_rounding_m = summary.max_rounding_m.max(report.rounding.distance_m);
+            summary.max_rounding_rad = summary.max_rounding_rad.max(report.rounding.angle_rad);
         }
     }
-    if summary.compensated > 0 {
-        summary.mean_shift_m = shifts / summary.compensated as f64;
+
+    /// Which sources have compensated targets, and the numbers of the whole.
+    pub fn finish(self) -> (Vec<bool>, Summary) {
+        let mut summary = self.summary;
+        summary.unchanged = summary.targets - summary.compensated;
+        if summary.compensated > 0 {
+            summary.mean_shift_m = self.shifts_m / summary.compensated as f64;
+        }
+        (self.compensated, summary)
     }
-    (compensated, summary)
 }
 
-fn small(index: usize) -> u32 {
+/// Names each target's first tool and frame.
+pub(super) fn name_places(job: &Job, reports: &mut [TargetReport]) {
+    for motion in job.program.moves.iter().rev() {
+        if let Some(report) = reports.get_mut(motion.target) {
+            (report.tool, report.frame) = (Some(small(motion.tool)), Some(small(motion.frame)));
+        }
+    }
+}
+
+/// Brings findings into the order of the files.
+pub(super) fn sort(job: &Job, findings: &mut [Finding]) {
+    let names = job.sources.iter().enumerate();
+    let order: BTreeMap<&str, usize> = names.map(|(i, s)| (s.name.as_str(), i)).collect();
+    findings.sort_by_cached_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
+}
+
+/// An index that is kept small.
+pub(super) fn small(index: usize) -> u32 {
     u32::try_from(index).expect("a program's text is below 4 GiB")
 }
 

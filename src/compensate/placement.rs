@@ -208,40 +208,14 @@ pub(super) fn place(
     };
     // the first move to each target, and whether another one contradicts it
     let mut first: Vec<Option<(usize, bool)>> = vec![None; program.targets.len()];
-    let place_of = |motion: &Move| {
-        let world = job.setting.frames.len() - 1;
-        Place {
-            tool: motion.tool,
-            frame: if is_joints(motion.target) {
-                world
-            } else {
-                motion.frame
-            },
-        }
-    };
+    let place_of = |motion: &Move| place_of(job, motion);
     for (index, motion) in program
         .moves
         .iter()
         .enumerate()
         .filter(|(_, motion)| !stays(motion.target))
     {
-        let place = place_of(motion);
-        if job.setting.tools[place.tool].is_none() {
-            return Err(unknown(
-                job,
-                motion,
-                "tool",
-                &program.tools[motion.tool].name,
-            ));
-        }
-        if job.setting.frames[place.frame].is_none() {
-            return Err(unknown(
-                job,
-                motion,
-                "work frame",
-                &program.frames[motion.frame].name,
-            ));
-        }
+        let place = known(job, motion)?;
         match &mut first[motion.target] {
             None => first[motion.target] = Some((index, false)),
             Some((other, contradicted)) => {
@@ -260,6 +234,30 @@ pub(super) fn place(
         None => place_unused(job, target, findings),
     };
     Ok(first.into_iter().enumerate().map(place).collect())
+}
+
+/// The place that a move gives its target.
+fn place_of(job: &Job, motion: &Move) -> Place {
+    let is_joints = job.program.targets[motion.target].layout.shape == Shape::Joints;
+    let world = job.setting.frames.len() - 1;
+    Place {
+        tool: motion.tool,
+        frame: if is_joints { world } else { motion.frame },
+    }
+}
+
+/// The place that a move gives its target, whose tool and frame must be known.
+pub(super) fn known(job: &Job, motion: &Move) -> Result<Place, PlacementError> {
+    let (place, program) = (place_of(job, motion), job.program);
+    if job.setting.tools[place.tool].is_none() {
+        let name = &program.tools[motion.tool].name;
+        return Err(unknown(job, motion, "tool", name));
+    }
+    if job.setting.frames[place.frame].is_none() {
+        let name = &program.frames[motion.frame].name;
+        return Err(unknown(job, motion, "work frame", name));
+    }
+    Ok(place)
 }
 
 fn unknown(job: &Job, motion: &Move, what: &'static str, name: &str) -> PlacementError {

@@ -3,14 +3,13 @@
 
 use super::outcome::meaning;
 use super::placement::{Place, name_of};
-use super::{Job, Task};
+use super::{Draft, Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
-use crate::model::Conditions;
 use crate::model::effects::Need;
-use crate::program::{Configuration, Decoded, Value};
+use crate::program::{Configuration, Decoded, Displacement, Value};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
 const BORDER_RAD: f64 = 0.05 * DEG;
@@ -35,14 +34,14 @@ struct Way {
 
 /// Where the path has been.
 #[derive(Clone, Copy, Default)]
-struct Path {
-    file: u32,
-    joints: Option<[f64; 6]>,
-    direction: [i8; 6],
+pub(super) struct Path {
+    pub file: u32,
+    pub joints: Option<[f64; 6]>,
+    pub direction: [i8; 6],
 }
 
 impl Path {
-    fn go(&mut self, q: [f64; 6]) {
+    pub fn go(&mut self, q: [f64; 6]) {
         if let Some(before) = self.joints {
             for i in 0..6 {
                 let by = q[i] - before[i];
@@ -55,18 +54,18 @@ impl Path {
     }
 }
 
-/// The tasks of all targets that have a place and a branch, in the order of the targets.
+/// Drafts of the tasks of all targets that have a place and a branch, in the order of the targets.
 pub(super) fn choose(
     job: &Job,
     places: &[Option<Place>],
     findings: &mut Vec<Finding>,
-) -> Vec<Task> {
+) -> Vec<Draft> {
     let directed = job
         .profile
         .effects
         .iter()
         .any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions));
-    let mut tasks: Vec<Task> = Vec::with_capacity(places.iter().flatten().count());
+    let mut tasks: Vec<Draft> = Vec::with_capacity(places.iter().flatten().count());
     // where the task of each target is in the list, once its first move is seen
     let mut seen: Vec<Option<Option<usize>>> = vec![None; places.len()];
     let mut path = Path::default();
@@ -84,11 +83,12 @@ pub(super) fn choose(
                 job,
                 target,
                 places[target],
+                &Displacement::None,
                 motion.configured && motion.near.is_none(),
                 start,
                 findings,
             )?;
-            tasks.push(task);
+            tasks.push(Draft::of(&task));
             Some(tasks.len() - 1)
         });
         seen[target] = Some(index);
@@ -112,7 +112,9 @@ pub(super) fn choose(
         }
     }
     for target in (0..places.len()).filter(|target| seen[*target].is_none()) {
-        tasks.extend(task(job, target, places[target], true, None, findings));
+        let none = &Displacement::None;
+        let task = task(job, target, places[target], none, true, None, findings);
+        tasks.extend(task.as_ref().map(Draft::of));
     }
     tasks.sort_unstable_by_key(|task| task.target);
     tasks
@@ -122,12 +124,13 @@ fn decoded(job: &Job, target: usize) -> Option<Decoded> {
     meaning(job.language, job.program, job.settings, target)
 }
 
-/// The task of one target. `honoured`: the controller uses its configuration data. `start`: the joints from which the robot
+/// The task of one target, displaced as a move to it says; `None` where that is unknown. `honoured`: the controller uses its configuration data. `start`: the joints from which the robot
 /// comes, or from which its inverse starts.
-fn task(
+pub(super) fn task(
     job: &Job,
     target: usize,
     place: Option<Place>,
+    displacement: &Displacement,
     honoured: bool,
     start: Option<[f64; 6]>,
     findings: &mut Vec<Finding>,
@@ -138,14 +141,15 @@ fn task(
         value,
         configuration,
     } = decoded(job, target)?;
-    let (wanted, branch, nominal_q) = match value {
-        Value::Joints(q) => (
-            job.on_part(equipped.controller.forward(&q, &Conditions::default())),
-            equipped.arm.posture(&q).0,
-            q,
-        ),
-        Value::Pose(frame_from_tool) => {
-            let wanted = job.on_part(*job.world_from_frame(frame) * frame_from_tool);
+    let value = match (value, displacement) {
+        (Value::Joints(_), _) | (_, Displacement::None) => value,
+        (Value::Pose(pose), Displacement::By(shift)) => Value::Pose(shift.apply(&pose)),
+        (Value::Pose(_), Displacement::Unknown) => return None,
+    };
+    let wanted = job.wanted(&value, tool, frame);
+    let (branch, nominal_q) = match value {
+        Value::Joints(q) => (equipped.arm.posture(&q).0, q),
+        Value::Pose(_) => {
             let asked = Asked {
                 target,
                 arm: &equipped.arm,
@@ -155,7 +159,7 @@ fn task(
                 start,
             };
             let way = choose_way(job, &asked, findings)?;
-            (wanted, way.branch, way.q)
+            (way.branch, way.q)
         }
     };
     Some(Task {

@@ -17,8 +17,11 @@ const NO_SHIFT: Separation = Separation {
     distance_m: 1e-9,
     angle_rad: 1e-9,
 };
-/// Rounding that costs more than this, and more than a tenth of the shift, is worth a finding, metres.
-const ROUNDING_LIMIT_M: f64 = 0.01 * MM;
+/// Rounding that costs more than this, and more than a tenth of the shift, is worth a finding.
+const ROUNDING_LIMIT: Separation = Separation {
+    distance_m: 0.01 * MM,
+    angle_rad: 0.02 * DEG,
+};
 /// Nearer to a singularity than this the joints move much for a small shift.
 const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
 const NEAR_AXIS_1_M: f64 = 5.0 * MM;
@@ -88,10 +91,13 @@ impl Portion {
         };
         report.changed = changed;
         report.rounding = landing(job, task, outcome, &written);
-        let beside = report.rounding.distance_m;
-        if beside > ROUNDING_LIMIT_M && beside > 0.1 * shift.distance_m {
-            self.findings
-                .push(rounding_finding(job, task, report.rounding, shift));
+        let left = report.rounding;
+        let beside =
+            left.distance_m > ROUNDING_LIMIT.distance_m && left.distance_m > 0.1 * shift.distance_m;
+        let turned =
+            left.angle_rad > ROUNDING_LIMIT.angle_rad && left.angle_rad > 0.1 * shift.angle_rad;
+        if beside || turned {
+            self.findings.push(rounding_finding(job, task, left, shift));
         }
     }
 
@@ -223,10 +229,12 @@ fn landing(job: &Job, task: &Task, outcome: &Outcome, written: &[f64]) -> Separa
 
 fn rounding_finding(job: &Job, task: &Task, rounding: Separation, shift: Separation) -> Finding {
     let message = format!(
-        "rounding to the file's decimals leaves {} {:.3} mm beside its wanted pose (the shift is {:.3} mm)",
+        "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg beside its wanted pose (the shift is {:.3} mm, {:.3} deg)",
         name_of(job, task.target),
         mm_from_m(rounding.distance_m),
-        mm_from_m(shift.distance_m)
+        rounding.angle_rad / DEG,
+        mm_from_m(shift.distance_m),
+        shift.angle_rad / DEG
     );
     job.at_target(
         "rounding",

@@ -4,6 +4,7 @@
 //! `world_from_tool = world_from_base * base_from_flange * flange_from_tool`. Lengths are metres, angles radians.
 
 mod dual;
+mod jet;
 mod lanes;
 mod pose;
 mod rotation;
@@ -12,6 +13,7 @@ mod turn;
 pub mod units;
 
 pub use dual::Dual;
+pub use jet::{Ball, Jet};
 pub use lanes::Lanes;
 pub use pose::{Pose, Separation};
 pub use rotation::{Quaternion, Rotation, wrap};

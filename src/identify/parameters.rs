@@ -150,6 +150,22 @@ impl Pick {
                 .all(|((a, b), n)| (*a..=*b).contains(&n))
     }
 
+    /// Whether it means an effect, or one of its parameters.
+    #[must_use]
+    pub fn means(&self, effect: &Effect) -> bool {
+        let numbers = effect
+            .definition()
+            .site
+            .iter()
+            .filter_map(|p| number(effect, *p));
+        self.kind == Some(effect.kind)
+            && self
+                .places
+                .iter()
+                .zip(numbers)
+                .all(|((a, b), n)| (*a..=*b).contains(&n))
+    }
+
     /// The effects this means, at zero.
     fn effects(&self) -> Vec<Effect> {
         let Some(kind) = self.kind else {
@@ -163,7 +179,7 @@ impl Pick {
             .filter(|p| p.range().is_some());
         for (n, place) in counted.enumerate() {
             let default = match place {
-                Place::Order => (1, 1),
+                Place::Order | Place::Row => (1, 1),
                 _ => (1, 6),
             };
             let (low, high) = self.places.get(n).copied().unwrap_or(default);
@@ -185,9 +201,9 @@ impl Pick {
 
 fn number(effect: &Effect, place: Place) -> Option<u32> {
     let index = match place {
-        Place::Link | Place::Joint => effect.site.index + 1,
+        Place::Link | Place::Joint | Place::JointOrBase => effect.site.index + 1,
         Place::On => effect.site.on + 1,
-        Place::Order => return Some(effect.site.order),
+        Place::Order | Place::Row => return Some(effect.site.order),
         Place::Tool => return None,
     };
     u32::try_from(index).ok()
@@ -196,9 +212,9 @@ fn number(effect: &Effect, place: Place) -> Option<u32> {
 fn with(site: &Site, place: Place, value: u32) -> Site {
     let mut site = site.clone();
     match place {
-        Place::Link | Place::Joint => site.index = value as usize - 1,
+        Place::Link | Place::Joint | Place::JointOrBase => site.index = value as usize - 1,
         Place::On => site.on = value as usize - 1,
-        Place::Order => site.order = value,
+        Place::Order | Place::Row => site.order = value,
         Place::Tool => {}
     }
     site

@@ -229,7 +229,10 @@ impl Problem {
                 observed: m.observed,
                 tool,
                 point: named.unwrap_or(PointRef::Known(m.point_in_tool_m.unwrap_or_default())),
-                conditions: m.conditions,
+                conditions: Conditions {
+                    row: u32::try_from(index + 1).ok(),
+                    ..m.conditions
+                },
                 sigma_m: m.sigma_m.unwrap_or(DEFAULT_SIGMA_M),
                 rig: 0,
             });
@@ -314,6 +317,9 @@ impl Problem {
                 let met = match need {
                     Need::Masses => masses,
                     Need::Directions => measurements.has(&super::measurements::DIRECTION_COLUMNS),
+                    Need::Temperature => measurements.has(&["temperature_c"]),
+                    Need::Time => measurements.has(&["time_s"]),
+                    Need::Order => true,
                 };
                 if !met {
                     return Err(IdentifyError::Missing {

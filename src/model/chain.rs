@@ -7,7 +7,7 @@
 
 use super::effects::Deflection;
 use super::geometry::{Body, Geometry, Link, Mechanism};
-use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, scale, sub};
+use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, norm, scale, sub};
 
 /// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(u1) · F1 · Rz(u2) · … · Rz(u6) · F6`, with
 /// the mechanical joint angles u in the controller's sense.
@@ -24,6 +24,7 @@ pub struct Chain<S = f64> {
     pub(super) fixed: [Pose<S>; 7],
     /// `Di · Trans(0, 0, di)`: the frame after each row, seen from the frame that its joint turns.
     pub(super) turning_from_link: [Pose<S>; 6],
+    pub(super) world_from_base: Pose<S>,
 }
 
 /// The links at one posture, without deflections.
@@ -33,6 +34,10 @@ pub struct Frames<S> {
     pub links: [Pose<S>; 6],
     /// Moment of gravity and external force about the origin of each link's frame, along the world's axes, N·m.
     pub moments: [Vector<S>; 6],
+    /// `world_from_base`.
+    pub base: Pose<S>,
+    /// Gravity and external force on the whole arm, along the world's axes, N.
+    pub force: Vector<S>,
 }
 
 /// What a field of acceleration acts on: the mass on each link and all links farther out.
@@ -132,6 +137,7 @@ impl<S: Scalar> Chain<S> {
         Self {
             fixed,
             turning_from_link,
+            world_from_base: geometry.world_from_base,
         }
     }
 
@@ -162,6 +168,44 @@ impl<S: Scalar> Chain<S> {
             pose = pose.turned(turns[i]) * bent;
         }
         pose * Pose::from_xyz_rxryrz(deflection.tool)
+    }
+
+    /// `world_from_link`, the frame after each row, with rotations of the links and the base where there are any.
+    #[must_use]
+    pub fn links(&self, turns: &[Turn<S>; 6], deflection: Option<&Deflection<S>>) -> [Pose<S>; 6] {
+        let mut pose = self.fixed[0];
+        if let Some(deflection) = deflection {
+            pose = Pose::from_xyz_rxryrz(deflection.world) * pose;
+        }
+        let mut links = [pose; 6];
+        for i in 0..6 {
+            let turning = pose.turned(turns[i]);
+            links[i] = turning * self.turning_from_link[i];
+            let Some(deflection) = deflection else {
+                pose = turning * self.fixed[i + 1];
+                continue;
+            };
+            let [x, y, z] = deflection.links[i];
+            let bend = Rotation::about_x(x) * Rotation::about_y(y) * Rotation::about_z(z);
+            links[i] = links[i] * Pose::from_rotation(bend);
+            pose = links[i] * self.turning_from_link[i].inverse() * self.fixed[i + 1];
+        }
+        links
+    }
+
+    /// Lengths of the way from the origin of each link's frame to the next, the base's first, metres.
+    #[must_use]
+    pub fn reaches(&self, world_from_base: &Pose<S>) -> [S; 6] {
+        let zero = [Turn::none(); 6];
+        let links = self.links(&zero, None);
+        std::array::from_fn(|i| {
+            let before = if i == 0 {
+                world_from_base.translation
+            } else {
+                links[i - 1].translation
+            };
+            norm(sub(links[i].translation, before))
+        })
     }
 
     /// `world_from_link`: the frame after each row of the chain.
@@ -214,6 +258,8 @@ impl<S: Scalar> Chain<S> {
             pose = turning[i] * self.fixed[i + 1];
         }
         let mut moments = [[S::zero(); 3]; 6];
+        let mut force = force_n.map(S::constant);
+        force = add(force, scale(loads.masses.mass_kg[0], loads.gravity_m_s2));
         for (hanging, field) in [
             (&loads.masses, loads.gravity_m_s2),
             (&loads.unit_mass, force_n.map(S::constant)),
@@ -228,6 +274,8 @@ impl<S: Scalar> Chain<S> {
         Frames {
             links: std::array::from_fn(|i| turning[i] * self.turning_from_link[i]),
             moments,
+            base: self.world_from_base,
+            force,
         }
     }
 
@@ -267,6 +315,8 @@ impl Frames<f64> {
         Frames {
             links: self.links.map(|link| link.cast()),
             moments: self.moments.map(|moment| moment.map(S::constant)),
+            base: self.base.cast(),
+            force: self.force.map(S::constant),
         }
     }
 }
@@ -278,6 +328,7 @@ impl Chain {
         Chain {
             fixed: self.fixed.map(|p| p.cast()),
             turning_from_link: self.turning_from_link.map(|p| p.cast()),
+            world_from_base: self.world_from_base.cast(),
         }
     }
 }

@@ -13,4 +13,6 @@ pub struct Conditions {
     pub temperature_c: Option<f64>,
     /// Time since the session began, seconds.
     pub time_s: Option<f64>,
+    /// Row of the measurements, from 1; none outside a session of measurements.
+    pub row: Option<u32>,
 }

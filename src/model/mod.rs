@@ -13,6 +13,7 @@ pub mod profile;
 mod real;
 mod rows;
 mod sensitivity;
+pub mod shape;
 
 pub use batch::forward_batch;
 pub use chain::{Chain, Frames};

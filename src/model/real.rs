@@ -18,6 +18,7 @@ use crate::geometry::{Dual, Pose, Scalar, Turn};
 #[derive(Clone, Debug)]
 pub struct Model<S = f64> {
     pub(super) chain: Chain<S>,
+    world_from_base: Pose<S>,
     pub(super) loads: Loads<S>,
     pub(super) mechanism: Mechanism,
     /// The effects that depend on the posture.
@@ -49,6 +50,7 @@ impl<S: Scalar> Model<S> {
         Self {
             loads: Loads::of(&real, &chain),
             chain,
+            world_from_base: real.world_from_base,
             mechanism: mechanism.clone(),
             loaded: deflecting.iter().any(|e| e.definition().needs_masses()),
             bends: deflecting.iter().any(|e| e.definition().bends),
@@ -93,6 +95,33 @@ impl<S: Scalar> Model<S> {
             }
         }
         self.chain.forward(&real)
+    }
+
+    /// Where the base and the frame after each row of the chain are in the world, `world_from_link` of link 0 to 6, with all
+    /// that the posture does to them.
+    #[must_use]
+    pub fn link_frames(&self, q: &[S; 6], conditions: &Conditions) -> [Pose<S>; 7] {
+        let commanded = self.mechanism.commanded(q);
+        let turns = Turn::of_each(&commanded);
+        let mut deflection = Deflection::none();
+        if !self.deflecting.is_empty() {
+            self.deflect(&commanded, &turns, conditions, &mut deflection);
+        }
+        let real = std::array::from_fn(|i| turns[i].and(deflection.joints[i]));
+        let mut frames = [self.world_from_base; 7];
+        let links = self.chain.links(&real, self.bends.then_some(&deflection));
+        if self.bends {
+            frames[0] = Pose::from_xyz_rxryrz(deflection.world) * self.world_from_base;
+        }
+        frames[1..].copy_from_slice(&links);
+        frames
+    }
+
+    /// Distance from the origin of the base or a link's frame to the origin of the next, the base's first, metres: no posture
+    /// changes it.
+    #[must_use]
+    pub fn reaches(&self) -> [S; 6] {
+        self.chain.reaches(&self.world_from_base)
     }
 
     /// Whether some effect depends on the joint angles themselves, not only on their sines and cosines.
@@ -154,6 +183,7 @@ impl Model {
     pub fn cast<S: Scalar>(&self) -> Model<S> {
         Model {
             chain: self.chain.cast(),
+            world_from_base: self.world_from_base.cast(),
             loads: self.loads.cast(),
             mechanism: self.mechanism.clone(),
             deflecting: self.deflecting.iter().map(Effect::cast).collect(),

@@ -40,6 +40,8 @@ pub struct Slot {
 #[derive(Clone, Copy, Debug)]
 struct Twist {
     at: usize,
+    /// It is of the part of the transform before the link bends: in the frame of link `at` − 1 (from 1), not behind the whole.
+    unbent: bool,
     turn: Vector,
     shift: Vector,
 }
@@ -125,10 +127,28 @@ impl Column {
         }
         let chain = Chain::of(&real, mechanism);
         let loads = Loads::of(&real, &chain);
-        let twists = (0..7)
-            .map(|at| (at, twist_of(&chain.fixed[at])))
-            .filter(|(_, (turn, shift))| *turn != [0.0; 3] || *shift != [0.0; 3])
-            .map(|(at, (turn, shift))| Twist { at, turn, shift })
+        let bends = effects.iter().any(|effect| effect.definition().bends);
+        let mut parts: Vec<(usize, bool, Pose<Dual<1>>)> = Vec::new();
+        for at in 0..7 {
+            if bends && at > 0 {
+                // a link bends about its own frame's origin, between the two parts of the transform
+                let own = chain.turning_from_link[at - 1];
+                parts.push((at, true, own));
+                parts.push((at, false, own.inverse() * chain.fixed[at]));
+            } else {
+                parts.push((at, false, chain.fixed[at]));
+            }
+        }
+        let twists = parts
+            .into_iter()
+            .map(|(at, unbent, pose)| (at, unbent, twist_of(&pose)))
+            .filter(|(_, _, (turn, shift))| *turn != [0.0; 3] || *shift != [0.0; 3])
+            .map(|(at, unbent, (turn, shift))| Twist {
+                at,
+                unbent,
+                turn,
+                shift,
+            })
             .collect();
         let effect = dual.swap_remove(slot.effect);
         Self {
@@ -398,7 +418,11 @@ impl Sensitivity {
         for (column, motion) in self.columns.iter().zip(motions.iter_mut()) {
             *motion = Motion::default();
             for twist in &column.twists {
-                let frame = &layout.before[twist.at];
+                let frame = if twist.unbent {
+                    &layout.links[twist.at - 1]
+                } else {
+                    &layout.before[twist.at]
+                };
                 let turn = frame.rotation * twist.turn;
                 let lever = sub(layout.tool.translation, frame.translation);
                 let shift = add(frame.rotation * twist.shift, cross(turn, lever));

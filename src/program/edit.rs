@@ -37,6 +37,16 @@ impl Edits {
         });
     }
 
+    /// Takes back the replacements inside a range.
+    pub fn take_back(&mut self, range: &Range<usize>) {
+        let inside = |span: &Span| {
+            span.start as usize >= range.start
+                && span.end as usize <= range.end
+                && span.start < span.end
+        };
+        self.spans.retain(|span| !inside(span));
+    }
+
     /// Adds the replacements of another list for the same file.
     pub fn append(&mut self, other: &Self) {
         let by = short(self.text.len());

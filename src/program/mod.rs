@@ -140,8 +140,31 @@ pub trait Language: Sync {
         out.extend_from_slice(format!("{value}").as_bytes());
     }
 
+    /// Text that puts moves before one of a program's, like it but for their targets: byte ranges of its file and what to put
+    /// in their place. Where the move is an arc, the last entry of `between` is the move itself with another point on its
+    /// way. `None` where the move cannot be repeated, or the language does not do this.
+    fn insert(
+        &self,
+        source: &Source,
+        program: &Program,
+        motion: usize,
+        between: &[Between],
+    ) -> Option<Vec<(Range<usize>, Vec<u8>)>> {
+        let _ = (source, program, motion, between);
+        None
+    }
+
     /// Where the marker goes and its text in the file's own line ends.
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>);
+}
+
+/// A target to be put between two of a program: the text of each number, in the order of [`Language::roles`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Between {
+    /// The point that an arc to it passes through.
+    pub via: Option<Vec<Vec<u8>>>,
+    /// The target.
+    pub end: Vec<Vec<u8>>,
 }
 
 /// Which kind of target the numbers are.
@@ -313,6 +336,15 @@ impl Shift {
     }
 }
 
+/// How fast a move is, and how far from its target the next one may begin, where the program tells.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Pace {
+    /// Programmed speed of the tool, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Radius of the corner, metres; 0 where the robot stops.
+    pub zone_m: Option<f64>,
+}
+
 /// One use of a target by a move instruction, in the order of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
@@ -334,6 +366,8 @@ pub struct Move {
     pub configured: bool,
     /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
     pub near: Option<Box<[f64; 6]>>,
+    /// How fast, and with which corner.
+    pub pace: Pace,
 }
 
 /// A tool that moves name.

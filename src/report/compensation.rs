@@ -1,6 +1,6 @@
 //! The report of `compensate`: `compensation/1`.
 
-use super::pose;
+use super::{one_or_many, pose};
 use crate::compensate::{Compensation, Summary, meaning};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::{Language, Source, Value as TargetValue};
@@ -24,11 +24,6 @@ pub struct Header<'a> {
 /// The JSON document.
 #[must_use]
 pub fn json(header: &Header, compensation: &Compensation) -> Value {
-    let one_or_many = |names: &[String]| match names {
-        [] => Value::Null,
-        [one] => json!(one),
-        many => json!(many),
-    };
     let mut findings_of: BTreeMap<(&str, usize), Vec<&str>> = BTreeMap::new();
     for finding in &compensation.findings {
         let place = (finding.file.as_str(), finding.line);
@@ -54,6 +49,7 @@ pub fn json(header: &Header, compensation: &Compensation) -> Value {
             "max_shift_mm": mm_from_m(s.max_shift_m),
             "max_residual_mm": mm_from_m(s.max_residual_m),
             "max_rounding_mm": mm_from_m(s.max_rounding_m),
+            "max_rounding_deg": s.max_rounding_rad / DEG,
         },
         "findings": compensation.findings,
     })
@@ -117,6 +113,7 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
         max_shift_m,
         max_residual_m,
         max_rounding_m,
+        max_rounding_rad,
     } = compensation.summary;
     let mut lines = vec![format!(
         "{} file(s) of {}, {targets} targets: {compensated} shifted, {unchanged} unchanged",
@@ -139,8 +136,9 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
             mm_from_m(max_residual_m)
         ));
         lines.push(format!(
-            "  rounding  largest {:.4} mm (what the file's decimals cost)",
-            mm_from_m(max_rounding_m)
+            "  rounding  largest {:.4} mm, {:.4} deg (what the file's decimals cost)",
+            mm_from_m(max_rounding_m),
+            max_rounding_rad / DEG
         ));
     }
     lines.join("\n") + "\n"

@@ -1,7 +1,9 @@
 //! What commands tell: texts for people and JSON for programs.
 
 pub mod approach;
+pub mod check;
 pub mod compensation;
+pub mod diagnosis;
 pub mod findings;
 pub mod identification;
 pub mod profile;
@@ -19,4 +21,13 @@ pub fn pose(pose: &Pose) -> Value {
         "rx_deg": rx / DEG, "ry_deg": ry / DEG, "rz_deg": rz / DEG,
         "quaternion": quaternion,
     })
+}
+
+/// Nothing, a name, or a list of names.
+fn one_or_many(names: &[String]) -> Value {
+    match names {
+        [] => Value::Null,
+        [one] => json!(one),
+        many => json!(many),
+    }
 }

@@ -26,6 +26,13 @@ pub struct Definition {
 }
 
 impl Definition {
+    /// Whether it is an effect of the data, not of the robot: it begins at a row of the measurements. It repairs their
+    /// analysis and never enters a profile.
+    #[must_use]
+    pub fn of_data(&self) -> bool {
+        self.site.contains(&Place::Row)
+    }
+
     /// Whether torques or moments enter.
     #[must_use]
     pub fn needs_masses(&self) -> bool {
@@ -42,8 +49,12 @@ pub enum Place {
     Joint,
     /// `on: 1…6`, another joint
     On,
+    /// `joint: 1…6`, optional: without it the base
+    JointOrBase,
     /// `order: 1…`, periods in one turn
     Order,
+    /// `row: 1…`, the row of the measurements from which on it holds
+    Row,
     /// `tool: NAME`, optional: without it every tool
     Tool,
 }
@@ -54,19 +65,27 @@ impl Place {
     pub const fn key(self) -> &'static str {
         match self {
             Self::Link => "link",
-            Self::Joint => "joint",
+            Self::Joint | Self::JointOrBase => "joint",
             Self::On => "on",
             Self::Order => "order",
+            Self::Row => "row",
             Self::Tool => "tool",
         }
+    }
+
+    /// Whether an entry may leave it out.
+    #[must_use]
+    pub const fn optional(self) -> bool {
+        matches!(self, Self::Tool | Self::JointOrBase)
     }
 
     /// Smallest and largest number; `None` where it is a name.
     #[must_use]
     pub const fn range(self) -> Option<(u32, u32)> {
         match self {
-            Self::Link | Self::Joint | Self::On => Some((1, 6)),
+            Self::Link | Self::Joint | Self::JointOrBase | Self::On => Some((1, 6)),
             Self::Order => Some((1, 1000)),
+            Self::Row => Some((1, 1_000_000_000)),
             Self::Tool => None,
         }
     }
@@ -94,6 +113,16 @@ pub enum Unit {
     Ratio,
     /// Radians a newton metre.
     RadPerNm,
+    /// Kilograms.
+    Kilogram,
+    /// Newton metres.
+    NewtonMetre,
+    /// One a kelvin.
+    PerKelvin,
+    /// Degrees Celsius.
+    Celsius,
+    /// Seconds.
+    Second,
 }
 
 impl Unit {
@@ -105,6 +134,11 @@ impl Unit {
             Self::Degree => "deg",
             Self::Ratio => "1",
             Self::RadPerNm => "rad/(N m)",
+            Self::Kilogram => "kg",
+            Self::NewtonMetre => "N m",
+            Self::PerKelvin => "1/K",
+            Self::Celsius => "°C",
+            Self::Second => "s",
         }
     }
 
@@ -114,7 +148,13 @@ impl Unit {
         match self {
             Self::Millimetre => units::MM,
             Self::Degree => units::DEG,
-            Self::Ratio | Self::RadPerNm => 1.0,
+            Self::Ratio
+            | Self::RadPerNm
+            | Self::Kilogram
+            | Self::NewtonMetre
+            | Self::PerKelvin
+            | Self::Celsius
+            | Self::Second => 1.0,
         }
     }
 }
@@ -126,6 +166,12 @@ pub enum Need {
     Masses,
     /// Columns `dir1…dir6` in measurements; the direction of motion.
     Directions,
+    /// Column `temperature_c`.
+    Temperature,
+    /// Column `time_s`.
+    Time,
+    /// Rows in the order in which they were measured.
+    Order,
 }
 
 impl Need {
@@ -135,6 +181,9 @@ impl Need {
         match self {
             Self::Masses => "masses (bodies or tool mass_kg in the profile)",
             Self::Directions => "columns dir1…dir6",
+            Self::Temperature => "column temperature_c",
+            Self::Time => "column time_s",
+            Self::Order => "rows in the order in which they were measured",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! An effect as an entry of a profile: `{effect: ID, joint: 2, rad_per_n_m: 3.2e-5}`.
 
 use super::definition::{Definition, Parameter, Place};
-use super::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
+use super::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
 use serde_json::{Map, Value, json};
 
 /// What is wrong with an entry, and which of its keys is to blame.
@@ -123,6 +123,7 @@ impl Effect {
             let value = entry.get(place.key());
             match (place, value) {
                 (Place::Tool, None) => {}
+                (Place::JointOrBase, None) => site.index = BASE,
                 (_, None) => {
                     return Err(EntryError::MissingKey {
                         id: definition.id,
@@ -130,13 +131,15 @@ impl Effect {
                     });
                 }
                 (Place::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
-                (Place::Link | Place::Joint, Some(value)) => {
+                (Place::Link | Place::Joint | Place::JointOrBase, Some(value)) => {
                     site.index = whole(definition, *place, value)? as usize - 1;
                 }
                 (Place::On, Some(value)) => {
                     site.on = whole(definition, *place, value)? as usize - 1;
                 }
-                (Place::Order, Some(value)) => site.order = whole(definition, *place, value)?,
+                (Place::Order | Place::Row, Some(value)) => {
+                    site.order = whole(definition, *place, value)?;
+                }
             }
         }
         if definition.site.contains(&Place::On) && site.index == site.on {
@@ -174,9 +177,12 @@ impl Effect {
         let mut entry = vec![("effect", json!(definition.id))];
         for place in definition.site {
             match place {
-                Place::Link | Place::Joint => entry.push((place.key(), json!(self.site.index + 1))),
+                Place::JointOrBase if self.site.index == BASE => {}
+                Place::Link | Place::Joint | Place::JointOrBase => {
+                    entry.push((place.key(), json!(self.site.index + 1)));
+                }
                 Place::On => entry.push((place.key(), json!(self.site.on + 1))),
-                Place::Order => entry.push((place.key(), json!(self.site.order))),
+                Place::Order | Place::Row => entry.push((place.key(), json!(self.site.order))),
                 Place::Tool => entry.extend(
                     self.site
                         .tool
@@ -216,7 +222,14 @@ impl Effect {
     /// Whether two entries are the same effect of the same place.
     #[must_use]
     pub fn same_place(&self, other: &Self) -> bool {
-        self.kind == other.kind && self.site == other.site
+        let (mine, others) = (&self.site, &other.site);
+        let same = |place: &Place| match place {
+            Place::Link | Place::Joint | Place::JointOrBase => mine.index == others.index,
+            Place::On => mine.on == others.on,
+            Place::Order | Place::Row => mine.order == others.order,
+            Place::Tool => mine.tool == others.tool,
+        };
+        self.kind == other.kind && self.definition().site.iter().all(same)
     }
 }
 
@@ -286,7 +299,7 @@ pub fn entry_schema() -> Value {
                 None => json!({"type": "string"}),
             };
             properties.insert(place.key().into(), schema);
-            if *place != Place::Tool {
+            if !place.optional() {
                 required.push(place.key());
             }
         }
@@ -305,5 +318,7 @@ pub fn entry_schema() -> Value {
             "additionalProperties": false,
         })
     };
-    json!({"oneOf": REGISTRY.iter().map(|kind| one(kind.definition())).collect::<Vec<_>>()})
+    let of_robot = REGISTRY.iter().map(|kind| kind.definition());
+    let of_robot = of_robot.filter(|definition| !definition.of_data());
+    json!({"oneOf": of_robot.map(one).collect::<Vec<_>>()})
 }

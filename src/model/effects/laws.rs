@@ -1,7 +1,7 @@
 //! What holds for every effect of the registry.
 
 use super::{Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site};
-use crate::geometry::{Dual, Pose};
+use crate::geometry::{Dual, Pose, Scalar};
 use crate::model::profile::Profile;
 use crate::model::{Conditions, Model, Motion, Sensitivity, Slot};
 
@@ -22,6 +22,7 @@ fn conditions() -> Conditions {
         force_n: [20.0, -35.0, 10.0],
         temperature_c: Some(27.0),
         time_s: Some(300.0),
+        row: Some(7),
     }
 }
 
@@ -35,7 +36,7 @@ fn pose_with(kind: Kind, parameters: [f64; MOST_PARAMETERS], q: &[f64; 6]) -> Po
     Model::build(
         &profile.geometry(&tool()),
         &profile.mechanism,
-        &[effect],
+        &[compliance(), effect],
         &conditions,
     )
     .forward(q, &conditions)
@@ -111,7 +112,7 @@ fn zero_parameters_change_nothing() {
         let nominal = Model::build(
             &profile().geometry(&tool()),
             &profile().mechanism,
-            &[],
+            &[compliance()],
             &conditions(),
         )
         .forward(q, &conditions());
@@ -126,17 +127,41 @@ fn zero_parameters_change_nothing() {
     }
 }
 
+/// Every parameter at its typical size, in SI.
+fn typical(kind: Kind) -> [f64; MOST_PARAMETERS] {
+    let mut parameters = [0.0; MOST_PARAMETERS];
+    for (slot, parameter) in parameters.iter_mut().zip(kind.definition().parameters) {
+        *slot = parameter.prior_sigma * parameter.unit.in_si();
+    }
+    parameters
+}
+
+/// A joint's compliance, through which an error of the load shows.
+fn compliance<S: Scalar>() -> Effect<S> {
+    let effect = Effect {
+        kind: Kind::JointCompliance,
+        site: site(),
+        parameters: typical(Kind::JointCompliance),
+    };
+    effect.cast()
+}
+
 #[test]
 fn every_parameter_moves_the_tool_or_its_orientation() {
     for kind in REGISTRY {
         let d = kind.definition();
         for (index, parameter) in d.parameters.iter().enumerate() {
-            let mut parameters = [0.0; MOST_PARAMETERS];
-            parameters[index] = 10.0 * parameter.prior_sigma * parameter.unit.in_si();
+            let mut parameters = typical(*kind);
+            // a knee above every torque is none
+            parameters[index] *= if parameter.key == "torque_n_m" {
+                0.01
+            } else {
+                10.0
+            };
             let moved = POSTURES.iter().any(|q| {
                 let gap = pose_with(*kind, parameters, q).separation(&pose_with(
                     *kind,
-                    [0.0; MOST_PARAMETERS],
+                    typical(*kind),
                     q,
                 ));
                 gap.distance_m > 1e-7 || gap.angle_rad > 1e-7
@@ -154,8 +179,7 @@ fn dual_derivatives_agree_with_central_differences() {
         for (index, parameter) in d.parameters.iter().enumerate() {
             let at = 0.7 * parameter.prior_sigma * parameter.unit.in_si();
             let step = 1e-3 * parameter.prior_sigma * parameter.unit.in_si();
-            let mut values =
-                [Dual::<1>::variable(0.0, 0); MOST_PARAMETERS].map(|p| Dual { slope: [0.0], ..p });
+            let mut values = typical(*kind).map(Dual::<1>::constant);
             values[index] = Dual::variable(at, 0);
             let effect = Effect {
                 kind: *kind,
@@ -165,7 +189,7 @@ fn dual_derivatives_agree_with_central_differences() {
             let model = Model::build(
                 &profile().geometry(&tool()),
                 &profile().mechanism,
-                &[effect],
+                &[compliance(), effect],
                 &conditions,
             );
             for q in &POSTURES {
@@ -177,7 +201,7 @@ fn dual_derivatives_agree_with_central_differences() {
                     &conditions,
                 );
                 let plain = |by: f64| {
-                    let mut parameters = [0.0; MOST_PARAMETERS];
+                    let mut parameters = typical(*kind);
                     parameters[index] = at + by;
                     pose_with(*kind, parameters, q).translation
                 };
@@ -204,9 +228,9 @@ fn an_entry_written_is_read_as_the_same_effect() {
         let mut site = Site::default();
         for place in d.site {
             match place {
-                Place::Link | Place::Joint => site.index = 3,
+                Place::Link | Place::Joint | Place::JointOrBase => site.index = 3,
                 Place::On => site.on = 4,
-                Place::Order => site.order = 2,
+                Place::Order | Place::Row => site.order = 2,
                 Place::Tool => site.tool = Some("gripper".into()),
             }
         }

@@ -20,6 +20,9 @@ use super::conditions::Conditions;
 use super::geometry::Geometry;
 use crate::geometry::{Scalar, Vector};
 
+/// [`Site::index`] of the base.
+pub const BASE: usize = 6;
+
 /// Most parameters an effect has.
 pub const MOST_PARAMETERS: usize = 6;
 
@@ -108,6 +111,14 @@ registry! {
     joint_harmonic::JointHarmonic,
     joint_coupling::JointCoupling,
     backlash::Backlash,
+    payload_error::PayloadError,
+    compliance_knee::ComplianceKnee,
+    link_compliance::LinkCompliance,
+    base_compliance::BaseCompliance,
+    thermal_growth::ThermalGrowth,
+    warm_up_drift::WarmUpDrift,
+    frame_shift::FrameShift,
+    tool_slip::ToolSlip,
 }
 
 impl Kind {
@@ -124,11 +135,11 @@ impl Kind {
 /// What an effect belongs to. Only what its [`Definition::site`] lists is used.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Site {
-    /// Index of the joint or link, 0 to 5.
+    /// Index of the joint or link, 0 to 5; 6 is the base where an effect may belong to it.
     pub index: usize,
     /// Index of the joint it leaks from.
     pub on: usize,
-    /// Periods in one turn.
+    /// Periods in one turn; or the first row of the measurements, from 1, where an effect begins there.
     pub order: u32,
     /// Name of the tool; `None` is every tool.
     pub tool: Option<String>,
@@ -229,7 +240,7 @@ mod tests {
                 site: Site::default(),
                 parameters: [0.5; MOST_PARAMETERS],
             };
-            if !effect.definition().deflects || effect.reads_angles() {
+            if !effect.definition().deflects || effect.reads_angles() || effect.definition().bends {
                 continue;
             }
             found += 1;

@@ -27,10 +27,12 @@ pub enum Fault {
         message: String,
     },
     /// Not a profile, or of another version.
-    #[error("format is `{found}`; this program reads `profile/1`")]
+    #[error("format is `{found}`; this program reads `{reads}`")]
     Format {
         /// What the file says.
         found: String,
+        /// What it should say.
+        reads: &'static str,
     },
     /// A list of joints that are not six.
     #[error("{found} joints; a profile has 6")]
@@ -89,9 +91,55 @@ pub enum Fault {
         /// The tool.
         tool: String,
     },
+    /// A length that is zero or negative.
+    #[error("{key} is {found}; it must be above 0")]
+    NotPositive {
+        /// The key.
+        key: &'static str,
+        /// What the file says.
+        found: f64,
+    },
+    /// A scale of nothing.
+    #[error("scale belongs to a mesh, and there is none")]
+    ScaleWithoutMesh,
+    /// An entry with no shape or with several.
+    #[error("{found} shapes in one entry; each has exactly one")]
+    NotOneShape {
+        /// How many there are.
+        found: usize,
+    },
+    /// A shape that cannot move.
+    #[error("a plane cannot move: `{name}` is not fixed in the world")]
+    MovingPlane {
+        /// Its name or its link.
+        name: String,
+    },
+    /// Two bodies of one name.
+    #[error("two bodies are called `{name}`")]
+    DuplicateBody {
+        /// The name.
+        name: String,
+    },
+    /// A name that no body has.
+    #[error("no body is called `{name}`")]
+    UnknownBody {
+        /// The name.
+        name: String,
+        /// Names there are.
+        known: String,
+    },
+    /// A pair that says nothing, or two things.
+    #[error("a pair has either clearance_mm or allow: true")]
+    PairMeaning,
     /// A wrong entry in the list of effects.
     #[error(transparent)]
     Effect(EntryError),
+    /// An effect of the data in a robot's profile.
+    #[error("`{id}` is an effect of measurements, not of the robot: a profile cannot have it")]
+    EffectOfData {
+        /// Which.
+        id: &'static str,
+    },
     /// An effect that stands there twice.
     #[error("`{label}` stands twice in the list of effects")]
     DuplicateEffect {
@@ -112,7 +160,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    pub(super) fn at(self, location: Location) -> ProfileError {
+    pub(crate) fn at(self, location: Location) -> ProfileError {
         let span = location.span();
         let bytes = span.byte_offset().zip(span.byte_len());
         #[allow(clippy::cast_possible_truncation)]
@@ -131,10 +179,22 @@ impl ProfileError {
     pub fn hint(&self) -> String {
         match &self.fault {
             Fault::Effect(error) => error.hint(),
-            Fault::DuplicateEffect { .. } => "add the two up into one entry".into(),
-            Fault::Format { .. } | Fault::Yaml { .. } => {
-                "`poseshift profile schema` prints the format".into()
+            Fault::EffectOfData { .. } => {
+                "leave it out; `poseshift diagnose` finds it in measurements and repairs their analysis".into()
             }
+            Fault::DuplicateEffect { .. } => "add the two up into one entry".into(),
+            Fault::Format {
+                reads: super::FORMAT,
+                ..
+            } => "`poseshift profile schema` prints the format".into(),
+            Fault::Yaml { .. } => {
+                "docs/formats.md and `poseshift profile schema` describe the formats".into()
+            }
+            Fault::NotOneShape { .. } => {
+                "one of capsule_mm, box_mm, sphere_mm, cylinder_mm, plane, mesh".into()
+            }
+            Fault::UnknownBody { known, .. } => format!("bodies are: {known}"),
+            Fault::MovingPlane { .. } => "a box does the same".into(),
             Fault::EffectsOfNominal => "set `model: calibrated`, or take the effects away".into(),
             Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
             Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),

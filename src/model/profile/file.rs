@@ -42,6 +42,10 @@ pub struct ProfileFile {
     #[serde(default)]
     #[schemars(with = "Vec<BodyFile>")]
     pub bodies: Vec<Spanned<BodyFile>>,
+    /// Bodies of the links, for collisions.
+    #[serde(default)]
+    #[schemars(with = "Vec<super::shape::LinkShapeFile>")]
+    pub shapes: Vec<Spanned<super::shape::LinkShapeFile>>,
     /// Gravity in the world.
     #[serde(default = "earth")]
     pub gravity_m_s2: [Number; 3],
@@ -141,6 +145,9 @@ pub struct JointFile {
     pub min_deg: Number,
     /// Largest controller's angle.
     pub max_deg: Number,
+    /// Largest speed of the joint, for the estimate of what a programmed speed asks.
+    #[serde(default)]
+    pub speed_deg_s: Option<Number>,
     /// −1 where the controller counts the other way.
     #[serde(default = "plus")]
     pub sign: i8,

@@ -1,8 +1,9 @@
 //! A robot's profile: read strictly, and made into models.
 
 mod error;
-mod file;
+pub(crate) mod file;
 mod rewrite;
+pub(crate) mod shape;
 mod shipped;
 pub mod universal_robots;
 mod write;
@@ -14,6 +15,7 @@ pub use shipped::SHIPPED;
 pub use write::{WriteError, rewritten};
 
 use super::effects::{Effect, Kind, Need};
+use super::shape::{Form, LinkShape};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion, Vector};
@@ -47,10 +49,14 @@ pub struct Profile {
     pub links: [Link; 6],
     /// How the controller counts joint angles.
     pub mechanism: Mechanism,
+    /// Largest speed of each joint where it is given, rad/s.
+    pub joint_speeds: [Option<f64>; 6],
     /// The flange on the last link.
     pub link6_from_flange: Pose,
     /// Masses of the links.
     pub bodies: Vec<Body>,
+    /// Bodies of the links, for collisions.
+    pub shapes: Vec<LinkShape>,
     /// Gravity in the world, m/s².
     pub gravity_m_s2: Vector,
     /// Tools by name.
@@ -111,6 +117,7 @@ impl Profile {
         if file.poseshift.value != FORMAT {
             return Err(Fault::Format {
                 found: file.poseshift.value,
+                reads: FORMAT,
             }
             .at(file.poseshift.defined));
         }
@@ -127,6 +134,7 @@ impl Profile {
                 cog_m: metres(body.cog_mm),
             });
         }
+        let shapes = shapes(&file.shapes)?;
         let mut tools = BTreeMap::new();
         for (name, tool) in file.tools {
             let load = match (tool.mass_kg, tool.cog_mm) {
@@ -147,6 +155,17 @@ impl Profile {
             );
         }
         let (links, joints) = rows(&kinematics.joints)?;
+        let mut joint_speeds = [None; 6];
+        for (speed, joint) in joint_speeds.iter_mut().zip(&kinematics.joints.value) {
+            if let Some(number) = joint.value.speed_deg_s {
+                if number.0 <= 0.0 {
+                    let found = number.0;
+                    let key = "speed_deg_s";
+                    return Err(Fault::NotPositive { key, found }.at(joint.defined));
+                }
+                *speed = Some(number.0 * DEG);
+            }
+        }
         let profile = Self {
             manufacturer: file.robot.manufacturer,
             model: file.robot.model,
@@ -163,6 +182,7 @@ impl Profile {
                 .as_ref()
                 .map_or(Ok(Pose::identity()), pose)?,
             links,
+            joint_speeds,
             mechanism: Mechanism {
                 joints,
                 coupling: couplings(&kinematics.coupling)?,
@@ -172,6 +192,7 @@ impl Profile {
                 .as_ref()
                 .map_or(Ok(Pose::identity()), pose)?,
             bodies,
+            shapes,
             gravity_m_s2: file.gravity_m_s2.map(|n| n.0),
             tools,
             points: file
@@ -270,6 +291,31 @@ impl Profile {
             conditions,
         )
     }
+}
+
+fn shapes(entries: &[Spanned<shape::LinkShapeFile>]) -> Result<Vec<LinkShape>, ProfileError> {
+    let read = |entry: &Spanned<shape::LinkShapeFile>| {
+        let (at, file) = (entry.defined, &entry.value);
+        if file.link > 6 {
+            return Err(Fault::OutOfRange {
+                key: "link",
+                found: f64::from(file.link),
+                low: 0.0,
+                high: 6.0,
+            }
+            .at(at));
+        }
+        let shape = file.shape(at)?;
+        if matches!(shape.form, Form::Plane { .. }) {
+            let name = format!("link {}", file.link);
+            return Err(Fault::MovingPlane { name }.at(at));
+        }
+        Ok(LinkShape {
+            link: usize::from(file.link),
+            shape,
+        })
+    };
+    entries.iter().map(read).collect()
 }
 
 fn metres(mm: [Number; 3]) -> Vector {
@@ -454,6 +500,10 @@ fn effects(entries: Vec<file::EffectFile>) -> Result<Vec<Effect>, ProfileError> 
                 .unwrap_or(at);
             Fault::Effect(error).at(at)
         })?;
+        if effect.definition().of_data() {
+            let id = effect.definition().id;
+            return Err(Fault::EffectOfData { id }.at(at));
+        }
         if out.iter().any(|other| other.same_place(&effect)) {
             return Err(Fault::DuplicateEffect {
                 label: effect.label(),

@@ -240,7 +240,7 @@ mod tests {
         profile.quality = Some(json!({"mean_mm": 0.1, "matrix": [[1.0, 2.5e-12], [0.0, 1.0]]}));
         let out = rewritten(text, &profile).expect("a plain layout");
         assert!(out.contains("# Bodies: the thesis."));
-        assert!(out.contains("# 250 deg/s"));
+        assert!(out.contains("max_deg: 165, speed_deg_s: 250}"));
         let back = Profile::from_yaml(&out).expect("it was read back");
         assert_eq!(back.quality, profile.quality);
         for (a, b) in back.effects.iter().zip(&profile.effects) {

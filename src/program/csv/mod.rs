@@ -272,6 +272,7 @@ impl Reader {
             displacement: Displacement::None,
             configured: header.branch.is_some(),
             near,
+            pace: crate::program::Pace::default(),
         });
         Ok(())
     }

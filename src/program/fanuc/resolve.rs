@@ -405,6 +405,7 @@ impl<'a> Resolver<'a> {
             displacement,
             configured: !extras.wrist_joint,
             near: None,
+            pace: crate::program::Pace::default(),
         });
     }
 

@@ -422,6 +422,7 @@ impl Resolver<'_> {
                 },
                 configured: kind == Kind::Joint,
                 near: None,
+                pace: crate::program::Pace::default(),
             };
             self.report.program.moves.push(used.clone());
             // the same variable elsewhere stands for the same point: the robot is there already

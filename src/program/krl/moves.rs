@@ -377,6 +377,7 @@ impl<'a, 's> Moves<'a, 's> {
             displacement: with.displacement,
             configured: with.path == Path::Joint,
             near: None,
+            pace: crate::program::Pace::default(),
         });
     }
 

@@ -6,6 +6,8 @@ use super::syntax::{
     Argument, Base, Expression, Index, Part, Path, Statement, Type, Verb, indices,
 };
 use super::world::World;
+use crate::geometry::units::MM;
+use crate::program::Pace;
 
 /// The parts of a move instruction.
 pub(super) struct Parts {
@@ -19,6 +21,27 @@ pub(super) struct Parts {
     pub synchronised: bool,
     /// The load that stands for that of the tool.
     pub load: Option<Symbol>,
+    /// Speed and zone where they are predefined ones.
+    pub pace: Pace,
+}
+
+/// Millimetres that a predefined name ends on: `v100`, `z10`.
+fn predefined(name: &str, letter: char) -> Option<f64> {
+    let rest = name.strip_prefix([letter, letter.to_ascii_uppercase()])?;
+    let whole = !rest.is_empty() && rest.len() < 6 && rest.bytes().all(|b| b.is_ascii_digit());
+    whole.then(|| rest.parse().ok()).flatten()
+}
+
+/// What a predefined name says of a move's speed and zone.
+fn read_pace(name: &str, pace: &mut Pace) {
+    if let Some(mm) = predefined(name, 'v') {
+        pace.speed_m_s = pace.speed_m_s.or(Some(mm * MM));
+    } else if let Some(mm) = predefined(name, 'z') {
+        // z0 is 0.3 mm
+        pace.zone_m = pace.zone_m.or(Some(mm.max(0.3) * MM));
+    } else if name.eq_ignore_ascii_case("fine") {
+        pace.zone_m = pace.zone_m.or(Some(0.0));
+    }
 }
 
 impl World {
@@ -98,9 +121,13 @@ impl World {
         let mut last = None;
         let mut before_wobj = None;
         let mut inside = None;
+        let mut pace = Pace::default();
         for (place, (at, argument)) in positional().filter(|(at, _)| *at >= end).enumerate() {
             let named = self.plain(argument);
             last = named;
+            if let Some((name, _)) = named {
+                read_pace(self.notes.symbols.spelling(name), &mut pace);
+            }
             if place == 2 {
                 inside = named;
             }
@@ -130,6 +157,7 @@ impl World {
         };
         let part = |at: usize| arguments.0 + index(at);
         Some(Parts {
+            pace,
             targets: (part(start), part(end)),
             tool,
             frame,

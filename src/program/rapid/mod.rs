@@ -39,6 +39,7 @@ mod displacement;
 mod expressions;
 mod findings;
 mod frames;
+mod insert;
 mod instruction;
 mod moves;
 pub(in crate::program) mod names;
@@ -56,7 +57,7 @@ use super::{
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
-use crate::program::Configuration;
+use crate::program::{Between, Configuration};
 use findings::{Cause, Report};
 use moves::Moves;
 use reader::{Reader, index};
@@ -190,6 +191,16 @@ impl Language for Rapid {
             }
             _ => panic!("a value of the other shape"),
         }
+    }
+
+    fn insert(
+        &self,
+        source: &Source,
+        program: &Program,
+        motion: usize,
+        between: &[Between],
+    ) -> Option<Vec<(std::ops::Range<usize>, Vec<u8>)>> {
+        insert::insert(source, program, motion, between)
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -9,7 +9,9 @@ use super::syntax::{
 use super::uses::{Used, Uses};
 use super::world::{Points, World};
 use crate::finding::Severity;
-use crate::program::{Displacement, FrameId, Motion, Move, ReadError, Shift, TargetId, ToolId};
+use crate::program::{
+    Displacement, FrameId, Motion, Move, Pace, ReadError, Shift, TargetId, ToolId,
+};
 use std::collections::HashSet;
 
 /// The most uses of elements of arrays with indices that only the running program knows.
@@ -177,6 +179,7 @@ impl<'a> Moves<'a> {
                 frame: &frame,
                 configured,
                 displaced,
+                pace: parts.pace,
             };
             self.go(statement, expression, &with);
         }
@@ -491,6 +494,7 @@ impl<'a> Moves<'a> {
                 displacement,
                 configured: with.configured,
                 near: None,
+                pace: with.pace,
             });
         }
     }
@@ -503,4 +507,5 @@ struct With<'a> {
     frame: &'a Used<FrameId>,
     configured: bool,
     displaced: Option<Place>,
+    pace: Pace,
 }

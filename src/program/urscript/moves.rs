@@ -163,6 +163,7 @@ impl<'p, 's> Moves<'p, 's> {
             displacement,
             configured: false,
             near: near.map(Box::new),
+            pace: crate::program::Pace::default(),
         });
     }
 

@@ -12,15 +12,30 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("inverse", &["geometry", "model"]),
     ("identify", &["geometry", "inverse", "model"]),
     ("register", &["geometry", "inverse", "model"]),
+    ("diagnose", &["geometry", "identify", "model"]),
     ("program", &["geometry", "finding"]),
     (
         "compensate",
         &["finding", "geometry", "inverse", "model", "program"],
     ),
+    ("urdf", &["geometry", "model"]),
+    (
+        "check",
+        &[
+            "compensate",
+            "finding",
+            "geometry",
+            "inverse",
+            "model",
+            "program",
+        ],
+    ),
     (
         "report",
         &[
+            "check",
             "compensate",
+            "diagnose",
             "finding",
             "geometry",
             "identify",
@@ -32,7 +47,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "check",
             "compensate",
+            "diagnose",
             "finding",
             "geometry",
             "identify",
@@ -41,6 +58,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "program",
             "register",
             "report",
+            "urdf",
         ],
     ),
     ("main", &["cli"]),

@@ -117,6 +117,7 @@ fn the_report_is_json_and_nothing_else() {
         "max_shift_mm",
         "max_residual_mm",
         "max_rounding_mm",
+        "max_rounding_deg",
     ] {
         assert!(report["summary"][key].is_number(), "{key}");
     }

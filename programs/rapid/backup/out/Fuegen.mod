@@ -5,7 +5,7 @@
 
 MODULE Fuegen
   ! poseshift compensated this file (version 0.1.0)
-  ! profile b3cbf5c1187e1e011f13d4db64246d94fe8506d76a4c3af389f18a0ebec2f69f
+  ! profile 67a76cab2617a802fa5ea9e4da91307f2960c7860b954e2f6f80b0fcc588cb6b
   ! source 5f64b91d9d98b1316373ebd2e30bd5457f96d54d0f009c72fb5435719501d88c
   ! Kleberaupe um den Flansch: zwei Bögen ergeben den Kreis
   LOCAL CONST robtarget p10:=[[430.58,60.48,281.93],[0.127897,-0.000196,-0.991787,-0.000771],[0,-1,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];

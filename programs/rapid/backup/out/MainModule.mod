@@ -5,7 +5,7 @@
 
 MODULE MainModule
   ! poseshift compensated this file (version 0.1.0)
-  ! profile b3cbf5c1187e1e011f13d4db64246d94fe8506d76a4c3af389f18a0ebec2f69f
+  ! profile 67a76cab2617a802fa5ea9e4da91307f2960c7860b954e2f6f80b0fcc588cb6b
   ! source 935be61b822bb5dac1a73ff95e580f580315893afd1c9c161c4df944144bceef
   ! Zelle 4, Entnahme und Fügen. Stand nach ModPos vom 12.03., Höhe geprüft
   CONST jointtarget jHome:=[[0,-15,30,0,60,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];

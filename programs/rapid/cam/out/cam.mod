@@ -5,7 +5,7 @@
 
 MODULE cam
   ! poseshift compensated this file (version 0.1.0)
-  ! profile b3cbf5c1187e1e011f13d4db64246d94fe8506d76a4c3af389f18a0ebec2f69f
+  ! profile 67a76cab2617a802fa5ea9e4da91307f2960c7860b954e2f6f80b0fcc588cb6b
   ! source 2f6493f5936f02bccd2d3367e5e2012cd33ef164381085ad5e2aab214e6a59f7
   ! dome D160, ball nose 6 mm, 40 rings
   PERS tooldata tSpindle:=[TRUE,[[-15.000,0.000,135.000],[0.99144486,0.00000000,0.13052619,0.00000000]],[1.1,[-5,0,55],[1,0,0,0],0,0,0]];

@@ -1,6 +1,6 @@
 MODULE CalibData
   ! poseshift compensated this file (version 0.1.0)
-  ! profile b3cbf5c1187e1e011f13d4db64246d94fe8506d76a4c3af389f18a0ebec2f69f
+  ! profile 67a76cab2617a802fa5ea9e4da91307f2960c7860b954e2f6f80b0fcc588cb6b
   ! source 5bb828c6f82fad33bbb00b2f91482a12a6d4bc85b2f5fea60be1a552b1ffe720
     PERS tooldata tProbe:=[TRUE,[[0,30,105],[1,0,0,0]],[0.8,[0,10,40],[1,0,0,0],0,0,0]];
     TASK PERS wobjdata wLeft:=[FALSE,TRUE,"",[[350,-100,110],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];

@@ -5,7 +5,7 @@
 
 MODULE MOD_Deburr
   ! poseshift compensated this file (version 0.1.0)
-  ! profile b3cbf5c1187e1e011f13d4db64246d94fe8506d76a4c3af389f18a0ebec2f69f
+  ! profile 67a76cab2617a802fa5ea9e4da91307f2960c7860b954e2f6f80b0fcc588cb6b
   ! source e489eb1770b8a04629960cbd86a6d51cb9afea915b83bd370e535286d7cf4b47
 
     LOCAL PERS tooldata rdkTool := [TRUE,[[0,0,0],[1,0,0,0]],[1.4,[0,0,60],[1,0,0,0],0,0,0.005]];

@@ -1,0 +1,332 @@
+//! A check against one that was stored: what got worse, what better.
+//!
+//! The stored run is the JSON report of a check. Moves are paired by file and by their place among the file's moves, so that
+//! a line inserted above changes nothing.
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Differences below these are none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// Of errors, clearances and coordinates of targets, mm.
+    pub mm: f64,
+    /// Of angles, degrees.
+    pub deg: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Self {
+            mm: 0.0005,
+            deg: 0.0005,
+        }
+    }
+}
+
+/// One difference.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Difference {
+    /// Program file.
+    pub file: String,
+    /// Line in the present file (in the stored one where the move is gone); 0 for the whole file.
+    pub line: u64,
+    /// What differs: a key of the report, `target`, `moves`, or the id of a finding.
+    pub what: String,
+    /// The stored value.
+    pub before: Value,
+    /// The present one.
+    pub now: Value,
+}
+
+/// What differs from a stored run.
+#[derive(Clone, Debug, PartialEq, Default, serde::Serialize)]
+pub struct Comparison {
+    /// Larger errors, less room, new findings, other targets.
+    pub worse: Vec<Difference>,
+    /// The reverse.
+    pub better: Vec<Difference>,
+    /// Moves in which nothing differs.
+    pub same: usize,
+}
+
+/// Why two runs cannot be compared.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BaselineError {
+    /// No JSON.
+    #[error("not a stored check: {message}")]
+    Json {
+        /// What the parser says.
+        message: String,
+    },
+    /// Another kind of report.
+    #[error("a report of the kind `{found}`; a stored check is `check/1`")]
+    Kind {
+        /// What it says.
+        found: String,
+    },
+}
+
+/// Keys of a move of which more is worse, and whether they are angles.
+const MORE_IS_WORSE: [(&str, bool); 4] = [
+    ("target_error_mm", false),
+    ("target_error_deg", true),
+    ("max_path_error_mm", false),
+    ("max_path_error_deg", true),
+];
+/// Keys of a move of which less is worse.
+const LESS_IS_WORSE: [&str; 2] = ["clearance_mm", "nominal_clearance_mm"];
+
+/// Reads a stored run.
+///
+/// # Errors
+/// If it is not the report of a check.
+pub fn read(text: &str) -> Result<Value, BaselineError> {
+    let value: Value = serde_json::from_str(text).map_err(|error| BaselineError::Json {
+        message: error.to_string(),
+    })?;
+    let kind = value["poseshift"].as_str().unwrap_or("nothing");
+    if kind != "check/1" || !value["moves"].is_array() {
+        return Err(BaselineError::Kind { found: kind.into() });
+    }
+    Ok(value)
+}
+
+/// Moves by file, in the order of the report.
+fn by_file(report: &Value) -> BTreeMap<&str, Vec<&Value>> {
+    let mut files: BTreeMap<&str, Vec<&Value>> = BTreeMap::new();
+    for entry in report["moves"].as_array().into_iter().flatten() {
+        let file = entry["file"].as_str().unwrap_or_default();
+        files.entry(file).or_default().push(entry);
+    }
+    files
+}
+
+/// How many findings of each id each file has on each move's line, notes left out.
+fn findings_by(report: &Value) -> BTreeMap<(&str, &str), Vec<u64>> {
+    let mut found: BTreeMap<(&str, &str), Vec<u64>> = BTreeMap::new();
+    for finding in report["findings"].as_array().into_iter().flatten() {
+        if finding["severity"] == "note" {
+            continue;
+        }
+        let key = (
+            finding["file"].as_str().unwrap_or_default(),
+            finding["id"].as_str().unwrap_or_default(),
+        );
+        let line = finding["line"].as_u64().unwrap_or(0);
+        found.entry(key).or_default().push(line);
+    }
+    found
+}
+
+/// Compares a stored run with the present one.
+#[must_use]
+pub fn compare(before: &Value, now: &Value, tolerances: Tolerances) -> Comparison {
+    let mut comparison = Comparison::default();
+    let (old, new) = (by_file(before), by_file(now));
+    let none = Vec::new();
+    let files: std::collections::BTreeSet<_> = old.keys().chain(new.keys()).copied().collect();
+    for file in files {
+        let (old, new) = (
+            old.get(file).unwrap_or(&none),
+            new.get(file).unwrap_or(&none),
+        );
+        if old.len() != new.len() {
+            comparison.worse.push(Difference {
+                file: file.into(),
+                line: 0,
+                what: "moves".into(),
+                before: old.len().into(),
+                now: new.len().into(),
+            });
+        }
+        for (old, new) in old.iter().zip(new) {
+            compare_move(file, old, new, tolerances, &mut comparison);
+        }
+    }
+    let (old, new) = (findings_by(before), findings_by(now));
+    let keys: std::collections::BTreeSet<_> = old.keys().chain(new.keys()).copied().collect();
+    for key in keys {
+        let lines =
+            |of: &BTreeMap<(&str, &str), Vec<u64>>| of.get(&key).cloned().unwrap_or_default();
+        let (old, new) = (lines(&old), lines(&new));
+        let difference = |line: Option<&u64>| Difference {
+            file: key.0.into(),
+            line: line.copied().unwrap_or(0),
+            what: key.1.into(),
+            before: old.len().into(),
+            now: new.len().into(),
+        };
+        // the line that is told is the first that the other run has not
+        let extra = |some: &[u64], other: &[u64]| some.iter().find(|l| !other.contains(l)).copied();
+        if new.len() > old.len() {
+            let line = extra(&new, &old);
+            comparison
+                .worse
+                .push(difference(line.as_ref().or(new.first())));
+        } else if new.len() < old.len() {
+            let line = extra(&old, &new);
+            comparison
+                .better
+                .push(difference(line.as_ref().or(old.first())));
+        }
+    }
+    for list in [&mut comparison.worse, &mut comparison.better] {
+        list.sort_by(|a, b| (&a.file, a.line, &a.what).cmp(&(&b.file, b.line, &b.what)));
+    }
+    comparison
+}
+
+fn compare_move(
+    file: &str,
+    old: &Value,
+    new: &Value,
+    tolerances: Tolerances,
+    comparison: &mut Comparison,
+) {
+    let before = comparison.worse.len() + comparison.better.len();
+    let difference = |key: &str| Difference {
+        file: file.into(),
+        line: new["line"].as_u64().unwrap_or(0),
+        what: key.into(),
+        before: old[key].clone(),
+        now: new[key].clone(),
+    };
+    let keys = MORE_IS_WORSE
+        .iter()
+        .map(|(key, angle)| (*key, *angle, 1.0))
+        .chain(LESS_IS_WORSE.iter().map(|key| (*key, false, -1.0)));
+    for (key, angle, sense) in keys {
+        let tolerance = if angle { tolerances.deg } else { tolerances.mm };
+        match (old[key].as_f64(), new[key].as_f64()) {
+            (Some(a), Some(b)) if sense * (b - a) > tolerance => {
+                comparison.worse.push(difference(key));
+            }
+            (Some(a), Some(b)) if sense * (a - b) > tolerance => {
+                comparison.better.push(difference(key));
+            }
+            (Some(_), None) | (None, Some(_)) => comparison.worse.push(difference(key)),
+            _ => {}
+        }
+    }
+    let numbers = |value: &Value| -> Vec<f64> {
+        value
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_f64)
+            .collect()
+    };
+    let (a, b) = (numbers(&old["target"]), numbers(&new["target"]));
+    let far = |i: usize| {
+        let tolerance = if i < 3 { tolerances.mm } else { tolerances.deg };
+        let gap = (a[i] - b[i]).abs();
+        // an angle and one a whole turn on are the same
+        let gap = if i < 3 {
+            gap
+        } else {
+            gap.min((gap - 360.0).abs())
+        };
+        gap > tolerance
+    };
+    if a.len() != b.len() || (0..a.len()).any(far) || old["kind"] != new["kind"] {
+        comparison.worse.push(difference("target"));
+    }
+    if comparison.worse.len() + comparison.better.len() == before {
+        comparison.same += 1;
+    }
+}
+
+/// Short lines on what got worse, `file:line: what before → now`.
+#[must_use]
+pub fn text(comparison: &Comparison) -> String {
+    let mut out = format!(
+        "baseline: {} worse, {} better, {} moves the same\n",
+        comparison.worse.len(),
+        comparison.better.len(),
+        comparison.same
+    );
+    for difference in &comparison.worse {
+        let Difference {
+            file,
+            line,
+            what,
+            before,
+            now,
+        } = difference;
+        let place = if *line == 0 {
+            file.clone()
+        } else {
+            format!("{file}:{line}")
+        };
+        out += &format!(
+            "{place}: worse: {what} {} -> {}\n",
+            short(before),
+            short(now)
+        );
+    }
+    out
+}
+
+fn short(value: &Value) -> String {
+    match (value.as_f64(), value.as_array()) {
+        (Some(number), _) if number.fract() != 0.0 => format!("{number:.4}"),
+        (_, Some(list)) => {
+            let parts: Vec<_> = list.iter().map(short).collect();
+            format!("[{}]", parts.join(", "))
+        }
+        (_, None) if value.is_null() => "none".into(),
+        _ => value.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn run(error: f64, clearance: f64, x: f64, findings: usize) -> Value {
+        let finding = json!({"id": "collision", "severity": "error", "file": "a.mod", "line": 7});
+        json!({
+            "poseshift": "check/1",
+            "moves": [{"file": "a.mod", "line": 7, "kind": "linear", "target": [x, 0.0, 0.0, 180.0, 0.0, 0.0],
+                "max_path_error_mm": error, "clearance_mm": clearance}],
+            "findings": vec![finding; findings],
+        })
+    }
+
+    #[test]
+    fn worse_and_better_are_told_with_their_line_and_small_changes_are_not() {
+        let base = run(0.1, 5.0, 1.0, 0);
+        let compare = |now: &Value| compare(&base, now, Tolerances::default());
+        assert_eq!(compare(&run(0.1002, 4.9998, 1.0, 0)).same, 1);
+        let cases = [
+            (run(0.2, 5.0, 1.0, 0), "max_path_error_mm"),
+            (run(0.1, 4.0, 1.0, 0), "clearance_mm"),
+            (run(0.1, 5.0, 1.001, 0), "target"),
+            (run(0.1, 5.0, 1.0, 1), "collision"),
+        ];
+        for (now, what) in cases {
+            let found = compare(&now);
+            assert_eq!(found.worse.len(), 1, "{what}");
+            assert_eq!(
+                (found.worse[0].what.as_str(), found.worse[0].line),
+                (what, 7)
+            );
+            assert!(text(&found).contains(&format!("a.mod:7: worse: {what}")));
+        }
+        assert_eq!(compare(&run(0.05, 6.0, 1.0, 0)).better.len(), 2);
+        let mut turned = base.clone();
+        turned["moves"][0]["target"][3] = json!(-180.0);
+        assert_eq!(compare(&turned).same, 1);
+        turned["moves"] = json!([]);
+        assert_eq!(compare(&turned).worse[0].what, "moves");
+    }
+
+    #[test]
+    fn other_files_are_no_baseline() {
+        assert!(read("{").is_err());
+        assert!(read(r#"{"poseshift": "compensation/1", "moves": []}"#).is_err());
+        assert!(read(&run(0.1, 1.0, 0.0, 0).to_string()).is_ok());
+    }
+}

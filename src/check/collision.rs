@@ -1,0 +1,478 @@
+//! How near bodies come anywhere along a move: conservative advancement by halving.
+//!
+//! Over an interval of a move with bounds V of a body's speed and K of its acceleration by s, seen from the other body, and
+//! the two bodies' distance d at the middle with unit normal n between them, their distance is nowhere less than
+//!
+//! ```text
+//! d − V h/2                                                     no point moves farther
+//! the gap along n, at the ends and the middle, less K (h/2)²/8   no point leaves its chord by more
+//! ```
+//!
+//! The interval with the least bound is halved until it is within a tolerance of the nearest sample; pairs that cannot be
+//! the nearest are dropped on the way. What is told is the bound: never more than the true clearance.
+//!
+//! # Source
+//! B. Mirtich, J. Canny, "Impulse-based simulation" (1995) (conservative advancement); S. Piyavskii (1972) (the search).
+
+use super::course::{Leg, Piece};
+use super::query::{Body, Nearest};
+use super::scene::{FixedForm, Other, Scene, Watched};
+use crate::geometry::{Jet, Pose, Vector, norm, sub};
+use crate::model::Model;
+use crate::model::effects::Deflection;
+use std::collections::BinaryHeap;
+
+/// The bound is within this of the nearest sample, metres.
+const CLOSE_M: f64 = 5e-6;
+/// Intervals are not halved below this part of the move.
+const SHORTEST: f64 = 1e-7;
+/// Intervals looked at in one move before its bound is told as it is.
+const MOST: usize = 20_000;
+/// More triangles than this stay in their tree.
+const FEW: usize = 48;
+
+/// How near the pair comes that has the least room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// Nowhere along the move are they nearer than this, metres.
+    pub clearance_m: f64,
+    /// The nearest sample, metres.
+    pub sampled_m: f64,
+    /// What is required of the pair, metres.
+    pub required_m: f64,
+    /// Index of the pair; `None` where nothing comes within the horizon.
+    pub(crate) pair: Option<usize>,
+    /// Where along the move, 0 to 1.
+    pub at: f64,
+    /// The controller's joints there, radians.
+    pub joints: [f64; 6],
+    /// The nearest points in the world, on the moving body and on the other.
+    pub points: [Vector; 2],
+    /// The bound is guaranteed; else only samples were looked at somewhere.
+    pub certified: bool,
+}
+
+/// One model of the arm that goes along the moves.
+pub(crate) struct Mover<'a> {
+    pub model: &'a Model,
+    pub jet: &'a Model<Jet>,
+    /// Lengths from frame to frame.
+    pub reaches: [f64; 6],
+}
+
+/// Bounds of the rates of a piece: what each joint adds to the speed and acceleration of what it carries.
+#[derive(Clone, Copy, Debug)]
+struct Rates {
+    /// Angular speed of each joint, radians by s.
+    turn: [f64; 6],
+    /// Angular acceleration of each.
+    gain: [f64; 6],
+    /// Rotation and translation of the whole arm in the world: speed and acceleration.
+    world: [[f64; 2]; 2],
+}
+
+impl Mover<'_> {
+    fn rates(&self, leg: &Leg, piece: &Piece) -> Rates {
+        let mechanism = self.model.mechanism();
+        let commanded = mechanism.commanded(&piece.joints);
+        let deflection: Deflection<Jet> = self.jet.deflection(&piece.joints, &leg.conditions);
+        let mut rates = Rates {
+            turn: [0.0; 6],
+            gain: [0.0; 6],
+            world: [[0.0; 2]; 2],
+        };
+        for i in 0..6 {
+            let real = commanded[i] + deflection.joints[i];
+            rates.turn[i] = real.slope.magnitude();
+            rates.gain[i] = real.bend.magnitude();
+            for bend in deflection.links[i] {
+                rates.turn[i] += bend.slope.magnitude();
+                rates.gain[i] += bend.bend.magnitude() + bend.slope.magnitude().powi(2);
+            }
+        }
+        for (i, part) in deflection.world.iter().enumerate() {
+            let kind = usize::from(i < 3);
+            rates.world[kind][0] += part.slope.magnitude();
+            rates.world[kind][1] += part.bend.magnitude() + part.slope.magnitude().powi(2);
+        }
+        rates
+    }
+
+    /// Bounds of speed and acceleration of a body on link `on` seen from link `from` (0 is the world), by s.
+    fn speed(
+        &self,
+        rates: &Rates,
+        from: Option<usize>,
+        on: usize,
+        extent: f64,
+        base: f64,
+    ) -> [f64; 2] {
+        let (mut speed, mut gain, mut before) = (0.0, 0.0, 0.0);
+        if from.is_none() {
+            let far = base + self.reaches[..on].iter().sum::<f64>() + extent;
+            let [turning, moving] = rates.world;
+            speed += turning[0] * far + moving[0];
+            gain += far * (turning[1] + turning[0] * turning[0]) + moving[1];
+            before += turning[0];
+        }
+        for joint in from.unwrap_or(0)..on {
+            // from the axis of this joint to the body's farthest point
+            let far = self.reaches[joint + 1..on].iter().sum::<f64>() + extent;
+            let turn = rates.turn[joint];
+            speed += far * turn;
+            gain += far * (turn * (turn + 2.0 * before) + rates.gain[joint]);
+            before += turn;
+        }
+        [speed, gain]
+    }
+}
+
+/// A pair that is still in question in an interval; of a mesh one triangle, or all of them.
+#[derive(Clone, Copy)]
+struct Item {
+    pair: u32,
+    triangle: Option<u32>,
+}
+
+struct Node {
+    /// Least margin that anything in it can have.
+    bound: f64,
+    from: f64,
+    to: f64,
+    piece: u32,
+    items: Vec<Item>,
+    joints: [f64; 6],
+}
+
+impl PartialEq for Node {
+    fn eq(&self, other: &Self) -> bool {
+        self.bound == other.bound
+    }
+}
+impl Eq for Node {}
+impl PartialOrd for Node {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Node {
+    // the heap gives the greatest: the least bound
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        other.bound.total_cmp(&self.bound)
+    }
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    mover: &'a Mover<'a>,
+    leg: &'a Leg<'a>,
+    horizon_m: f64,
+    rates: Vec<Rates>,
+    best: Clearance,
+    /// Least margin of a sample: clearance less what is required.
+    margin: f64,
+    /// Least bound of what was not looked at closer.
+    settled: f64,
+}
+
+type Frames = [Pose; 7];
+
+/// The clearance of one move, as far as anything comes within `horizon_m` of what is required of it.
+pub(crate) fn clearance(
+    scene: &Scene,
+    mover: &Mover,
+    leg: &Leg,
+    pieces: &[Piece],
+    horizon_m: f64,
+) -> Clearance {
+    let mut search = Search {
+        scene,
+        mover,
+        leg,
+        horizon_m,
+        rates: pieces.iter().map(|piece| mover.rates(leg, piece)).collect(),
+        best: Clearance {
+            clearance_m: horizon_m,
+            sampled_m: f64::INFINITY,
+            required_m: 0.0,
+            pair: None,
+            at: 0.0,
+            joints: leg.start,
+            points: [[0.0; 3]; 2],
+            certified: true,
+        },
+        margin: horizon_m,
+        settled: f64::INFINITY,
+    };
+    let all: Vec<Item> = (0..scene.watched.len())
+        .map(|pair| Item {
+            pair: u32::try_from(pair).unwrap_or(u32::MAX),
+            triangle: None,
+        })
+        .collect();
+    let mut open = BinaryHeap::new();
+    let mut near = leg.start;
+    for (index, piece) in pieces.iter().enumerate() {
+        let end = leg.joints(piece.to, &near);
+        search.best.certified &= piece.certified;
+        let (from, to) = (piece.from, piece.to);
+        let node = Node {
+            bound: f64::NEG_INFINITY,
+            from,
+            to,
+            piece: u32::try_from(index).unwrap_or(u32::MAX),
+            items: all.clone(),
+            joints: near,
+        };
+        // rates without bound: all that is known is samples
+        let rates = &search.rates[index];
+        let known = rates.turn.iter().chain(&rates.gain).all(|x| x.is_finite());
+        if known {
+            open.push(node);
+        } else {
+            search.sample_all(&node, &all);
+        }
+        near = end;
+    }
+    let mut looked = 0;
+    while let Some(node) = open.pop() {
+        if node.bound >= search.margin - CLOSE_M {
+            search.settled = search.settled.min(node.bound);
+            break;
+        }
+        looked += 1;
+        if looked > MOST || node.to - node.from < SHORTEST {
+            search.settled = search.settled.min(node.bound);
+            if looked > MOST {
+                break;
+            }
+            continue;
+        }
+        let (middle, bound, items) = search.look(&node);
+        if items.is_empty() {
+            continue;
+        }
+        let half = 0.5 * (node.from + node.to);
+        for (from, to, joints) in [(node.from, half, node.joints), (half, node.to, middle)] {
+            open.push(Node {
+                bound,
+                from,
+                to,
+                piece: node.piece,
+                items: items.clone(),
+                joints,
+            });
+        }
+        // nothing can be nearer than touching
+        if search.best.sampled_m <= 0.0 {
+            search.best.clearance_m = 0.0;
+            return search.best;
+        }
+    }
+    let least = search.settled.min(search.margin);
+    search.best.clearance_m = (least + search.best.required_m).max(0.0);
+    if search.best.pair.is_none() {
+        search.best.clearance_m = search.best.clearance_m.min(horizon_m);
+    }
+    search.best
+}
+
+impl Search<'_> {
+    fn frames(&self, joints: &[f64; 6]) -> Frames {
+        self.mover.model.link_frames(joints, &self.leg.conditions)
+    }
+
+    /// The first body's pose seen from the second's frame.
+    fn relative(&self, frames: &Frames, pair: &Watched) -> Pose {
+        let world_from_a = frames[self.scene.moving[pair.a].link];
+        match pair.b {
+            Other::Fixed(_) => world_from_a,
+            Other::Moving(b) => frames[self.scene.moving[b].link].inverse() * world_from_a,
+        }
+    }
+
+    fn note(&mut self, item: Item, found: &Nearest, frames: &Frames, at: f64, joints: &[f64; 6]) {
+        let pair = &self.scene.watched[item.pair as usize];
+        let margin = found.distance_m - pair.required_m;
+        if margin < self.margin {
+            let place = match pair.b {
+                Other::Fixed(_) => Pose::identity(),
+                Other::Moving(b) => frames[self.scene.moving[b].link],
+            };
+            self.margin = margin;
+            self.best = Clearance {
+                sampled_m: found.distance_m,
+                required_m: pair.required_m,
+                pair: Some(item.pair as usize),
+                at,
+                joints: *joints,
+                points: [place.transform(found.on_a), place.transform(found.on_b)],
+                ..self.best
+            };
+        }
+    }
+
+    /// Where rates have no bound, the ends and some places between.
+    fn sample_all(&mut self, node: &Node, all: &[Item]) {
+        let mut near = node.joints;
+        for k in 0..=4 {
+            let s = node.from + (node.to - node.from) * f64::from(k) / 4.0;
+            near = self.leg.joints(s, &near);
+            let frames = self.frames(&near);
+            for item in all {
+                let pair = &self.scene.watched[item.pair as usize];
+                let relative = self.relative(&frames, pair);
+                let body = &self.scene.moving[pair.a].body;
+                match pair.b {
+                    Other::Moving(b) => {
+                        let found = body.nearest(&relative, &self.scene.moving[b].body);
+                        self.note(*item, &found, &frames, s, &near);
+                    }
+                    Other::Fixed(k) => match &self.scene.fixed[k].form {
+                        FixedForm::Convex(other) => {
+                            let found = body.nearest(&relative, other);
+                            self.note(*item, &found, &frames, s, &near);
+                        }
+                        FixedForm::Mesh { triangles, .. } => {
+                            let (centre, radius) = body.ball();
+                            let reach = radius + self.margin + pair.required_m;
+                            let mut found = Vec::new();
+                            triangles.near(relative.transform(centre), reach, |t| {
+                                found.push(body.nearest(&relative, &triangles.bodies[t as usize]));
+                            });
+                            for found in found {
+                                self.note(*item, &found, &frames, s, &near);
+                            }
+                        }
+                    },
+                }
+            }
+        }
+    }
+
+    /// Samples an interval in its middle; returns the joints there, what remains in question, and the least margin that it
+    /// can have.
+    fn look(&mut self, node: &Node) -> ([f64; 6], f64, Vec<Item>) {
+        let at = 0.5 * (node.from + node.to);
+        let half = 0.5 * (node.to - node.from);
+        let middle = self.leg.joints(at, &node.joints);
+        let end = self.leg.joints(node.to, &middle);
+        let begin = self.leg.joints(node.from, &node.joints);
+        let frames = [begin, middle, end].map(|joints| self.frames(&joints));
+        let rates = self.rates[node.piece as usize];
+        let (mut bound, mut settled, mut items) = (f64::INFINITY, f64::INFINITY, Vec::new());
+        for item in &node.items {
+            let pair = self.scene.watched[item.pair as usize];
+            let moving = &self.scene.moving[pair.a];
+            let from = match pair.b {
+                Other::Moving(b) => Some(self.scene.moving[b].link),
+                Other::Fixed(_) => None,
+            };
+            let base = norm(frames[0][0].translation);
+            let [speed, gain] =
+                self.mover
+                    .speed(&rates, from, moving.link, moving.body.extent(), base);
+            let poses = [0, 1, 2].map(|i| self.relative(&frames[i], &pair));
+            let (moved, sag) = (speed * half, gain * half * half / 8.0);
+            let cutoff = self.margin.min(self.horizon_m) - CLOSE_M + pair.required_m;
+            let (centre, radius) = moving.body.ball();
+            let centre = poses[1].transform(centre);
+            let judge = |search: &mut Self, other: &Body, item: Item| {
+                let (centre_b, radius_b) = other.ball();
+                let apart = norm(sub(centre, centre_b)) - radius - radius_b - moved;
+                if radius_b.is_finite() && apart >= cutoff {
+                    return (apart - pair.required_m, false);
+                }
+                let found = moving.body.nearest(&poses[1], other);
+                search.note(item, &found, &frames[1], at, &middle);
+                let mut least = found.distance_m - moved;
+                if found.distance_m > 0.0 {
+                    let n = found.normal;
+                    let far = poses
+                        .iter()
+                        .map(|pose| moving.body.support_placed(pose, n))
+                        .fold(f64::NEG_INFINITY, f64::max);
+                    let stays = -other.support(n.map(|x| -x));
+                    least = least.max(stays - far - sag);
+                }
+                (least - pair.required_m, least < cutoff)
+            };
+            let mut keep = |item: Item, (least, open): (f64, bool)| {
+                if open {
+                    bound = bound.min(least);
+                    items.push(item);
+                } else {
+                    settled = settled.min(least);
+                }
+            };
+            match pair.b {
+                Other::Moving(b) => {
+                    let other = &self.scene.moving[b].body;
+                    let judged = judge(self, other, *item);
+                    keep(*item, judged);
+                }
+                Other::Fixed(k) => match &self.scene.fixed[k].form {
+                    FixedForm::Convex(other) => {
+                        let judged = judge(self, other, *item);
+                        keep(*item, judged);
+                    }
+                    FixedForm::Mesh { triangles, .. } => {
+                        if let Some(t) = item.triangle {
+                            let judged = judge(self, &triangles.bodies[t as usize], *item);
+                            keep(*item, judged);
+                            continue;
+                        }
+                        let reach = radius + moved + cutoff.max(0.0);
+                        let mut near = Vec::new();
+                        triangles.near(centre, reach, |t| near.push(t));
+                        // what is not near is at least so far
+                        keep(*item, (cutoff - pair.required_m, false));
+                        let mut some = Vec::new();
+                        let mut least = f64::INFINITY;
+                        for t in near {
+                            let item = Item {
+                                triangle: Some(t),
+                                ..*item
+                            };
+                            let judged = judge(self, &triangles.bodies[t as usize], item);
+                            if judged.1 {
+                                least = least.min(judged.0);
+                                some.push(item);
+                            } else {
+                                keep(item, judged);
+                            }
+                        }
+                        if some.len() <= FEW {
+                            for item in some {
+                                keep(item, (least, true));
+                            }
+                        } else {
+                            keep(*item, (least, true));
+                        }
+                    }
+                },
+            }
+        }
+        self.settled = self.settled.min(settled);
+        (middle, bound, items)
+    }
+}
+
+/// Names of closed meshes, each with a body that is inside it at these joints.
+pub(crate) fn inside(scene: &Scene, model: &Model, leg: &Leg, joints: &[f64; 6]) -> Vec<usize> {
+    let frames = model.link_frames(joints, &leg.conditions);
+    let mut pairs = Vec::new();
+    for (index, pair) in scene.watched.iter().enumerate() {
+        let Other::Fixed(k) = pair.b else { continue };
+        if let FixedForm::Mesh { mesh, .. } = &scene.fixed[k].form
+            && mesh.open_edges == 0
+        {
+            let moving = &scene.moving[pair.a];
+            let point = frames[moving.link].transform(moving.body.some_point());
+            if mesh.contains(point) {
+                pairs.push(index);
+            }
+        }
+    }
+    pairs
+}

@@ -1,0 +1,430 @@
+//! The controller's path from one target to the next.
+//!
+//! Every path is written over [`Scalar`], so that it gives poses at a parameter s from 0 to 1 and, with [`Jet`]s, bounds of
+//! slope and curvature over whole intervals of s.
+
+use crate::compensate::Equipped;
+use crate::geometry::{
+    Jet, Pose, Rotation, Scalar, Vector, add, constant, cross, dot, norm, scale, sub,
+};
+use crate::inverse::Branch;
+use crate::model::{Conditions, Model};
+
+/// Angles below this, radians, are no rotation; circles whose three points are as near to a line are a line.
+const SMALL: f64 = 1e-9;
+/// An interval shorter than this whose bounds are not finite is not halved again.
+const SHORTEST: f64 = 1.0 / 512.0;
+
+/// How a straight or circular move turns the tool on its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Turning {
+    /// About one axis at a constant rate (quaternion slerp, two-angle method).
+    #[default]
+    Slerp,
+    /// The three angles of `Rz(a) · Ry(b) · Rx(c)` each at a constant rate.
+    Euler,
+}
+
+/// A path of the tool in the world.
+#[derive(Clone, Debug)]
+pub enum Course {
+    /// Each joint at a constant rate.
+    Joint {
+        /// Joints where it begins, radians.
+        from: [f64; 6],
+        /// Joints where it ends.
+        to: [f64; 6],
+    },
+    /// A straight line or an arc of the tool.
+    Tool(ToolCourse),
+}
+
+/// A straight or circular path of the tool.
+#[derive(Clone, Debug)]
+pub struct ToolCourse {
+    line: Line,
+    turn: Turn,
+}
+
+#[derive(Clone, Debug)]
+enum Line {
+    Straight {
+        from: Vector,
+        along: Vector,
+    },
+    Circle {
+        centre: Vector,
+        /// From the centre to where it begins, and a quarter of a turn on.
+        axes: [Vector; 2],
+        angle_rad: f64,
+    },
+}
+
+#[derive(Clone, Debug)]
+enum Turn {
+    Axis {
+        from: Rotation,
+        axis: Vector,
+        angle_rad: f64,
+    },
+    Angles {
+        from: [f64; 3],
+        by: [f64; 3],
+    },
+}
+
+impl ToolCourse {
+    /// The straight way.
+    #[must_use]
+    pub fn straight(from: &Pose, to: &Pose, turning: Turning) -> Self {
+        Self {
+            line: Line::Straight {
+                from: from.translation,
+                along: sub(to.translation, from.translation),
+            },
+            turn: Turn::between(from, to, turning),
+        }
+    }
+
+    /// The arc through a point; a straight line where the three are on one.
+    #[must_use]
+    pub fn arc(from: &Pose, via: Vector, to: &Pose, turning: Turning) -> Self {
+        let start = from.translation;
+        let (u, v) = (sub(via, start), sub(to.translation, start));
+        let normal = cross(u, v);
+        let squared = dot(normal, normal);
+        if squared.sqrt() <= SMALL * norm(u) * norm(v) {
+            return Self::straight(from, to, turning);
+        }
+        // circumcentre of three points, seen from the first
+        let out = sub(
+            scale(dot(u, u), cross(v, normal)),
+            scale(dot(v, v), cross(u, normal)),
+        );
+        let to_centre = scale(0.5 / squared, out);
+        let centre = add(start, to_centre);
+        let first = scale(-1.0, to_centre);
+        let unit = scale(squared.sqrt().recip(), normal);
+        let second = cross(unit, first);
+        let angle = |point: Vector| {
+            let seen = sub(point, centre);
+            let angle = dot(seen, second).atan2(dot(seen, first));
+            angle.rem_euclid(std::f64::consts::TAU)
+        };
+        // the normal of start, via, end makes via come before the end
+        let angle_rad = angle(to.translation);
+        Self {
+            line: Line::Circle {
+                centre,
+                axes: [first, second],
+                angle_rad,
+            },
+            turn: Turn::between(from, to, turning),
+        }
+    }
+
+    /// Length of the tool's way, metres.
+    #[must_use]
+    pub fn length_m(&self) -> f64 {
+        match &self.line {
+            Line::Straight { along, .. } => norm(*along),
+            Line::Circle {
+                axes, angle_rad, ..
+            } => norm(axes[0]) * angle_rad,
+        }
+    }
+
+    /// Whether it is an arc.
+    #[must_use]
+    pub fn is_arc(&self) -> bool {
+        matches!(self.line, Line::Circle { .. })
+    }
+
+    /// The tool at `s`.
+    #[must_use]
+    pub fn pose<S: Scalar>(&self, s: S) -> Pose<S> {
+        let k = S::constant;
+        let translation = match &self.line {
+            Line::Straight { from, along } => add(constant(*from), scale(s, constant(*along))),
+            Line::Circle {
+                centre,
+                axes,
+                angle_rad,
+            } => {
+                let (sine, cosine) = (k(*angle_rad) * s).sin_cos();
+                let across = add(
+                    scale(cosine, constant(axes[0])),
+                    scale(sine, constant(axes[1])),
+                );
+                add(constant(*centre), across)
+            }
+        };
+        let rotation = match &self.turn {
+            Turn::Axis {
+                from,
+                axis,
+                angle_rad,
+            } => {
+                if *angle_rad == 0.0 {
+                    from.cast()
+                } else {
+                    about(axis, k(*angle_rad) * s) * from.cast()
+                }
+            }
+            Turn::Angles { from, by } => {
+                let angle = |i: usize| k(from[i]) + k(by[i]) * s;
+                Rotation::about_z(angle(0))
+                    * Rotation::about_y(angle(1))
+                    * Rotation::about_x(angle(2))
+            }
+        };
+        Pose {
+            rotation,
+            translation,
+        }
+    }
+}
+
+/// Rotation about a unit axis (O. Rodrigues).
+fn about<S: Scalar>(axis: &Vector, angle: S) -> Rotation<S> {
+    let (sine, cosine) = angle.sin_cos();
+    let rest = S::one() - cosine;
+    let [x, y, z] = constant::<S>(*axis);
+    Rotation([
+        [
+            cosine + rest * x * x,
+            rest * x * y - sine * z,
+            rest * x * z + sine * y,
+        ],
+        [
+            rest * x * y + sine * z,
+            cosine + rest * y * y,
+            rest * y * z - sine * x,
+        ],
+        [
+            rest * x * z - sine * y,
+            rest * y * z + sine * x,
+            cosine + rest * z * z,
+        ],
+    ])
+}
+
+impl Turn {
+    fn between(from: &Pose, to: &Pose, turning: Turning) -> Self {
+        match turning {
+            Turning::Slerp => {
+                let [w, x, y, z] = (to.rotation * from.rotation.transpose()).quaternion().0;
+                let long = norm([x, y, z]);
+                if long < SMALL {
+                    return Self::Axis {
+                        from: from.rotation,
+                        axis: [0.0, 0.0, 1.0],
+                        angle_rad: 0.0,
+                    };
+                }
+                // the shorter way
+                let side = if w < 0.0 { -1.0 } else { 1.0 };
+                Self::Axis {
+                    from: from.rotation,
+                    axis: scale(side / long, [x, y, z]),
+                    angle_rad: 2.0 * long.atan2(w.abs()),
+                }
+            }
+            Turning::Euler => {
+                let (from, to) = (from.rotation.rzryrx(0.0), to.rotation.rzryrx(0.0));
+                let turn = std::f64::consts::TAU;
+                let by = std::array::from_fn(|i| {
+                    let by = to[i] - from[i];
+                    by - turn * (by / turn).round()
+                });
+                Self::Angles { from, by }
+            }
+        }
+    }
+}
+
+/// A move of an arm: the path, and the posture in which it begins.
+pub(crate) struct Leg<'a> {
+    pub equipped: &'a Equipped,
+    pub course: Course,
+    /// The controller's joints where it begins, radians.
+    pub start: [f64; 6],
+    /// The branch of the inverse on which a path of the tool is followed.
+    pub branch: Branch,
+    pub conditions: Conditions,
+}
+
+/// A part of a move over which the joints' rates are bounded.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece {
+    pub from: f64,
+    pub to: f64,
+    /// The controller's joints, in radians, and their derivatives by s.
+    pub joints: [Jet; 6],
+    /// The bounds hold everywhere in the piece; else it is near a singularity or the controller has a chain of its own.
+    pub certified: bool,
+}
+
+impl Leg<'_> {
+    /// The controller's joints at `s`, by whole turns nearest to `near`.
+    pub fn joints(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
+        match &self.course {
+            Course::Joint { from, to } => std::array::from_fn(|i| from[i] + s * (to[i] - from[i])),
+            Course::Tool(course) => {
+                let pose = course.pose(s);
+                match &self.equipped.calibrated_controller {
+                    None => self.equipped.arm.solve_branch(&pose, self.branch, near).q,
+                    Some(controller) => controller.solve(&pose, self.branch, near).q,
+                }
+            }
+        }
+    }
+
+    /// How far beyond reach the controller's nominal arm is asked to go at `s`; 0 within.
+    pub fn beyond(&self, s: f64) -> f64 {
+        match &self.course {
+            Course::Joint { .. } => 0.0,
+            Course::Tool(course) => {
+                let pose = course.pose(s);
+                self.equipped
+                    .arm
+                    .solve_branch(&pose, self.branch, &self.start)
+                    .beyond
+            }
+        }
+    }
+
+    /// Where the controller, with this model, believes the tool to be.
+    pub fn controller_pose<S: Scalar>(
+        &self,
+        s: S,
+        joints: &[S; 6],
+        controller: &Model<S>,
+    ) -> Pose<S> {
+        match &self.course {
+            Course::Joint { .. } => controller.forward(joints, &Conditions::default()),
+            Course::Tool(course) => course.pose(s),
+        }
+    }
+
+    /// Bounds of the joints between `from` and `to`, given the joints in the middle.
+    pub fn enclose(&self, from: f64, to: f64, middle: &[f64; 6]) -> Piece {
+        let s = Jet::variable(from, to);
+        let (joints, certified) = match &self.course {
+            Course::Joint { from, to } => (
+                std::array::from_fn(|i| {
+                    Jet::constant(from[i]) + Jet::constant(to[i] - from[i]) * s
+                }),
+                true,
+            ),
+            Course::Tool(course) => {
+                let pose = course.pose(s);
+                let near = middle.map(Jet::constant);
+                let signs = self.branch.signs().map(Jet::constant);
+                let solution = self.equipped.arm.solve(&pose, signs, &near);
+                let exact = self.equipped.calibrated_controller.is_none();
+                let joints = if exact {
+                    solution.q
+                } else {
+                    let middle_pose = course.pose(0.5 * (from + to));
+                    let nominal = self
+                        .equipped
+                        .arm
+                        .solve_branch(&middle_pose, self.branch, middle)
+                        .q;
+                    std::array::from_fn(|i| beside(solution.q[i], middle[i] - nominal[i]))
+                };
+                (joints, exact)
+            }
+        };
+        let bounded = joints.iter().all(|joint| {
+            joint.value.radius < 1.0
+                && joint.slope.radius.is_finite()
+                && joint.bend.radius.is_finite()
+        });
+        Piece {
+            from,
+            to,
+            joints,
+            certified: certified && bounded,
+        }
+    }
+
+    /// The whole move in pieces whose bounds are tight enough to work with.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let mut pieces = Vec::new();
+        let mut near = self.start;
+        self.split(0.0, 1.0, &mut near, &mut pieces);
+        pieces
+    }
+
+    fn split(&self, from: f64, to: f64, near: &mut [f64; 6], out: &mut Vec<Piece>) {
+        let middle = self.joints(0.5 * (from + to), near);
+        let piece = self.enclose(from, to, &middle);
+        let long = to - from;
+        let steady = piece.joints.iter().all(|joint| {
+            let change = joint.bend.magnitude() * long;
+            change <= 0.5 * joint.slope.magnitude() + 0.2 && joint.slope.magnitude() * long < 1.0
+        });
+        if steady || long <= SHORTEST {
+            *near = self.joints(to, &middle);
+            out.push(piece);
+        } else {
+            let half = 0.5 * (from + to);
+            self.split(from, half, near, out);
+            self.split(half, to, near, out);
+        }
+    }
+}
+
+/// Bounds of a joint of a controller whose own chain is calibrated: those of the nominal one, shifted and widened. Its chain
+/// differs by thousandths; the widening is ten times that.
+fn beside(nominal: Jet, by: f64) -> Jet {
+    let mut joint = nominal + Jet::constant(by);
+    joint.value.radius += 0.5 * by.abs();
+    joint.slope.radius += 0.05 * nominal.slope.magnitude();
+    joint.bend.radius += 0.05 * (nominal.bend.magnitude() + nominal.slope.magnitude());
+    joint
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pose(p: [f64; 6]) -> Pose {
+        Pose::from_xyz_rxryrz(p)
+    }
+
+    #[test]
+    fn paths_begin_and_end_at_their_targets_and_arcs_pass_through_their_point() {
+        let (a, b) = (
+            pose([0.1, 0.2, 0.3, 0.1, 0.2, 0.3]),
+            pose([0.5, -0.2, 0.4, 1.1, -0.4, 0.9]),
+        );
+        let via = [0.4, 0.3, 0.2];
+        for turning in [Turning::Slerp, Turning::Euler] {
+            for course in [
+                ToolCourse::straight(&a, &b, turning),
+                ToolCourse::arc(&a, via, &b, turning),
+            ] {
+                for (s, end) in [(0.0, &a), (1.0, &b)] {
+                    let gap = course.pose(s).separation(end);
+                    assert!(gap.distance_m < 1e-12 && gap.angle_rad < 1e-12, "{gap:?}");
+                }
+            }
+        }
+        let arc = ToolCourse::arc(&a, via, &b, Turning::Slerp);
+        let nearest = (0..=100_000)
+            .map(|k| norm(sub(arc.pose(f64::from(k) / 1e5).translation, via)))
+            .fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-5, "{nearest}");
+    }
+
+    #[test]
+    fn three_points_on_a_line_make_a_line() {
+        let (a, b) = (pose([0.0; 6]), pose([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        let arc = ToolCourse::arc(&a, [0.4, 0.0, 0.0], &b, Turning::Slerp);
+        assert!(!arc.is_arc());
+        assert!((arc.length_m() - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,208 @@
+//! How far the real tool is from the wanted path anywhere along a move.
+//!
+//! Between two samples at a and b a function e with |e''| ≤ B is within B (b − a)² / 8 of the straight line between its
+//! values there. With e the difference of the real tool's pose and the wanted one, B from [`Jet`]s over the whole interval,
+//! and halving where the bound is not yet near the largest sample, the bound that is told holds everywhere, and is near.
+//!
+//! The pose's difference has twelve components: three of the position, and nine of the rotation matrices, whose Frobenius
+//! norm is `2√2 sin(φ/2)` at an angle φ.
+
+use super::course::{Leg, Piece};
+use crate::geometry::{Jet, Pose, Scalar, Separation, norm, sub};
+use crate::model::Model;
+
+/// Halving ends where the bound is within this of the largest sample, metres and radians, …
+const CLOSE_M: f64 = 1e-6;
+const CLOSE_RAD: f64 = 2e-6;
+/// … or within this part of it.
+const CLOSE_PART: f64 = 0.01;
+/// Intervals are halved at most so often; what remains open is told by its bound.
+const DEEPEST: u32 = 12;
+
+/// The error of a tool's path.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct PathError {
+    /// Nowhere along the move is the tool farther from where it should be than this.
+    pub bound: Separation,
+    /// The farthest sample.
+    pub sampled: Separation,
+    /// Where along the move, 0 to 1, the farthest sample is.
+    pub at: f64,
+    /// The bound is guaranteed; else it is only that of the samples.
+    pub certified: bool,
+}
+
+/// The models that a move is judged with.
+pub(crate) struct Models<S> {
+    pub real: Model<S>,
+    pub controller: Model<S>,
+}
+
+/// The move that says where the tool is wanted: this one in the controller's own belief, or a part of another one.
+pub(crate) struct Wanted<'a> {
+    pub leg: &'a Leg<'a>,
+    pub from: f64,
+    pub to: f64,
+    pub controller: &'a Model,
+    pub controller_jet: &'a Model<Jet>,
+    /// It is the move itself: what the joints are need not be found again.
+    pub own: bool,
+}
+
+impl Wanted<'_> {
+    fn along(&self, s: f64) -> f64 {
+        self.from + s * (self.to - self.from)
+    }
+
+    fn at(&self, s: f64, joints: &[f64; 6]) -> Pose {
+        if self.own {
+            return self.leg.controller_pose(s, joints, self.controller);
+        }
+        let s = self.along(s);
+        let joints = self.leg.joints(s, &self.leg.start);
+        self.leg.controller_pose(s, &joints, self.controller)
+    }
+
+    fn over(&self, from: f64, to: f64, joints: &[Jet; 6]) -> Pose<Jet> {
+        let s = Jet::variable(from, to);
+        if self.own {
+            return self.leg.controller_pose(s, joints, self.controller_jet);
+        }
+        let k = Jet::constant;
+        let s = k(self.from) + s * k(self.to - self.from);
+        // of another move only a joint path needs its joints, which are linear in s
+        let joints = match &self.leg.course {
+            super::course::Course::Joint { from, to } => {
+                std::array::from_fn(|i| k(from[i]) + k(to[i] - from[i]) * s)
+            }
+            super::course::Course::Tool(_) => *joints,
+        };
+        self.leg.controller_pose(s, &joints, self.controller_jet)
+    }
+}
+
+/// A sample of the difference.
+#[derive(Clone, Copy)]
+struct Sample {
+    s: f64,
+    joints: [f64; 6],
+    distance_m: f64,
+    /// Frobenius norm of the difference of the rotation matrices.
+    turned: f64,
+}
+
+struct Open {
+    a: Sample,
+    b: Sample,
+    depth: u32,
+}
+
+fn angle(turned: f64) -> f64 {
+    2.0 * (turned / (2.0 * std::f64::consts::SQRT_2)).min(1.0).asin()
+}
+
+/// The error of the real tool's path against the wanted one.
+pub(crate) fn path_error(
+    leg: &Leg,
+    pieces: &[Piece],
+    wanted: &Wanted,
+    models: &Models<f64>,
+    jets: &Models<Jet>,
+) -> PathError {
+    let sample = |s: f64, near: &[f64; 6]| {
+        let joints = leg.joints(s, near);
+        let real = models.real.forward(&joints, &leg.conditions);
+        let wanted = wanted.at(s, &joints);
+        let (a, b) = (&real.rotation.0, &wanted.rotation.0);
+        let turned = (0..9)
+            .map(|i| (a[i / 3][i % 3] - b[i / 3][i % 3]).powi(2))
+            .sum::<f64>();
+        Sample {
+            s,
+            joints,
+            distance_m: norm(sub(real.translation, wanted.translation)),
+            turned: turned.sqrt(),
+        }
+    };
+    let mut found = PathError {
+        certified: true,
+        ..PathError::default()
+    };
+    let mut low = (0.0, 0.0);
+    let mut seen = |sample: &Sample, low: &mut (f64, f64)| {
+        if sample.distance_m > low.0 {
+            found.at = sample.s;
+        }
+        *low = (low.0.max(sample.distance_m), low.1.max(sample.turned));
+    };
+    let mut open = Vec::new();
+    let mut last = sample(0.0, &leg.start);
+    seen(&last, &mut low);
+    let mut uncertain = Vec::new();
+    for piece in pieces {
+        let end = sample(piece.to, &last.joints);
+        seen(&end, &mut low);
+        if !piece.certified {
+            uncertain.push(piece);
+        }
+        open.push(Open {
+            a: last,
+            b: end,
+            depth: 0,
+        });
+        last = end;
+    }
+    let mut high = (0.0_f64, 0.0_f64);
+    while let Some(Open { a, b, depth }) = open.pop() {
+        let middle = sample(0.5 * (a.s + b.s), &a.joints);
+        seen(&middle, &mut low);
+        let enclosed = leg.enclose(a.s, b.s, &middle.joints);
+        let real = jets.real.forward(&enclosed.joints, &leg.conditions);
+        let wish = wanted.over(a.s, b.s, &enclosed.joints);
+        let mut bends = [0.0; 2];
+        for i in 0..3 {
+            let bend = (real.translation[i] - wish.translation[i]).bend.magnitude();
+            bends[0] += bend * bend;
+            for j in 0..3 {
+                let bend = (real.rotation.0[i][j] - wish.rotation.0[i][j])
+                    .bend
+                    .magnitude();
+                bends[1] += bend * bend;
+            }
+        }
+        // both halves have the middle as a sample: a quarter of the gap
+        let half = 0.5 * (b.s - a.s);
+        let [line, turn] = bends.map(|bend| bend.sqrt() * half * half / 8.0);
+        let bound = (
+            a.distance_m.max(b.distance_m).max(middle.distance_m) + line,
+            a.turned.max(b.turned).max(middle.turned) + turn,
+        );
+        let close = |bound: f64, low: f64, slack: f64| bound <= low + slack.max(CLOSE_PART * low);
+        if close(bound.0, low.0, CLOSE_M) && close(bound.1, low.1, CLOSE_RAD) {
+            high = (high.0.max(bound.0), high.1.max(bound.1));
+        } else if depth < DEEPEST {
+            for (a, b) in [(a, middle), (middle, b)] {
+                open.push(Open {
+                    a,
+                    b,
+                    depth: depth + 1,
+                });
+            }
+        } else if bound.0.is_finite() && bound.1.is_finite() {
+            high = (high.0.max(bound.0), high.1.max(bound.1));
+        } else {
+            // at a singularity nothing bounds the joints' rates: what is between the samples is unknown
+            found.certified = false;
+        }
+    }
+    found.certified &= uncertain.is_empty();
+    found.sampled = Separation {
+        distance_m: low.0,
+        angle_rad: angle(low.1),
+    };
+    found.bound = Separation {
+        distance_m: high.0.max(low.0),
+        angle_rad: angle(high.1.max(low.1)),
+    };
+    found
+}

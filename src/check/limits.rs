@@ -1,0 +1,83 @@
+//! What a move asks of the joints: limits, singularities, rates, turns.
+
+use super::course::{Course, Leg, Piece};
+use crate::geometry::Jet;
+use crate::inverse::Margins;
+
+/// The least room of a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Least distance of a joint from its limits anywhere along the move, radians; negative beyond.
+    pub margin_rad: f64,
+    /// Which joint, from 0.
+    pub joint: usize,
+    /// Least distances from the singularities, of samples.
+    pub margins: Margins,
+    /// How far each joint turns, radians.
+    pub turn_rad: [f64; 6],
+    /// Largest rate of each joint anywhere along the move, radians for the whole move at a constant rate of s.
+    pub rate_rad: [f64; 6],
+    /// Programmed time of the move, seconds.
+    pub duration_s: Option<f64>,
+}
+
+/// Samples of the distance from singularities in each piece.
+const SAMPLES: usize = 4;
+
+/// The largest value of a function over a piece from its ends and the bound of its curvature.
+fn reach(ends: [f64; 2], jet: &Jet, long: f64) -> [f64; 2] {
+    let bulge = jet.bend.magnitude() * long * long / 8.0;
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    if bulge.is_finite() {
+        [low - bulge, high + bulge]
+    } else {
+        [low, high]
+    }
+}
+
+/// What one move asks of the joints.
+pub(crate) fn limits(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Limits {
+    let arm = &leg.equipped.arm;
+    let joints = &arm.mechanism().joints;
+    let mut found = Limits {
+        margin_rad: f64::INFINITY,
+        joint: 0,
+        margins: arm.posture(&leg.start).1,
+        turn_rad: [0.0; 6],
+        rate_rad: [0.0; 6],
+        duration_s: None,
+    };
+    let mut at = leg.start;
+    for piece in pieces {
+        let begin = at;
+        let long = piece.to - piece.from;
+        for k in 1..=SAMPLES {
+            let s = piece.from + long * k as f64 / SAMPLES as f64;
+            at = leg.joints(s, &at);
+            let here = arm.posture(&at).1;
+            let least = &mut found.margins;
+            least.wrist_rad = least.wrist_rad.min(here.wrist_rad);
+            least.elbow_rad = least.elbow_rad.min(here.elbow_rad);
+            least.shoulder_m = least.shoulder_m.min(here.shoulder_m);
+        }
+        for i in 0..6 {
+            // a joint path is straight in the joints: its ends say it all
+            let [low, high] = reach([begin[i], at[i]], &piece.joints[i], long);
+            let margin = (low - joints[i].min_rad).min(joints[i].max_rad - high);
+            if margin < found.margin_rad {
+                (found.margin_rad, found.joint) = (margin, i);
+            }
+            let rate = piece.joints[i].slope.magnitude();
+            let seen = (at[i] - begin[i]).abs() / long;
+            found.rate_rad[i] = found.rate_rad[i].max(if rate.is_finite() { rate } else { seen });
+        }
+    }
+    found.turn_rad = std::array::from_fn(|i| at[i] - leg.start[i]);
+    if let (Course::Tool(course), Some(speed)) = (&leg.course, speed_m_s) {
+        let length = course.length_m();
+        if length > 0.0 && speed > 0.0 {
+            found.duration_s = Some(length / speed);
+        }
+    }
+    found
+}

@@ -1,0 +1,304 @@
+//! Triangle meshes from files: STL, OBJ and COLLADA by a crate, glTF here.
+
+use crate::geometry::units::m_from_mm;
+use crate::geometry::{Vector, cross, norm, sub};
+use std::collections::HashMap;
+use std::path::Path;
+
+mod gltf;
+
+/// A mesh with a longer side than this is in other units, metres.
+const LARGEST_M: f64 = 100.0;
+/// A mesh whose longest side is shorter than this is in other units, metres.
+const SMALLEST_M: f64 = 0.5e-3;
+/// A triangle whose area is below this part of its longest edge squared is degenerate.
+const DEGENERATE: f64 = 1e-12;
+
+/// Triangles in metres.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Mesh {
+    /// Corners of each triangle.
+    pub triangles: Vec<[Vector; 3]>,
+    /// Triangles of the file that have no area; they are left out.
+    pub degenerate: usize,
+    /// Edges that belong to an odd number of triangles: a closed mesh has none.
+    pub open_edges: usize,
+}
+
+/// Why a mesh cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// A file name that ends on no known format.
+    #[error("`{ending}` is no mesh format; known are stl, obj, dae, gltf and glb")]
+    Ending {
+        /// What it ends on.
+        ending: String,
+    },
+    /// Not what its name says.
+    #[error("not a readable mesh: {message}")]
+    Unreadable {
+        /// What the reader says.
+        message: String,
+    },
+    /// No triangle with an area.
+    #[error("no triangle has an area ({found} triangles in the file)")]
+    Empty {
+        /// Triangles in the file.
+        found: usize,
+    },
+    /// Coordinates that are no numbers.
+    #[error("a corner has a coordinate that is not finite")]
+    NotFinite,
+    /// A size that cannot be meant.
+    #[error(
+        "the mesh is {size_m} m long with scale {scale}; it should be between 0.0005 and 100 m"
+    )]
+    Size {
+        /// Its longest side, metres.
+        size_m: f64,
+        /// Millimetres of a unit.
+        scale: f64,
+    },
+}
+
+impl MeshError {
+    /// The way out.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Size { size_m, scale } if *size_m > LARGEST_M => format!(
+                "is the file in millimetres already? `scale: {}` would make it {} m",
+                scale / 1000.0,
+                size_m / 1000.0
+            ),
+            Self::Size { size_m, scale } => format!(
+                "is the file in metres? `scale: {}` would make it {} m",
+                scale * 1000.0,
+                size_m * 1000.0
+            ),
+            Self::Empty { .. } => "export triangles, not lines or points".into(),
+            _ => String::new(),
+        }
+    }
+}
+
+/// Millimetres of one unit of a file where nobody says: glTF is in metres by its specification, the others in millimetres.
+#[must_use]
+pub fn default_scale(name: &str) -> f64 {
+    match ending(name).as_str() {
+        "gltf" | "glb" => 1000.0,
+        _ => 1.0,
+    }
+}
+
+fn ending(name: &str) -> String {
+    let ending = Path::new(name).extension().and_then(|e| e.to_str());
+    ending.unwrap_or_default().to_ascii_lowercase()
+}
+
+impl Mesh {
+    /// Reads a mesh file's bytes; `scale` is millimetres of a unit on each axis. `beside` reads a file that this one names.
+    ///
+    /// # Errors
+    /// If it is no mesh, has no area, or a size that cannot be meant.
+    pub fn read(
+        name: &str,
+        bytes: &[u8],
+        scale: Option<Vector>,
+        beside: &dyn Fn(&str) -> Option<Vec<u8>>,
+    ) -> Result<Self, MeshError> {
+        let scale = scale.unwrap_or([default_scale(name); 3]);
+        let raw = match ending(name).as_str() {
+            "stl" | "obj" | "dae" => by_crate(name, bytes)?,
+            "gltf" | "glb" => {
+                gltf::read(bytes, beside).map_err(|message| MeshError::Unreadable { message })?
+            }
+            other => {
+                return Err(MeshError::Ending {
+                    ending: other.into(),
+                });
+            }
+        };
+        let scaled = |point: Vector| std::array::from_fn(|i| m_from_mm(point[i] * scale[i]));
+        let triangles: Vec<[Vector; 3]> = raw.iter().map(|t| t.map(scaled)).collect();
+        Self::of(&triangles, scale[0])
+    }
+
+    /// A mesh of triangles in metres.
+    ///
+    /// # Errors
+    /// If it has no area, or a size that cannot be meant.
+    pub fn of(all: &[[Vector; 3]], scale: f64) -> Result<Self, MeshError> {
+        if all.iter().flatten().flatten().any(|x| !x.is_finite()) {
+            return Err(MeshError::NotFinite);
+        }
+        let has_area = |[a, b, c]: &&[Vector; 3]| {
+            let (u, v, w) = (sub(*b, *a), sub(*c, *a), sub(*c, *b));
+            let longest = norm(u).max(norm(v)).max(norm(w));
+            norm(cross(u, v)) > DEGENERATE * longest * longest && longest > 0.0
+        };
+        let triangles: Vec<[Vector; 3]> = all.iter().filter(has_area).copied().collect();
+        if triangles.is_empty() {
+            return Err(MeshError::Empty { found: all.len() });
+        }
+        let corners = || triangles.iter().flatten();
+        let size_m = (0..3)
+            .map(|i| {
+                let low = corners().map(|c| c[i]).fold(f64::INFINITY, f64::min);
+                let high = corners().map(|c| c[i]).fold(f64::NEG_INFINITY, f64::max);
+                high - low
+            })
+            .fold(0.0, f64::max);
+        if !(SMALLEST_M..=LARGEST_M).contains(&size_m) {
+            return Err(MeshError::Size { size_m, scale });
+        }
+        Ok(Self {
+            degenerate: all.len() - triangles.len(),
+            open_edges: open_edges(&triangles),
+            triangles,
+        })
+    }
+
+    /// Whether a point is inside: an odd number of triangles lies on a ray from it. Meaningless where the mesh is open.
+    #[must_use]
+    pub fn contains(&self, point: Vector) -> bool {
+        // a direction that no drawing has: no ray along an edge
+        let toward = [0.537_281, 0.712_934, 0.450_623];
+        let hits = self.triangles.iter().filter(|[a, b, c]| {
+            let (u, v) = (sub(*b, *a), sub(*c, *a));
+            let across = cross(toward, v);
+            let by = 1.0 / crate::geometry::dot(u, across);
+            let from = sub(point, *a);
+            let s = by * crate::geometry::dot(from, across);
+            let turned = cross(from, u);
+            let t = by * crate::geometry::dot(toward, turned);
+            let along = by * crate::geometry::dot(v, turned);
+            s >= 0.0 && t >= 0.0 && s + t <= 1.0 && along > 0.0
+        });
+        hits.count() % 2 == 1
+    }
+}
+
+fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<[Vector; 3]>, MeshError> {
+    // only this file's bytes are read: no material library or texture beside it
+    fn none(_: &Path) -> std::io::Result<Vec<u8>> {
+        Err(std::io::ErrorKind::NotFound.into())
+    }
+    let unreadable = |error: std::io::Error| MeshError::Unreadable {
+        message: error.to_string(),
+    };
+    let loader = mesh_loader::Loader::default().custom_reader(none);
+    let scene = match ending(name).as_str() {
+        "stl" => loader.load_stl_from_slice(bytes, name),
+        "obj" => loader.load_obj_from_slice(bytes, name),
+        _ => loader.load_collada_from_slice(bytes, name),
+    }
+    .map_err(unreadable)?;
+    let mut triangles = Vec::new();
+    for mesh in &scene.meshes {
+        for face in &mesh.faces {
+            let corner = |i: u32| mesh.vertices.get(i as usize).map(|v| v.map(f64::from));
+            match face.map(corner) {
+                [Some(a), Some(b), Some(c)] => triangles.push([a, b, c]),
+                _ => {
+                    return Err(MeshError::Unreadable {
+                        message: "a face names a corner that is not there".into(),
+                    });
+                }
+            }
+        }
+    }
+    Ok(triangles)
+}
+
+/// Edges that an odd number of triangles share; corners are the same where their coordinates are.
+fn open_edges(triangles: &[[Vector; 3]]) -> usize {
+    let mut edges: HashMap<[[u64; 3]; 2], usize> = HashMap::new();
+    // 0.0 and -0.0 are one place
+    let key = |point: &Vector| point.map(|x| (x + 0.0).to_bits());
+    for triangle in triangles {
+        for i in 0..3 {
+            let (a, b) = (key(&triangle[i]), key(&triangle[(i + 1) % 3]));
+            let edge = if a < b { [a, b] } else { [b, a] };
+            *edges.entry(edge).or_default() += 1;
+        }
+    }
+    edges.values().filter(|count| *count % 2 == 1).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tetrahedron(scale: f64) -> String {
+        let p = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+        ];
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let corner = |i: usize| {
+            let [x, y, z]: Vector = p[i];
+            format!("vertex {} {} {}\n", x * scale, y * scale, z * scale)
+        };
+        let face = |f: &[usize; 3]| {
+            let corners: String = f.iter().map(|i| corner(*i)).collect();
+            format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+        };
+        let faces: String = faces.iter().map(face).collect();
+        format!("solid t\n{faces}endsolid t\n")
+    }
+
+    fn read(name: &str, text: &str, scale: Option<f64>) -> Result<Mesh, MeshError> {
+        Mesh::read(name, text.as_bytes(), scale.map(|s| [s; 3]), &|_| None)
+    }
+
+    #[test]
+    fn a_closed_stl_in_millimetres_is_read() {
+        let mesh = read("t.STL", &tetrahedron(100.0), None).expect("a mesh");
+        assert_eq!(
+            (mesh.triangles.len(), mesh.degenerate, mesh.open_edges),
+            (4, 0, 0)
+        );
+        assert!(mesh.contains([0.02, 0.02, 0.02]));
+        assert!(!mesh.contains([0.09, 0.09, 0.09]));
+        assert!(!mesh.contains([-0.01, 0.02, 0.02]));
+    }
+
+    #[test]
+    fn an_obj_with_an_open_and_a_degenerate_face_says_so() {
+        let text = "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 200 0 0\nf 1 2 3\nf 1 2 4\n";
+        let mesh = read("t.obj", text, None).expect("a mesh");
+        assert_eq!(
+            (mesh.triangles.len(), mesh.degenerate, mesh.open_edges),
+            (1, 1, 3)
+        );
+    }
+
+    #[test]
+    fn a_robot_of_2000_m_and_one_of_a_micrometre_are_other_units() {
+        let error = read("t.stl", &tetrahedron(2000.0), Some(1000.0)).expect_err("2000 m");
+        assert!(error.hint().contains("scale: 1`"), "{}", error.hint());
+        let error = read("t.stl", &tetrahedron(0.2), None).expect_err("0.2 mm");
+        assert!(error.hint().contains("scale: 1000"), "{}", error.hint());
+    }
+
+    #[test]
+    fn what_is_no_mesh_is_an_error() {
+        for (name, text) in [
+            ("a.stl", "solid x"),
+            ("a.obj", ""),
+            ("a.step", "x"),
+            ("a.glb", "glTF"),
+            ("a.dae", "<x>"),
+        ] {
+            assert!(read(name, text, None).is_err(), "{name}");
+        }
+        let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n";
+        assert_eq!(
+            read("t.obj", text, None),
+            Err(MeshError::Empty { found: 1 })
+        );
+    }
+}

@@ -1,0 +1,171 @@
+//! Which move of the original program each move of a compensated one is, or is a part of.
+//!
+//! A refined program has targets between those of the original. A move belongs to the original's next move whose end its own
+//! landing is at; what comes before it on the same way are parts of that move.
+
+use super::course::Course;
+use super::{CheckError, LANDED_M, Options, Subject, Walk};
+use crate::geometry::{Pose, norm, sub};
+use crate::model::Conditions;
+use crate::program::Motion;
+
+/// Joints of the two programs that differ by less are the same, radians.
+const KEPT_RAD: f64 = 1e-9;
+
+/// A part of a move of the original.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Part {
+    /// Index of the move in the original.
+    pub motion: usize,
+    /// Where in it the part begins, 0 to 1.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+}
+
+impl Part {
+    /// Where the tool is wanted at its end.
+    pub fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
+        let stop = original.route.stops[self.motion].expect("a part's move ends at a stop");
+        if self.to >= 1.0 {
+            return stop.pose;
+        }
+        let leg = original.leg(self.motion, options.turning);
+        leg.map_or(stop.pose, |leg| {
+            let joints = leg.joints(self.to, &leg.start);
+            leg.controller_pose(self.to, &joints, &leg.equipped.controller)
+        })
+    }
+}
+
+/// For each move of the program the part of the original that it is; `None` for those that cannot be followed.
+pub(crate) fn align(
+    walk: &Walk,
+    original: &Walk,
+    subject: &Subject,
+    options: &Options,
+) -> Result<Vec<Option<Part>>, CheckError> {
+    let ours = &walk.route.program.moves;
+    let theirs = &original.route.program.moves;
+    let counterpart = |at: usize| {
+        let sources = subject.nominal.unwrap_or(&[]);
+        let (file, line) = theirs.get(at).map_or((String::new(), 0), |motion| {
+            let source = &sources[motion.file as usize];
+            (
+                source.name.clone(),
+                source.line_column(motion.offset as usize).0,
+            )
+        });
+        CheckError::NoCounterpart { file, line }
+    };
+    if ours.len() == theirs.len() {
+        let whole = |motion: usize| Part {
+            motion,
+            from: 0.0,
+            to: 1.0,
+        };
+        let alike = (0..ours.len()).find(|&i| ours[i].motion != theirs[i].motion);
+        if let Some(at) = alike {
+            return Err(counterpart(at));
+        }
+        let known = |i: &usize| original.route.stops[*i].is_some();
+        return Ok((0..ours.len())
+            .map(|i| Some(i).filter(known).map(whole))
+            .collect());
+    }
+    let mut parts = vec![None; ours.len()];
+    let (mut mine, mut next) = (0, 0);
+    while next < theirs.len() {
+        // the points of arcs go with their ends
+        if theirs[next].motion == Motion::ArcVia {
+            next += 1;
+            continue;
+        }
+        let Some(stop) = original.route.stops[next] else {
+            if mine >= ours.len() {
+                return Err(counterpart(next));
+            }
+            mine += 1;
+            next += 1;
+            continue;
+        };
+        let first = mine;
+        let lands = |at: usize| {
+            let ours = walk.route.stops[at]?;
+            // a joint target that was kept does not land where the original wanted it
+            let kept = (0..6).all(|k| (ours.q[k] - stop.q[k]).abs() < KEPT_RAD);
+            let conditions = Conditions {
+                direction: ours.direction.map(f64::from),
+                ..Conditions::default()
+            };
+            let landed = walk.arms(&ours).plain.real.forward(&ours.q, &conditions);
+            Some((
+                landed,
+                kept || landed.separation(&stop.pose).distance_m <= LANDED_M,
+            ))
+        };
+        let end = (first..ours.len())
+            .filter(|&at| ours[at].motion != Motion::ArcVia)
+            .find(|&at| lands(at).is_some_and(|(_, there)| there))
+            .ok_or_else(|| counterpart(next))?;
+        let leg = original.leg(next, options.turning);
+        let mut from = 0.0;
+        for at in first..=end {
+            if ours[at].motion == Motion::ArcVia {
+                continue;
+            }
+            let to = match (&leg, lands(at)) {
+                _ if at == end => 1.0,
+                (Some(leg), Some((landed, _))) => {
+                    let along = |s: f64| {
+                        let joints = leg.joints(s, &leg.start);
+                        leg.controller_pose(s, &joints, &leg.equipped.controller)
+                    };
+                    nearest_on(
+                        &along,
+                        &landed,
+                        from,
+                        matches!(leg.course, Course::Joint { .. }),
+                    )
+                }
+                _ => return Err(counterpart(next)),
+            };
+            parts[at] = Some(Part {
+                motion: next,
+                from,
+                to,
+            });
+            from = to;
+        }
+        mine = end + 1;
+        next += 1;
+    }
+    Ok(parts)
+}
+
+/// Where beyond `from` a path is nearest to a pose, in position and, where the tool only turns, in orientation.
+fn nearest_on(along: &dyn Fn(f64) -> Pose, landed: &Pose, from: f64, fine: bool) -> f64 {
+    let gap = |s: f64| {
+        let pose = along(s);
+        norm(sub(pose.translation, landed.translation)) + 0.1 * pose.separation(landed).angle_rad
+    };
+    let count = if fine { 400 } else { 200 };
+    let step = (1.0 - from) / f64::from(count);
+    let best = (0..=count)
+        .map(|k| from + step * f64::from(k))
+        .min_by(|a, b| gap(*a).total_cmp(&gap(*b)))
+        .unwrap_or(from);
+    // golden section about the best of the steps
+    let (mut low, mut high) = ((best - step).max(from), (best + step).min(1.0));
+    let part = 0.618_033_988_75;
+    for _ in 0..60 {
+        let (a, b) = (high - part * (high - low), low + part * (high - low));
+        if gap(a) < gap(b) {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    // inserted targets stand at round fractions of the rest: decimals of the file blur them by less than this
+    0.5 * (low + high)
+}

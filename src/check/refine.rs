@@ -1,0 +1,409 @@
+//! Targets between those of a program, where the real path would otherwise leave the wanted one.
+//!
+//! A compensated program meets its targets; between them the controller still interpolates in its own model. A move whose
+//! path error is above the limit is halved, each half again, until every part is within it: the new targets are poses of the
+//! wanted path, brought through the real inverse like all others. An arc stays an arc, through a new point for each part.
+
+use super::course::{Course, Leg, ToolCourse};
+use super::deviation::{self, Models, Wanted};
+use super::{CheckError, Options, Subject, Walk};
+use crate::compensate::Compensation;
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::mm_from_m;
+use crate::geometry::{Jet, Pose};
+use crate::inverse::{Inverse, Status};
+use crate::model::Conditions;
+use crate::program::number::{Fraction, Style};
+use crate::program::{Between, Displacement, Edits, Motion, Posture, Role, Settings, Shape, Value};
+use rayon::prelude::*;
+
+/// A move is cut into at most so many parts.
+const MOST_HALVINGS: u32 = 7;
+/// The bound is asked to be below this part of the limit: written numbers are rounded.
+const ROOM: f64 = 0.96;
+/// Decimals of a millimetre that new targets have at least.
+const DECIMALS: usize = 3;
+
+/// What was put into a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Refined {
+    /// New targets.
+    pub targets: usize,
+    /// New moves.
+    pub moves: usize,
+}
+
+/// A pose on the way, as the controller is told it.
+#[derive(Clone, Copy)]
+struct Point {
+    s: f64,
+    /// The controller's joints at which the real tool is there.
+    q: [f64; 6],
+    /// Where the controller believes to be then.
+    fake: Pose,
+}
+
+/// Adds moves to a compensated program so that no path is farther from the wanted one than `limit_m`.
+///
+/// # Errors
+/// As [`super::check`] for the original program.
+pub fn refine(
+    subject: &Subject,
+    options: &Options,
+    limit_m: f64,
+    decimals: Option<usize>,
+    compensation: &mut Compensation,
+) -> Result<Refined, CheckError> {
+    let walk = Walk::of(subject.language, subject.sources, subject.profile, options)?;
+    let job = Job {
+        subject,
+        options,
+        walk: &walk,
+        compensation,
+        limit_m,
+        decimals: decimals.unwrap_or(0).max(DECIMALS),
+        settings: Settings {
+            pulses_per_deg: subject.profile.pulses_per_deg,
+            ..Settings::default()
+        },
+    };
+    let changes: Vec<Change> = (0..walk.route.stops.len())
+        .into_par_iter()
+        .filter_map(|index| job.refine_move(index))
+        .collect();
+    let mut refined = Refined::default();
+    let mut findings = Vec::new();
+    let mut edits: Vec<(usize, Edits)> = Vec::new();
+    for change in changes {
+        findings.extend(change.findings);
+        refined.targets += change.targets;
+        refined.moves += change.moves;
+        let mut some = Edits::default();
+        for (span, text) in change.spans {
+            compensation.edits[change.file].take_back(&span);
+            some.replace(span, |out| out.extend(text));
+        }
+        edits.push((change.file, some));
+    }
+    for (file, some) in edits {
+        compensation.edits[file].append(&some);
+    }
+    compensation.findings.extend(findings);
+    Ok(refined)
+}
+
+struct Change {
+    file: usize,
+    spans: Vec<(std::ops::Range<usize>, Vec<u8>)>,
+    targets: usize,
+    moves: usize,
+    findings: Vec<Finding>,
+}
+
+struct Job<'a> {
+    subject: &'a Subject<'a>,
+    options: &'a Options,
+    walk: &'a Walk,
+    compensation: &'a Compensation,
+    limit_m: f64,
+    decimals: usize,
+    settings: Settings,
+}
+
+impl Job<'_> {
+    /// The joints at a stop when the compensated program runs.
+    fn joints_at(&self, motion: usize) -> Option<[f64; 6]> {
+        let stop = self.walk.route.stops[motion]?;
+        let target = self.walk.route.program.moves[motion].target;
+        let report = &self.compensation.targets[target];
+        Some(report.q.filter(|_| report.changed).unwrap_or(stop.q))
+    }
+
+    fn refine_move(&self, index: usize) -> Option<Change> {
+        let program = &self.walk.route.program;
+        let motion = &program.moves[index];
+        let leg = self.walk.leg(index, self.options.turning)?;
+        let stop = self.walk.route.stops[index]?;
+        let is_pose = program.targets[motion.target].layout.shape == Shape::Pose;
+        let via = (motion.motion == Motion::ArcEnd)
+            .then(|| index.checked_sub(1))
+            .flatten();
+        let start = self.joints_at(via.unwrap_or(index).checked_sub(1)?)?;
+        let end = self.joints_at(index)?;
+        let arms = self.walk.arms(&stop);
+        let controller = |q: &[f64; 6]| arms.plain.controller.forward(q, &Conditions::default());
+        let [first, last] = [(0.0, start), (1.0, end)].map(|(s, q)| Point {
+            s,
+            q,
+            fake: controller(&q),
+        });
+        // the point of the arc as the program has it
+        let through = match via {
+            Some(via) => Some(controller(&self.joints_at(via)?)),
+            None => None,
+        };
+        let whole = self.error(&leg, index, &first, &last, through.as_ref());
+        if whole <= self.limit_m {
+            return None;
+        }
+        let each = if via.is_some() { 2 } else { 1 };
+        // the point of an arc that had a name is a target of its own now
+        let named =
+            via.is_some_and(|via| program.targets[program.moves[via].target].name.is_some());
+        let change = |spans, points: &[Point], findings| Change {
+            file: motion.file as usize,
+            spans,
+            targets: points.len() * each + usize::from(named),
+            moves: points.len() * each,
+            findings,
+        };
+        let told = |id: &'static str, severity: Severity, message: String, hint: &str| {
+            let source = &self.subject.sources[motion.file as usize];
+            let (line, column) = source.line_column(motion.offset as usize);
+            let finding = Finding {
+                id,
+                severity,
+                file: source.name.clone(),
+                line,
+                column,
+                message,
+                hint: hint.into(),
+            };
+            let mut change = change(Vec::new(), &[], vec![finding]);
+            (change.targets, change.moves) = (0, 0);
+            Some(change)
+        };
+        let failed = |why: &str| {
+            let message = format!(
+                "the path of this move is up to {:.3} mm beside the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
+                mm_from_m(whole),
+                mm_from_m(self.limit_m)
+            );
+            let hint = "a larger --max-path-error, or shorter moves";
+            told("path-not-refined", Severity::Error, message, hint)
+        };
+        // a joint target that stays as it is: no target between helps at the end itself
+        let beside = |point: &Point| {
+            let nominal = leg.joints(point.s, &leg.start);
+            let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
+            let landed = arms.plain.real.forward(&point.q, &leg.conditions);
+            landed.separation(&wanted).distance_m
+        };
+        let ends = beside(&first).max(beside(&last));
+        if ends > self.limit_m {
+            let message = format!(
+                "this move begins or ends {:.3} mm beside its wanted path, at a target that stays as it is: no targets are inserted",
+                mm_from_m(ends)
+            );
+            let hint = "--joint-targets correct shifts joint targets, too";
+            return told("path-from-kept-target", Severity::Note, message, hint);
+        }
+        if !is_pose {
+            return failed("its target is given in joints");
+        }
+        if motion.displacement != Displacement::None {
+            return failed("its target is displaced at run time");
+        }
+        let mut points = vec![first];
+        if !self.split(&leg, index, &first, &last, 0, &mut points) {
+            return failed("the way passes a singularity or leaves the reach");
+        }
+        points.remove(0);
+        points.pop();
+        let between = self.between(&leg, index, &first, &points, &last, via.is_some());
+        let Some(between) = between else {
+            return failed("an arc's part cannot be reached");
+        };
+        let source = &self.subject.sources[motion.file as usize];
+        let written = self
+            .subject
+            .language
+            .insert(source, program, index, &between);
+        match written {
+            Some(spans) => Some(change(spans, &points, Vec::new())),
+            None => failed("the text of this move cannot be repeated"),
+        }
+    }
+
+    /// The real inverse of the wanted pose at `s`.
+    fn point(&self, leg: &Leg, index: usize, s: f64, near: &[f64; 6]) -> Option<Point> {
+        let stop = self.walk.route.stops[index]?;
+        let arms = self.walk.arms(&stop);
+        let nominal = leg.joints(s, near);
+        let wanted = leg.controller_pose(s, &nominal, &arms.plain.controller);
+        let inverse = Inverse {
+            conditions: leg.conditions,
+            ..leg.equipped.inverse.clone()
+        };
+        let branch = leg.equipped.arm.posture(&nominal).0;
+        let found = inverse.solve(&wanted, branch, &nominal);
+        (found.status == Status::Converged).then(|| Point {
+            s,
+            q: found.q,
+            fake: arms
+                .plain
+                .controller
+                .forward(&found.q, &Conditions::default()),
+        })
+    }
+
+    /// The path from one point to another as the controller goes.
+    fn part<'a>(&self, leg: &Leg<'a>, a: &Point, b: &Point, through: Option<&Pose>) -> Leg<'a> {
+        let turning = self.options.turning;
+        let course = match (&leg.course, through) {
+            (Course::Joint { .. }, _) => Course::Joint { from: a.q, to: b.q },
+            (Course::Tool(_), Some(via)) => {
+                Course::Tool(ToolCourse::arc(&a.fake, via.translation, &b.fake, turning))
+            }
+            (Course::Tool(_), None) => {
+                Course::Tool(ToolCourse::straight(&a.fake, &b.fake, turning))
+            }
+        };
+        Leg {
+            equipped: leg.equipped,
+            course,
+            start: a.q,
+            branch: leg.equipped.arm.posture(&a.q).0,
+            conditions: leg.conditions,
+        }
+    }
+
+    /// The bound of the error of a part, metres.
+    fn error(&self, leg: &Leg, index: usize, a: &Point, b: &Point, through: Option<&Pose>) -> f64 {
+        let stop = self.walk.route.stops[index].expect("a leg ends at a stop");
+        let arms = self.walk.arms(&stop);
+        let part = self.part(leg, a, b, through);
+        let wanted = Wanted {
+            leg,
+            from: a.s,
+            to: b.s,
+            controller: &arms.plain.controller,
+            controller_jet: &arms.jets.controller,
+            own: false,
+        };
+        let models: (&Models<f64>, &Models<Jet>) = (&arms.plain, &arms.jets);
+        let found = deviation::path_error(&part, &part.pieces(), &wanted, models.0, models.1);
+        found.bound.distance_m
+    }
+
+    /// The point through which a part of an arc goes; none on other courses, an error where it cannot be reached.
+    fn via(&self, leg: &Leg, index: usize, a: &Point, b: &Point) -> Result<Option<Pose>, ()> {
+        let is_arc = matches!(&leg.course, Course::Tool(course) if course.is_arc());
+        if !is_arc {
+            return Ok(None);
+        }
+        let middle = self.point(leg, index, 0.5 * (a.s + b.s), &a.q);
+        middle.map(|point| Some(point.fake)).ok_or(())
+    }
+
+    /// Appends the points behind `a` up to `b`; false where one cannot be reached or too many would be needed.
+    fn split(
+        &self,
+        leg: &Leg,
+        index: usize,
+        a: &Point,
+        b: &Point,
+        depth: u32,
+        out: &mut Vec<Point>,
+    ) -> bool {
+        let Ok(through) = self.via(leg, index, a, b) else {
+            return false;
+        };
+        // the whole move is known to be too far off
+        if depth > 0 && self.error(leg, index, a, b, through.as_ref()) <= ROOM * self.limit_m {
+            out.push(*b);
+            return true;
+        }
+        if depth == MOST_HALVINGS {
+            return false;
+        }
+        let Some(middle) = self.point(leg, index, 0.5 * (a.s + b.s), &a.q) else {
+            return false;
+        };
+        self.split(leg, index, a, &middle, depth + 1, out)
+            && self.split(leg, index, &middle, b, depth + 1, out)
+    }
+
+    /// The numbers of the new targets as text: each new move's, and where the move is an arc, the points of all parts.
+    fn between(
+        &self,
+        leg: &Leg,
+        index: usize,
+        first: &Point,
+        points: &[Point],
+        last: &Point,
+        is_arc: bool,
+    ) -> Option<Vec<Between>> {
+        let mut before = *first;
+        let mut between = Vec::new();
+        for point in points.iter().chain(is_arc.then_some(last)) {
+            let via = if is_arc {
+                let s = 0.5 * (before.s + point.s);
+                Some(self.numbers(leg, index, &self.point(leg, index, s, &before.q)?))
+            } else {
+                None
+            };
+            between.push(Between {
+                via,
+                end: self.numbers(leg, index, point),
+            });
+            before = *point;
+        }
+        Some(between)
+    }
+
+    /// The text of each number of a target at a point, in the manner of the move's own target.
+    fn numbers(&self, leg: &Leg, index: usize, point: &Point) -> Vec<Vec<u8>> {
+        let (program, language) = (&self.walk.route.program, self.subject.language);
+        let motion = &program.moves[index];
+        let target = &program.targets[motion.target];
+        let source = &self.subject.sources[target.file as usize];
+        let numbers = program.numbers_of(target);
+        let text = |i: usize| {
+            let start = numbers[i].start as usize;
+            &source.bytes[start..start + usize::from(numbers[i].length)]
+        };
+        let roles = language.roles(target.layout);
+        let mut values: Vec<f64> = numbers.iter().map(|n| n.value).collect();
+        let frame = self.walk.route.frames[motion.frame].unwrap_or_else(Pose::identity);
+        let value = Value::Pose(frame.inverse() * point.fake);
+        let posture = |q: &[f64; 6]| {
+            let (branch, _) = leg.equipped.arm.posture(q);
+            Posture {
+                joints_rad: *q,
+                behind_axis_1: branch.behind_axis_1,
+                behind_lower_arm: branch.behind_lower_arm,
+            }
+        };
+        let stop = self.walk.route.stops[index].expect("a leg ends at a stop");
+        let (before, after) = (posture(&stop.q), posture(&point.q));
+        language.encode(
+            target.layout,
+            &value,
+            &before,
+            &after,
+            &self.settings,
+            &mut values,
+        );
+        let fraction = (0..numbers.len())
+            .find_map(|i| Fraction::shown_by(text(i)))
+            .unwrap_or(Fraction::Zero);
+        (0..numbers.len())
+            .map(|i| {
+                let mut out = Vec::new();
+                if values[i] == numbers[i].value {
+                    out.extend_from_slice(text(i));
+                } else if roles[i] == Role::Configuration {
+                    language.write_configuration(target.layout, i, values[i], text(i), &mut out);
+                } else {
+                    let alike = (0..numbers.len())
+                        .filter(|j| roles[*j] == roles[i])
+                        .map(text);
+                    let at_least = language.decimals(roles[i], self.decimals);
+                    Style::of_group(alike, at_least, fraction).write(text(i), values[i], &mut out);
+                }
+                out
+            })
+            .collect()
+    }
+}

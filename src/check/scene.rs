@@ -1,0 +1,252 @@
+//! All bodies of a check: what moves, what stands, and which pairs are looked at.
+
+use super::cell::{Carrier, Cell, LINKS};
+use super::mesh::Mesh;
+use super::query::{Body, Triangles};
+use crate::geometry::{Pose, Vector};
+use crate::model::profile::Profile;
+use crate::model::shape::{Form, Shape};
+use std::collections::BTreeMap;
+
+/// Meshes by the name that a profile or cell file gives them.
+pub type Meshes = BTreeMap<String, Mesh>;
+
+/// Bodies whose links are nearer than this in the chain are kept apart by the joint limits, and their capsules overlap.
+const APART: usize = 3;
+
+/// A body that moves with a link.
+#[derive(Clone, Debug)]
+pub(crate) struct Moving {
+    /// Index in [`Scene::names`].
+    pub name: usize,
+    /// 0 is the base, 1 to 6 the rows of the chain.
+    pub link: usize,
+    /// In the link's frame.
+    pub body: Body,
+}
+
+/// A body that stands.
+#[derive(Debug)]
+pub(crate) struct Fixed {
+    pub name: usize,
+    pub form: FixedForm,
+}
+
+#[derive(Debug)]
+pub(crate) enum FixedForm {
+    /// One convex body, in the world.
+    Convex(Body),
+    /// Triangles in the world.
+    Mesh { triangles: Triangles, mesh: Mesh },
+}
+
+/// Two bodies that must keep apart.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Watched {
+    /// Index in [`Scene::moving`]: the body farther out on the arm.
+    pub a: usize,
+    /// What it must not come near.
+    pub b: Other,
+    /// Their clearance, metres.
+    pub required_m: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Other {
+    /// Index in [`Scene::moving`].
+    Moving(usize),
+    /// Index in [`Scene::fixed`].
+    Fixed(usize),
+}
+
+/// All bodies and pairs.
+#[derive(Debug, Default)]
+pub struct Scene {
+    pub(crate) names: Vec<String>,
+    pub(crate) moving: Vec<Moving>,
+    pub(crate) fixed: Vec<Fixed>,
+    pub(crate) watched: Vec<Watched>,
+}
+
+/// A mesh that was not given.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the mesh `{file}` is not loaded")]
+pub struct MissingMesh {
+    /// Its name as written.
+    pub file: String,
+}
+
+/// A shape as convex bodies in its frame; the triangles of a mesh as their hull.
+fn convex(shape: &Shape, meshes: &Meshes) -> Result<Body, MissingMesh> {
+    let place = &shape.frame_from_shape;
+    Ok(match &shape.form {
+        Form::Capsule {
+            from_m,
+            to_m,
+            radius_m,
+        } => Body::capsule(place.transform(*from_m), place.transform(*to_m), *radius_m),
+        Form::Box { size_m } => Body::cuboid(*size_m, place),
+        Form::Sphere { radius_m } => Body::capsule(place.translation, place.translation, *radius_m),
+        Form::Cylinder { radius_m, height_m } => Body::cylinder(*radius_m, *height_m, place),
+        Form::Plane { normal, offset_m } => {
+            let normal = place.rotation * *normal;
+            let offset_m = offset_m + crate::geometry::dot(normal, place.translation);
+            Body::plane(normal, offset_m)
+        }
+        Form::Mesh { file, .. } => {
+            let mesh = loaded(file, meshes)?;
+            let corners: Vec<Vector> = mesh.triangles.iter().flatten().copied().collect();
+            let placed: Vec<Vector> = corners.iter().map(|c| place.transform(*c)).collect();
+            Body::hull(&placed)
+        }
+    })
+}
+
+fn loaded<'a>(file: &str, meshes: &'a Meshes) -> Result<&'a Mesh, MissingMesh> {
+    meshes
+        .get(file)
+        .ok_or_else(|| MissingMesh { file: file.into() })
+}
+
+impl Scene {
+    /// Brings together the robot's own bodies and those of a cell.
+    ///
+    /// # Errors
+    /// If a mesh was not loaded.
+    pub fn new(
+        profile: &Profile,
+        cell: Option<&Cell>,
+        meshes: &Meshes,
+    ) -> Result<Self, MissingMesh> {
+        let mut scene = Self {
+            names: LINKS.map(String::from).to_vec(),
+            ..Self::default()
+        };
+        for shape in &profile.shapes {
+            scene.moving.push(Moving {
+                name: shape.link,
+                link: shape.link,
+                body: convex(&shape.shape, meshes)?,
+            });
+        }
+        let empty = Cell::default();
+        let cell = cell.unwrap_or(&empty);
+        for attached in &cell.attached {
+            let (link, place) = match attached.to {
+                Carrier::Flange => (6, profile.link6_from_flange),
+                Carrier::Link(link) => (link, Pose::identity()),
+            };
+            let shape = Shape {
+                frame_from_shape: place * attached.shape.frame_from_shape,
+                form: attached.shape.form.clone(),
+            };
+            scene.moving.push(Moving {
+                name: scene.names.len(),
+                link,
+                body: convex(&shape, meshes)?,
+            });
+            scene.names.push(attached.name.clone());
+        }
+        for body in &cell.bodies {
+            let form = if let Form::Mesh { file, .. } = &body.shape.form {
+                let mesh = loaded(file, meshes)?;
+                let place = &body.shape.frame_from_shape;
+                let placed = |t: &[Vector; 3]| t.map(|corner| place.transform(corner));
+                let mesh = Mesh {
+                    triangles: mesh.triangles.iter().map(placed).collect(),
+                    ..mesh.clone()
+                };
+                FixedForm::Mesh {
+                    triangles: Triangles::new(&mesh.triangles),
+                    mesh,
+                }
+            } else {
+                FixedForm::Convex(convex(&body.shape, meshes)?)
+            };
+            scene.fixed.push(Fixed {
+                name: scene.names.len(),
+                form,
+            });
+            scene.names.push(body.name.clone());
+        }
+        scene.watch(cell);
+        Ok(scene)
+    }
+
+    fn watch(&mut self, cell: &Cell) {
+        let required = |a: usize, b: usize| {
+            let (a, b) = (self.names[a].as_str(), self.names[b].as_str());
+            let said = cell
+                .pairs
+                .iter()
+                .rev()
+                .find(|p| (p.a == a && p.b == b) || (p.a == b && p.b == a));
+            said.map_or(Some(cell.clearance_m), |pair| pair.clearance_m)
+        };
+        let is_link = |name: usize| name < LINKS.len();
+        let mut watched = Vec::new();
+        for (i, one) in self.moving.iter().enumerate() {
+            for (j, other) in self.moving.iter().enumerate().take(i) {
+                let (a, b) = if one.link >= other.link {
+                    (i, j)
+                } else {
+                    (j, i)
+                };
+                let (high, low) = (self.moving[a].link, self.moving[b].link);
+                let own = is_link(one.name) && is_link(other.name);
+                let apart = high - low;
+                let said = cell.pairs.iter().any(|pair| {
+                    let names = [&self.names[one.name], &self.names[other.name]];
+                    names.contains(&&pair.a) && names.contains(&&pair.b)
+                });
+                // what moves together cannot come nearer; neighbours touch; a cell file may name others
+                if apart == 0 || (apart < APART && !(said && apart > usize::from(own))) {
+                    continue;
+                }
+                if let Some(required_m) = required(one.name, other.name) {
+                    // the robot's own links need no more than not to touch, unless the cell says so
+                    watched.push(Watched {
+                        a,
+                        b: Other::Moving(b),
+                        required_m: if own && !said { 0.0 } else { required_m },
+                    });
+                }
+            }
+            // the base stands where it was put
+            if one.link == 0 {
+                continue;
+            }
+            for (k, fixed) in self.fixed.iter().enumerate() {
+                if let Some(required_m) = required(one.name, fixed.name) {
+                    watched.push(Watched {
+                        a: i,
+                        b: Other::Fixed(k),
+                        required_m,
+                    });
+                }
+            }
+        }
+        self.watched = watched;
+    }
+
+    /// Name of the moving body of a pair, and of the other.
+    pub(crate) fn names_of(&self, pair: &Watched) -> (&str, &str) {
+        let other = match pair.b {
+            Other::Moving(b) => self.moving[b].name,
+            Other::Fixed(k) => self.fixed[k].name,
+        };
+        (&self.names[self.moving[pair.a].name], &self.names[other])
+    }
+
+    /// Names of the pair that a clearance is of; `None` where nothing came near.
+    #[must_use]
+    pub fn pair_names(&self, found: &super::collision::Clearance) -> Option<(&str, &str)> {
+        found.pair.map(|pair| self.names_of(&self.watched[pair]))
+    }
+
+    /// Whether there is anything to look at.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.watched.is_empty()
+    }
+}

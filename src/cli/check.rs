@@ -1,0 +1,334 @@
+//! `check`: where the real robot goes with programs as they are, and what it comes near.
+
+use super::compensate::{common_language, explain, language_by_id, programs_in};
+use super::failure::Failure;
+use super::{Answer, Output, files, json_text, print, values};
+use crate::check::cell::Cell;
+use crate::check::mesh::Mesh;
+use crate::check::{self, CheckError, Meshes, Options, Scene, Subject, Turning, baseline};
+use crate::compensate::Given;
+use crate::geometry::units::{DEG, MM};
+use crate::model::profile::Profile;
+use crate::model::shape::{Form, Shape};
+use crate::program::Source;
+use crate::report;
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+/// Predict where the real robot goes with programs as they are: accuracy along the path, limits, collisions
+#[derive(Args)]
+pub struct Check {
+    /// Program files that belong together, or folders of them
+    #[arg(required = true, value_name = "PROGRAM")]
+    programs: Vec<PathBuf>,
+    /// Robot profile (YAML)
+    #[arg(long, value_name = "FILE")]
+    profile: PathBuf,
+    /// What stands around the robot and what it carries (YAML)
+    #[arg(long, value_name = "FILE")]
+    cell: Option<PathBuf>,
+    /// The program that a compensated one was made from: where the tool is wanted
+    #[arg(long, value_name = "ORIGINAL")]
+    nominal: Vec<PathBuf>,
+    /// A path error above this is an error, mm
+    #[arg(long, value_name = "MM")]
+    max_path_error: Option<f64>,
+    /// How the controller turns the tool on straight and circular moves
+    #[arg(long, value_enum, default_value = "slerp")]
+    orientation: Orientation,
+    /// Bodies farther apart than this beyond what is required are not measured, mm
+    #[arg(long, value_name = "MM", default_value_t = 100.0)]
+    horizon: f64,
+    /// A joint nearer to its limits is a warning, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 1.0)]
+    limit_margin: f64,
+    /// A stored run to compare with; status 1 where something got worse
+    #[arg(long, value_name = "JSON")]
+    baseline: Option<PathBuf>,
+    /// Store this run as the baseline
+    #[arg(long, requires = "baseline")]
+    update_baseline: bool,
+    /// Differences from the baseline below this are none, mm and degrees
+    #[arg(long, value_name = "MM", default_value_t = 0.0005)]
+    tolerance: f64,
+    /// Write `JUnit` XML for a build server
+    #[arg(long, value_name = "XML")]
+    junit: Option<PathBuf>,
+    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
+    #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
+    tools: Vec<String>,
+    /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
+    #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
+    frames: Vec<String>,
+    /// Language of the programs (default: by file name and content)
+    #[arg(long, value_name = "ID")]
+    language: Option<String>,
+}
+
+/// How the controller turns the tool
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Orientation {
+    /// About one axis at a constant rate
+    Slerp,
+    /// Three angles (Rz Ry Rx), each at a constant rate
+    Euler,
+}
+
+impl Check {
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        self.refuse_nonsense()?;
+        let (mut profile, profile_sha256) = files::read_profile(&self.profile)?;
+        let mut meshes = Loader::default();
+        for shape in &mut profile.shapes {
+            meshes.load(&mut shape.shape, &self.profile)?;
+        }
+        let cell = self
+            .cell
+            .as_ref()
+            .map(|path| read_cell(path, &mut meshes))
+            .transpose()?;
+        let scene = Scene::new(&profile, cell.as_ref(), &meshes.meshes)
+            .map_err(|missing| Failure::new(missing.to_string()))?;
+        let asked = self.language.as_deref().map(language_by_id).transpose()?;
+        let sources = read_programs(&self.programs, asked)?;
+        let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
+        let nominal = if self.nominal.is_empty() {
+            None
+        } else {
+            Some(read_programs(&self.nominal, Some(language))?)
+        };
+        let subject = Subject {
+            language,
+            sources: &sources,
+            nominal: nominal.as_deref(),
+            profile: &profile,
+            scene: &scene,
+        };
+        let found =
+            check::check(&subject, &self.options(&profile)?).map_err(|error| match error {
+                CheckError::Program(error) => explain(&error, &sources),
+                CheckError::Nominal(error) => explain(&error, nominal.as_deref().unwrap_or(&[])),
+                CheckError::NoCounterpart { .. } => Failure::with_hint(
+                    error.to_string(),
+                    "is it the program that this one was made from?",
+                ),
+            })?;
+        let names = |sources: &[Source]| sources.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
+        let (inputs, originals) = (
+            names(&sources),
+            nominal.as_deref().map(names).unwrap_or_default(),
+        );
+        let header = report::check::Header {
+            inputs: &inputs,
+            nominal: &originals,
+            language,
+            profile_sha256: &profile_sha256,
+            scene: &scene,
+        };
+        let comparison = self.compare(&report::check::json(&header, &found, None))?;
+        let mut outputs = Vec::new();
+        if let (Some(path), true) = (&self.baseline, self.update_baseline) {
+            let text = json_text(&report::check::json(&header, &found, None));
+            outputs.push((path.clone(), text.into_bytes()));
+        }
+        if let Some(path) = &self.junit {
+            let xml = report::check::junit(&header, &found, comparison.as_ref());
+            outputs.push((path.clone(), xml.into_bytes()));
+        }
+        files::write_all(&outputs)?;
+        print(&self.tell(&header, &found, comparison.as_ref(), &meshes.notes, output))?;
+        let worse = comparison.as_ref().is_some_and(|c| !c.worse.is_empty());
+        Ok(if found.is_refused() || worse {
+            Answer::No
+        } else {
+            Answer::Yes
+        })
+    }
+
+    fn refuse_nonsense(&self) -> Result<(), Failure> {
+        let numbers = [
+            ("--max-path-error", self.max_path_error, f64::MIN_POSITIVE),
+            ("--horizon", Some(self.horizon), 0.0),
+            ("--limit-margin", Some(self.limit_margin), 0.0),
+            ("--tolerance", Some(self.tolerance), 0.0),
+        ];
+        for (name, value, least) in numbers {
+            if let Some(value) = value
+                && !(value >= least && value.is_finite())
+            {
+                let message =
+                    format!("{name} is {value}; it must be a finite number, not negative");
+                return Err(Failure::new(message));
+            }
+        }
+        Ok(())
+    }
+
+    fn options(&self, profile: &Profile) -> Result<Options, Failure> {
+        let mut given = Given::default();
+        for text in &self.tools {
+            let (name, tool) = values::tool(text, profile)?;
+            given.tools.insert(name, tool);
+        }
+        for text in &self.frames {
+            let (name, frame) = values::frame(text)?;
+            given.frames.insert(name, frame);
+        }
+        Ok(Options {
+            given,
+            turning: match self.orientation {
+                Orientation::Slerp => Turning::Slerp,
+                Orientation::Euler => Turning::Euler,
+            },
+            max_path_error_m: self.max_path_error.map(|mm| mm * MM),
+            horizon_m: self.horizon * MM,
+            limit_margin_rad: self.limit_margin * DEG,
+            ..Options::default()
+        })
+    }
+
+    /// The comparison with the stored run; none where there is no baseline, or where it is to be written for the first time.
+    fn compare(&self, now: &serde_json::Value) -> Result<Option<baseline::Comparison>, Failure> {
+        let Some(path) = &self.baseline else {
+            return Ok(None);
+        };
+        if self.update_baseline {
+            return Ok(None);
+        }
+        if !path.exists() {
+            return Err(Failure::with_hint(
+                format!("there is no baseline {}", path.display()),
+                "--update-baseline stores this run",
+            ));
+        }
+        let before = baseline::read(&files::read_text(path)?)
+            .map_err(|error| Failure::new(format!("{}: {error}", path.display())))?;
+        let tolerances = baseline::Tolerances {
+            mm: self.tolerance,
+            deg: self.tolerance,
+        };
+        Ok(Some(baseline::compare(&before, now, tolerances)))
+    }
+
+    fn tell(
+        &self,
+        header: &report::check::Header,
+        found: &check::Check,
+        comparison: Option<&baseline::Comparison>,
+        notes: &[String],
+        output: Output,
+    ) -> String {
+        if output.json {
+            return json_text(&report::check::json(header, found, comparison));
+        }
+        let mut text = String::new();
+        if output.verbose {
+            text.extend(notes.iter().map(|note| format!("note: {note}\n")));
+        }
+        let refused = found.is_refused();
+        if !output.quiet || refused {
+            text += &report::findings::text(&found.findings, output.verbose);
+        }
+        if output.quiet {
+            if let Some(comparison) = comparison.filter(|c| !c.worse.is_empty()) {
+                text += &baseline::text(comparison);
+            }
+        } else {
+            text += &report::check::text(header, found, comparison);
+        }
+        if let (Some(path), true) = (&self.baseline, self.update_baseline && !output.quiet) {
+            text += &format!("stored as {}\n", path.display());
+        }
+        text
+    }
+}
+
+/// Program files in the order of the arguments; folders give theirs by name.
+fn read_programs(
+    paths: &[PathBuf],
+    asked: Option<&'static dyn crate::program::Language>,
+) -> Result<Vec<Source>, Failure> {
+    let mut sources = Vec::new();
+    for path in paths {
+        let found = if path.is_dir() {
+            programs_in(path, asked)?
+                .into_iter()
+                .map(|(path, _)| path)
+                .collect()
+        } else {
+            vec![path.clone()]
+        };
+        for path in found {
+            sources.push(Source::new(path.display().to_string(), files::read(&path)?));
+        }
+    }
+    if sources.is_empty() {
+        return Err(Failure::with_hint(
+            "no program files in these folders",
+            "`poseshift languages` lists what is recognised",
+        ));
+    }
+    Ok(sources)
+}
+
+/// Reads the meshes that profiles and cells name, each once.
+#[derive(Default)]
+struct Loader {
+    meshes: Meshes,
+    notes: Vec<String>,
+}
+
+impl Loader {
+    /// Reads the mesh of a shape, if it is one; its name becomes the key of the mesh.
+    fn load(&mut self, shape: &mut Shape, named_in: &Path) -> Result<(), Failure> {
+        let Form::Mesh { file, scale } = &mut shape.form else {
+            return Ok(());
+        };
+        let folder = named_in.parent().unwrap_or(Path::new(""));
+        let path = folder.join(&*file);
+        let key = format!("{} {scale:?}", path.display());
+        if !self.meshes.contains_key(&key) {
+            let bytes = std::fs::read(&path).map_err(|error| {
+                Failure::with_hint(
+                    format!(
+                        "{}: cannot read the mesh {}: {error}",
+                        named_in.display(),
+                        path.display()
+                    ),
+                    "mesh files are looked for beside the file that names them",
+                )
+            })?;
+            let beside = |name: &str| std::fs::read(path.parent()?.join(name)).ok();
+            let name = path.display().to_string();
+            let mesh = Mesh::read(&name, &bytes, *scale, &beside)
+                .map_err(|error| Failure::with_hint(format!("{name}: {error}"), error.hint()))?;
+            if mesh.degenerate > 0 {
+                self.notes.push(format!(
+                    "{name}: {} triangles have no area and are left out",
+                    mesh.degenerate
+                ));
+            }
+            if mesh.open_edges > 0 {
+                self.notes.push(format!(
+                    "{name}: the mesh is open ({} edges): its surface is looked at, not what is inside",
+                    mesh.open_edges
+                ));
+            }
+            self.meshes.insert(key.clone(), mesh);
+        }
+        *file = key;
+        Ok(())
+    }
+}
+
+fn read_cell(path: &Path, meshes: &mut Loader) -> Result<Cell, Failure> {
+    let text = files::read_text(path)?;
+    let mut cell = Cell::from_yaml(&text).map_err(|error| Failure::profile(path, &text, &error))?;
+    for body in &mut cell.bodies {
+        meshes.load(&mut body.shape, path)?;
+    }
+    for body in &mut cell.attached {
+        meshes.load(&mut body.shape, path)?;
+    }
+    Ok(cell)
+}

@@ -1,0 +1,269 @@
+//! `diagnose`: where model and measurement disagree, and which effect is missing.
+
+use super::failure::Failure;
+use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
+use super::table::{SPREAD_HEADER, aligned, spread_row};
+use super::{Answer, Output, files, print, print_json};
+use crate::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::model::profile::rewritten;
+use crate::report::{diagnosis as report, identification};
+use clap::Args;
+use serde_json::json;
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+
+/// Find where model and measurements disagree, name the missing effect, add it
+#[derive(Args)]
+pub struct Diagnose {
+    /// Robot profile (YAML)
+    #[arg(long, value_name = "FILE")]
+    profile: PathBuf,
+    #[command(flatten)]
+    measurements: MeasurementFiles,
+    /// Improved profile to write (YAML)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Have this effect in the model whatever the evidence: `backlash:3`; may be given again
+    #[arg(long, value_name = "EFFECT")]
+    accept: Vec<String>,
+    /// Leave this effect out: `joint_harmonic`, `link_compliance:2`; may be given again
+    #[arg(long, value_name = "EFFECT")]
+    reject: Vec<String>,
+    /// Joint angles to write (CSV) that would tell the alternatives apart
+    #[arg(long, value_name = "FILE")]
+    poses: Option<PathBuf>,
+    /// Leave out the check on rows not used
+    #[arg(long)]
+    quick: bool,
+}
+
+/// A line on standard error that tells what is being done, on a terminal only.
+struct Progress {
+    shown: bool,
+    step: usize,
+}
+
+/// Steps of a diagnosis that are told.
+const STEPS: usize = 5;
+
+impl Progress {
+    fn tell(&mut self, what: &str) {
+        if !self.shown {
+            return;
+        }
+        self.step += 1;
+        let done = self.step.min(STEPS);
+        let bar: String = (0..STEPS)
+            .map(|k| if k < done { '#' } else { '.' })
+            .collect();
+        // whoever closed standard error does not want it
+        let _ = write!(std::io::stderr(), "\r[{bar}] {what:<40}");
+    }
+
+    fn end(&self) {
+        if self.shown {
+            let _ = write!(std::io::stderr(), "\r{:60}\r", "");
+        }
+    }
+}
+
+impl Diagnose {
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let options = Options {
+            accept: picks("--accept", Some(&self.accept.join(",")))?,
+            reject: picks("--reject", Some(&self.reject.join(",")))?,
+            quick: self.quick,
+        };
+        let (profile, profile_hash) = files::read_profile(&self.profile)?;
+        let (measurements, hashes) = self.measurements.read()?;
+        let name = self.measurements.name();
+        let mut progress = Progress {
+            shown: !output.quiet && !output.json && std::io::stderr().is_terminal(),
+            step: 0,
+        };
+        let found = diagnose(&profile, &measurements, &options, &mut |what| {
+            progress.tell(what);
+        });
+        progress.end();
+        let found = found.map_err(|error| identify_failure(&name, &error))?;
+        let mut json = report::diagnosis(&found, &name);
+        json["profile_sha256"] = json!(profile_hash);
+        json["measurements_sha256"] = json!(hashes);
+        let mut outputs = Vec::new();
+        let sure = found.verdict != Verdict::Undetermined
+            || !found.found.is_empty() && found.found.iter().all(|f| f.accepted);
+        if let Some(path) = self.output.as_ref().filter(|_| sure) {
+            let mut improved = found.profile.clone();
+            improved.quality = None;
+            improved.provenance = Some(json!({
+                "program": format!("poseshift {}", env!("CARGO_PKG_VERSION")),
+                "diagnosis": found.verdict.id(),
+                "found": found.found.iter().map(|f| f.effect.label()).collect::<Vec<_>>(),
+                "profile_sha256": profile_hash,
+                "measurements_sha256": hashes,
+                "rows": measurements.rows.len(),
+            }));
+            let text = rewritten(&files::read_text(&self.profile)?, &improved)
+                .map_err(|error| Failure::new(format!("{}: {error}", self.profile.display())))?;
+            outputs.push((path.clone(), text.into_bytes()));
+            json["output"] = json!(path.display().to_string());
+        }
+        if let Some(path) = self.poses.as_ref().filter(|_| !found.telling.is_empty()) {
+            let mut text = String::from("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n");
+            for telling in &found.telling {
+                let cells = telling.q.map(|q| format!("{:.4}", q / DEG));
+                text += &format!("{}\n", cells.join(","));
+            }
+            outputs.push((path.clone(), text.into_bytes()));
+            json["poses"] = json!(path.display().to_string());
+        }
+        files::write_all(&outputs)?;
+        let answer = if sure { Answer::Yes } else { Answer::No };
+        if output.json {
+            print_json(&json)?;
+            return Ok(answer);
+        }
+        tell_findings(&identification::findings(&found.remarks, &name), output);
+        if !output.quiet {
+            print(&text(&found, output.verbose))?;
+            for (path, _) in &outputs {
+                print(&format!("\nwritten to {}\n", path.display()))?;
+            }
+            if self.output.is_some() && !sure {
+                print("\nnothing written: --accept EFFECT overrules\n")?;
+            }
+            if self.poses.is_some() && found.telling.is_empty() {
+                print("\nno alternatives to tell apart: no poses written\n")?;
+            }
+        }
+        Ok(answer)
+    }
+}
+
+/// The report for people.
+fn text(found: &Diagnosis, all: bool) -> String {
+    let mut out = report::summary(found);
+    let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
+    if let Some((before, after)) = &found.held_out {
+        rows.push(spread_row("present model", before));
+        if let Some(s) = found.absorbed_only.filter(|_| found.absorbed) {
+            rows.push(spread_row("frames, geometry fitted", &s));
+        }
+        for f in &found.found {
+            rows.extend(
+                f.after
+                    .map(|s| spread_row(&format!("+ {}", f.effect.label()), &s)),
+            );
+        }
+        if found.found.is_empty() {
+            rows.push(spread_row("after", after));
+        }
+        out += "\nerrors in mm on rows not used for the choice\n";
+        out += &aligned(&rows);
+    }
+    let source = match found.noise_source {
+        NoiseSource::Given => "sigma_mm",
+        NoiseSource::Repeats => "repeated poses",
+        NoiseSource::Left => "what no model explains",
+    };
+    out += &format!(
+        "\nnoise {:.4} mm a coordinate by {source}; left {:.4} mm\n",
+        mm_from_m(found.noise_m),
+        mm_from_m(found.left_m)
+    );
+    if !found.found.is_empty() {
+        let mut rows = vec![
+            [
+                "effect",
+                "parameter",
+                "value",
+                "sigma",
+                "unit",
+                "chi2 fall",
+                "p",
+                "again",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+        ];
+        for f in &found.found {
+            for (k, (number, sigma)) in f.sought.iter().zip(&f.sigmas).enumerate() {
+                let p = &f.effect.definition().parameters[*number];
+                let unit = p.unit.in_si();
+                let first = |text: String| if k == 0 { text } else { String::new() };
+                rows.push(vec![
+                    first(f.effect.label()),
+                    p.key.into(),
+                    format!("{:.4e}", f.effect.parameters[*number] / unit),
+                    format!("{:.1e}", sigma / unit),
+                    p.unit.symbol().into(),
+                    first(format!("{:.0}", f.gain)),
+                    first(format!("{:.0e}", f.p_value)),
+                    first(format!("{}/{}", f.found_again.0, f.found_again.1)),
+                ]);
+            }
+        }
+        out += &format!("\n{}", aligned(&rows));
+    }
+    let most = if all { usize::MAX } else { 5 };
+    if !found.spots.is_empty() {
+        out += "\nwhere the present model misses, strongest first\n";
+        let mut rows = vec![
+            ["column", "most at", "rms mm", "largest mm", "part", "p"]
+                .map(str::to_owned)
+                .to_vec(),
+        ];
+        for s in found.spots.iter().take(most) {
+            rows.push(vec![
+                s.column.clone(),
+                s.values.clone(),
+                format!("{:.3}", mm_from_m(s.size_m)),
+                format!("{:.3}", mm_from_m(s.largest_m)),
+                format!("{:.0} %", 100.0 * s.part),
+                format!("{:.0e}", s.p_value),
+            ]);
+        }
+        out += &aligned(&rows);
+    }
+    if !found.rivals.is_empty() {
+        out += "\nexplain the measurements nearly as well\n";
+        for r in found.rivals.iter().take(most) {
+            let of = &found.found[r.instead_of];
+            out += &format!(
+                "  {} instead of {} (behind by {:.1})\n",
+                r.effect.label(),
+                of.effect.label(),
+                r.behind
+            );
+        }
+        if let Some(t) = found.telling.first() {
+            out += &format!(
+                "  {} poses tell them apart, by up to {:.3} mm: --poses FILE writes them\n",
+                found.telling.len(),
+                mm_from_m(t.apart_m)
+            );
+        }
+    }
+    if !found.cannot_test.is_empty() {
+        out += "\ncould not be tested\n";
+        for c in &found.cannot_test {
+            out += &format!("  {}: needs {}\n", c.kind.definition().id, c.missing);
+        }
+    }
+    if !found.outliers.is_empty() {
+        out += &format!(
+            "\n{} rows fit no model and hardly count\n",
+            found.outliers.len()
+        );
+        for o in found.outliers.iter().take(most) {
+            out += &format!(
+                "  line {}: {:.3} mm, {:.0} times the noise\n",
+                o.line,
+                mm_from_m(o.length_m),
+                o.times
+            );
+        }
+    }
+    out
+}

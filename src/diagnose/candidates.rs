@@ -1,0 +1,397 @@
+//! Every effect that the columns allow, at every joint, order and time constant it may have.
+
+use super::table::{Column, table};
+use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
+use crate::identify::parameters::{Parameter, Subject};
+use crate::identify::problem::{Estimate, Problem};
+use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, Place, REGISTRY, Site};
+use crate::model::{JOINTS, Slot};
+
+/// Harmonics are sought up to this many periods a turn.
+pub const MOST_ORDERS: u32 = 12;
+/// Temperatures must range over this to show an effect, °C.
+const WARMER_C: f64 = 0.5;
+/// Time constants tried, parts of the session's length.
+const TIME_CONSTANTS: [f64; 6] = [0.05, 0.12, 0.25, 0.5, 1.0, 2.0];
+/// Torques of a knee tried, parts of the largest torque in the measurements.
+const KNEES: [f64; 7] = [0.05, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7];
+
+/// One effect at one place, with the parameters that are sought; others are held.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The effect: its place, and the values of the parameters that are not sought (a knee's torque, a time constant).
+    pub effect: Effect,
+    /// Which parameters are sought.
+    pub sought: Vec<usize>,
+    /// Indices of their columns, in the parameters' typical sizes.
+    pub columns: Vec<usize>,
+    /// Smallest values, in typical sizes.
+    pub least: Vec<Option<f64>>,
+    /// First row, from 1, for an effect that begins during the session; the columns hold from row 1.
+    pub row: Option<u32>,
+    /// Parameters that were chosen from a list (a torque, a time constant, a row): they count like fitted ones.
+    pub chosen: usize,
+    /// How many candidates of its kind there are: their choice costs twice the logarithm.
+    pub peers: usize,
+}
+
+impl Candidate {
+    /// The same effect at the same place, whatever its values.
+    #[must_use]
+    pub fn same_effect(&self, other: &Self) -> bool {
+        let (a, b) = (&self.effect, &other.effect);
+        a.kind == b.kind && (a.site == b.site || self.row.is_some())
+    }
+}
+
+/// An effect that cannot be tested, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CannotTest {
+    /// The effect.
+    pub kind: Kind,
+    /// What is missing, in words of the files.
+    pub missing: String,
+}
+
+/// All candidates with their columns.
+#[derive(Clone, Debug, Default)]
+pub struct Candidates {
+    /// The candidates.
+    pub list: Vec<Candidate>,
+    /// Their columns.
+    pub columns: Vec<Column>,
+    /// Effects that cannot be tested.
+    pub cannot_test: Vec<CannotTest>,
+}
+
+fn sites(kind: Kind, tools: &[String]) -> Vec<Site> {
+    let mut all = vec![Site {
+        order: 1,
+        ..Site::default()
+    }];
+    for place in kind.definition().site {
+        let each = |site: &Site| -> Vec<Site> {
+            let with = |change: &dyn Fn(&mut Site)| {
+                let mut site = site.clone();
+                change(&mut site);
+                site
+            };
+            match place {
+                Place::Link | Place::Joint => (0..JOINTS).map(|i| with(&|s| s.index = i)).collect(),
+                Place::JointOrBase => (0..=BASE).map(|i| with(&|s| s.index = i)).collect(),
+                Place::On => (0..JOINTS).map(|i| with(&|s| s.on = i)).collect(),
+                Place::Order => (1..=MOST_ORDERS).map(|n| with(&|s| s.order = n)).collect(),
+                Place::Tool if tools.len() > 1 => tools
+                    .iter()
+                    .map(|t| with(&|s| s.tool = Some(t.clone())))
+                    .collect(),
+                Place::Tool | Place::Row => vec![site.clone()],
+            }
+        };
+        all = all.iter().flat_map(each).collect();
+    }
+    let on = kind.definition().site.contains(&Place::On);
+    all.retain(|site| !on || site.index != site.on);
+    all
+}
+
+/// The parameters that are sought together, and a parameter with the value that a list chose for it.
+type Variant = (Vec<usize>, Option<(usize, f64)>);
+
+/// Which parameters are sought together, and the values of those that are chosen from a list.
+fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
+    let all: Vec<usize> = (0..kind.definition().parameters.len()).collect();
+    let plain = |list: &[&[usize]]| list.iter().map(|sought| (sought.to_vec(), None)).collect();
+    match kind {
+        // the first link's are the base's, the last one's twist and length the tool's
+        Kind::LinkGeometry if site.index == 0 => Vec::new(),
+        Kind::LinkGeometry if site.index == 5 => plain(&[&[0], &[1]]),
+        Kind::LinkGeometry => plain(&[&[0], &[1], &[2], &[3], &[4], &[0, 1, 2, 3, 4]]),
+        Kind::BaseFrame | Kind::FrameShift | Kind::ToolFrame => {
+            plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]])
+        }
+        Kind::LinkCompliance | Kind::BaseCompliance => plain(&[&[0], &[1], &[0, 1]]),
+        Kind::PayloadError => plain(&[&[0], &[1, 2, 3], &[0, 1, 2, 3]]),
+        Kind::ThermalGrowth => tried
+            .references
+            .iter()
+            .map(|t| (vec![0], Some((1, *t))))
+            .collect(),
+        Kind::ComplianceKnee => tried.knees[site.index]
+            .iter()
+            .map(|t| (vec![1], Some((0, *t))))
+            .collect(),
+        Kind::WarmUpDrift => {
+            let sought: &[usize] = if site.index == BASE { &[1, 2, 3] } else { &[0] };
+            tried
+                .constants
+                .iter()
+                .map(|t| (sought.to_vec(), Some((4, *t))))
+                .collect()
+        }
+        _ => vec![(all, None)],
+    }
+}
+
+/// The smallest value of a parameter that is physical, SI.
+fn least(kind: Kind, parameter: usize) -> Option<f64> {
+    match (kind, parameter) {
+        (Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance, _)
+        | (Kind::ComplianceKnee, 1)
+        | (Kind::ThermalGrowth, 0) => Some(0.0),
+        _ => None,
+    }
+}
+
+/// Values that are chosen from lists.
+#[derive(Clone, Debug, Default)]
+pub struct Tried {
+    /// Torques of knees, N·m, of each joint.
+    pub knees: [Vec<f64>; JOINTS],
+    /// Time constants, seconds.
+    pub constants: Vec<f64>,
+    /// Reference temperatures, °C.
+    pub references: Vec<f64>,
+}
+
+impl Tried {
+    /// From the measurements' own ranges.
+    #[must_use]
+    pub fn of(problem: &Problem, estimate: &Estimate) -> Self {
+        let models = problem.models(estimate, &[]);
+        let mut most = [0.0_f64; JOINTS];
+        for row in &problem.rows {
+            let torques = models[row.rig].model().torques(&row.q, &row.conditions);
+            for i in 0..JOINTS {
+                most[i] = most[i].max(torques[i].abs());
+            }
+        }
+        let knees = most.map(|t| {
+            if t > 1e-3 {
+                KNEES.map(|part| part * t).to_vec()
+            } else {
+                Vec::new()
+            }
+        });
+        let times: Vec<f64> = problem
+            .rows
+            .iter()
+            .filter_map(|r| r.conditions.time_s)
+            .collect();
+        let length = times.iter().fold(0.0, |most, t| f64::max(most, *t));
+        let constants = if length > 0.0 {
+            TIME_CONSTANTS.map(|p| p * length).to_vec()
+        } else {
+            Vec::new()
+        };
+        let temperatures: Vec<f64> = problem
+            .rows
+            .iter()
+            .filter_map(|r| r.conditions.temperature_c)
+            .collect();
+        let mean = temperatures.iter().sum::<f64>() / temperatures.len().max(1) as f64;
+        let calibrated = problem
+            .profile
+            .provenance
+            .as_ref()
+            .and_then(|p| p["temperature_c"].as_f64());
+        let mut references = vec![20.0, mean];
+        references.extend(calibrated);
+        Self {
+            knees,
+            constants,
+            references,
+        }
+    }
+}
+
+fn range(values: impl Iterator<Item = f64>) -> f64 {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    });
+    (high - low).max(0.0)
+}
+
+/// What an effect lacks.
+fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option<String> {
+    let rows = &problem.rows;
+    for need in kind.definition().needs {
+        let lacks = match need {
+            Need::Masses => {
+                let any = !problem.profile.bodies.is_empty()
+                    || problem.tools.iter().any(|t| t.load.is_some());
+                (!any).then(|| need.describe().to_owned())
+            }
+            Need::Directions if !measurements.has(&DIRECTION_COLUMNS) => {
+                Some(need.describe().to_owned())
+            }
+            Need::Directions => {
+                let still = rows.iter().all(|r| r.conditions.direction == [0.0; 6]);
+                still.then(|| "a direction in dir1…dir6: all are 0".to_owned())
+            }
+            Need::Temperature if !measurements.has(&["temperature_c"]) => {
+                Some(need.describe().to_owned())
+            }
+            Need::Temperature => {
+                let by = range(rows.iter().filter_map(|r| r.conditions.temperature_c));
+                (by < WARMER_C).then(|| {
+                    format!("temperatures that differ: temperature_c ranges over {by:.2} degrees")
+                })
+            }
+            Need::Time if !measurements.has(&["time_s"]) => Some(need.describe().to_owned()),
+            Need::Time => {
+                let by = range(rows.iter().filter_map(|r| r.conditions.time_s));
+                (by <= 0.0).then(|| "times that differ: time_s is constant".to_owned())
+            }
+            Need::Order => (rows.len() < 20).then(|| "at least 20 rows in order".to_owned()),
+        };
+        if lacks.is_some() {
+            return lacks;
+        }
+    }
+    None
+}
+
+fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
+    let definition = &at.definition().parameters[number];
+    Parameter {
+        key: String::new(),
+        subject: Subject::Effect(Slot {
+            effect,
+            parameter: number,
+        }),
+        unit: definition.unit,
+        scale: definition.prior_sigma * definition.unit.in_si(),
+        rank: 0,
+        prior: None,
+    }
+}
+
+/// The columns of some parameters of effects that are not in the model, each on its own.
+///
+/// Effects that only deflect are added to the model at zero, all at once; others change the geometry and are added one by
+/// one, or found in the model.
+pub(super) fn columns_of(
+    problem: &Problem,
+    estimate: &Estimate,
+    wanted: &[(Effect, Vec<usize>)],
+) -> Vec<Vec<Column>> {
+    let mut out: Vec<Vec<Column>> = vec![Vec::new(); wanted.len()];
+    for deflecting in [true, false] {
+        let mut with = estimate.clone();
+        let mut parameters = Vec::new();
+        let mut owners = Vec::new();
+        for (index, (effect, sought)) in wanted.iter().enumerate() {
+            if effect.definition().deflects != deflecting {
+                continue;
+            }
+            let known = (!deflecting)
+                .then(|| with.effects.iter().position(|e| e.same_place(effect)))
+                .flatten();
+            let at = known.unwrap_or_else(|| {
+                with.effects.push(effect.clone());
+                with.effects.len() - 1
+            });
+            for number in sought {
+                parameters.push(parameter(at, effect, *number));
+                owners.push(index);
+            }
+        }
+        if parameters.is_empty() {
+            continue;
+        }
+        let (_, columns) = table(problem, &with, &parameters);
+        for (owner, column) in owners.into_iter().zip(columns) {
+            out[owner].push(column);
+        }
+    }
+    out
+}
+
+impl Candidates {
+    /// Every candidate of the registry but those that `leave` out.
+    #[must_use]
+    pub fn of(
+        problem: &Problem,
+        estimate: &Estimate,
+        measurements: &Measurements,
+        tried: &Tried,
+        leave: &dyn Fn(&Effect) -> bool,
+    ) -> Self {
+        let tools: Vec<String> = problem.tools.iter().map(|t| t.name.clone()).collect();
+        let mut all = Self::default();
+        // one effect for each place and chosen value, with every parameter that some variant seeks
+        let mut wanted: Vec<(Effect, Vec<usize>)> = Vec::new();
+        let mut groups: Vec<(usize, Vec<usize>, usize)> = Vec::new();
+        let mut peers: Vec<usize> = Vec::new();
+        for &kind in REGISTRY {
+            if let Some(missing) = missing(kind, problem, measurements) {
+                all.cannot_test.push(CannotTest { kind, missing });
+                continue;
+            }
+            let mut places = 0;
+            for site in sites(kind, &tools) {
+                let mut any = false;
+                for (sought, value) in variants(kind, &site, tried) {
+                    let mut parameters = [0.0; MOST_PARAMETERS];
+                    if let Some((number, value)) = value {
+                        parameters[number] = value;
+                    }
+                    let effect = Effect {
+                        kind,
+                        site: site.clone(),
+                        parameters,
+                    };
+                    if leave(&effect) {
+                        continue;
+                    }
+                    any = true;
+                    let known = wanted.iter().rposition(|(e, _)| *e == effect);
+                    let at = known.unwrap_or_else(|| {
+                        wanted.push((effect, Vec::new()));
+                        wanted.len() - 1
+                    });
+                    for number in &sought {
+                        if !wanted[at].1.contains(number) {
+                            wanted[at].1.push(*number);
+                        }
+                    }
+                    let listed = value.is_some() && kind != Kind::ThermalGrowth;
+                    groups.push((at, sought, usize::from(listed)));
+                }
+                places += usize::from(any);
+            }
+            peers.resize(groups.len(), places);
+        }
+        let columns = columns_of(problem, estimate, &wanted);
+        let mut first = Vec::new();
+        for own in columns {
+            first.push(all.columns.len());
+            all.columns.extend(own);
+        }
+        for ((at, sought, chosen), peers) in groups.into_iter().zip(peers) {
+            let (effect, numbers) = &wanted[at];
+            let definition = effect.definition();
+            let present = estimate.effects.iter().find(|e| e.same_place(effect));
+            let bound = |number: &usize| {
+                let scale = definition.parameters[*number].prior_sigma
+                    * definition.parameters[*number].unit.in_si();
+                let now = present.map_or(0.0, |e| e.parameters[*number]);
+                least(effect.kind, *number).map(|low| (low - now) / scale)
+            };
+            let place = |n: &usize| numbers.iter().position(|known| known == n);
+            let columns = sought.iter().filter_map(place).map(|p| first[at] + p);
+            let of_data = definition.of_data();
+            all.list.push(Candidate {
+                columns: columns.collect(),
+                least: sought.iter().map(bound).collect(),
+                effect: effect.clone(),
+                sought,
+                row: of_data.then_some(1),
+                chosen: chosen + usize::from(of_data),
+                peers: if of_data { problem.rows.len() } else { peers },
+            });
+        }
+        all
+    }
+}

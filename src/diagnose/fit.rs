@@ -1,0 +1,471 @@
+//! A linear robust fit in which some parameters are free, others held by their calibration, and what a new column would
+//! gain: a projected score test.
+
+use super::table::{Column, Layout, add_scaled, dot};
+use crate::identify::robust::{limit, median_of_squares};
+use rayon::prelude::*;
+
+/// A column is redundant where less than this part of its square is left when earlier ones have explained the rest.
+const REDUNDANT: f64 = 1e-7;
+/// A column shows nothing where its parameter's typical size moves all numbers together by fewer standard deviations.
+const INVISIBLE: f64 = 0.1;
+/// Turns of re-weighting.
+const TURNS: usize = 8;
+/// A parameter beyond its typical size by this factor is one standard deviation off.
+const PRIOR_WIDTH: f64 = 5.0;
+
+/// A column of a parameter that is fitted with the candidates, and how freely.
+#[derive(Clone, Copy, Debug)]
+pub struct Held<'a> {
+    /// What it does.
+    pub column: &'a [f64],
+    /// 1 for a free parameter; g/(1 + g) for one whose calibration is worth 1/g of these measurements (Zellner's prior).
+    pub share: f64,
+}
+
+/// The fit: an orthonormal basis of everything fitted, robust weights, what is left.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Roots of the weights of all numbers; zero for rows not used.
+    pub roots: Column,
+    /// Orthonormal columns, weighted.
+    basis: Vec<Column>,
+    shares: Vec<f64>,
+    /// Which of the columns stands behind each of the basis.
+    kept: Vec<usize>,
+    /// Triangle: `triangle[j]` are the parts of column `kept[j]` along the basis up to j.
+    triangle: Vec<Vec<f64>>,
+    /// Parts of the residual along the basis.
+    parts: Vec<f64>,
+    /// `M r`, weighted: residual less the shares of its parts.
+    pub left: Column,
+    /// `rᵀ M r`: the deviance, before division by the scale squared.
+    pub deviance: f64,
+    /// Residuals are so many standard deviations of the rows.
+    pub scale: f64,
+    /// Measured numbers in use, by weight, minus free parameters.
+    pub freedom: f64,
+    /// The scale is at least this.
+    pub floor: f64,
+    /// Sum of squared parts along columns held by their calibration, and how many there are.
+    pub strain: (f64, usize),
+}
+
+fn weighted(column: &[f64], roots: &[f64]) -> Column {
+    column.iter().zip(roots).map(|(c, w)| c * w).collect()
+}
+
+/// Median length of rows, in standard deviations.
+fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f64 {
+    let mut ratios: Vec<f64> = Vec::new();
+    let mut numbers = 0;
+    for row in (0..layout.rows()).filter(|row| used[*row]) {
+        let range = layout.row(row);
+        numbers += range.len();
+        let squared: f64 = residual[range.clone()].iter().map(|r| r * r).sum();
+        ratios.push(squared / median_of_squares(range.len()));
+    }
+    if ratios.is_empty() {
+        return 1.0;
+    }
+    let middle = ratios.len() / 2;
+    let (_, median, _) = ratios.select_nth_unstable_by(middle, f64::total_cmp);
+    let lost = (numbers as f64 / freedom.max(1.0)).min(100.0);
+    (*median * lost).sqrt().max(1e-12)
+}
+
+impl Fit {
+    /// Fits `residual` by `held` columns on the rows in use.
+    ///
+    /// Weights are one up to the length that 99.7 % of normal rows stay below, and fall with the square beyond it, so that
+    /// a gross error counts as one row at the limit, whatever its size.
+    #[must_use]
+    pub fn of(layout: &Layout, used: &[bool], residual: &[f64], held: &[Held], floor: f64) -> Self {
+        let mut roots = vec![0.0; layout.numbers()];
+        for row in (0..layout.rows()).filter(|row| used[*row]) {
+            roots[layout.row(row)].fill(1.0);
+        }
+        let mut fit = Self::weighted(layout, residual, held, roots);
+        let mut last = f64::INFINITY;
+        for _ in 0..TURNS {
+            let rest = fit.unweighted_rest(residual, held);
+            let scale = scale_of(layout, used, &rest, fit.freedom_of(layout, used)).max(floor);
+            let mut roots = fit.roots.clone();
+            let mut clipped = 0;
+            for row in (0..layout.rows()).filter(|row| used[*row]) {
+                let range = layout.row(row);
+                let length = rest[range.clone()]
+                    .iter()
+                    .map(|r| r * r)
+                    .sum::<f64>()
+                    .sqrt();
+                let most = limit(range.len()) * scale;
+                let root = if length > most { most / length } else { 1.0 };
+                clipped += usize::from(root < 1.0);
+                roots[range].fill(root);
+            }
+            if clipped == 0 && fit.roots.iter().all(|r| *r == 0.0 || *r == 1.0) {
+                fit.scale = scale;
+                break;
+            }
+            fit = Self::weighted(layout, residual, held, roots);
+            fit.scale = scale;
+            if (scale / last - 1.0).abs() < 1e-3 {
+                break;
+            }
+            last = scale;
+        }
+        // the spread of what counts, by the mean where weights let it
+        let weight: f64 = fit.roots.iter().map(|r| r * r).sum();
+        let free: f64 = fit.shares.iter().filter(|s| **s == 1.0).sum();
+        fit.freedom = (weight - free).max(1.0);
+        let mean = (fit.deviance / fit.freedom).sqrt();
+        // normal rows beyond the limit are cut: their part of the mean square is small
+        fit.scale = mean.max(floor).max(1e-12);
+        fit.floor = floor;
+        fit
+    }
+
+    /// The same rows, weights and scale with other columns.
+    #[must_use]
+    pub fn with_held(&self, layout: &Layout, residual: &[f64], held: &[Held]) -> Self {
+        let mut fit = Self::weighted(layout, residual, held, self.roots.clone());
+        fit.scale = self.scale;
+        fit.freedom = self.freedom;
+        fit.floor = self.floor;
+        fit
+    }
+
+    fn freedom_of(&self, layout: &Layout, used: &[bool]) -> f64 {
+        let numbers: usize = (0..layout.rows())
+            .filter(|r| used[*r])
+            .map(|r| layout.row(r).len())
+            .sum();
+        numbers as f64 - self.shares.iter().sum::<f64>()
+    }
+
+    fn weighted(layout: &Layout, residual: &[f64], held: &[Held], roots: Column) -> Self {
+        let _ = layout;
+        let mut fit = Self {
+            left: weighted(residual, &roots),
+            roots,
+            basis: Vec::new(),
+            shares: Vec::new(),
+            kept: Vec::new(),
+            triangle: Vec::new(),
+            parts: Vec::new(),
+            deviance: 0.0,
+            scale: 1.0,
+            freedom: 1.0,
+            floor: 0.0,
+            strain: (0.0, 0),
+        };
+        let mut whole = fit.left.clone();
+        // free columns first: what they explain is no strain on the calibration
+        let mut order: Vec<usize> = (0..held.len()).collect();
+        order.sort_by(|a, b| held[*b].share.total_cmp(&held[*a].share));
+        for index in order {
+            let mut column = weighted(held[index].column, &fit.roots);
+            let before = dot(&column, &column);
+            if before < INVISIBLE * INVISIBLE * 1e-4 {
+                continue;
+            }
+            let mut along = vec![0.0; fit.basis.len() + 1];
+            // twice is enough (Kahan)
+            for _ in 0..2 {
+                for (k, q) in fit.basis.iter().enumerate() {
+                    let part = dot(q, &column);
+                    along[k] += part;
+                    add_scaled(&mut column, -part, q);
+                }
+            }
+            let after = dot(&column, &column);
+            if after <= REDUNDANT * before {
+                continue;
+            }
+            let length = after.sqrt();
+            for x in &mut column {
+                *x /= length;
+            }
+            along[fit.basis.len()] = length;
+            let part = dot(&column, &whole);
+            add_scaled(&mut whole, -part, &column);
+            let share = held[index].share;
+            add_scaled(&mut fit.left, -share * part, &column);
+            fit.deviance += (1.0 - share) * part * part;
+            if share < 1.0 {
+                fit.strain.0 += part * part;
+                fit.strain.1 += 1;
+            }
+            fit.basis.push(column);
+            fit.shares.push(share);
+            fit.kept.push(index);
+            fit.triangle.push(along);
+            fit.parts.push(part);
+        }
+        fit.deviance += dot(&whole, &whole);
+        fit
+    }
+
+    /// Values of the columns, in their parameters' scales; redundant ones are zero.
+    #[must_use]
+    pub fn values(&self, count: usize) -> Vec<f64> {
+        let mut solved: Vec<f64> = self
+            .parts
+            .iter()
+            .zip(&self.shares)
+            .map(|(p, s)| p * s)
+            .collect();
+        for j in (0..solved.len()).rev() {
+            solved[j] /= self.triangle[j][j];
+            for k in 0..j {
+                solved[k] -= self.triangle[j][k] * solved[j];
+            }
+        }
+        let mut values = vec![0.0; count];
+        for (index, value) in self.kept.iter().zip(solved) {
+            values[*index] = value;
+        }
+        values
+    }
+
+    /// Residuals of all rows, those not used included, without weights.
+    #[must_use]
+    pub fn unweighted_rest(&self, residual: &[f64], held: &[Held]) -> Column {
+        let mut rest = residual.to_vec();
+        for (value, held) in self.values(held.len()).iter().zip(held) {
+            if *value != 0.0 {
+                add_scaled(&mut rest, -value, held.column);
+            }
+        }
+        rest
+    }
+
+    /// The weighted column and its parts along the basis.
+    fn parts_of(&self, column: &[f64]) -> (Column, Vec<f64>) {
+        let column = weighted(column, &self.roots);
+        let parts = self.basis.iter().map(|q| dot(q, &column)).collect();
+        (column, parts)
+    }
+
+    /// Everything about columns that the gain of any group of them needs.
+    #[must_use]
+    pub fn projections(&self, columns: &[Column]) -> Vec<Projection> {
+        columns
+            .par_iter()
+            .map(|column| {
+                let (column, parts) = self.parts_of(column);
+                Projection {
+                    slope: dot(&column, &self.left),
+                    square: dot(&column, &column),
+                    column,
+                    parts,
+                }
+            })
+            .collect()
+    }
+
+    /// Inner product of two columns after projection.
+    fn product(&self, a: &Projection, b: &Projection) -> f64 {
+        let along: f64 = (a.parts.iter().zip(&b.parts).zip(&self.shares))
+            .map(|((x, y), s)| x * y * s)
+            .sum();
+        dot(&a.column, &b.column) - along
+    }
+
+    /// The square of one over a typical size, in numbers' units: the scale is that of the noise, not of what is missing.
+    fn ridge(&self) -> f64 {
+        let variance = self.scale * self.scale;
+        let noise = variance.min((self.floor * self.floor).max(0.01 * variance));
+        noise / (PRIOR_WIDTH * PRIOR_WIDTH)
+    }
+
+    /// What a group of columns would gain together.
+    #[must_use]
+    pub fn gain(&self, group: &[&Projection], least: &[Option<f64>]) -> Option<Gain> {
+        let count = group.len();
+        let mut gram = vec![vec![0.0; count]; count];
+        for i in 0..count {
+            for j in 0..=i {
+                let product = self.product(group[i], group[j]);
+                gram[i][j] = product;
+                gram[j][i] = product;
+            }
+        }
+        let slopes: Vec<f64> = group.iter().map(|p| p.slope).collect();
+        let squares: Vec<f64> = group.iter().map(|p| p.square).collect();
+        gain_of(&gram, &slopes, &squares, least, self.scale, self.ridge())
+    }
+
+    /// Standard deviations of a group's parameters when all are fitted, in their typical sizes; infinite where redundant.
+    #[must_use]
+    pub fn deviations(&self, group: &[&Projection]) -> Vec<f64> {
+        let count = group.len();
+        let gram =
+            nalgebra::DMatrix::from_fn(count, count, |i, j| self.product(group[i], group[j]));
+        match gram.cholesky() {
+            Some(factor) => {
+                let inverse = factor.inverse();
+                (0..count)
+                    .map(|i| self.scale * inverse[(i, i)].max(0.0).sqrt())
+                    .collect()
+            }
+            None => vec![f64::INFINITY; count],
+        }
+    }
+
+    /// The gains of a group of columns that begin at a row, for each first row that leaves `margin` rows on both sides:
+    /// sums from the end, one pass over the numbers.
+    #[must_use]
+    pub fn gains_from_rows(
+        &self,
+        layout: &Layout,
+        columns: &[&Column],
+        margin: usize,
+    ) -> Vec<(usize, Gain)> {
+        let count = columns.len();
+        let columns: Vec<Column> = columns.iter().map(|c| weighted(c, &self.roots)).collect();
+        let mut slopes = vec![0.0; count];
+        let mut gram = vec![vec![0.0; count]; count];
+        let mut along = vec![vec![0.0; self.basis.len()]; count];
+        let mut found = Vec::new();
+        let used = |row: usize| self.roots[layout.row(row)].iter().any(|r| *r > 0.0);
+        let (mut behind, total) = (0, (0..layout.rows()).filter(|r| used(*r)).count());
+        for row in (0..layout.rows()).rev() {
+            if !used(row) {
+                continue;
+            }
+            behind += 1;
+            for n in layout.row(row) {
+                for i in 0..count {
+                    let c = columns[i][n];
+                    if c == 0.0 {
+                        continue;
+                    }
+                    slopes[i] += c * self.left[n];
+                    for j in 0..count {
+                        gram[i][j] += c * columns[j][n];
+                    }
+                    for (sum, q) in along[i].iter_mut().zip(&self.basis) {
+                        *sum += c * q[n];
+                    }
+                }
+            }
+            if behind < margin || total - behind < margin {
+                continue;
+            }
+            let squares: Vec<f64> = (0..count).map(|i| gram[i][i]).collect();
+            let mut rest = gram.clone();
+            for i in 0..count {
+                for j in 0..count {
+                    let parts = along[i].iter().zip(&along[j]).zip(&self.shares);
+                    rest[i][j] -= parts.map(|((x, y), s)| x * y * s).sum::<f64>();
+                }
+            }
+            if let Some(gain) = gain_of(
+                &rest,
+                &slopes,
+                &squares,
+                &vec![None; count],
+                self.scale,
+                self.ridge(),
+            ) {
+                found.push((row, gain));
+            }
+        }
+        found
+    }
+}
+
+/// A column seen from a fit.
+#[derive(Clone, Debug)]
+pub struct Projection {
+    column: Column,
+    parts: Vec<f64>,
+    slope: f64,
+    square: f64,
+}
+
+/// What a group of columns gains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gain {
+    /// Fall of the deviance in units of the scale squared: chi-squared where the columns do nothing.
+    pub gain: f64,
+    /// Values of the group's parameters in their typical sizes; zero where a column is redundant or at its bound.
+    pub values: Vec<f64>,
+    /// How many of them are determined.
+    pub count: usize,
+}
+
+fn gain_of(
+    gram: &[Vec<f64>],
+    slopes: &[f64],
+    squares: &[f64],
+    least: &[Option<f64>],
+    scale: f64,
+    ridge: f64,
+) -> Option<Gain> {
+    let mut active: Vec<usize> = (0..slopes.len())
+        .filter(|i| squares[*i].sqrt() > INVISIBLE && gram[*i][*i] > REDUNDANT * squares[*i])
+        .collect();
+    let mut at_bound: Vec<usize> = Vec::new();
+    let variance = scale * scale;
+    loop {
+        let count = active.len();
+        if count == 0 {
+            return None;
+        }
+        // Cholesky with the prior's width on the diagonal; a redundant column is left out
+        let mut factor: Vec<Vec<f64>> = Vec::with_capacity(count);
+        let mut good: Vec<usize> = Vec::with_capacity(count);
+        for &i in &active {
+            let mut row: Vec<f64> = Vec::with_capacity(good.len() + 1);
+            for (k, &other) in good.iter().enumerate() {
+                let known: f64 = (0..k).map(|l| row[l] * factor[k][l]).sum();
+                row.push((gram[i][other] - known) / factor[k][k]);
+            }
+            let left = gram[i][i] - row.iter().map(|x| x * x).sum::<f64>();
+            if left > 1e-6 * gram[i][i] {
+                row.push((left + ridge).sqrt());
+                factor.push(row);
+                good.push(i);
+            }
+        }
+        let count = good.len();
+        let mut solved: Vec<f64> = good.iter().map(|i| slopes[*i]).collect();
+        for k in 0..count {
+            for l in 0..k {
+                solved[k] -= factor[k][l] * solved[l];
+            }
+            solved[k] /= factor[k][k];
+        }
+        let gain: f64 = solved.iter().map(|x| x * x).sum::<f64>() / variance;
+        for k in (0..count).rev() {
+            solved[k] /= factor[k][k];
+            for l in 0..k {
+                solved[l] -= factor[k][l] * solved[k];
+            }
+        }
+        let beyond = (0..count)
+            .filter_map(|k| {
+                least[good[k]]
+                    .filter(|bound| solved[k] < *bound)
+                    .map(|bound| (k, bound - solved[k]))
+            })
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((k, _)) = beyond {
+            at_bound.push(good[k]);
+            active.retain(|i| *i != good[k]);
+            continue;
+        }
+        let mut values = vec![0.0; slopes.len()];
+        for (i, value) in good.iter().zip(&solved) {
+            values[*i] = *value;
+        }
+        return Some(Gain {
+            gain,
+            values,
+            count,
+        });
+    }
+}

@@ -1,0 +1,20 @@
+//! Where simulation and measurement disagree, which effect explains it, and what is left.
+//!
+//! Everything is linear about the profile (or about its frames, geometry and compliance fitted anew): every effect of the
+//! registry, at every joint, order, torque, time constant or row it may have, is a group of columns, tested by what it gains
+//! beyond the parameters that are fitted with it. Source: C. R. Rao's score test; A. Zellner's g-prior for a calibration
+//! that is trusted in part; G. Schwarz (1978) for the information criterion.
+
+pub mod candidates;
+pub mod chances;
+pub mod diagnosis;
+pub mod fit;
+pub mod poses;
+pub mod refit;
+pub mod search;
+pub mod session;
+pub mod table;
+pub mod unknown;
+pub mod whereabouts;
+
+pub use diagnosis::{Diagnosis, Found, NoiseSource, Options, Rival, Verdict, diagnose};

@@ -1,0 +1,157 @@
+//! The effects' values with everything fitted together, without linearisation, and the improved profile.
+
+use super::fit::{Fit, Held};
+use super::search::Chosen;
+use super::table::{Layout, table};
+use crate::identify::parameters::{Parameter, Subject};
+use crate::identify::problem::{Estimate, Problem};
+use crate::model::Slot;
+
+/// Turns of Gauss–Newton.
+const TURNS: usize = 4;
+
+/// Effects with values and what is left.
+#[derive(Clone, Debug)]
+pub struct Refit {
+    /// Everything with its value.
+    pub estimate: Estimate,
+    /// Where each effect found stands in the estimate.
+    pub places: Vec<usize>,
+    /// Standard deviation of each sought parameter of each effect, SI.
+    pub sigmas: Vec<Vec<f64>>,
+    /// The last fit, of the residuals at the estimate.
+    pub fit: Fit,
+    /// Residuals at the estimate, in standard deviations of the rows.
+    pub residual: Vec<f64>,
+}
+
+/// Puts effects found into an estimate; returns where they stand.
+pub fn put(estimate: &mut Estimate, chosen: &[Chosen]) -> Vec<usize> {
+    let mut places = Vec::new();
+    for found in chosen {
+        let effect = &found.candidate.effect;
+        let at = estimate
+            .effects
+            .iter()
+            .position(|e| e.same_place(effect))
+            .unwrap_or_else(|| {
+                estimate.effects.push(effect.clone());
+                estimate.effects.len() - 1
+            });
+        for (number, value) in found.candidate.sought.iter().zip(&found.values) {
+            let definition = &effect.definition().parameters[*number];
+            estimate.effects[at].parameters[*number] +=
+                value * definition.prior_sigma * definition.unit.in_si();
+        }
+        places.push(at);
+    }
+    places
+}
+
+/// Fits everything together on the rows in use.
+#[must_use]
+pub fn refit(
+    problem: &Problem,
+    layout: &Layout,
+    start: &Estimate,
+    shares: &[f64],
+    chosen: &[Chosen],
+    used: &[bool],
+    floor: f64,
+) -> Refit {
+    let mut estimate = start.clone();
+    let places = put(&mut estimate, chosen);
+    let mut parameters: Vec<Parameter> = problem.parameters.clone();
+    let mut owners = Vec::new();
+    for (found, at) in chosen.iter().zip(&places) {
+        for number in &found.candidate.sought {
+            let definition = &found.candidate.effect.definition().parameters[*number];
+            owners.push(parameters.len());
+            parameters.push(Parameter {
+                key: String::new(),
+                subject: Subject::Effect(Slot {
+                    effect: *at,
+                    parameter: *number,
+                }),
+                unit: definition.unit,
+                scale: definition.prior_sigma * definition.unit.in_si(),
+                rank: 0,
+                prior: None,
+            });
+        }
+    }
+    let shares: Vec<f64> = shares
+        .iter()
+        .copied()
+        .chain(owners.iter().map(|_| 1.0))
+        .collect();
+    let held_of = |columns: &[Vec<f64>]| -> Vec<(usize, f64)> {
+        (0..columns.len()).map(|i| (i, shares[i])).collect()
+    };
+    let mut turn = 0;
+    loop {
+        let (residual, columns) = table(problem, &estimate, &parameters);
+        let held: Vec<Held> = held_of(&columns)
+            .into_iter()
+            .map(|(i, share)| Held {
+                column: &columns[i],
+                share,
+            })
+            .collect();
+        let fit = Fit::of(layout, used, &residual, &held, floor);
+        if turn == TURNS {
+            let others: Vec<Held> = held[..problem.parameters.len()].to_vec();
+            let without = fit.with_held(layout, &residual, &others);
+            let projections = without.projections(&columns[problem.parameters.len()..]);
+            let own = without.deviations(&projections.iter().collect::<Vec<_>>());
+            let mut own = own
+                .into_iter()
+                .zip(&owners)
+                .map(|(s, i)| s * parameters[*i].scale);
+            let sigmas = chosen
+                .iter()
+                .map(|c| own.by_ref().take(c.candidate.sought.len()).collect())
+                .collect();
+            return Refit {
+                estimate,
+                places,
+                sigmas,
+                fit,
+                residual,
+            };
+        }
+        let values = fit.values(held.len());
+        for ((parameter, value), share) in parameters.iter().zip(&values).zip(&shares) {
+            // what is held by its calibration stays: its prior stands at the profile's value
+            if *share == 1.0 {
+                *estimate.value_mut(parameter.subject) += value * parameter.scale;
+            }
+        }
+        turn += 1;
+    }
+}
+
+/// Moves parameters that their calibration holds, by what the residuals say beyond chance.
+///
+/// # Source
+/// W. James, C. Stein, "Estimation with quadratic loss" (1961).
+pub fn shrink(problem: &Problem, shares: &[f64], refit: &mut Refit) {
+    let (strain, count) = refit.fit.strain;
+    if count < 3 {
+        return;
+    }
+    let chance = refit.fit.scale.powi(2) * (count as f64 - 2.0);
+    let factor = (1.0 - chance / strain.max(chance)).max(0.0);
+    if factor < 0.05 {
+        return;
+    }
+    let values = refit
+        .fit
+        .values(shares.len() + refit.sigmas.iter().map(Vec::len).sum::<usize>());
+    for ((parameter, share), value) in problem.parameters.iter().zip(shares).zip(&values) {
+        if *share > 0.0 && *share < 1.0 {
+            *refit.estimate.value_mut(parameter.subject) +=
+                factor / share * value * parameter.scale;
+        }
+    }
+}

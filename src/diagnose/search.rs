@@ -1,0 +1,437 @@
+//! Which effects explain the residuals: forward, with exchange and removal after every step.
+
+use super::candidates::{Candidate, Candidates};
+use super::fit::{Fit, Gain, Held};
+use super::table::{Column, Layout};
+use crate::identify::parameters::Pick;
+use crate::model::effects::{Kind, REGISTRY};
+
+/// An effect must be better than nothing by this, in units of twice a log likelihood.
+const MARGIN: f64 = 3.0;
+/// Most effects found.
+const MOST_EFFECTS: usize = 12;
+/// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one turn a step.
+const FEW_EFFECTS: usize = 4;
+/// Turns of exchange and removal after a step.
+const MOST_TURNS: usize = 4;
+/// Another effect takes the place of one found where it is better by this.
+const BETTER: f64 = 0.3;
+/// Rows on both sides of a row from which on an effect holds.
+const ROWS_BESIDE: usize = 5;
+/// Rows from which on effects hold are the same where they are this near.
+const SAME_ROW: u32 = 3;
+
+/// Everything that the search looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct World<'a> {
+    /// Where the numbers of rows stand.
+    pub layout: &'a Layout,
+    /// Residuals without any effect that is sought.
+    pub residual: &'a [f64],
+    /// Columns of the parameters that are fitted with them.
+    pub held: &'a [Column],
+    /// How freely: see [`Held`].
+    pub shares: &'a [f64],
+    /// What is tried.
+    pub candidates: &'a Candidates,
+    /// Rows in use.
+    pub used: &'a [bool],
+    /// The residuals' scale is at least this.
+    pub floor: f64,
+    /// Effects that a person wants, whatever the evidence.
+    pub accepted: &'a [Pick],
+}
+
+/// An effect in the model.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    /// Which, with its first row if it has one.
+    pub candidate: Candidate,
+    /// Its columns.
+    pub columns: Vec<Column>,
+    /// Fall of chi-squared when it is added to all others.
+    pub gain: f64,
+    /// What its parameters, and its choice among others, cost.
+    pub cost: f64,
+    /// Values, in typical sizes.
+    pub values: Vec<f64>,
+    /// The best of the other effects in its place, with what they gain and cost, best first.
+    pub rivals: Vec<Scored>,
+}
+
+impl Chosen {
+    /// Its merit: gain less cost.
+    #[must_use]
+    pub fn merit(&self) -> f64 {
+        self.gain - self.cost
+    }
+}
+
+/// A candidate's merit beside all others in the model.
+#[derive(Clone, Debug)]
+pub struct Scored {
+    /// Index of the candidate.
+    pub index: usize,
+    /// Its first row, from 1, if it has one.
+    pub row: Option<u32>,
+    /// What it gains.
+    pub gain: Gain,
+    /// What it costs.
+    pub cost: f64,
+}
+
+impl Scored {
+    /// Gain less cost.
+    #[must_use]
+    pub fn merit(&self) -> f64 {
+        self.gain.gain - self.cost
+    }
+}
+
+fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
+    let kinds = a.effect.kind == b.effect.kind;
+    match (row, b.row) {
+        (Some(x), Some(y)) => kinds && x.abs_diff(y) <= SAME_ROW,
+        _ => kinds && a.effect.site == b.effect.site,
+    }
+}
+
+/// Sought twice: the same place and a parameter in common.
+fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
+    let listed = matches!(
+        a.effect.kind,
+        Kind::ComplianceKnee | Kind::WarmUpDrift | Kind::ThermalGrowth
+    );
+    same(a, row, b) && (listed || row.is_some() || a.sought.iter().any(|n| b.sought.contains(n)))
+}
+
+impl World<'_> {
+    fn numbers(&self) -> f64 {
+        let used = (0..self.layout.rows()).filter(|row| self.used[*row]);
+        used.map(|row| self.layout.row(row).len()).sum::<usize>() as f64
+    }
+
+    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`, and the choice among
+    /// its peers and among all kinds.
+    fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
+        let parameters = (count + candidate.chosen) as f64;
+        let kinds = REGISTRY.len() as f64;
+        parameters * self.numbers().ln()
+            + 2.0 * (candidate.peers as f64).ln()
+            + 2.0 * kinds.ln()
+            + MARGIN
+    }
+
+    /// The columns of a candidate, from its first row on.
+    pub(super) fn columns(&self, candidate: &Candidate) -> Vec<Column> {
+        let all = candidate
+            .columns
+            .iter()
+            .map(|i| self.candidates.columns[*i].clone());
+        let mut columns: Vec<Column> = all.collect();
+        if let Some(row) = candidate.row {
+            let start = self.layout.row(row as usize - 1).start;
+            for column in &mut columns {
+                column[..start].fill(0.0);
+            }
+        }
+        columns
+    }
+
+    /// The columns of the model: those held, then those of the effects.
+    #[must_use]
+    pub fn held<'b>(&'b self, chosen: &'b [Chosen]) -> Vec<Held<'b>> {
+        let held = self
+            .held
+            .iter()
+            .zip(self.shares)
+            .map(|(column, share)| Held {
+                column,
+                share: *share,
+            });
+        let own = chosen
+            .iter()
+            .flat_map(|c| &c.columns)
+            .map(|column| Held { column, share: 1.0 });
+        held.chain(own).collect()
+    }
+
+    /// The robust fit with these effects.
+    #[must_use]
+    pub fn fit(&self, chosen: &[Chosen]) -> Fit {
+        Fit::of(
+            self.layout,
+            self.used,
+            self.residual,
+            &self.held(chosen),
+            self.floor,
+        )
+    }
+
+    /// Every candidate beside a fit, best first; those in `taken` are left out.
+    #[must_use]
+    pub fn scan(&self, fit: &Fit, taken: &[&Candidate]) -> Vec<Scored> {
+        let projections = fit.projections(&self.candidates.columns);
+        let mut all = Vec::new();
+        for (index, candidate) in self.candidates.list.iter().enumerate() {
+            if candidate.row.is_some() {
+                let columns: Vec<&Column> = candidate
+                    .columns
+                    .iter()
+                    .map(|i| &self.candidates.columns[*i])
+                    .collect();
+                for (row, gain) in fit.gains_from_rows(self.layout, &columns, ROWS_BESIDE) {
+                    let row = u32::try_from(row + 1).ok();
+                    if taken.iter().any(|other| overlaps(candidate, row, other)) {
+                        continue;
+                    }
+                    let cost = self.cost(candidate, gain.count);
+                    all.push(Scored {
+                        index,
+                        row,
+                        gain,
+                        cost,
+                    });
+                }
+                continue;
+            }
+            if taken.iter().any(|other| overlaps(candidate, None, other)) {
+                continue;
+            }
+            let group: Vec<_> = candidate.columns.iter().map(|i| &projections[*i]).collect();
+            if let Some(gain) = fit.gain(&group, &candidate.least) {
+                let cost = self.cost(candidate, gain.count);
+                all.push(Scored {
+                    index,
+                    row: None,
+                    gain,
+                    cost,
+                });
+            }
+        }
+        all.sort_by(|a, b| b.merit().total_cmp(&a.merit()));
+        all
+    }
+
+    /// An effect of a scan, ready to be in the model.
+    #[must_use]
+    pub fn chosen(&self, scored: &Scored) -> Chosen {
+        let mut candidate = self.candidates.list[scored.index].clone();
+        if let Some(row) = scored.row {
+            candidate.row = Some(row);
+            candidate.effect.site.order = row;
+        }
+        // a parameter at its bound or redundant is not in the model
+        let live: Vec<usize> = (0..candidate.sought.len())
+            .filter(|i| scored.gain.values[*i] != 0.0)
+            .collect();
+        let pick = |list: &[usize]| live.iter().map(|i| list[*i]).collect::<Vec<_>>();
+        candidate.sought = pick(&candidate.sought);
+        candidate.columns = pick(&candidate.columns);
+        candidate.least = live.iter().map(|i| candidate.least[*i]).collect();
+        Chosen {
+            columns: self.columns(&candidate),
+            values: live.iter().map(|i| scored.gain.values[*i]).collect(),
+            candidate,
+            gain: scored.gain.gain,
+            cost: scored.cost,
+            rivals: Vec::new(),
+        }
+    }
+
+    /// Looks at every effect in the model: exchanges it where another is better in its place, removes it where it is
+    /// needless. Whether anything changed.
+    fn revise(&self, chosen: &mut Vec<Chosen>) -> bool {
+        let mut changed = false;
+        let mut i = 0;
+        while i < chosen.len() {
+            if self.wanted(&chosen[i].candidate) {
+                i += 1;
+                continue;
+            }
+            let full = self.fit(chosen);
+            let others: Vec<Chosen> = chosen
+                .iter()
+                .enumerate()
+                .filter(|(k, _)| *k != i)
+                .map(|(_, c)| c.clone())
+                .collect();
+            let without = full.with_held(self.layout, self.residual, &self.held(&others));
+            let taken: Vec<&Candidate> = others.iter().map(|c| &c.candidate).collect();
+            let scored = self.scan(&without, &taken);
+            let current = &chosen[i].candidate;
+            let is_current = |s: &Scored| {
+                let other = &self.candidates.list[s.index];
+                same(other, s.row, current)
+                    && s.row == current.row
+                    && current.columns.iter().all(|c| other.columns.contains(c))
+                    && other.effect.parameters == current.effect.parameters
+            };
+            let own = scored
+                .iter()
+                .filter(|s| is_current(s))
+                .map(Scored::merit)
+                .next();
+            let Some(best) = scored.first() else { break };
+            match own {
+                Some(own) if best.merit() <= own + BETTER || is_current(best) => {
+                    let own_scored = scored.iter().find(|s| is_current(s)).expect("it was found");
+                    if own <= 0.0 {
+                        chosen.remove(i);
+                        changed = true;
+                        continue;
+                    }
+                    let mut renewed = self.chosen(own_scored);
+                    let rivals = scored
+                        .iter()
+                        .filter(|s| !same(&self.candidates.list[s.index], s.row, current));
+                    renewed.rivals = best_of_each(self, rivals);
+                    chosen[i] = renewed;
+                    i += 1;
+                }
+                _ if best.merit() > 0.0 => {
+                    chosen[i] = self.chosen(best);
+                    changed = true;
+                    i += 1;
+                }
+                _ => {
+                    chosen.remove(i);
+                    changed = true;
+                }
+            }
+        }
+        changed
+    }
+
+    fn wanted(&self, candidate: &Candidate) -> bool {
+        self.accepted
+            .iter()
+            .any(|pick| pick.means(&candidate.effect))
+    }
+
+    /// The effects that a person wants, each as well as it fits.
+    fn first(&self) -> Vec<Chosen> {
+        let mut chosen: Vec<Chosen> = Vec::new();
+        for pick in self.accepted {
+            // one effect is wanted whatever the evidence; of several, those that the search finds
+            let mut sites: Vec<&Candidate> = Vec::new();
+            for candidate in &self.candidates.list {
+                let means = pick.means(&candidate.effect)
+                    || candidate.row.is_some() && pick.kind == Some(candidate.effect.kind);
+                if means && !sites.iter().any(|c| c.effect.site == candidate.effect.site) {
+                    sites.push(candidate);
+                }
+            }
+            if sites.len() != 1 {
+                continue;
+            }
+            let fit = self.fit(&chosen);
+            let taken: Vec<&Candidate> = chosen.iter().map(|c| &c.candidate).collect();
+            let scored = self.scan(&fit, &taken);
+            let best = scored.iter().find(|s| {
+                pick.means(&self.candidates.list[s.index].effect)
+                    || self.candidates.list[s.index].row.is_some()
+                        && pick.kind == Some(self.candidates.list[s.index].effect.kind)
+            });
+            chosen.extend(best.map(|s| self.chosen(s)));
+        }
+        chosen
+    }
+
+    /// Puts one effect in the place of two where it is better. Whether anything changed.
+    fn merge(&self, chosen: &mut Vec<Chosen>) -> bool {
+        if chosen.len() < 2 || chosen.len() > FEW_EFFECTS {
+            return false;
+        }
+        let full = self.fit(chosen);
+        for i in 0..chosen.len() {
+            for j in i + 1..chosen.len() {
+                if self.wanted(&chosen[i].candidate) || self.wanted(&chosen[j].candidate) {
+                    continue;
+                }
+                let others: Vec<Chosen> = chosen
+                    .iter()
+                    .enumerate()
+                    .filter(|(k, _)| *k != i && *k != j)
+                    .map(|(_, c)| c.clone())
+                    .collect();
+                let without = full.with_held(self.layout, self.residual, &self.held(&others));
+                let both = (without.deviance - full.deviance) / full.scale.powi(2)
+                    - chosen[i].cost
+                    - chosen[j].cost;
+                let taken: Vec<&Candidate> = others.iter().map(|c| &c.candidate).collect();
+                if let Some(best) = self
+                    .scan(&without, &taken)
+                    .first()
+                    .filter(|s| s.merit() > both + BETTER)
+                {
+                    let one = self.chosen(best);
+                    chosen.remove(j);
+                    chosen[i] = one;
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// The effects that explain the residuals, in the order found, beginning with `first`.
+    #[must_use]
+    pub fn search(&self, first: Vec<Chosen>) -> Vec<Chosen> {
+        let mut chosen = if first.is_empty() {
+            self.first()
+        } else {
+            first
+        };
+        let mut seen: Vec<String> = Vec::new();
+        for _ in 0..2 * MOST_EFFECTS {
+            let turns = if chosen.len() > FEW_EFFECTS {
+                1
+            } else {
+                MOST_TURNS
+            };
+            for _ in 0..turns {
+                let revised = self.revise(&mut chosen);
+                if !revised && !self.merge(&mut chosen) {
+                    break;
+                }
+            }
+            let mut names: Vec<String> =
+                chosen.iter().map(|c| c.candidate.effect.label()).collect();
+            names.sort();
+            let state = names.join(";");
+            if chosen.len() >= MOST_EFFECTS || seen.contains(&state) && !chosen.is_empty() {
+                break;
+            }
+            seen.push(state);
+            let fit = self.fit(&chosen);
+            let taken: Vec<&Candidate> = chosen.iter().map(|c| &c.candidate).collect();
+            let scored = self.scan(&fit, &taken);
+            match scored.first() {
+                Some(best) if best.merit() > 0.0 => chosen.push(self.chosen(best)),
+                _ => break,
+            }
+        }
+        chosen
+    }
+}
+
+/// The best variant of each effect.
+fn best_of_each<'a>(world: &World, scored: impl Iterator<Item = &'a Scored>) -> Vec<Scored> {
+    let mut best: Vec<Scored> = Vec::new();
+    for s in scored {
+        let candidate = &world.candidates.list[s.index];
+        let known = best.iter().any(|b| {
+            let other = &world.candidates.list[b.index];
+            other.effect.kind == candidate.effect.kind
+                && (s.row.is_some() || other.effect.site == candidate.effect.site)
+        });
+        if !known {
+            best.push(s.clone());
+        }
+        if best.len() >= 8 {
+            break;
+        }
+    }
+    best
+}

@@ -1,0 +1,290 @@
+//! What a diagnosis starts from: the model's residuals and the parameters that are fitted along.
+
+use super::candidates::{Candidates, Tried};
+use super::fit::Held;
+use super::refit::refit;
+use super::table::{Column, Layout, table};
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
+use crate::identify::calibration::{
+    BasePolicy, Options as CalibrationOptions, calibrate, fit_frames,
+};
+use crate::identify::measurements::{Measurements, Purpose};
+use crate::identify::parameters::{Level, Pick, Selection, Subject};
+use crate::identify::problem::{Estimate, Problem};
+use crate::identify::robust::Shape;
+use crate::identify::start::{self, base_gap};
+use crate::identify::{IdentifyError, screening};
+use crate::model::effects::{Effect, Kind, Place};
+use crate::model::profile::{ControllerModel, Profile};
+
+/// The device stands where the profile has the base if it is nearer than this, metres.
+const SAME_PLACE_M: f64 = 0.02;
+/// And turned by less, radians.
+const SAME_TURN_RAD: f64 = 1.0 * DEG;
+
+/// Numbers beyond the parameters that an estimate of the noise takes.
+const SPARE: usize = 10;
+
+/// What is known of the arm before its effects are sought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Trust {
+    /// The profile's calibration holds but for its uncertainty: it is worth 1/g of these measurements.
+    Calibrated {
+        /// Zellner's g.
+        g: f64,
+    },
+    /// Frames, geometry and the profile's other parameters are fitted anew.
+    Nothing,
+}
+
+/// The measurements against the model.
+pub struct Session {
+    /// The comparison, all rows.
+    pub problem: Problem,
+    /// Values before any effect is added.
+    pub estimate: Estimate,
+    /// The present model with its frames fitted where they have to be: residuals in standard deviations.
+    pub present: Column,
+    /// Its values.
+    pub present_estimate: Estimate,
+    /// Numbers of rows.
+    pub layout: Layout,
+    /// Residuals at `estimate`.
+    pub residual: Column,
+    /// Columns of the problem's parameters.
+    pub columns: Vec<Column>,
+    /// How freely each is fitted.
+    pub shares: Vec<f64>,
+    /// Values that are chosen from lists.
+    pub tried: Tried,
+    /// What is tried.
+    pub candidates: Candidates,
+    /// Whether the device's frame is not the profile's: the base is fitted.
+    pub elsewhere: bool,
+}
+
+/// Whether a profile has no calibration at all.
+#[must_use]
+pub fn is_nominal(profile: &Profile) -> bool {
+    let geometry = profile.effects.iter().any(|e| e.kind == Kind::LinkGeometry);
+    !geometry && profile.controller == ControllerModel::Nominal
+}
+
+fn pick_of(effect: &Effect) -> Pick {
+    let numbers = effect
+        .definition()
+        .site
+        .iter()
+        .filter_map(|place| match place {
+            Place::Link | Place::Joint | Place::JointOrBase => {
+                u32::try_from(effect.site.index + 1).ok()
+            }
+            Place::On => u32::try_from(effect.site.on + 1).ok(),
+            Place::Order | Place::Row => Some(effect.site.order),
+            Place::Tool => None,
+        });
+    Pick {
+        kind: Some(effect.kind),
+        places: numbers
+            .filter(|n| *n <= 6 || effect.definition().site.contains(&Place::Order))
+            .map(|n| (n, n))
+            .collect(),
+        key: None,
+    }
+}
+
+/// What is fitted along: frames and geometry, what the profile already has, and joint compliance where it has nothing yet.
+fn selection(profile: &Profile) -> Selection {
+    let nominal = is_nominal(profile);
+    let mut selection = Selection::level(if nominal {
+        Level::Compliance
+    } else {
+        Level::Geometry
+    });
+    let own = profile.effects.iter().filter(|e| {
+        !matches!(
+            e.kind,
+            Kind::BaseFrame
+                | Kind::ToolFrame
+                | Kind::LinkGeometry
+                | Kind::ThermalGrowth
+                | Kind::WarmUpDrift
+                | Kind::ComplianceKnee
+                | Kind::PayloadError
+        )
+    });
+    selection.identify = own.map(pick_of).collect();
+    let masses = !profile.bodies.is_empty() || profile.tools.values().any(|t| t.load.is_some());
+    if nominal && masses {
+        selection.identify.push(Pick {
+            kind: Some(Kind::JointCompliance),
+            places: Vec::new(),
+            key: None,
+        });
+    }
+    selection
+}
+
+/// Rows to choose effects with.
+#[must_use]
+pub fn for_choice(measurements: &Measurements) -> Vec<bool> {
+    measurements
+        .rows
+        .iter()
+        .map(|row| row.purpose != Some(Purpose::Validate))
+        .collect()
+}
+
+fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Problem) {
+    into.world_from_base = from.world_from_base;
+    for effect in &mut into.effects {
+        if let Some(known) = from.effects.iter().find(|e| e.same_place(effect)) {
+            effect.parameters = known.parameters;
+        }
+    }
+    for (point, value) in problem.points.iter().zip(&mut into.points_m) {
+        if let Some(index) = other.points.iter().position(|p| p.name == point.name) {
+            *value = from.points_m[index];
+        }
+    }
+}
+
+fn profile_base(profile: &Profile) -> Pose {
+    let own = profile.effects.iter().filter(|e| e.kind == Kind::BaseFrame);
+    own.fold(profile.world_from_base, |base, e| {
+        base * Pose::from_xyz_rxryrz(e.parameters)
+    })
+}
+
+/// Prepares a session.
+///
+/// # Errors
+/// As [`calibrate`]: measurements that contradict the robot or themselves, or are too few.
+pub fn session(
+    profile: &Profile,
+    measurements: &Measurements,
+    trust: Trust,
+    leave: &dyn Fn(&Effect) -> bool,
+) -> Result<(Session, Vec<screening::Remark>), IdentifyError> {
+    let fit = measurements.filtered(|_, row| row.purpose != Some(Purpose::Validate));
+    if fit.rows.is_empty() {
+        return Err(IdentifyError::NothingToFit);
+    }
+    let mut remarks = screening::look(profile, &fit)?;
+    let guess = start::find(profile, &fit);
+    if let Some(guess) = &guess {
+        remarks.extend(screening::doubt_start(profile, &fit, guess)?);
+    }
+    let selection = selection(profile);
+    let base = guess
+        .as_ref()
+        .map_or(profile.world_from_base, |g| g.world_from_base);
+    let (far, turned) = base_gap(&profile_base(profile), &base);
+    let elsewhere = far > SAME_PLACE_M || turned > SAME_TURN_RAD;
+    let (problem, own) = Problem::new(profile, measurements, &selection, profile.world_from_base)?;
+    let layout = Layout::of(&problem);
+    let used = fit.rows.len();
+    let numbers: usize = (0..layout.rows())
+        .filter(|r| measurements.rows[*r].purpose != Some(Purpose::Validate))
+        .map(|r| layout.row(r).len())
+        .sum();
+    // some numbers beyond the parameters, or there is no telling what is noise
+    if numbers < problem.parameters.len() + SPARE {
+        return Err(IdentifyError::TooFew {
+            numbers,
+            rows: used,
+            parameters: problem.parameters.len(),
+        });
+    }
+    let unknown_points = problem.points.iter().any(|p| !p.known);
+    let mut present_estimate = own.clone();
+    if elsewhere || unknown_points || is_nominal(profile) || trust == Trust::Nothing {
+        let (other, solution) = fit_frames(profile, &fit, Shape::Huber, false)?;
+        take_over(&mut present_estimate, &solution.estimate, &problem, &other);
+    }
+    let estimate = match trust {
+        Trust::Nothing => {
+            let options = CalibrationOptions {
+                selection: selection.clone(),
+                shape: Shape::Huber,
+                base: BasePolicy::Device,
+            };
+            match calibrate(profile, &fit, &options) {
+                Ok(found) => {
+                    let mut estimate = own.clone();
+                    take_over(
+                        &mut estimate,
+                        &found.solution.estimate,
+                        &problem,
+                        &found.problem,
+                    );
+                    estimate
+                }
+                // what is missing may keep it from resting: a few robust steps are enough to start from
+                Err(IdentifyError::NotConverged { .. }) => {
+                    let shares = vec![1.0; problem.parameters.len()];
+                    let used = for_choice(measurements);
+                    refit(
+                        &problem,
+                        &layout,
+                        &present_estimate,
+                        &shares,
+                        &[],
+                        &used,
+                        1e-6,
+                    )
+                    .estimate
+                }
+                Err(other) => return Err(other),
+            }
+        }
+        Trust::Calibrated { .. } => present_estimate.clone(),
+    };
+    let share = match trust {
+        Trust::Nothing => 1.0,
+        Trust::Calibrated { g } => g / (1.0 + g),
+    };
+    let free = |subject: Subject| match subject {
+        Subject::Point { .. } => true,
+        Subject::Effect(slot) => elsewhere && estimate.effects[slot.effect].kind == Kind::BaseFrame,
+    };
+    let shares = problem
+        .parameters
+        .iter()
+        .map(|p| if free(p.subject) { 1.0 } else { share })
+        .collect();
+    let (residual, columns) = table(&problem, &estimate, &problem.parameters);
+    let (present, _) = table(&problem, &present_estimate, &[]);
+    let tried = Tried::of(&problem, &estimate);
+    let candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
+    Ok((
+        Session {
+            problem,
+            estimate,
+            present,
+            present_estimate,
+            layout,
+            residual,
+            columns,
+            shares,
+            tried,
+            candidates,
+            elsewhere,
+        },
+        remarks,
+    ))
+}
+
+impl Session {
+    /// Columns held, with their shares.
+    #[must_use]
+    pub fn held(&self) -> Vec<Held<'_>> {
+        let both = self.columns.iter().zip(&self.shares);
+        both.map(|(column, share)| Held {
+            column,
+            share: *share,
+        })
+        .collect()
+    }
+}

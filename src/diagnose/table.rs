@@ -1,0 +1,104 @@
+//! Residuals and columns in memory: what a parameter does to every measured number, in standard deviations of the rows.
+
+use crate::identify::observation::{MOST_NUMBERS, Observation};
+use crate::identify::parameters::{Parameter, Subject};
+use crate::identify::problem::{Estimate, Problem};
+use crate::model::Motion;
+use std::ops::Range;
+
+/// One number for each measured number.
+pub type Column = Vec<f64>;
+
+/// Where the numbers of each row stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    starts: Vec<usize>,
+}
+
+impl Layout {
+    /// Of a problem's rows.
+    #[must_use]
+    pub fn of(problem: &Problem) -> Self {
+        let mut starts = vec![0];
+        for row in &problem.rows {
+            starts.push(starts[starts.len() - 1] + row.observed.count());
+        }
+        Self { starts }
+    }
+
+    /// Numbers of a row.
+    #[must_use]
+    pub fn row(&self, row: usize) -> Range<usize> {
+        self.starts[row]..self.starts[row + 1]
+    }
+
+    /// How many rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// How many numbers.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        self.starts[self.rows()]
+    }
+}
+
+/// Residuals (measured minus expected) and the columns of some parameters in their scales, both in standard deviations.
+#[must_use]
+pub fn table(
+    problem: &Problem,
+    estimate: &Estimate,
+    parameters: &[Parameter],
+) -> (Column, Vec<Column>) {
+    let models = problem.models(estimate, parameters);
+    let numbers = problem.numbers();
+    let mut residual = Vec::with_capacity(numbers);
+    let mut columns = vec![Vec::with_capacity(numbers); parameters.len()];
+    let effects = parameters
+        .iter()
+        .filter(|p| matches!(p.subject, Subject::Effect(_)));
+    let mut motions = vec![Motion::default(); effects.count()];
+    for row in &problem.rows {
+        let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
+        let seen = Observation::new(row, pose, problem.point_in_tool_m(estimate, row));
+        let (gap, weights, count) = (seen.gap(), seen.weights(), row.observed.count());
+        residual.extend((0..count).map(|k| gap[k] * weights[k]));
+        let mut motion = motions.iter();
+        for (column, parameter) in columns.iter_mut().zip(parameters) {
+            let slope = match parameter.subject {
+                Subject::Effect(_) => motion.next().map_or([0.0; MOST_NUMBERS], |m| seen.slope(m)),
+                Subject::Point { point, axis } => seen.slope_of_point(point, axis),
+            };
+            column.extend((0..count).map(|k| slope[k] * weights[k] * parameter.scale));
+        }
+    }
+    (residual, columns)
+}
+
+/// Inner product.
+#[must_use]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (mut x, mut y) = (a.chunks_exact(4), b.chunks_exact(4));
+    for (p, q) in x.by_ref().zip(y.by_ref()) {
+        for k in 0..4 {
+            sums[k] += p[k] * q[k];
+        }
+    }
+    let tail: f64 = x
+        .remainder()
+        .iter()
+        .zip(y.remainder())
+        .map(|(p, q)| p * q)
+        .sum();
+    sums[0] + sums[1] + sums[2] + sums[3] + tail
+}
+
+/// `into += by · column`.
+pub fn add_scaled(into: &mut [f64], by: f64, column: &[f64]) {
+    for (a, b) in into.iter_mut().zip(column) {
+        *a += by * b;
+    }
+}

@@ -1,0 +1,32 @@
+//! A step of the measuring device or the base during the session.
+
+use super::definition::{Definition, Need, Place, frame_parameters};
+use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::Scalar;
+
+/// From one row of the measurements on, everything is seen moved in the world. An effect of the data, not of the robot.
+pub(super) struct FrameShift;
+
+impl Equation for FrameShift {
+    const DEFINITION: Definition = Definition {
+        id: "frame_shift",
+        summary: "the measuring device or the base moved during the session: a step from one row on (an effect of the data)",
+        equation: "rows from `row` on: Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz) · world_from_tool",
+        source: "A. Nubiola, thesis, eq. I.2, from a change point on",
+        site: &[Place::Row],
+        parameters: &frame_parameters(0.5, 0.05),
+        needs: &[Need::Order],
+        deflects: true,
+        bends: true,
+    };
+    const READS_ANGLES: bool = false;
+
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        if state.conditions.row.is_some_and(|row| row >= site.order) {
+            for k in 0..6 {
+                deflection.world[k] += p[k];
+            }
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! The load on the flange is not the one in the profile.
+
+use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::{Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, add};
+use crate::model::{Conditions, Geometry};
+
+/// The tool weighs more, or elsewhere: seen only through what bends under it.
+pub(super) struct PayloadError;
+
+impl Equation for PayloadError {
+    const DEFINITION: Definition = Definition {
+        id: "payload_error",
+        summary: "the tool on the flange is heavier, or its centre of gravity elsewhere, than the profile says; shows only through compliance",
+        equation: "real mass = mass + mass_kg, real cog = cog + (cog_x, cog_y, cog_z), in the flange frame; enters every torque and moment",
+        source: "A. Nubiola, thesis, eqs. I.5–I.10",
+        site: &[Place::Tool],
+        parameters: &[
+            Parameter { key: "mass_kg", unit: Unit::Kilogram, prior_sigma: 5.0 },
+            Parameter { key: "cog_x_mm", unit: Unit::Millimetre, prior_sigma: 50.0 },
+            Parameter { key: "cog_y_mm", unit: Unit::Millimetre, prior_sigma: 50.0 },
+            Parameter { key: "cog_z_mm", unit: Unit::Millimetre, prior_sigma: 50.0 },
+        ],
+        needs: &[Need::Masses],
+        deflects: false,
+        bends: false,
+    };
+
+    fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
+        if site.tool.as_ref().is_none_or(|tool| *tool == geometry.tool_name) {
+            let (mass, cog) = geometry.load.unwrap_or((S::zero(), [S::zero(); 3]));
+            geometry.load = Some((mass + p[0], add(cog, [p[1], p[2], p[3]])));
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! A step of the tool or the reflector on the flange during the session.
+
+use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::Scalar;
+
+/// From one row of the measurements on, the tool stands elsewhere on the flange. An effect of the data, not of the robot.
+pub(super) struct ToolSlip;
+
+impl Equation for ToolSlip {
+    const DEFINITION: Definition = Definition {
+        id: "tool_slip",
+        summary: "the tool or reflector slipped on the flange during the session: a step from one row on (an effect of the data)",
+        equation: "rows from `row` on: world_from_tool · Trans(x, y, z)",
+        source: "A. Nubiola, thesis, eq. I.2, from a change point on",
+        site: &[Place::Row],
+        parameters: &[
+            Parameter { key: "x_mm", unit: Unit::Millimetre, prior_sigma: 0.5 },
+            Parameter { key: "y_mm", unit: Unit::Millimetre, prior_sigma: 0.5 },
+            Parameter { key: "z_mm", unit: Unit::Millimetre, prior_sigma: 0.5 },
+        ],
+        needs: &[Need::Order],
+        deflects: true,
+        bends: true,
+    };
+    const READS_ANGLES: bool = false;
+
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        if state.conditions.row.is_some_and(|row| row >= site.order) {
+            for k in 0..3 {
+                deflection.tool[k] += p[k];
+            }
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Drift while the robot warms up.
+
+use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::Scalar;
+
+/// A joint or the base moves to its warm place, exponentially.
+pub(super) struct WarmUpDrift;
+
+/// Shorter time constants count as this, seconds.
+const SHORTEST_S: f64 = 1.0;
+
+impl Equation for WarmUpDrift {
+    const DEFINITION: Definition = Definition {
+        id: "warm_up_drift",
+        summary: "a joint drifts to its warm place while the robot warms up; without `joint` the base does",
+        equation: "δq = angle_deg · (1 − exp(−time_s / time_constant_s)); the base by (x_mm, y_mm, z_mm) along the world's axes likewise",
+        source: "first-order heating (Newton's law of cooling)",
+        site: &[Place::JointOrBase],
+        parameters: &[
+            Parameter { key: "angle_deg", unit: Unit::Degree, prior_sigma: 0.02 },
+            Parameter { key: "x_mm", unit: Unit::Millimetre, prior_sigma: 0.1 },
+            Parameter { key: "y_mm", unit: Unit::Millimetre, prior_sigma: 0.1 },
+            Parameter { key: "z_mm", unit: Unit::Millimetre, prior_sigma: 0.1 },
+            Parameter { key: "time_constant_s", unit: Unit::Second, prior_sigma: 1800.0 },
+        ],
+        needs: &[Need::Time],
+        deflects: true,
+        bends: true,
+    };
+    const READS_ANGLES: bool = false;
+
+    #[inline(always)]
+    fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
+        let Some(time) = state.conditions.time_s else { return };
+        let constant = p[4].max(S::constant(SHORTEST_S));
+        let warm = S::one() - (S::constant(-time.max(0.0)) / constant).exp();
+        if let Some(joint) = deflection.joints.get_mut(site.index) {
+            *joint += p[0] * warm;
+        }
+        for k in 0..3 {
+            deflection.world[k] += p[1 + k] * warm;
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! What a URDF can have that no profile has.
+
+/// Why no profile can be made of a URDF.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum UrdfError {
+    /// Not XML, or not a URDF.
+    #[error("not a readable URDF: {message}")]
+    Unreadable {
+        /// What the parser says.
+        message: String,
+    },
+    /// Macros that nobody has expanded.
+    #[error("this is a xacro file, with macros in it; a URDF is what `xacro` makes of it")]
+    Xacro,
+    /// A link with two parents, or a chain that comes back to itself.
+    #[error("link `{link}` has two parents (joints `{first}` and `{second}`): a loop is no chain")]
+    Loop {
+        /// The link.
+        link: String,
+        /// The one joint.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// A link that is not there.
+    #[error("there is no link `{link}`; links are {known}")]
+    NoLink {
+        /// Its name.
+        link: String,
+        /// Those there are.
+        known: String,
+    },
+    /// Several links that nothing hangs on.
+    #[error("the chain has several ends: {ends}")]
+    SeveralTips {
+        /// Their names.
+        ends: String,
+    },
+    /// Several links that hang on nothing, or none.
+    #[error("{count} links have no parent: {roots}")]
+    Roots {
+        /// How many.
+        count: usize,
+        /// Their names.
+        roots: String,
+    },
+    /// No way from one to the other.
+    #[error("link `{tip}` does not hang on link `{base}`")]
+    NoWay {
+        /// From.
+        base: String,
+        /// To.
+        tip: String,
+    },
+    /// A joint that does not turn.
+    #[error("joint `{joint}` is {kind}; only joints that turn are supported")]
+    Kind {
+        /// The joint.
+        joint: String,
+        /// Its type.
+        kind: String,
+    },
+    /// A joint that another one drives.
+    #[error("joint `{joint}` mimics `{by}`: it is no axis of its own")]
+    Mimic {
+        /// The joint.
+        joint: String,
+        /// Its leader.
+        by: String,
+    },
+    /// More or fewer than six.
+    #[error("{found} axes between `{base}` and `{tip}` ({names}); a profile has 6")]
+    NotSix {
+        /// How many.
+        found: usize,
+        /// From.
+        base: String,
+        /// To.
+        tip: String,
+        /// Their joints.
+        names: String,
+    },
+    /// A number that cannot be meant.
+    #[error("{what} of `{name}` is {found}")]
+    Number {
+        /// Which number.
+        what: &'static str,
+        /// Of which joint or link.
+        name: String,
+        /// What the file says.
+        found: String,
+    },
+    /// Two axes on one line.
+    #[error(
+        "the axes of `{first}` and `{second}` are one line: such an arm has no rows of a chain"
+    )]
+    SameAxis {
+        /// The one joint.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// A package that nobody said where it is.
+    #[error("cannot find the mesh `{file}` of link `{link}`")]
+    Mesh {
+        /// As written.
+        file: String,
+        /// Its link.
+        link: String,
+    },
+    /// A mesh scaled differently along its axes, or turned inside out.
+    #[error(
+        "the mesh of link `{link}` has the scale {scale:?}; the same positive scale on each axis is needed"
+    )]
+    Scale {
+        /// The link.
+        link: String,
+        /// As written.
+        scale: [f64; 3],
+    },
+    /// The chain does not do what the URDF does.
+    #[error(
+        "the chain differs from the URDF by {gap_m:e} m and {gap_rad:e} rad; at most 1e-9 is allowed"
+    )]
+    Differs {
+        /// Largest distance, metres.
+        gap_m: f64,
+        /// Largest angle, radians.
+        gap_rad: f64,
+    },
+}
+
+impl UrdfError {
+    /// The way out; empty where there is none.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Xacro => "run `xacro FILE > robot.urdf` where ROS is installed, and give that".into(),
+            Self::SeveralTips { .. } => "--tip names the link that the tool is mounted on".into(),
+            Self::Roots { .. } => "--base names the link that stands still".into(),
+            Self::NotSix { .. } => "--base and --tip choose a part of the robot".into(),
+            Self::Mesh { .. } => {
+                "--package-path FOLDER (the folder that holds the package, or NAME=FOLDER), or --no-shapes".into()
+            }
+            Self::Scale { .. } => "--no-shapes leaves the shapes out".into(),
+            _ => String::new(),
+        }
+    }
+}

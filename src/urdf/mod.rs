@@ -1,0 +1,130 @@
+//! Profiles from URDF files.
+//!
+//! The reader takes the axes of six turning joints on the way from a base to a tip, in any frames and in any directions, and
+//! derives rows of modified Denavit–Hartenberg parameters from them; base and flange take up what is left. The
+//! profile's text is read again and its chain compared with the URDF's own at random postures.
+//!
+//! # Source
+//! ROS, "URDF/XML" (joint, link, origin: roll, pitch, yaw about fixed axes); J. J. Craig, "Introduction to Robotics" for the
+//! rows.
+
+mod chain;
+mod error;
+mod tree;
+mod write;
+
+pub use error::UrdfError;
+pub use write::profile_text;
+
+use crate::geometry::{Pose, Vector};
+
+/// What to take of a URDF.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// The link that stands; by default the one without a parent.
+    pub base: Option<String>,
+    /// The link that the tool is mounted on; by default `tool0`, `flange`, or the only end.
+    pub tip: Option<String>,
+    /// Take the collision shapes.
+    pub shapes: bool,
+}
+
+/// An arm of six axes as a URDF has it. Metres, radians.
+#[derive(Clone, Debug)]
+pub struct UrdfArm {
+    /// The robot's name.
+    pub name: String,
+    /// The links between which it is.
+    pub ends: [String; 2],
+    /// The six joints, from the base.
+    pub joints: Vec<UrdfJoint>,
+    /// The tip in the frame of the last joint.
+    pub last_from_tip: Pose,
+    /// Masses by how many joints move them (1 to 6): in the frame of the last of these.
+    pub masses: Vec<(usize, f64, Vector)>,
+    /// Collision shapes, likewise, from 0.
+    pub shapes: Vec<UrdfShape>,
+    /// What was taken differently from what stands there.
+    pub notes: Vec<String>,
+}
+
+/// One turning joint.
+#[derive(Clone, Debug)]
+pub struct UrdfJoint {
+    /// Its name.
+    pub name: String,
+    /// Its frame seen from the frame of the joint before, at zero.
+    pub before_from_joint: Pose,
+    /// Its axis in its frame, unit.
+    pub axis: Vector,
+    /// Smallest angle.
+    pub min_rad: f64,
+    /// Largest angle.
+    pub max_rad: f64,
+    /// Largest speed, rad/s.
+    pub speed_rad_s: Option<f64>,
+}
+
+/// A collision shape.
+#[derive(Clone, Debug)]
+pub struct UrdfShape {
+    /// How many joints move it, 0 to 6.
+    pub moved_by: usize,
+    /// Its link.
+    pub link: String,
+    /// Where it is in the frame of the last joint that moves it.
+    pub joint_from_shape: Pose,
+    /// What it is.
+    pub form: UrdfForm,
+}
+
+/// What a collision shape is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum UrdfForm {
+    /// Full edge lengths.
+    Box(Vector),
+    /// Radius and length along z.
+    Cylinder(f64, f64),
+    /// Radius and length of the cylinder between the caps, along z.
+    Capsule(f64, f64),
+    /// Radius.
+    Sphere(f64),
+    /// A mesh as the file names it, and metres of one of its units.
+    Mesh(String, f64),
+}
+
+impl UrdfArm {
+    /// Reads a URDF's text.
+    ///
+    /// # Errors
+    /// If it is no URDF, or the way from base to tip is no chain of six turning joints.
+    pub fn read(text: &str, choice: &Choice) -> Result<Self, UrdfError> {
+        tree::read(text, choice)
+    }
+
+    /// `base_from_tip` at these joint angles, by the URDF's own frames.
+    #[must_use]
+    pub fn forward(&self, q: &[f64; 6]) -> Pose {
+        let mut pose = Pose::identity();
+        for (joint, angle) in self.joints.iter().zip(q) {
+            pose = pose * joint.before_from_joint * turn(&joint.axis, *angle);
+        }
+        pose * self.last_from_tip
+    }
+
+    /// Frames of the base and of the joints at zero.
+    fn frames(&self) -> [Pose; 7] {
+        let mut frames = [Pose::identity(); 7];
+        for (i, joint) in self.joints.iter().enumerate().take(6) {
+            frames[i + 1] = frames[i] * joint.before_from_joint;
+        }
+        frames
+    }
+}
+
+/// Rotation about a unit axis.
+fn turn(axis: &Vector, angle: f64) -> Pose {
+    let (half_sine, half_cosine) = (0.5 * angle).sin_cos();
+    let [x, y, z] = axis.map(|a| a * half_sine);
+    Pose::from_rotation(crate::geometry::Quaternion([half_cosine, x, y, z]).rotation())
+}

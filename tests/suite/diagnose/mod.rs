@@ -1,0 +1,89 @@
+//! The diagnosis, against hidden truth: a reduced blind trial, and the command line.
+
+mod commands;
+mod physics;
+
+use crate::trial::{GROUPS, Group, case, label};
+use poseshift::diagnose::{Options, Verdict, diagnose};
+
+/// Poses of a case.
+const ROWS: usize = 150;
+/// Another seed than the example's.
+const SEED: u64 = 77;
+
+fn right(group: &Group, number: usize) -> (bool, String) {
+    let case = case(group, number, SEED, ROWS);
+    let options = Options {
+        quick: true,
+        ..Options::default()
+    };
+    let found =
+        diagnose(&case.profile, &case.measurements, &options, &mut |_| {}).expect("enough rows");
+    let mut named: Vec<String> = found.found.iter().map(|f| label(&f.effect)).collect();
+    named.sort();
+    named.dedup();
+    let right = if group.unregistered {
+        found.verdict != Verdict::Explained
+    } else {
+        let wanted = if case.answer.is_empty() {
+            Verdict::NothingMissing
+        } else {
+            Verdict::Explained
+        };
+        named == case.answer && found.verdict == wanted
+    };
+    let words = format!(
+        "{} #{number}: {} was hidden, named {} ({}; {})",
+        group.name,
+        case.answer.join(" + "),
+        named.join(" + "),
+        found.verdict.id(),
+        found.reasons.join("; ")
+    );
+    (right, words)
+}
+
+/// Cases of one group; at most `wrong` of them may be wrong.
+fn trial(name: &str, numbers: impl Iterator<Item = usize>, wrong: usize) {
+    let group = GROUPS
+        .iter()
+        .find(|g| g.name == name)
+        .expect("a group of the trial");
+    let failures: Vec<String> = numbers
+        .map(|n| right(group, n))
+        .filter(|(right, _)| !right)
+        .map(|(_, w)| w)
+        .collect();
+    assert!(failures.len() <= wrong, "{}", failures.join("\n"));
+}
+
+#[test]
+fn one_effect_hidden_in_a_calibrated_robot_is_named() {
+    // every kind once, robots and simulators in turn
+    trial("calibrated", (0..16).map(|k| 4 * k + k % 4), 1);
+}
+
+#[test]
+fn one_effect_hidden_in_a_nominal_robot_is_named_and_geometry_is_not() {
+    trial("nominal", (0..12).map(|k| 4 * k + (k + 1) % 4), 1);
+}
+
+#[test]
+fn outliers_and_heavy_tails_are_no_effect() {
+    trial("rough", (0..8).map(|k| 8 * k + k % 4), 1);
+}
+
+#[test]
+fn two_effects_are_both_named() {
+    trial("pairs", (0..6).map(|k| 11 * k), 1);
+}
+
+#[test]
+fn nothing_is_named_where_nothing_is_missing() {
+    trial("clean", 0..8, 0);
+}
+
+#[test]
+fn what_no_effect_explains_gets_no_confident_name() {
+    trial("unregistered", 0..12, 2);
+}
