@@ -1,6 +1,6 @@
 //! Normal equations, gathered in one pass over the rows.
 
-use super::observation::{MOST_NUMBERS, Observation};
+use super::observation::MOST_NUMBERS;
 use super::parameters::{Parameter, Subject};
 use super::problem::{Estimate, Problem, Row};
 use super::robust::Loss;
@@ -119,8 +119,7 @@ impl pulp::NullaryFnOnce for Pass<'_> {
         let mut slopes = vec![[0.0; MOST_NUMBERS]; width - 1];
         for row in self.rows {
             let pose = self.models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
-            let point = self.problem.point_in_tool_m(self.estimate, row);
-            let seen = Observation::new(row, pose, point);
+            let seen = self.problem.observe(self.estimate, row, pose);
             let (gap, weights, count) = (seen.gap(), seen.weights(), row.observed.count());
             let squared: f64 = (0..count).map(|k| (gap[k] * weights[k]).powi(2)).sum();
             let (loss, weight) = self.loss.of(squared, count);
@@ -135,6 +134,7 @@ impl pulp::NullaryFnOnce for Pass<'_> {
                         None => [0.0; MOST_NUMBERS],
                     },
                     Subject::Point { point, axis } => seen.slope_of_point(point, axis),
+                    Subject::Feature { feature, value } => seen.slope_of_feature(feature, value),
                 };
                 for k in 0..MOST_NUMBERS {
                     slope[k] *= parameter.scale;

@@ -1,4 +1,5 @@
 //! Hidden truths found again.
 
+mod contact;
 mod identify;
 mod real;
