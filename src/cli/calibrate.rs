@@ -244,6 +244,21 @@ fn text(found: &Calibration, all: bool) -> String {
         }
     }
     out += &aligned(&rows);
+    for (feature, place) in found.features() {
+        let [x, y, z] = place.centre_m.map(mm_from_m);
+        out += &format!(
+            "{} {} at ({x:.3}, {y:.3}, {z:.3}) mm",
+            feature.kind.id(),
+            feature.name
+        );
+        if let Some(radius_m) = place.radius_m {
+            out += &format!(", radius {:.4} mm", mm_from_m(radius_m));
+        }
+        if let Some([x, y, z]) = place.normal {
+            out += &format!(", normal ({x:.6}, {y:.6}, {z:.6})");
+        }
+        out.push('\n');
+    }
     let names = &found.problem.parameters;
     if !found.solution.identifiable.dropped.is_empty() {
         out += "\nnot determined by these data, left as they were\n";

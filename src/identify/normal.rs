@@ -176,7 +176,7 @@ impl Pass<'_> {
         slopes: &mut [[f64; MOST_NUMBERS]],
         sums: &mut Sums,
     ) {
-        let seen = Observation::new(row, pose, self.problem.point_in_tool_m(self.estimate, row));
+        let seen = self.problem.observe(self.estimate, row, pose);
         let counted = sums.count(row, &seen, self.loss);
         let mut motion = motions.iter();
         for (slope, parameter) in slopes.iter_mut().zip(self.parameters) {
@@ -186,6 +186,7 @@ impl Pass<'_> {
                     None => [0.0; MOST_NUMBERS],
                 },
                 Subject::Point { point, axis } => seen.slope_of_point(point, axis),
+                Subject::Feature { feature, value } => seen.slope_of_feature(feature, value),
             }
             .map(|x| x * parameter.scale);
         }
@@ -246,6 +247,8 @@ impl Pass<'_> {
                     }
                     own
                 }
+                // nothing is touched where a position is measured
+                Subject::Feature { .. } => [Four::zero(); 3],
             };
             *slope = scale(Four::constant(parameter.scale), own);
         }

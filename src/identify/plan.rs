@@ -7,7 +7,6 @@ use super::identifiability::{
 };
 use super::measurements::{Measurement, Measurements, Observed};
 use super::normal::Normal;
-use super::observation::Observation;
 use super::parameters::{Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::random::Random;
@@ -206,6 +205,7 @@ fn imagined(
         conditions: Conditions::default(),
         sigma_m: None,
         purpose: None,
+        contact: None,
     };
     let mut rows = Vec::new();
     for q in joints {
@@ -247,13 +247,16 @@ fn jacobians(
             let mut top = 0;
             for row in rows {
                 let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
-                let seen = Observation::new(row, pose, problem.point_in_tool_m(estimate, row));
+                let seen = problem.observe(estimate, row, pose);
                 let weights = seen.weights();
                 let mut motion = motions.iter();
                 for (column, parameter) in parameters.iter().enumerate() {
                     let slope = match parameter.subject {
                         Subject::Effect(_) => motion.next().map_or([0.0; 6], |m| seen.slope(m)),
                         Subject::Point { point, axis } => seen.slope_of_point(point, axis),
+                        Subject::Feature { feature, value } => {
+                            seen.slope_of_feature(feature, value)
+                        }
                     };
                     for k in 0..row.observed.count() {
                         let by = weights[k] * row.sigma_m / sigma_m;

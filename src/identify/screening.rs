@@ -105,6 +105,8 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
                 key.push(distance_m.to_bits());
                 key.extend(from_m.map(f64::to_bits));
             }
+            // the joint angles are the reading
+            Observed::Contact(kind) => key.push(kind as u64),
         }
         if let Some(line) = first.insert(key, row.line) {
             twice.push((row.line, line));

@@ -309,6 +309,6 @@ pub fn solve(
 pub fn belongs(estimate: &Estimate, parameter: &Parameter, kind: Kind) -> bool {
     match parameter.subject {
         Subject::Effect(slot) => estimate.effects[slot.effect].kind == kind,
-        Subject::Point { .. } => false,
+        Subject::Point { .. } | Subject::Feature { .. } => false,
     }
 }

@@ -26,8 +26,20 @@ const FEWEST: usize = 50;
 const COARSE: usize = 400;
 /// Points of FROM in the middle stage.
 const MIDDLE: usize = 4000;
-/// Steps of a coarse run.
-const COARSE_STEPS: usize = 25;
+/// Points of TO in the coarse stage: far from a surface a search in a large tree is slow.
+const THIN: usize = 3000;
+/// Steps of a coarse run from every start.
+const COARSE_STEPS: usize = 12;
+/// Ends of coarse runs that go on.
+const FINALISTS: usize = 4;
+/// Steps of those.
+const MORE_STEPS: usize = 15;
+/// Least number of groups of neighbouring points whose scatter widens the uncertainty.
+const GROUPS: usize = 50;
+/// Points of such a group at least: more than share a tangent plane.
+const GROUP: usize = 16;
+/// Clouds up to this size are matched the other way round, too.
+const MIRRORED: usize = 20_000;
 /// Steps of a stage before it is called not converged.
 const STEPS: usize = 300;
 /// Steps after which small steps back and forth are taken for standing still.
@@ -167,6 +179,30 @@ struct Surface {
     tilt: f64,
 }
 
+/// Positions in the order of a space-filling curve (Z order): neighbours in space are neighbours in memory.
+fn along_curve(points: &[Vector]) -> Vec<usize> {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for p in points {
+        for i in 0..3 {
+            low[i] = low[i].min(p[i]);
+            high[i] = high[i].max(p[i]);
+        }
+    }
+    let longest = (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max);
+    let unit = 1023.0 / longest.max(f64::MIN_POSITIVE);
+    let spread = |cell: u32| (0..10).fold(0_u32, |key, bit| key | ((cell >> bit) & 1) << (3 * bit));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let key = |p: &Vector| {
+        (0..3).fold(0, |key, i| {
+            key | spread(((p[i] - low[i]) * unit) as u32) << i
+        })
+    };
+    let mut order: Vec<(u32, usize)> = points.iter().map(key).zip(0..).collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, index)| index).collect()
+}
+
 fn neighbours() -> NonZeroUsize {
     NonZeroUsize::new(NEIGHBOURS).expect("not zero")
 }
@@ -203,6 +239,24 @@ impl Surface {
             points: points.to_vec(),
             tree,
         }
+    }
+}
+
+impl Surface {
+    /// About so many of its points with their normals.
+    fn thinned(&self, count: usize) -> Option<Self> {
+        if self.points.len() <= 2 * count {
+            return None;
+        }
+        let step = self.points.len() / count;
+        let pick = |all: &[Vector]| all.iter().step_by(step).copied().collect::<Vec<_>>();
+        let points = pick(&self.points);
+        Some(Self {
+            tree: ImmutableKdTree::<f64, 3>::new_from_slice(&points),
+            points,
+            normals: pick(&self.normals),
+            ..*self
+        })
     }
 }
 
@@ -298,7 +352,13 @@ pub fn icp(
     options: &Options,
 ) -> Result<Found, RegisterError> {
     check(from, to)?;
-    let surface = Surface::of(to, normals);
+    let sorted = |points: &[Vector], order: &[usize]| -> Vec<Vector> {
+        order.iter().map(|i| points[*i]).collect()
+    };
+    let from = &sorted(from, &along_curve(from))[..];
+    let order = along_curve(to);
+    let normals = normals.map(|normals| sorted(normals, &order));
+    let surface = Surface::of(&sorted(to, &order), normals.as_deref());
     let extent = from_extent(from);
     let coarse = sample(from, COARSE);
     let (start, starts, rival) = match options.start {
@@ -506,6 +566,16 @@ fn kabsch_any_size(from: &[Vector], to: &[Vector]) -> Option<Pose> {
     }
 }
 
+/// Derivatives of a pair's distance from the tangent plane by a turn (times `size`) about `centre` and a shift, and that
+/// distance.
+fn line(pair: &Pairing, surface: &Surface, centre: Vector, size: f64) -> (Vector6<f64>, f64) {
+    let normal = surface.normals[pair.partner];
+    let turn = scale(1.0 / size, cross(sub(pair.at, centre), normal));
+    let row = Vector6::new(turn[0], turn[1], turn[2], normal[0], normal[1], normal[2]);
+    let left = dot(normal, sub(pair.at, surface.points[pair.partner]));
+    (row, left)
+}
+
 /// Normal equations of a small motion about the middle of the pairs, turns scaled to the size of the cloud.
 fn information(pairs: &[Pairing], surface: &Surface) -> (Matrix6<f64>, Vector6<f64>, Vector, f64) {
     let sum = pairs.iter().fold([0.0; 3], |sum, p| add(sum, p.at));
@@ -518,10 +588,7 @@ fn information(pairs: &[Pairing], surface: &Surface) -> (Matrix6<f64>, Vector6<f
     let add_up = |chunk: &[Pairing]| {
         let (mut n, mut r) = (Matrix6::zeros(), Vector6::zeros());
         for pair in chunk {
-            let normal = surface.normals[pair.partner];
-            let turn = scale(1.0 / size, cross(sub(pair.at, centre), normal));
-            let row = Vector6::new(turn[0], turn[1], turn[2], normal[0], normal[1], normal[2]);
-            let left = dot(normal, sub(pair.at, surface.points[pair.partner]));
+            let (row, left) = line(pair, surface, centre, size);
             for i in 0..6 {
                 for j in 0..=i {
                     n[(i, j)] += row[i] * row[j];
@@ -576,19 +643,15 @@ fn coarse_search(
             translation: sub(to_centre, rotation * from_centre),
         });
     }
+    let thin = surface.thinned(THIN);
+    let thin = thin.as_ref().unwrap_or(surface);
     let rough = Options {
         metric: Metric::PointToPoint,
         ..*options
     };
-    let run = |start: &Pose| {
-        let mut pose = *start;
-        for k in 0..COARSE_STEPS {
-            // first by points, which draws from farther away
-            let options = if k < COARSE_STEPS / 2 {
-                &rough
-            } else {
-                options
-            };
+    let walk = |surface: &Surface, pose: Pose, options: &Options, steps: usize| {
+        let mut pose = pose;
+        for _ in 0..steps {
             match step(coarse, surface, &pose, options) {
                 Some((better, _)) => pose = better,
                 None => break,
@@ -597,18 +660,29 @@ fn coarse_search(
         let pairs = pairings(coarse, surface, &pose, Metric::PointToPoint);
         (rms(&trimmed(pairs, surface, options.kept)), pose)
     };
-    let mut ends: Vec<(f64, Pose)> = starts.par_iter().map(run).collect();
+    // first by points, which draws from farther away
+    let first = |start: &Pose| walk(thin, *start, &rough, COARSE_STEPS);
+    let mut ends: Vec<(f64, Pose)> = starts.par_iter().map(first).collect();
     ends.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let best = ends[0].1;
-    let elsewhere = |end: &&(f64, Pose)| {
-        let turn = (best.rotation.transpose() * end.1.rotation).angle();
-        let shift = norm(sub(
-            best.transform(from_centre),
-            end.1.transform(from_centre),
-        ));
+    let apart = |a: &Pose, b: &Pose| {
+        let turn = (a.rotation.transpose() * b.rotation).angle();
+        let shift = norm(sub(a.transform(from_centre), b.transform(from_centre)));
         turn > 0.1 || shift > 0.1 * size
     };
-    let rival = ends[1..].iter().find(elsewhere).map(|end| end.1);
+    let mut last: Vec<Pose> = Vec::new();
+    for (_, pose) in &ends {
+        if last.len() < FINALISTS && last.iter().all(|other| apart(other, pose)) {
+            last.push(*pose);
+        }
+    }
+    let on = |pose: &Pose| walk(surface, *pose, options, MORE_STEPS);
+    let mut ends: Vec<(f64, Pose)> = last.par_iter().map(on).collect();
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let best = ends[0].1;
+    let rival = ends[1..]
+        .iter()
+        .find(|end| apart(&best, &end.1))
+        .map(|end| end.1);
     (best, starts.len(), rival)
 }
 
@@ -710,9 +784,11 @@ fn judge(
         });
     } else if let Some(inverse) = n.try_inverse() {
         let unit = |i: usize| if i < 3 { 1.0 / size } else { 1.0 };
-        let matrix = Matrix6::from_fn(|i, j| {
-            inverse[(i, j)] * unit(i) * unit(j) * plane_rms.max(expected_m).powi(2)
-        });
+        let noise = plane_rms.max(expected_m);
+        let more = scattered(&kept, surface, centre, size, &inverse, noise)
+            .max(mirrored(from, surface, &pose, options, &n, noise));
+        let matrix =
+            Matrix6::from_fn(|i, j| inverse[(i, j)] * unit(i) * unit(j) * more * noise.powi(2));
         covariance = Some(PoseCovariance::new(centre, &matrix));
     }
     let rms_m = match options.metric {
@@ -734,6 +810,70 @@ fn judge(
     }
 }
 
+/// How many times the variance of independent noise the residuals of neighbouring points make, 1 or more.
+///
+/// Neighbours share tangent planes, and these are off where the surface is curved or has steps. The sum of `Jᵀr` over groups of
+/// neighbours scatters as they do.
+///
+/// # Source
+/// K.-Y. Liang, S. L. Zeger (1986): the covariance of clustered observations.
+fn scattered(
+    pairs: &[Pairing],
+    surface: &Surface,
+    centre: Vector,
+    size: f64,
+    inverse: &Matrix6<f64>,
+    noise: f64,
+) -> f64 {
+    let group = (pairs.len() / (10 * GROUPS)).clamp(GROUP, 4 * GROUP);
+    let groups = pairs.len() / group;
+    if groups < GROUPS / 2 {
+        return 1.0;
+    }
+    let sums = pairs.chunks(group).map(|chunk| {
+        let mut sum = Vector6::zeros();
+        for pair in chunk {
+            let (row, left) = line(pair, surface, centre, size);
+            sum += row * left;
+        }
+        sum
+    });
+    let scatter = sums.fold(Matrix6::zeros(), |all, sum| all + sum * sum.transpose());
+    let ratio = (inverse * scatter).trace() / 6.0 / (noise * noise);
+    (ratio * groups as f64 / (groups as f64 - 1.0)).max(1.0)
+}
+
+/// The same from a match the other way round, whose tangent planes are those of FROM: both are off by what planes make of the
+/// surface, not in the same way. Only of clouds that are coarse enough for it to matter.
+fn mirrored(
+    from: &[Vector],
+    surface: &Surface,
+    pose: &Pose,
+    options: &Options,
+    information_there: &Matrix6<f64>,
+    noise: f64,
+) -> f64 {
+    if from.len().max(surface.points.len()) > MIRRORED {
+        return 1.0;
+    }
+    let moved: Vec<Vector> = from.iter().map(|p| pose.transform(*p)).collect();
+    let other = Surface::of(&moved, None);
+    let pairs = pairings(
+        &surface.points,
+        &other,
+        &Pose::identity(),
+        Metric::PointToPlane,
+    );
+    let (n, r, ..) = information(&trimmed(pairs, &other, options.kept), &other);
+    let Some(factor) = n.cholesky() else {
+        return 1.0;
+    };
+    let step = factor.solve(&r);
+    let squared = (step.transpose() * information_there * step)[0] / (noise * noise);
+    // two independent estimates differ by twice the variance of one
+    (squared / 12.0).max(1.0)
+}
+
 /// Neighbouring points of a cloud: those nearest to some of its own.
 fn sample_block(points: &[Vector]) -> Vec<Vector> {
     const BLOCKS: usize = 40;
@@ -741,16 +881,15 @@ fn sample_block(points: &[Vector]) -> Vec<Vector> {
     if points.len() <= BLOCKS * SIZE {
         return points.to_vec();
     }
-    let tree = ImmutableKdTree::<f64, 3>::new_from_slice(points);
-    let size = NonZeroUsize::new(SIZE).expect("not zero");
     let mut chosen = std::collections::BTreeSet::new();
     for k in 0..BLOCKS {
         let at = points[k * points.len() / BLOCKS];
-        let near = tree.nearest_n::<SquaredEuclidean>(&at, size);
-        chosen.extend(near.iter().map(|hit| hit.item));
+        let gap = |p: &Vector| dot(sub(*p, at), sub(*p, at));
+        let mut near: Vec<(f64, usize)> = points.iter().map(gap).zip(0..).collect();
+        near.select_nth_unstable_by(SIZE - 1, |a, b| a.0.total_cmp(&b.0));
+        chosen.extend(near[..SIZE].iter().map(|(_, index)| *index));
     }
-    #[allow(clippy::cast_possible_truncation)]
-    chosen.iter().map(|i| points[*i as usize]).collect()
+    chosen.iter().map(|i| points[*i]).collect()
 }
 
 /// Refines the other end a little and compares.

@@ -1,5 +1,6 @@
 //! Hidden truths found again.
 
+mod contact;
 mod identify;
 mod judged;
 mod kinds;
