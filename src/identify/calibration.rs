@@ -242,11 +242,16 @@ pub fn calibrate(
             parameters: problem.parameters.len(),
         });
     }
-    let before_estimate = Estimate {
-        world_from_base: profile.world_from_base,
-        ..estimate.clone()
+    let before = {
+        let mut own = Estimate {
+            world_from_base: profile.world_from_base,
+            ..estimate.clone()
+        };
+        // what was touched stands where this model puts it
+        let mut problem = problem.clone();
+        contact::start(&mut problem, &mut own)?;
+        Quality::of(&problem.rows, &misses(&problem, &own))
     };
-    let before = Quality::of(&problem.rows, &misses(&problem, &before_estimate));
     if moved_base {
         estimate
             .effects
@@ -458,7 +463,8 @@ impl Calibration {
     pub fn features(&self) -> impl Iterator<Item = (&contact::Feature, contact::Place)> {
         let values = &self.solution.estimate.features;
         let all = self.problem.features.iter().zip(values);
-        all.map(|(feature, values)| (feature, feature.place(values)))
+        all.filter(|(feature, _)| feature.unknowns() > 0)
+            .map(|(feature, values)| (feature, feature.place(values)))
     }
 
     /// The calibrated robot: the profile with the identified effects, points and, where it was replaced, base.

@@ -1,6 +1,7 @@
 //! What a calibrated model is worth on measurements it has not seen.
 
 use super::calibration::{begin, fit_frames};
+use super::contact;
 use super::error::IdentifyError;
 use super::measurements::Measurements;
 use super::parameters::{Level, Parameter, Selection, Subject};
@@ -151,10 +152,11 @@ pub fn validate_telling(
     let at_rest = |profile: &Profile| {
         Problem::new(profile, measurements, &selection, profile.world_from_base)
     };
-    let (_, nominal) = at_rest(&controller)?;
+    let (bare, nominal) = at_rest(&controller)?;
     let (problem, own) = at_rest(profile)?;
     // the controller knows nothing of fitted frames: the effects that the selection added are zero
     let mut controller_problem = problem.clone();
+    controller_problem.features = bare.features;
     controller_problem.sort_rigs(&nominal.effects);
     let (frames_problem, frames) = fit_frames(&controller, measurements, Shape::Squares, refit)?;
     let mut frames_problem = frames_problem;
@@ -352,6 +354,7 @@ fn cross_validate(
         .for_each(|e| e.parameters = [0.0; 6]);
     if let Some(guess) = &guess {
         begin(&problem, &mut begun, guess);
+        contact::start(&mut problem, &mut begun)?;
     }
     let (mut full, mut alone) = (Vec::new(), Vec::new());
     let mut rows = Vec::new();

@@ -1,6 +1,6 @@
 //! A probe's ball touches spheres, planes and points: what it touched and the arm that touched it must be found again.
 
-use crate::support::{random_joints, repository};
+use crate::support::{poseshift, random_joints, repository, scratch};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use poseshift::geometry::{Pose, Vector, add, dot, norm, scale, sub};
 use poseshift::identify::IdentifyError;
@@ -367,4 +367,96 @@ fn bad_contacts_are_named_with_their_line() {
     };
     assert_eq!((*line, feature.as_str()), (2, "high"));
     assert!(error.to_string().contains("5 are needed"), "{error}");
+}
+
+#[test]
+fn files_of_touches_are_calibrated_validated_and_refused_by_command() {
+    let folder = scratch();
+    let at = folder.path();
+    let mut cell = Cell::new(75);
+    std::fs::write(at.join("fit.csv"), all_kinds(&mut cell, 40)).expect("scratch");
+    std::fs::write(at.join("check.csv"), all_kinds(&mut cell, 12)).expect("scratch");
+    let thesis = std::fs::read_to_string(repository("robots/abb_irb120_thesis.yaml"));
+    let thesis = thesis.expect("a shipped profile");
+    let effects = thesis.find("  effects:").expect("its calibration");
+    let nominal = format!("{}  effects: []\n", &thesis[..effects]);
+    std::fs::write(at.join("nominal.yaml"), nominal).expect("scratch");
+    let run = |arguments: &[&str]| {
+        let mut command = poseshift();
+        let output = command.current_dir(at).args(arguments).arg("--json");
+        let output = output.output().expect("the program starts");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), output.stdout, told)
+    };
+    let report = |arguments: &[&str]| -> serde_json::Value {
+        let (status, out, told) = run(arguments);
+        assert_eq!(status, Some(0), "{told}");
+        serde_json::from_slice(&out).expect("JSON and nothing else")
+    };
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let calibrate = |file: &'static str| {
+        [
+            "calibrate",
+            "--profile",
+            "nominal.yaml",
+            "--measurements",
+            file,
+            "--level",
+            "2",
+            "--fix",
+            "tool_frame",
+            "-o",
+            "found.yaml",
+        ]
+    };
+    let found = report(&calibrate("fit.csv"));
+    let features = found["features"].as_array().expect("what was touched");
+    let names: Vec<&str> = features
+        .iter()
+        .filter_map(|f| f["feature"].as_str())
+        .collect();
+    assert_eq!(names, ["high", "wall", "nest"]);
+    assert!((number(&features[0]["radius_mm"]) - RADIUS_M * 1e3).abs() < 0.02);
+    for k in 0..3 {
+        assert!((number(&features[0]["centre_mm"][k]) - HIGH[k] * 1e3).abs() < 0.1);
+        assert!((number(&features[1]["normal"][k]) - WALL.1[k]).abs() < 1e-3);
+        assert!((number(&features[2]["centre_mm"][k]) - NEST[k] * 1e3).abs() < 0.1);
+    }
+    let range = |of: &serde_json::Value| number(&of["range"]["rms_mm"]);
+    assert!(range(&found["after"]) < 0.03, "{}", found["after"]);
+    assert!(range(&found["before"]) > 0.1, "{}", found["before"]);
+
+    // new touches of the same things: the calibrated arm closes them, the nominal one does not
+    let seen = |profile: &str| {
+        report(&[
+            "validate",
+            "--profile",
+            profile,
+            "--measurements",
+            "check.csv",
+            "--all-sets",
+        ])
+    };
+    let (before, after) = (seen("nominal.yaml"), seen("found.yaml"));
+    let gap = |report: &serde_json::Value| number(&report["range"]["real"]["rms_mm"]);
+    assert!(
+        gap(&before) > 0.1 && gap(&after) < 0.04,
+        "{} {}",
+        before["range"],
+        after["range"]
+    );
+
+    std::fs::remove_file(at.join("found.yaml")).expect("written");
+    let lines = std::fs::read_to_string(at.join("fit.csv")).expect("scratch");
+    let bad = lines.replacen("plane,floor,3,,", "plane,floor,3,5,", 1);
+    std::fs::write(at.join("bad.csv"), &bad).expect("scratch");
+    let (status, _, told) = run(&calibrate("bad.csv"));
+    let place = 1 + bad
+        .lines()
+        .position(|l| l.contains("plane,floor,3,5,"))
+        .expect("a row");
+    assert_eq!(status, Some(2));
+    assert!(told.contains("only a sphere has a radius"), "{told}");
+    assert!(told.contains(&format!("bad.csv:{place}:")), "{told}");
+    assert!(!at.join("found.yaml").exists());
 }
