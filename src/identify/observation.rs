@@ -97,10 +97,17 @@ impl<'a> Observation<'a> {
     }
 
     /// What a motion of the tool does to the expectation.
+    ///
+    /// The gap of a touched point is taken along axes that turn with the tool: it is as long, and turns of the arm and of the
+    /// unknown point together leave it as it is, whatever is left of it.
     #[inline(always)]
     #[must_use]
     pub fn slope(&self, motion: &Motion) -> [f64; MOST_NUMBERS] {
-        let shift = add(motion.shift_m, cross(motion.turn_rad, self.arm));
+        let arm = match self.row.observed {
+            Observed::Contact(ContactKind::Point) => add(self.arm, self.touch.gap),
+            _ => self.arm,
+        };
+        let shift = add(motion.shift_m, cross(motion.turn_rad, arm));
         self.of_shift(shift, motion.turn_rad)
     }
 

@@ -400,3 +400,35 @@ fn files_that_are_read_wrongly_are_found_out() {
             .any(|r| r.id == "joint-never-moved" && r.message.contains("joint 4"))
     );
 }
+
+#[test]
+fn a_wrong_tool_and_rows_in_any_order_are_told_with_the_evidence() {
+    let mut random = StdRng::seed_from_u64(19);
+    let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, false);
+    let commands = commands(&mut random, &truth, 60);
+    let mut longer = truth.clone();
+    let mounted = longer.tools.get_mut("artifact").expect("its tool");
+    mounted.flange_from_tool.translation[2] += 30.0 * MM;
+    let seen = measure(&longer, &commands, &Session::default());
+    let found = calibrate(&nominal(), &seen, &Options::default()).expect("an answer");
+    let told = found.remarks.iter().find(|r| r.id == "tool-elsewhere");
+    let told = &told.expect("a warning").message;
+    let gap: f64 = told
+        .split_whitespace()
+        .find_map(|word| word.parse().ok())
+        .expect("a number");
+    assert!(
+        told.contains("`artifact`") && (gap - 30.0).abs() < 2.0,
+        "{told}"
+    );
+
+    // every point in the file, none in its row
+    let good = measure(&truth, &commands, &Session::default());
+    let mut mixed = good.clone();
+    for (i, row) in mixed.rows.iter_mut().enumerate() {
+        row.observed = good.rows[(7 * i + 3) % 60].observed;
+    }
+    let error = calibrate(&nominal(), &mixed, &Options::default()).expect_err("nonsense");
+    assert!(error.to_string().contains("mm rms"), "{error}");
+    assert!(error.hint().contains("order"), "{}", error.hint());
+}

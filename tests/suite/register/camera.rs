@@ -2,7 +2,7 @@
 
 use super::{noisy, normal, random_pose, seeded};
 use crate::support::{poseshift, random_joints, repository, scratch, text};
-use poseshift::geometry::{Pose, Quaternion, Rotation, Vector};
+use poseshift::geometry::{Pose, Quaternion, Rotation, Vector, norm, sub};
 use poseshift::model::Conditions;
 use poseshift::model::profile::{Mounted, Profile};
 use rand::rngs::StdRng;
@@ -39,12 +39,12 @@ fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
-/// Distance in mm between a pose of the report and the truth.
-fn miss_mm(found: &Value, truth: &Pose) -> f64 {
+/// How far a pose of the report puts this point from where the truth has it, mm.
+fn miss_mm(found: &Value, truth: &Pose, at: Vector) -> f64 {
     let place = ["x_mm", "y_mm", "z_mm"].map(|key| MM * number(&found[key]));
     let turn = std::array::from_fn(|k| number(&found["quaternion"][k]));
     let pose = Pose::from_parts(place, Quaternion(turn).normalized());
-    pose.separation(truth).distance_m / MM
+    norm(sub(pose.transform(at), truth.transform(at))) / MM
 }
 
 fn poses(all: &[Pose]) -> String {
@@ -111,11 +111,11 @@ fn joints_and_the_calibrated_model_keep_the_arms_error_out_of_the_camera() {
     };
     let (real, nominal) = (with(&calibrated), with("nominal.yaml"));
     assert!(
-        miss_mm(&real["camera"], &camera) < 1e-6,
+        miss_mm(&real["camera"], &camera, [0.0; 3]) < 1e-6,
         "{}",
         real["camera"]
     );
-    assert!(miss_mm(&real["board"], &board) < 1e-6);
+    assert!(miss_mm(&real["board"], &board, [0.0; 3]) < 1e-6);
     // frames left aside, the nominal model is off by more than half a millimetre
     assert!(number(&real["residual_mm"]) < 1e-6);
     assert!(
@@ -124,7 +124,7 @@ fn joints_and_the_calibrated_model_keep_the_arms_error_out_of_the_camera() {
         nominal["residual_mm"]
     );
     assert!(
-        miss_mm(&nominal["camera"], &camera) > 0.02,
+        miss_mm(&nominal["camera"], &camera, [0.0; 3]) > 0.02,
         "{}",
         nominal["camera"]
     );
@@ -199,19 +199,19 @@ fn touched_corners_correct_the_camera_of_both_setups() {
             number(&told["left_out_mm"]) < 0.5 * number(&told["before_mm"]),
             "{told}"
         );
-        let (rough, fine) = (
-            miss_mm(&without["camera"], &camera),
-            miss_mm(&with["camera"], &camera),
-        );
+        // where the corners are; at the camera itself their noise is some times as large
+        let work = [0.06, 0.075, 0.41];
+        let rough = miss_mm(&without["camera"], &camera, work);
+        let fine = miss_mm(&with["camera"], &camera, work);
         println!("{setup}: {rough:.3} mm by the board, {fine:.3} mm with corners");
         assert!(fine < 0.5 * rough, "{setup}: {rough} {fine}");
         let frame = std::fs::read_to_string(at.join("camera.yaml")).expect("written");
         assert!(frame.starts_with("poseshift: frame/1"), "{frame}");
 
-        // corners of another board make nothing better
+        // corners that are seen with 10 mm of noise make nothing better
         let others: Vec<_> = rows
             .iter()
-            .map(|(p, _, row)| (*p, random_pose(&mut random, 0.2).translation, *row))
+            .map(|(touched, seen, row)| (*touched, noisy(&mut random, *seen, 0.01), *row))
             .collect();
         std::fs::write(at.join("others.csv"), corners(&others)).expect("scratch");
         let all: Vec<&str> = base
