@@ -232,9 +232,8 @@ impl<'p, 's> Moves<'p, 's> {
             return target;
         }
         let literal = notes.literal(id);
-        let numbers = &notes.numbers[literal.numbers.start as usize..literal.numbers.end as usize];
-        let first = index(self.program.numbers.len());
-        self.program.numbers.extend_from_slice(numbers);
+        // the file's numbers follow those of the files before it
+        let before = index(self.program.numbers.len());
         let target = self.program.targets.len();
         self.program.targets.push(Target {
             name: name.map(|name| notes.spelling(name).into()),
@@ -248,7 +247,7 @@ impl<'p, 's> Moves<'p, 's> {
                 },
                 variant: u8::from(literal.content == Content::Degrees),
             },
-            numbers: first..index(self.program.numbers.len()),
+            numbers: before + literal.numbers.start..before + literal.numbers.end,
             blocked: literal.content == Content::Expressions,
         });
         self.targets.insert(id, target);
@@ -464,13 +463,16 @@ impl<'p, 's> Moves<'p, 's> {
             for (new, &old) in order.iter().enumerate() {
                 place[old] = new;
             }
-            let mut old: Vec<Option<Target>> = targets.iter().cloned().map(Some).collect();
-            for (target, &at) in targets.iter_mut().zip(&order) {
-                *target = old[at].take().expect("each stands once in the order");
-            }
             for motion in &mut self.program.moves {
                 if motion.file == self.file {
                     motion.target = first_target + place[motion.target - first_target];
+                }
+            }
+            for at in 0..targets.len() {
+                while place[at] != at {
+                    let to = place[at];
+                    targets.swap(at, to);
+                    place.swap(at, to);
                 }
             }
         }
