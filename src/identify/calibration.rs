@@ -284,7 +284,8 @@ pub fn calibrate(
             .filter(|p| frames.parameters.iter().any(|f| f.key == p.key))
             .cloned()
             .collect();
-        solve(&frames, start, options.shape, sought)?
+        solve(&frames, start, options.shape, sought)
+            .map_err(|error| screening::doubt_rest(error, &guess))?
     };
     let frames_only_quality = Quality::of(&problem.rows, &misses(&problem, &frames_only.estimate));
     let mut solution = solve(
@@ -292,7 +293,8 @@ pub fn calibrate(
         frames_only.estimate.clone(),
         options.shape,
         sought,
-    )?;
+    )
+    .map_err(|error| screening::doubt_rest(error, &guess))?;
     let counts: Vec<usize> = problem
         .rows
         .iter()

@@ -312,7 +312,7 @@ pub fn plan_telling(
     // what some hundreds of configurations cannot tell apart, none can
     let each = (problem.rows.len() / all.len().max(1)).max(1);
     let every = problem.rows.len().div_ceil(SAMPLE * each).max(1);
-    let sample = problem.with_rows(|i| i / each % every == 0);
+    let sample = problem.with_rows(|i| (i / each).is_multiple_of(every));
     let normal = Normal::of(&sample, &estimate, &problem.parameters, Loss::squares());
     let known = identifiable(&normal, &problem.parameters, None);
     let parameters: Vec<Parameter> = known

@@ -80,7 +80,7 @@ fn regions_hold_the_rows_at_their_distance_from_the_calibration() {
     let mut counts = [0; REGIONS];
     for row in &mut seen.rows {
         let away = distance(row);
-        let ring = ((away / width) as usize).min(REGIONS - 1);
+        let ring = (1..REGIONS).filter(|k| away >= *k as f64 * width).count();
         counts[ring] += 1;
         if away < far {
             let p = position(&mut row.observed);

@@ -155,7 +155,7 @@ fn touched_corners_correct_the_camera_of_both_setups() {
         let (camera, board) = (random_pose(&mut random, 0.4), random_pose(&mut random, 0.3));
         let flanges: Vec<Pose> = (0..20).map(|_| random_pose(&mut random, 0.6)).collect();
         let in_hand = setup == "eye-in-hand";
-        // the board is seen with 1 mm and 0.2 deg of noise, corners with 0.05 mm
+        // the board is seen with 1 mm and 0.2 deg of noise, corners with 0.02 mm
         let look = |flange: &Pose, random: &mut StdRng| {
             let carried = if in_hand { flange.inverse() } else { *flange };
             let noise = Pose {
@@ -165,21 +165,21 @@ fn touched_corners_correct_the_camera_of_both_setups() {
             camera.inverse() * carried * board * noise
         };
         let seen: Vec<Pose> = flanges.iter().map(|f| look(f, &mut random)).collect();
-        let rows: Vec<(Vector, Vector, usize)> = (0..16)
+        let rows: Vec<(Vector, Vector, usize)> = (0..16_u8)
             .map(|i| {
-                let row = i % 4;
+                let row = usize::from(i % 4);
                 let spot = [
                     0.04 * f64::from(i % 4),
                     0.05 * f64::from(i / 4),
                     0.4 + 0.01 * f64::from(i % 3),
                 ];
                 let base_from_camera = if in_hand {
-                    flanges[row as usize] * camera
+                    flanges[row] * camera
                 } else {
                     camera
                 };
-                let touched = noisy(&mut random, base_from_camera.transform(spot), 5e-5);
-                (touched, noisy(&mut random, spot, 5e-5), row as usize + 1)
+                let touched = noisy(&mut random, base_from_camera.transform(spot), 2e-5);
+                (touched, noisy(&mut random, spot, 2e-5), row + 1)
             })
             .collect();
         std::fs::write(at.join("robot.csv"), poses(&flanges)).expect("scratch");
