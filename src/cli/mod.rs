@@ -17,6 +17,7 @@ mod measurements;
 mod plan;
 mod points;
 mod profile;
+mod progress;
 mod register;
 mod registration;
 mod shell;

@@ -2,10 +2,11 @@
 
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure};
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::identify::measurements::Purpose;
-use crate::identify::validation::{Judged, Validation, validate};
+use crate::identify::validation::{Judged, Validation, validate_telling};
 use crate::report::identification;
 use clap::Args;
 use serde_json::{Value, json};
@@ -43,8 +44,16 @@ impl Validate {
         }
         let name = self.measurements.name();
         let folds = self.folds.map(|n| n as usize);
-        let found = validate(&profile, &measurements, self.refit_frames, folds)
-            .map_err(|error| identify_failure(&name, &error))?;
+        let progress = Progress::new(output, "validating");
+        let found = validate_telling(
+            &profile,
+            &measurements,
+            self.refit_frames,
+            folds,
+            &mut |done, of| progress.tell(done, of),
+        )
+        .map_err(|error| identify_failure(&name, &error))?;
+        drop(progress);
         if output.json {
             let mut report = report(&found);
             report["profile_sha256"] = json!(hash);
