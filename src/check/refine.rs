@@ -6,7 +6,8 @@
 
 use super::course::{Course, Leg, ToolCourse};
 use super::deviation::{self, Models, Wanted};
-use super::{CheckError, Options, Subject, Walk};
+use super::walk::Walk;
+use super::{CheckError, Options, Subject};
 use crate::compensate::Compensation;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
