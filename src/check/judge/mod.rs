@@ -33,16 +33,7 @@ impl Job<'_> {
     ) -> Finding {
         let motion = &self.walk.route.program.moves[motion];
         let source = &self.subject.sources[motion.file as usize];
-        let (line, column) = source.line_column(motion.offset as usize);
-        Finding {
-            id,
-            severity,
-            file: source.name.clone(),
-            line,
-            column,
-            message,
-            hint: hint.into(),
-        }
+        source.finding(motion.offset as usize, id, severity, message, hint)
     }
 
     /// What the move does, and what a person should look at.

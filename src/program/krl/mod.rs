@@ -41,6 +41,7 @@
 mod aggregate;
 mod findings;
 mod flow;
+mod insert;
 mod moves;
 mod notes;
 mod places;
@@ -59,7 +60,7 @@ use super::{
 use crate::finding::Severity;
 use crate::geometry::Rotation;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::program::Configuration;
+use crate::program::{Configuration, Inserted, Insertion};
 use findings::{Cause, Report};
 use moves::Moves;
 use notes::{DataKind, Index, Notes};
@@ -206,6 +207,16 @@ impl Language for Krl {
 
     fn write_configuration(&self, _: Layout, _: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
         status::write(whole(value), old, out);
+    }
+
+    fn insert(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        _: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        Inserted::each(insertions, |one| insert::insert(sources, program, one))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -34,6 +34,7 @@ mod calls;
 mod expressions;
 mod findings;
 mod flow;
+mod insert;
 mod literals;
 mod moves;
 mod reader;
@@ -49,6 +50,7 @@ use super::{
     Settings, Shape, Source, Value,
 };
 use crate::geometry::units::DEG;
+use crate::program::{Inserted, Insertion};
 use moves::Moves;
 use reader::Reader;
 
@@ -164,6 +166,16 @@ impl Language for UrScript {
             _ => panic!("a value of the other shape"),
         };
         numbers.copy_from_slice(&new);
+    }
+
+    fn insert(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        _: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        Inserted::each(insertions, |one| insert::insert(sources, program, one))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
