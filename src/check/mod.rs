@@ -141,6 +141,8 @@ pub struct MoveReport {
     pub limits: Option<Limits>,
     /// Programmed corner, metres; 0 where the robot stops.
     pub zone_m: Option<f64>,
+    /// The robot cuts the corner at its end.
+    pub cuts_corner: bool,
 }
 
 /// Numbers of the whole.
@@ -258,7 +260,7 @@ fn sum_up(moves: &[MoveReport], unknown: usize, no_bodies: bool) -> Summary {
         let certified =
             report.path.is_none_or(|p| p.certified) && report.clearance.is_none_or(|c| c.certified);
         summary.uncertified += usize::from(!certified);
-        summary.with_zone += usize::from(report.zone_m.is_some_and(|zone| zone > 0.0));
+        summary.with_zone += usize::from(report.cuts_corner);
         if let Some(c) = report.clearance.filter(|_| !no_bodies) {
             let least = summary.min_clearance_m.unwrap_or(f64::INFINITY);
             summary.min_clearance_m = Some(least.min(c.clearance_m));

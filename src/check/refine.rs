@@ -35,6 +35,8 @@ pub struct Refined {
     pub targets: usize,
     /// New moves.
     pub moves: usize,
+    /// Targets that no move may go to any more: points of arcs, which have other points now.
+    pub freed: usize,
 }
 
 /// A pose on the way, as the controller is told it.
@@ -102,6 +104,7 @@ pub fn refine(
             if let Some(text) = done {
                 refined.targets += count.targets;
                 refined.moves += count.moves;
+                refined.freed += count.freed;
                 spans.extend(text);
             } else {
                 let why = "the text of this move cannot be repeated";
@@ -236,12 +239,17 @@ impl Job<'_> {
             return failed("an arc's part cannot be reached");
         };
         let moves = points.len() * each;
-        let targets = moves + usize::from(named);
+        let freed = usize::from(named);
+        let count = Refined {
+            targets: moves + freed,
+            moves,
+            freed,
+        };
         let insertion = Insertion {
             motion: index,
             between,
         };
-        change(What::Insert(insertion, Refined { targets, moves }))
+        change(What::Insert(insertion, count))
     }
 
     fn finding(

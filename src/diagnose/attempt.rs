@@ -142,6 +142,7 @@ pub(super) fn attempt(
             break;
         }
     }
+    let chosen = session.world(&used, &options.accept).ordered(chosen);
     progress("fitting what was found");
     let mut refit = refit(
         &session.problem,

@@ -18,6 +18,7 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::identify::robust::limit;
 use crate::identify::screening::Remark;
 use crate::identify::statistics::Spread;
+use crate::model::JOINTS;
 use crate::model::effects::{Kind, REGISTRY};
 use crate::model::profile::Profile;
 use std::collections::BTreeMap;
@@ -32,6 +33,8 @@ const TIE: f64 = 1.0;
 const TELLING: usize = 12;
 /// A row is an outlier beyond this many times the length that 99.7 % of normal rows stay below.
 const OUTLIER: f64 = 1.6;
+/// So many functions of one joint's angle, two of them harmonics, are the series of another.
+const SERIES: usize = 3;
 /// Repeated poses tell the noise from so many degrees of freedom on.
 const REPEATS: usize = 10;
 
@@ -208,14 +211,10 @@ fn doubts(attempt: &Attempt, found: &[Found], rivals: &[Rival]) -> Vec<String> {
             rival.effect.label()
         ));
     }
-    let rivalled = attempt.rivalled.iter();
-    for (i, unknown) in rivalled.filter(|(i, _)| !found[*i].accepted) {
+    reasons.extend(outdone(attempt, found));
+    if let Some((joint, count)) = imitated(found) {
         reasons.push(format!(
-            "{} looks like the answer among the effects known, but {} explains more (chi-squared {:.0} against {:.0})",
-            found[*i].effect.label(),
-            unknown.name,
-            unknown.gain,
-            found[*i].gain
+            "{count} effects at joint {joint} are functions of its angle alone: together they imitate one that is not known"
         ));
     }
     if let Some(unknown) = attempt.unknown.first() {
@@ -247,6 +246,57 @@ fn doubts(attempt: &Attempt, found: &[Found], rivals: &[Rival]) -> Vec<String> {
         ));
     }
     reasons
+}
+
+/// Effects that functions outside the registry explain more than, one sentence for each function.
+fn outdone(attempt: &Attempt, found: &[Found]) -> Vec<String> {
+    let rivalled = attempt.rivalled.iter();
+    let rivalled: Vec<_> = rivalled.filter(|(i, _)| !found[*i].accepted).collect();
+    let mut names: Vec<&str> = rivalled.iter().map(|(_, u)| u.name.as_str()).collect();
+    names.dedup();
+    let mut told = Vec::new();
+    let sentence = |name: &str| {
+        let of: Vec<_> = rivalled.iter().filter(|(_, u)| u.name == name).collect();
+        let (i, unknown) = of[0];
+        let label = found[*i].effect.label();
+        let against = format!(
+            "chi-squared {:.0} against {:.0}",
+            unknown.gain, found[*i].gain
+        );
+        match of.len() {
+            1 => format!(
+                "{label} looks like the answer among the effects known, but {name} explains more ({against})"
+            ),
+            n => format!(
+                "{label} and {} more look like answers among the effects known, but {name} explains more than each ({against})",
+                n - 1
+            ),
+        }
+    };
+    for name in names {
+        let text = sentence(name);
+        if !told.contains(&text) {
+            told.push(text);
+        }
+    }
+    told
+}
+
+/// A joint, from 1, at which so many effects were found that together they are the series of any function of its angle.
+fn imitated(found: &[Found]) -> Option<(usize, usize)> {
+    (0..JOINTS).find_map(|joint| {
+        let at = |f: &&Found| f.effect.site.index == joint && !f.accepted;
+        let of = |kind| {
+            found
+                .iter()
+                .filter(at)
+                .filter(|f| f.effect.kind == kind)
+                .count()
+        };
+        let harmonics = of(Kind::JointHarmonic);
+        let count = harmonics + of(Kind::JointScale) + of(Kind::LinkGeometry);
+        (harmonics >= 2 && count >= SERIES).then_some((joint + 1, count))
+    })
 }
 
 /// Rows that what was found does not explain, the farthest first.

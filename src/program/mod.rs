@@ -142,6 +142,13 @@ pub trait Language: Sync {
         out.extend_from_slice(format!("{value}").as_bytes());
     }
 
+    /// How fast a move is and how near it must come to its target, as far as its text tells. By default what
+    /// [`Language::read`] told.
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        let _ = source;
+        motion.pace
+    }
+
     /// Text that puts moves between those of one file, which is the `file`-th of the sources. A move that cannot be
     /// repeated, because its text does more than go to its target, is refused; by default all are.
     fn insert(
@@ -335,6 +342,16 @@ pub struct Pace {
     pub speed_m_s: Option<f64>,
     /// Radius of the corner, metres; 0 where the robot stops.
     pub zone_m: Option<f64>,
+    /// The robot cuts the corner, by how much the text does not tell.
+    pub blends: bool,
+}
+
+impl Pace {
+    /// Whether the robot may pass its target by.
+    #[must_use]
+    pub fn cuts_corner(&self) -> bool {
+        self.blends || self.zone_m.is_some_and(|zone| zone > 0.0)
+    }
 }
 
 /// One use of a target by a move instruction, in the order of the text.

@@ -49,6 +49,7 @@ impl Job<'_> {
         }
         let arms = self.walk.arms(&stop);
         let source = &self.subject.sources[motion.file as usize];
+        let pace = self.subject.language.pace(source, motion);
         let part = self.parts.and_then(|parts| parts[index]);
         let wanted_end = match (self.original, part) {
             (Some(original), Some(part)) => part.end_pose(original, self.options),
@@ -78,7 +79,8 @@ impl Job<'_> {
             clearance: None,
             nominal_clearance: None,
             limits: None,
-            zone_m: motion.pace.zone_m,
+            zone_m: pace.zone_m,
+            cuts_corner: pace.cuts_corner(),
         };
         // where the robot comes from is unknown: its posture alone
         let standing;
@@ -102,7 +104,7 @@ impl Job<'_> {
         let pieces = leg.pieces();
         if comes {
             report.path = Some(self.path_error(&leg, &pieces, arms, index));
-            let limits = limits::limits(&leg, &pieces, motion.pace.speed_m_s);
+            let limits = limits::limits(&leg, &pieces, pace.speed_m_s);
             self.judge_limits(index, &leg, &stop, &limits, &mut findings);
             report.limits = Some(limits);
         }

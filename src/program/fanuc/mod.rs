@@ -49,13 +49,14 @@ mod insert;
 mod instructions;
 pub mod mark;
 mod meaning;
+mod pace;
 mod points;
 mod resolve;
 mod sections;
 
 use super::{
-    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source, Value,
+    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Move, Pace,
+    Posture, Program, ReadError, Role, Settings, Shape, Source, Value,
 };
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
@@ -220,6 +221,10 @@ impl Language for Fanuc {
         out: &mut Vec<u8>,
     ) {
         config::write(index - PLAIN, value, old, out);
+    }
+
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        pace::pace(&source.bytes, motion.offset as usize)
     }
 
     fn insert(

@@ -91,8 +91,8 @@ fn jobs(bytes: &[u8]) -> Vec<Positions<'_>> {
             }
             if let (b"NPOS", Some(counts)) = (key, parts.next()) {
                 let first = counts.split(|b| *b == b',').next().unwrap_or_default();
-                let blanks = text.len() - key.len() - text[key.len()..].trim_ascii_start().len();
-                let at = line.start + 3 + blanks;
+                let behind = text[key.len()..].trim_ascii_start().len();
+                let at = line.start + line.text.len() - behind;
                 job.announced = whole(first).map(|count| (at..at + first.len(), count));
             }
         } else if let Some(text) = line.text.strip_prefix(b"//") {

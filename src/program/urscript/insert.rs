@@ -10,7 +10,7 @@ fn time_place(verb: &[u8]) -> Option<usize> {
 }
 
 /// The argument without the name that it may be given by.
-fn value(bytes: &[u8], span: &Range<usize>) -> (Option<Range<usize>>, Range<usize>) {
+pub(super) fn value(bytes: &[u8], span: &Range<usize>) -> (Option<Range<usize>>, Range<usize>) {
     let text = &bytes[span.clone()];
     let name = text
         .iter()

@@ -37,6 +37,7 @@ mod flow;
 mod insert;
 mod literals;
 mod moves;
+mod pace;
 mod reader;
 mod rotation;
 mod sniff;
@@ -50,7 +51,7 @@ use super::{
     Settings, Shape, Source, Value,
 };
 use crate::geometry::units::DEG;
-use crate::program::{Inserted, Insertion};
+use crate::program::{Inserted, Insertion, Move, Pace};
 use moves::Moves;
 use reader::Reader;
 
@@ -166,6 +167,10 @@ impl Language for UrScript {
             _ => panic!("a value of the other shape"),
         };
         numbers.copy_from_slice(&new);
+    }
+
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        pace::pace(&source.bytes, motion.offset as usize)
     }
 
     fn insert(
