@@ -146,17 +146,16 @@ fn values(found: &Diagnosis) -> String {
     let mut out = String::new();
     for f in &found.found {
         let (again, of) = f.found_again;
-        let again = if of == 0 {
-            String::new()
+        let p = if f.p_value < 1e-300 {
+            "p < 1e-300".to_owned()
         } else {
-            format!(", found again in {again} of {of} parts")
+            format!("p = {:.0e}", f.p_value)
         };
-        out += &format!(
-            "\n{}: chi-squared falls by {:.0}, p = {:.0e}{again}\n",
-            f.effect.label(),
-            f.gain,
-            f.p_value
-        );
+        out += &format!("\n{}: chi-squared -{:.0}, {p}", f.effect.label(), f.gain);
+        if of > 0 {
+            out += &format!(", again {again}/{of}");
+        }
+        out.push('\n');
         for (number, sigma) in f.sought.iter().zip(&f.sigmas) {
             let p = &f.effect.definition().parameters[*number];
             let unit = p.unit.in_si();
