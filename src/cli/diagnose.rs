@@ -141,17 +141,22 @@ impl Diagnose {
     }
 }
 
+/// A probability in few characters; what is too small for a number is said to be below one.
+fn probability(p: f64) -> String {
+    if p < 1e-300 {
+        "< 1e-300".into()
+    } else {
+        format!("{p:.0e}")
+    }
+}
+
 /// The effects found with their evidence, and their values under them.
 fn values(found: &Diagnosis) -> String {
     let mut out = String::new();
     for f in &found.found {
         let (again, of) = f.found_again;
-        let p = if f.p_value < 1e-300 {
-            "p < 1e-300".to_owned()
-        } else {
-            format!("p = {:.0e}", f.p_value)
-        };
-        out += &format!("\n{}: chi-squared -{:.0}, {p}", f.effect.label(), f.gain);
+        let (label, p) = (f.effect.label(), probability(f.p_value));
+        out += &format!("\n{label}: chi-squared -{:.0}, p {p}", f.gain);
         if of > 0 {
             out += &format!(", again {again}/{of}");
         }
@@ -217,7 +222,7 @@ fn text(found: &Diagnosis, all: bool) -> String {
                 format!("{:.3}", mm_from_m(s.size_m)),
                 format!("{:.3}", mm_from_m(s.largest_m)),
                 format!("{:.0} %", 100.0 * s.part),
-                format!("{:.0e}", s.p_value),
+                probability(s.p_value),
             ]);
         }
         out += &aligned(&rows);
