@@ -52,11 +52,9 @@ fn is_plain(word: &[u8]) -> bool {
         })
     };
     // a time is that of the whole way
-    let speed = word.first().is_some_and(u8::is_ascii_digit) || word.starts_with(b"R[");
-    let rate = word.ends_with(b"%") || word.contains(&b'/');
-    let register = |b: &u8| b.is_ascii_alphanumeric() || b"[]:_%/".contains(b);
-    speed && (rate || word.iter().all(|b| b.is_ascii_digit()))
-        || speed && word.starts_with(b"R[") && word.iter().all(register) && rate
+    let is_number = word.first().is_some_and(u8::is_ascii_digit) || word.starts_with(b"R[");
+    let is_rate = word.ends_with(b"%") || word.contains(&b'/');
+    is_number && (is_rate || word.iter().all(u8::is_ascii_digit))
         || ["FINE", "CNT", "CR", "ACC", "PTH", "Wjnt", "MROT"]
             .iter()
             .any(|known| numbered(known.as_bytes()))
