@@ -141,6 +141,40 @@ impl Diagnose {
     }
 }
 
+/// A probability in few characters; what is too small for a number is said to be below one.
+fn probability(p: f64) -> String {
+    if p < 1e-300 {
+        "< 1e-300".into()
+    } else {
+        format!("{p:.0e}")
+    }
+}
+
+/// The effects found with their evidence, and their values under them.
+fn values(found: &Diagnosis) -> String {
+    let mut out = String::new();
+    for f in &found.found {
+        let (again, of) = f.found_again;
+        let (label, p) = (f.effect.label(), probability(f.p_value));
+        out += &format!("\n{label}: chi-squared -{:.0}, p {p}", f.gain);
+        if of > 0 {
+            out += &format!(", again {again}/{of}");
+        }
+        out.push('\n');
+        for (number, sigma) in f.sought.iter().zip(&f.sigmas) {
+            let p = &f.effect.definition().parameters[*number];
+            let unit = p.unit.in_si();
+            out += &format!(
+                "  {:<16} {:>11.4e} ± {:.1e}\n",
+                p.key,
+                f.effect.parameters[*number] / unit,
+                sigma / unit
+            );
+        }
+    }
+    out
+}
+
 /// The report for people.
 fn text(found: &Diagnosis, all: bool) -> String {
     let mut out = report::summary(found);
@@ -172,40 +206,7 @@ fn text(found: &Diagnosis, all: bool) -> String {
         mm_from_m(found.noise_m),
         mm_from_m(found.left_m)
     );
-    if !found.found.is_empty() {
-        let mut rows = vec![
-            [
-                "effect",
-                "parameter",
-                "value",
-                "sigma",
-                "unit",
-                "chi2 fall",
-                "p",
-                "again",
-            ]
-            .map(str::to_owned)
-            .to_vec(),
-        ];
-        for f in &found.found {
-            for (k, (number, sigma)) in f.sought.iter().zip(&f.sigmas).enumerate() {
-                let p = &f.effect.definition().parameters[*number];
-                let unit = p.unit.in_si();
-                let first = |text: String| if k == 0 { text } else { String::new() };
-                rows.push(vec![
-                    first(f.effect.label()),
-                    p.key.into(),
-                    format!("{:.4e}", f.effect.parameters[*number] / unit),
-                    format!("{:.1e}", sigma / unit),
-                    p.unit.symbol().into(),
-                    first(format!("{:.0}", f.gain)),
-                    first(format!("{:.0e}", f.p_value)),
-                    first(format!("{}/{}", f.found_again.0, f.found_again.1)),
-                ]);
-            }
-        }
-        out += &format!("\n{}", aligned(&rows));
-    }
+    out += &values(found);
     let most = if all { usize::MAX } else { 5 };
     if !found.spots.is_empty() {
         out += "\nwhere the present model misses, strongest first\n";
@@ -221,7 +222,7 @@ fn text(found: &Diagnosis, all: bool) -> String {
                 format!("{:.3}", mm_from_m(s.size_m)),
                 format!("{:.3}", mm_from_m(s.largest_m)),
                 format!("{:.0} %", 100.0 * s.part),
-                format!("{:.0e}", s.p_value),
+                probability(s.p_value),
             ]);
         }
         out += &aligned(&rows);

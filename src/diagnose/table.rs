@@ -103,3 +103,15 @@ pub fn add_scaled(into: &mut [f64], by: f64, column: &[f64]) {
         *a += by * b;
     }
 }
+
+/// Length of each row's residual of place, metres.
+#[must_use]
+pub fn lengths_m(problem: &Problem, layout: &Layout, residual: &[f64]) -> Vec<f64> {
+    (0..layout.rows())
+        .map(|row| {
+            let range = layout.row(row);
+            let part = &residual[range.start..range.start + range.len().min(3)];
+            part.iter().map(|r| r * r).sum::<f64>().sqrt() * problem.rows[row].sigma_m
+        })
+        .collect()
+}
