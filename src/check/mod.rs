@@ -22,6 +22,7 @@ mod nominal;
 mod query;
 pub mod refine;
 mod scene;
+pub mod trace;
 mod uncertainty;
 
 pub use course::Turning;

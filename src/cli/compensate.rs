@@ -1,14 +1,20 @@
 //! `compensate`: program files in, program files with fake targets out.
 
+use super::check::Loader;
 use super::failure::Failure;
+use super::files::same_file;
+use super::page::ReportFile;
 use super::{Answer, Output, files, json_text, print, values};
 use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
+use crate::check::trace::{Traced, trace};
 use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use crate::geometry::units::MM;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::program::{LANGUAGES, Language, Marker, Source};
 use crate::report;
+use crate::report::html::page::Page;
+use crate::report::html::programs::{Compensated, SAMPLES, Scenery, add_written, compensate_page};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -64,6 +70,8 @@ pub struct Compensate {
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 /// What to do with joint targets
@@ -85,10 +93,15 @@ impl Compensate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let (profile, profile_sha256) = files::read_profile(&self.profile)?;
         refuse_doubtful(&profile, &self.profile)?;
-        let each = output.json || self.max_path_error.is_some();
+        let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
         let options = self.options(&profile, each)?;
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let found = self.find_programs(asked)?;
+        let inputs = found.iter().map(|job| job.input.as_path());
+        self.report.refuse_over(
+            inputs.chain([self.profile.as_path()]),
+            found.iter().map(|job| job.output.as_path()),
+        )?;
         let sources = found
             .iter()
             .map(|job| {
@@ -125,15 +138,23 @@ impl Compensate {
                 self.max_path_error.unwrap_or_default()
             );
         }
+        let mut drawing = self
+            .report
+            .is_wanted()
+            .then(|| Drawing::begin(&header, &compensation, &profile, &self.profile, &options));
+        let mut outputs = Vec::new();
         if writes {
             let written = render(language, &sources, compensation, &profile_sha256, refined)?;
+            if let Some(drawing) = &mut drawing {
+                drawing.add_written(language, &written, &sources, &profile, &options);
+            }
             let written = written.into_iter().map(|source| source.bytes);
-            let outputs: Vec<_> = found
-                .into_iter()
-                .map(|job| job.output)
-                .zip(written)
-                .collect();
-            files::write_all(&outputs)?;
+            outputs.extend(found.into_iter().map(|job| job.output).zip(written));
+        }
+        outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
+        files::write_all(&outputs)?;
+        if !output.json && !output.quiet {
+            told += &self.report.told();
         }
         print(&told)?;
         Ok(if refused { Answer::No } else { Answer::Yes })
@@ -259,6 +280,83 @@ impl Compensate {
             None => Ok(jobs),
         }
     }
+}
+
+/// The report while it is made: the program as it was, then as it is written.
+struct Drawing {
+    page: Page,
+    original: Vec<Traced>,
+}
+
+impl Drawing {
+    fn begin(
+        header: &report::compensation::Header,
+        compensation: &Compensation,
+        profile: &Profile,
+        profile_file: &Path,
+        options: &Options,
+    ) -> Self {
+        let original = traced(header.language, header.sources, None, profile, options);
+        let mut drawn = profile.clone();
+        let mut meshes = Loader::default();
+        for shape in &mut drawn.shapes {
+            // a body whose file is missing is not drawn
+            let _ = meshes.load(&mut shape.shape, profile_file);
+        }
+        let scenery = Scenery {
+            profile: &drawn,
+            cell: None,
+            meshes: &meshes.meshes,
+        };
+        let page = compensate_page(&Compensated {
+            header,
+            compensation,
+            traced: &original,
+            work_offset: options.work_offset.as_ref(),
+            scenery: &scenery,
+        });
+        Self { page, original }
+    }
+
+    fn add_written(
+        &mut self,
+        language: &dyn Language,
+        written: &[Source],
+        sources: &[Source],
+        profile: &Profile,
+        options: &Options,
+    ) {
+        let way = traced(language, written, Some(sources), profile, options);
+        add_written(
+            &mut self.page,
+            &way,
+            &self.original,
+            options.work_offset.as_ref(),
+        );
+    }
+}
+
+/// The way of a program; none where it cannot be followed, which the findings tell.
+fn traced(
+    language: &dyn Language,
+    sources: &[Source],
+    nominal: Option<&[Source]>,
+    profile: &Profile,
+    options: &Options,
+) -> Vec<Traced> {
+    let scene = crate::check::Scene::default();
+    let subject = crate::check::Subject {
+        language,
+        sources,
+        nominal,
+        profile,
+        scene: &scene,
+    };
+    let checked = crate::check::Options {
+        given: options.given.clone(),
+        ..crate::check::Options::default()
+    };
+    trace(&subject, &checked, SAMPLES).unwrap_or_default()
 }
 
 /// A profile whose calibration cannot be meant.
@@ -393,13 +491,6 @@ pub(super) fn programs_in(
         }
     }
     Ok(found)
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    match (std::fs::canonicalize(a), std::fs::canonicalize(b)) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    }
 }
 
 /// The files' new bytes: edits and marker, read again to make sure that they say what was meant. Takes the compensation,

@@ -14,6 +14,7 @@ mod icp;
 mod import_ur;
 mod kinematics;
 mod measurements;
+mod page;
 mod plan;
 mod points;
 mod profile;
