@@ -97,6 +97,8 @@ pub struct Calibration {
     pub observability: Observability,
     /// The profile as it was, on the measurements.
     pub before: Quality,
+    /// The values of the profile as it was.
+    pub before_estimate: Estimate,
     /// With base, tool and points fitted.
     pub frames_only_quality: Quality,
     /// With everything.
@@ -324,6 +326,7 @@ pub fn calibrate(
         base_replaced,
         uncertainty,
         before,
+        before_estimate,
         frames_only_quality,
         after,
         held_out,

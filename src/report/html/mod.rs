@@ -2,7 +2,8 @@
 //!
 //! A command gives a [`Page`](page::Page): a title, a verdict, a few numbers, tables, and sections that show columns of these
 //! tables as charts or in space. [`page`] writes it as HTML; what draws it in the browser is one script, built of `web/` at the top of the repository and
-//! kept built in `assets/`. One file for each kind of page: [`programs`].
+//! kept built in `assets/`. One file for each kind of page: [`programs`], [`measurements`],
+//! [`diagnosis`], [`frames`].
 //!
 //! # Safety of what is shown
 //! Names come from files that anybody may have written. The template escapes them; the data are JSON in which no markup can
@@ -10,6 +11,9 @@
 //! script and ask for nothing.
 
 pub mod cell;
+pub mod diagnosis;
+pub mod frames;
+pub mod measurements;
 pub mod numbers;
 pub mod page;
 pub mod programs;

@@ -134,7 +134,8 @@ fn wanted(like: usize) -> Path {
     }
 }
 
-fn robot_name(profile: &Profile) -> String {
+/// Maker, model and serial number.
+pub(super) fn robot_name(profile: &Profile) -> String {
     let serial = profile.serial.as_ref();
     let serial = serial.map_or(String::new(), |serial| format!(", serial {serial}"));
     format!("{} {}{serial}", profile.manufacturer, profile.model)
@@ -459,7 +460,8 @@ fn join(sentences: &[&str]) -> String {
     told.join(" ")
 }
 
-fn largest(sizes: &[Number]) -> usize {
+/// The row with the largest size.
+pub(super) fn largest(sizes: &[Number]) -> usize {
     let worst = sizes
         .iter()
         .enumerate()
