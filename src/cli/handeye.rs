@@ -176,6 +176,12 @@ impl Handeye {
         };
         let corners = result.corners.as_ref().filter(|c| c.accepted);
         let of_camera = corners.map_or(&refined.camera_covariance, |c| &c.covariance);
+        let of_camera = uncertain("camera", of_camera, camera.translation);
+        let of_board = uncertain(
+            "board",
+            &refined.board_covariance,
+            refined.board.translation,
+        );
         let (out_m, out_rad) = left_out(refined);
         let mut page = frame_page(&report::html::frames::Frame {
             title: "Hand-eye calibration".into(),
@@ -201,14 +207,7 @@ impl Handeye {
                 ("board".into(), pose_text(&refined.board)),
             ],
             points: Vec::new(),
-            ellipsoids: vec![
-                uncertain("camera", of_camera, camera.translation),
-                uncertain(
-                    "board",
-                    &refined.board_covariance,
-                    refined.board.translation,
-                ),
-            ],
+            ellipsoids: vec![of_camera.clone(), of_board.clone()],
             findings: result.findings.clone(),
         });
         let rows = refined
@@ -228,7 +227,11 @@ impl Handeye {
             .map(|(method, pose)| (method.id().to_owned(), *pose))
             .collect();
         methods.push(("refined".into(), Some(refined.camera)));
-        add_hand_eye(&mut page, &rows.collect::<Vec<_>>(), &methods);
+        let in_base = match result.problem.setup() {
+            Setup::EyeToHand => &of_camera,
+            Setup::EyeInHand => &of_board,
+        };
+        add_hand_eye(&mut page, &rows.collect::<Vec<_>>(), in_base, &methods);
         page
     }
 

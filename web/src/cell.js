@@ -19,6 +19,13 @@ function startTimes(cell) {
     }
     most = Math.max(most, path.worst ?? 0);
   }
+  if (!cell.paths.length) {
+    cell.points.at.forEach((x, k) => {
+      if (x == null) return;
+      low[k % 3] = Math.min(low[k % 3], x);
+      high[k % 3] = Math.max(high[k % 3], x);
+    });
+  }
   for (const { axes } of cell.ellipsoids ?? []) most = Math.max(most, ...axes.map(Math.abs));
   const extent = Math.hypot(...high.map((x, axis) => x - low[axis]));
   if (!(most > 0) || !Number.isFinite(extent)) return 0;

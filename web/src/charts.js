@@ -111,7 +111,7 @@ export function showChart(chart, table, onselect) {
     const plot = Plot.plot({
       width,
       height: rows ? 60 + 20 * count : chart.height ?? 260,
-      marginLeft: rows ? Math.min(width * 0.45, 14 + 6.6 * longest) : 56,
+      marginLeft: rows ? Math.min(width * 0.62, 14 + 6.6 * longest) : 56,
       marginBottom: 40,
       style: { background: "transparent", fontSize: "12px", overflow: "visible" },
       x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) : undefined },
@@ -163,9 +163,9 @@ export function showHeat(heat) {
       style: { background: "transparent", fontSize: small ? "8px" : "11px" },
       x: { axis: "top", type: "band", domain: names.map((_, i) => i), tickFormat: (i) => names[i], tickRotate: -90, label: null, padding: 0.04 },
       y: { type: "band", domain: names.map((_, i) => i), tickFormat: (i) => names[i], label: null, padding: 0.04 },
-      color: { type: "diverging", scheme: "PuOr", domain: [-1, 1] },
       marks: [
-        Plot.cell(cells, { x: "j", y: "i", fill: "value" }),
+        Plot.cell(cells, { x: "j", y: "i", fill: "none", stroke: "currentColor", strokeOpacity: 0.1 }),
+        Plot.cell(cells, { x: "j", y: "i", fill: { value: (c) => tone(c.value < 0 ? "after" : "before"), scale: null }, fillOpacity: { value: (c) => Math.abs(c.value), scale: null } }),
         Plot.tip(cells, Plot.pointer({ x: "j", y: "i", title: (c) => `${names[c.i]}\n${names[c.j]}\n${c.value}` })),
       ],
     });

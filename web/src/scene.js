@@ -123,6 +123,7 @@ export class View {
     };
     for (const path of cell.paths) see(path.at);
     see(cell.points.at.filter((x) => x != null));
+    for (const { at } of cell.ellipsoids ?? []) see(at);
     this.extent = this.bounds.isEmpty() ? 500 : Math.max(50, this.bounds.getSize(new Vector3()).length());
     this.solids = new Group();
     this.scene.add(this.solids);
@@ -131,12 +132,8 @@ export class View {
       this.scene.add(this.robot.group);
       const base = new Vector3().setFromMatrixPosition(new Matrix4().fromArray(cell.robot.base));
       this.bounds.expandByPoint(base);
-      const grid = new GridHelper(Math.ceil(this.extent / 200) * 800, 16, 0x888888, 0x888888);
-      grid.material.transparent = true;
-      grid.material.opacity = 0.18;
-      grid.rotateX(Math.PI / 2);
-      this.scene.add(grid);
     }
+    this.ground();
     for (const body of cell.bodies) this.solids.add(bodyOf(body, 0x7d8fa8, body.form === "plane" ? 0.15 : 0.35));
     this.worst = Math.max(1e-12, ...cell.paths.map((path) => path.worst ?? 0));
     for (const path of cell.paths) {
@@ -149,6 +146,20 @@ export class View {
     }
     this.placeItems();
     this.placeEllipsoids();
+  }
+
+  /** A grid to tell up from down: through the robot's base, else below everything. */
+  ground() {
+    const size = 200 * 2 ** Math.ceil(Math.log2(Math.max(1, this.extent / 100)));
+    const grid = new GridHelper(size, 16, 0x888888, 0x888888);
+    grid.material.transparent = true;
+    grid.material.opacity = 0.18;
+    grid.rotateX(Math.PI / 2);
+    if (!this.cell.robot && !this.bounds.isEmpty()) {
+      const middle = this.bounds.getCenter(new Vector3());
+      grid.position.set(middle.x, middle.y, this.bounds.min.z - 0.05 * this.extent);
+    }
+    this.scene.add(grid);
   }
 
   /** A dot at each item, and a ball that marks the chosen. */

@@ -60,11 +60,7 @@ pub fn page(found: &Diagnosis, lines: &[usize], file: &str) -> Page {
             format!("{:.4} \u{2192} {:.4} mm", before.mean, after.mean),
         );
     }
-    let mut sentences: Vec<String> = found
-        .found
-        .iter()
-        .map(|f| sentence(&f.effect) + ".")
-        .collect();
+    let mut sentences: Vec<String> = found.found.iter().map(|f| sentence(&f.effect)).collect();
     sentences.extend(found.reasons.iter().cloned());
     if !sentences.is_empty() {
         page.sections.push(Section::Text(super::page::Text {
@@ -308,7 +304,7 @@ fn show_effect(page: &mut Page, found: &Diagnosis, number: usize, one: &Found) {
         Axis::new(&against.label, against.unit),
         Axis::new(&label, unit),
     );
-    chart.note = format!("{}. Everything else is as found.", sentence(&one.effect));
+    chart.note = format!("{} Everything else is as found.", sentence(&one.effect));
     chart
         .series
         .push(Series::new(Kind::Dots, 0, 1, "without it", Tone::Before));

@@ -88,7 +88,7 @@ pub fn frame_page(frame: &Frame) -> Page {
     for (name, value) in &frame.facts {
         page.fact(name, value.clone());
     }
-    if !frame.points.is_empty() || !frame.ellipsoids.is_empty() {
+    if !frame.points.is_empty() {
         show_points(&mut page, frame);
     }
     show_ellipsoids(&mut page, &frame.ellipsoids);
@@ -104,87 +104,65 @@ fn show_points(page: &mut Page, frame: &Frame) {
         .points
         .iter()
         .enumerate()
-        .filter(|(k, left)| k % every == 0 || size(left) >= worst)
+        .filter(|(k, left)| k % every == 0 || (worst > 0.0 && size(left) >= worst))
         .map(|(_, left)| left)
         .collect();
     let axis = |k: usize| {
-        shown
-            .iter()
-            .map(move |left| significant(mm_from_m(left.left_m[k]), 4))
+        let of = move |left: &&Left| significant(mm_from_m(left.left_m[k]), 4);
+        shown.iter().map(of)
     };
-    let table = Table {
-        columns: vec![
-            Column::texts("point", shown.iter().map(|left| left.id.clone())),
-            Column::numbers(
-                "x",
-                "mm",
-                shown.iter().map(|l| fixed(mm_from_m(l.place_m[0]), 3)),
-            ),
-            Column::numbers(
-                "y",
-                "mm",
-                shown.iter().map(|l| fixed(mm_from_m(l.place_m[1]), 3)),
-            ),
-            Column::numbers(
-                "z",
-                "mm",
-                shown.iter().map(|l| fixed(mm_from_m(l.place_m[2]), 3)),
-            ),
-            Column::numbers("dx", "mm", axis(0)),
-            Column::numbers("dy", "mm", axis(1)),
-            Column::numbers("dz", "mm", axis(2)),
-            Column::numbers(
-                "residual",
-                "mm",
-                shown.iter().map(|l| significant(mm_from_m(size(l)), 5)),
-            ),
-            Column::texts("left out", shown.iter().map(|left| left.rejected.clone())),
-        ],
+    let place = |k: usize| {
+        let of = move |left: &&Left| fixed(mm_from_m(left.place_m[k]), 3);
+        shown.iter().map(of)
     };
-    page.tables.insert("points".into(), table);
+    let mut columns = vec![
+        Column::texts("point", shown.iter().map(|left| left.id.clone())),
+        Column::numbers("x", "mm", place(0)),
+        Column::numbers("y", "mm", place(1)),
+        Column::numbers("z", "mm", place(2)),
+    ];
     let mut points = Points {
         name: "points",
         title: "Points".into(),
         ..Points::default()
     };
+    let mut paths = Vec::new();
+    // points that nothing is left of by construction have no residuals to show
+    if worst > 0.0 {
+        let sizes = shown.iter().map(|l| significant(mm_from_m(size(l)), 5));
+        columns.extend([
+            Column::numbers("dx", "mm", axis(0)),
+            Column::numbers("dy", "mm", axis(1)),
+            Column::numbers("dz", "mm", axis(2)),
+            Column::numbers("residual", "mm", sizes),
+            Column::texts("left out", shown.iter().map(|left| left.rejected.clone())),
+        ]);
+        let sizes = shown.iter().map(|l| fixed(mm_from_m(size(l)), 6));
+        points.error = sizes.collect();
+        points.first = super::programs::largest(&points.error);
+        let at: Vec<Vector> = shown.iter().map(|left| left.place_m).collect();
+        let by: Vec<Vector> = shown.iter().map(|left| left.left_m).collect();
+        paths.push(Path::vectors("residuals", Tone::Before, &at, &by));
+    }
+    page.tables.insert("points".into(), Table { columns });
     for left in &shown {
         points.push(Some(left.place_m), None);
-        points.error.push(fixed(mm_from_m(size(left)), 6));
     }
     points.joints = Vec::new();
-    points.first = super::programs::largest(&points.error);
-    let at: Vec<Vector> = shown.iter().map(|left| left.place_m).collect();
-    let by: Vec<Vector> = shown.iter().map(|left| left.left_m).collect();
-    let ellipsoids = frame.ellipsoids.iter().map(|e| {
-        let mut axes = [Number(0.0); 9];
-        for (k, (axis, half)) in e.axes.iter().zip(e.half_axes_m).enumerate() {
-            for (slot, x) in axes[3 * k..].iter_mut().zip(scale(mm_from_m(half), *axis)) {
-                *slot = significant(x, 5);
-            }
-        }
-        Ellipsoid {
-            at: e.place_m.map(|x| fixed(mm_from_m(x), 3)),
-            axes,
-        }
-    });
     let thinned = if every > 1 {
         format!(" Every {every}th of {} points.", frame.points.len())
     } else {
         String::new()
     };
     page.sections.push(Section::Cell(Box::new(Cell {
-        title: "Residuals in space".into(),
+        title: "In space".into(),
         note: format!("What is left at each point, and one standard deviation as an ellipsoid, both magnified.{thinned}"),
         table: "points".into(),
         robot: None,
         bodies: Vec::new(),
         points,
-        paths: if at.is_empty() {
-            Vec::new()
-        } else {
-            vec![Path::vectors("residuals", Tone::Before, &at, &by)]
-        },
-        ellipsoids: ellipsoids.collect(),
+        paths,
+        ellipsoids: frame.ellipsoids.iter().map(drawn).collect(),
         along: Along::No(false),
     })));
     let sizes: Vec<f64> = frame.points.iter().map(|l| mm_from_m(size(l))).collect();
@@ -196,6 +174,19 @@ fn show_points(page: &mut Page, frame: &Frame) {
             &sizes,
             Tone::One,
         );
+    }
+}
+
+fn drawn(of: &Uncertain) -> Ellipsoid {
+    let mut axes = [Number(0.0); 9];
+    for (k, (axis, half)) in of.axes.iter().zip(of.half_axes_m).enumerate() {
+        for (slot, x) in axes[3 * k..].iter_mut().zip(scale(mm_from_m(half), *axis)) {
+            *slot = significant(x, 5);
+        }
+    }
+    Ellipsoid {
+        at: of.place_m.map(|x| fixed(mm_from_m(x), 3)),
+        axes,
     }
 }
 
@@ -258,8 +249,13 @@ pub struct HandEyeRow {
     pub out_rotation_rad: f64,
 }
 
-/// Adds the rows of a hand-eye pair and what each method found.
-pub fn add_hand_eye(page: &mut Page, rows: &[HandEyeRow], methods: &[(String, Option<Pose>)]) {
+/// Adds the rows of a hand-eye pair, what is uncertain in the base, and what each method found.
+pub fn add_hand_eye(
+    page: &mut Page,
+    rows: &[HandEyeRow],
+    in_base: &Uncertain,
+    methods: &[(String, Option<Pose>)],
+) {
     let table = Table {
         columns: vec![
             Column::counts("row", 1..=rows.len()),
@@ -316,14 +312,13 @@ pub fn add_hand_eye(page: &mut Page, rows: &[HandEyeRow], methods: &[(String, Op
     points.first = super::programs::largest(&points.error);
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "Poses".into(),
-        note: "Where the flange was, seen from the base; the colour is what is left of each pose."
-            .into(),
+        note: format!("Where the flange was, seen from the base; the colour is what is left of each pose. The ellipsoid, magnified, is one standard deviation of the {}.", in_base.name),
         table: "rows".into(),
         robot: None,
         bodies: Vec::new(),
         points,
         paths: Vec::new(),
-        ellipsoids: Vec::new(),
+        ellipsoids: vec![drawn(in_base)],
         along: Along::No(false),
     })));
     for (title, columns, unit) in [

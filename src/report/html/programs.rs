@@ -19,7 +19,7 @@ const MOST_ITEMS: usize = 20_000;
 /// Samples of all paths together.
 pub const SAMPLES: usize = 24_000;
 /// Letters of a program's line that are shown.
-const LETTERS: usize = 100;
+const LETTERS: usize = 96;
 
 /// What a page of a program draws beside its numbers.
 pub struct Scenery<'a> {
@@ -76,6 +76,11 @@ fn thinned(rows: &[usize], all: usize, what: &str) -> String {
     )
 }
 
+/// A coordinate of a deviation, mm: to the tenth of a micrometre, or to four digits.
+fn deviation(mm: f64) -> Number {
+    fixed(mm, if mm.abs() < 0.1 { 4 } else { 3 })
+}
+
 /// What becomes of a traced place: in space, moved with the part.
 fn moved(offset: Option<&Pose>, wanted_m: Vector) -> Vector {
     offset.map_or(wanted_m, |offset| offset.transform(wanted_m))
@@ -104,7 +109,7 @@ fn path(
         for place in &one.places {
             let wanted = moved(offset, place.wanted_m);
             at.extend(wanted.map(|x| fixed(mm_from_m(x), 2)));
-            by.extend(sub(place.real_m, wanted).map(|x| fixed(mm_from_m(x), 4)));
+            by.extend(sub(place.real_m, wanted).map(|x| deviation(mm_from_m(x))));
             items.push(last);
         }
     }
