@@ -84,8 +84,7 @@ for (const kind of kinds) {
       assert.ok(over <= 1, `${over} pixels too wide`);
       for (const figure of await page.locator("figure.chart").all()) {
         await figure.locator("summary").click();
-        const rows = await figure.locator("tbody tr").count();
-        assert.ok(rows > 0, `${await figure.locator("h3").textContent()}: no rows`);
+        await figure.locator("tbody tr").first().waitFor({ timeout: 3000 });
       }
     });
   });
@@ -165,7 +164,10 @@ test("tables agree with --json", async () => {
     const targets = json("compensate").targets;
     await page.getByRole("button", { name: "line", exact: true }).click();
     for (const row of await rowsOf(page, "Targets")) {
-      const target = targets.find((one) => one.line === number(row.line));
+      // an arc has two targets on its line
+      const there = targets.filter((one) => one.line === number(row.line));
+      const off = (one) => Math.abs(one.shift_mm - number(row["shift, mm"]));
+      const target = there.sort((a, b) => off(a) - off(b))[0];
       agrees(row["shift, mm"], target.shift_mm, "shift_mm");
       agrees(row["shift, deg"], target.shift_deg, "shift_deg");
       agrees(row["rounding, mm"], target.rounding_mm, "rounding_mm");

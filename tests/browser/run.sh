@@ -2,11 +2,12 @@
 # Opens every kind of report in a browser. Skips with a message where node, npm or a browser are missing.
 # Usage: run.sh [PROGRAM]; without it the release build.
 set -euo pipefail
-cd "$(dirname "$0")"
+here=$(realpath "$(dirname "$0")")
 skip() { echo "browser tests skipped: $1"; exit 0; }
-program=${1:-../../target/release/poseshift}
+program=${1:-$here/../../target/release/poseshift}
 [ -x "$program" ] || skip "$program is not built"
 program=$(realpath "$program")
+cd "$here"
 command -v node > /dev/null && command -v npm > /dev/null || skip "node and npm are not installed"
 if [ -z "${CHROMIUM:-}" ] && ! command -v chromium chromium-browser google-chrome > /dev/null; then
   skip "no chromium (apt-get install chromium, or CHROMIUM=path)"
