@@ -40,7 +40,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Targets solved by one thread at a time.
-const CHUNK: usize = 1024;
+const CHUNK: usize = 512;
 
 /// What the user decides.
 #[derive(Clone, Debug, Default)]
@@ -425,7 +425,7 @@ fn solve(job: &Job, drafts: &[Draft], findings: &mut Vec<Finding>) -> Solved {
     let bases = displaced::bases(job);
     let mut solved = Solved {
         reports: vec![TargetReport::new(None); reported],
-        edits: job.sources.iter().map(|_| Edits::default()).collect(),
+        edits: room_for_edits(job),
         tally: Tally::new(job),
         fakes: BTreeMap::new(),
     };
@@ -449,4 +449,19 @@ fn solve(job: &Job, drafts: &[Draft], findings: &mut Vec<Finding>) -> Solved {
         }
     }
     solved
+}
+
+/// For each file an empty list with room for new text in place of all numbers of its targets.
+fn room_for_edits(job: &Job) -> Vec<Edits> {
+    let mut room = vec![(0, 0); job.sources.len()];
+    for target in &job.program.targets {
+        let (spans, bytes) = &mut room[target.file as usize];
+        for number in job.program.numbers_of(target) {
+            *spans += 1;
+            *bytes += usize::from(number.length) + 1;
+        }
+    }
+    room.into_iter()
+        .map(|(spans, bytes)| Edits::with_room(spans, bytes))
+        .collect()
 }

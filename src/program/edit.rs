@@ -22,6 +22,15 @@ fn short(offset: usize) -> u32 {
 }
 
 impl Edits {
+    /// None yet, with room for `spans` replacements by `bytes` of text: lists that grow leave holes in the memory.
+    #[must_use]
+    pub fn with_room(spans: usize, bytes: usize) -> Self {
+        Self {
+            spans: Vec::with_capacity(spans),
+            text: Vec::with_capacity(bytes),
+        }
+    }
+
     /// Replaces the bytes of `span` with what `write` appends. An empty span inserts.
     ///
     /// # Panics
@@ -71,7 +80,9 @@ impl Edits {
     #[must_use]
     pub fn apply(mut self, bytes: &[u8]) -> Vec<u8> {
         self.spans.sort_by_key(|span| (span.start, span.end));
-        let mut out = Vec::with_capacity(bytes.len() + self.text.len());
+        let replaced = |span: &Span| (span.end - span.start) as usize;
+        let gone: usize = self.spans.iter().map(replaced).sum();
+        let mut out = Vec::with_capacity((bytes.len() + self.text.len()).saturating_sub(gone));
         let mut done = 0;
         for span in &self.spans {
             let start = span.start as usize;

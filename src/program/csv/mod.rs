@@ -192,6 +192,11 @@ impl Reader {
             return Err(no_table(source));
         }
         let header = read_header(source, &cells)?;
+        // one line a row: lists that grow leave holes in the memory
+        let rows = memchr::memchr_iter(b'\n', &source.bytes).count();
+        self.program.targets.reserve(rows);
+        self.program.moves.reserve(rows);
+        self.program.numbers.reserve(rows * header.numbers.len());
         while records.next(&mut cells).map_err(unclosed)? {
             self.row(source, file, &header, &cells)?;
         }

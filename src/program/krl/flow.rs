@@ -5,7 +5,7 @@
 //! routine outside the files leaves a doubt, see [`super::places`].
 
 use super::notes::{Action, Bas, Flow, Given, Index, Ipo, NO_WITH, Routine, Statement, Stored};
-use super::state::{BASE, FDAT, IPO, Setting, Settings, Slot, State, TOOL, Value};
+use super::state::{BASE, FDAT, IPO, Setting, Settings, Slot, State, States, TOOL, Value};
 use super::tokens::Place;
 use super::world::World;
 use crate::program::rapid::names::{Context, Symbol};
@@ -18,7 +18,7 @@ const MOST_PASSES: usize = 8;
 pub struct Flows {
     pub settings: Settings,
     /// Tool, base and mode at each statement that moves or calls.
-    pub at: Vec<Option<State>>,
+    pub at: States,
 }
 
 /// Works out what holds at every move.
@@ -26,7 +26,7 @@ pub fn flows(world: &World) -> Flows {
     let mut analysis = Analysis {
         world,
         settings: Settings::default(),
-        at: vec![None; world.notes.statements.len()],
+        at: States::new(world.notes.statements.len()),
         exits: vec![None; world.notes.routines.len()],
         harmless: world.harmless(),
     };
@@ -44,7 +44,7 @@ pub fn flows(world: &World) -> Flows {
 struct Analysis<'a> {
     world: &'a World,
     settings: Settings,
-    at: Vec<Option<State>>,
+    at: States,
     /// The state behind each routine, from its entry.
     exits: Vec<Option<State>>,
     harmless: Vec<Symbol>,
@@ -152,11 +152,11 @@ impl Analysis<'_> {
                             self.with(with, statement, &mut state);
                         }
                     }
-                    self.at[at] = Some(state);
+                    self.at.set(at, state);
                 }
-                Action::Relative { .. } => self.at[at] = Some(last),
+                Action::Relative { .. } => self.at.set(at, last),
                 Action::Call(_) => {
-                    self.at[at] = Some(last);
+                    self.at.set(at, last);
                     now = now.map(|state| self.change(statement, state));
                 }
                 Action::Spline(with) => spline = with,
@@ -313,7 +313,9 @@ impl Analysis<'_> {
             entries[routine as usize] = Some(entry);
             let range = routines[routine as usize].statements;
             for at in range.0 as usize..range.1 as usize {
-                self.at[at] = self.at[at].map(|state| state.resolve(entry));
+                if let Some(state) = self.at.get(at) {
+                    self.at.set(at, state.resolve(entry));
+                }
             }
         }
     }
@@ -321,11 +323,11 @@ impl Analysis<'_> {
     /// For each call to a routine of the files: caller, callee, and the state there from the caller's entry.
     fn states_at_calls(&self) -> Vec<(u32, u32, State, Place)> {
         let world = self.world;
-        let statements = world.notes.statements.iter().zip(&self.at);
+        let statements = world.notes.statements.iter().zip(self.at.iter());
         let calls = statements.filter_map(|(statement, state)| match statement.action {
             Action::Call(name) => {
                 let callee = world.routine(name, world.context(statement))?;
-                Some((statement.routine, callee, (*state)?, statement.place))
+                Some((statement.routine, callee, state?, statement.place))
             }
             _ => None,
         });

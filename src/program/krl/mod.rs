@@ -276,7 +276,7 @@ fn check_bytes(source: &Source) -> Result<(), ReadError> {
 
 /// Puts together what was noted of all files.
 fn resolve(sources: &[Source], notes: Notes, settings: &Settings) -> Program {
-    let world = World::new(notes);
+    let mut world = World::new(notes);
     let flows = flow::flows(&world);
     let (mut moves, states) = Moves::new(&world, Report::new(sources), flows);
     moves.list(&states);
@@ -289,6 +289,7 @@ fn resolve(sources: &[Source], notes: Notes, settings: &Settings) -> Program {
     } = moves;
     marked_targets(&world, &mut report, &kept, settings);
     long_lines(sources, &world, &mut report, &kept);
+    report.program.numbers = std::mem::take(&mut world.notes.numbers);
     report.finish(&kept)
 }
 

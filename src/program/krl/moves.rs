@@ -6,7 +6,7 @@ use super::notes::{
     Action, DataKind, Flaw, Index, Operand, Path, Point, Statement, Stored, indices,
 };
 use super::places::{HERE, Places, pose_of};
-use super::state::{BASE, IPO, Slot, State, TOOL};
+use super::state::{BASE, IPO, Slot, State, States, TOOL};
 use super::tokens::Place;
 use super::world::{Lead, World};
 use crate::finding::Severity;
@@ -45,26 +45,21 @@ struct With {
 }
 
 impl<'a, 's> Moves<'a, 's> {
-    pub fn new(
-        world: &'a World,
-        mut report: Report<'s>,
-        flows: Flows,
-    ) -> (Self, Vec<Option<State>>) {
+    pub fn new(world: &'a World, mut report: Report<'s>, flows: Flows) -> (Self, States) {
         let Flows { settings, at } = flows;
-        let used = world.notes.statements.iter().zip(&at);
+        let used = world.notes.statements.iter().zip(at.iter());
         let used = used.filter_map(|(statement, state)| match statement.action {
             Action::Move { points, .. } => {
                 let mut points = world.notes.points[indices(points)].iter();
                 let context = world.context(statement);
                 let to_pose = points.any(|point| goes_to_pose(world, *point, context));
-                let State(slots) = (*state)?;
+                let State(slots) = state?;
                 to_pose.then_some([slots[TOOL], slots[BASE], slots[IPO]])
             }
             _ => None,
         });
         let places = Places::new(world, settings, used);
         report.program.targets.clone_from(&world.notes.targets);
-        report.program.numbers.clone_from(&world.notes.numbers);
         let moves = Self {
             kept: vec![false; world.notes.targets.len()],
             world,
@@ -78,10 +73,10 @@ impl<'a, 's> Moves<'a, 's> {
     }
 
     /// Goes through all statements.
-    pub fn list(&mut self, at: &[Option<State>]) {
+    pub fn list(&mut self, at: &States) {
         let world = self.world;
         let mut routine = u32::MAX;
-        for (statement, state) in world.notes.statements.iter().zip(at) {
+        for (statement, state) in world.notes.statements.iter().zip(at.iter()) {
             if statement.routine != routine || World::is_crossing(statement) {
                 routine = statement.routine;
                 self.last = None;
@@ -99,14 +94,14 @@ impl<'a, 's> Moves<'a, 's> {
                         let with = With {
                             path,
                             motion,
-                            state: *state,
+                            state,
                             displacement: Displacement::None,
                         };
                         self.go(statement, world.notes.points[at], with);
                     }
                 }
                 (Action::Relative { path, axes, by }, Some(state)) => {
-                    self.relative(statement, path, axes, by, *state);
+                    self.relative(statement, path, axes, by, state);
                 }
                 (Action::Call(_), _) => self.last = None,
                 _ => {}

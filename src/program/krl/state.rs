@@ -134,3 +134,37 @@ impl Settings {
         self.list[id as usize]
     }
 }
+
+/// A state for each statement, kept once where neighbours have the same.
+pub struct States {
+    kinds: Vec<State>,
+    /// Indices in `kinds`; [`NONE`] where there is none.
+    of: Vec<u32>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl States {
+    /// None yet, for `count` statements.
+    pub fn new(count: usize) -> Self {
+        Self {
+            kinds: Vec::new(),
+            of: vec![NONE; count],
+        }
+    }
+
+    pub fn set(&mut self, statement: usize, state: State) {
+        if self.kinds.last() != Some(&state) {
+            self.kinds.push(state);
+        }
+        self.of[statement] = super::tokens::index(self.kinds.len() - 1);
+    }
+
+    pub fn get(&self, statement: usize) -> Option<State> {
+        self.kinds.get(self.of[statement] as usize).copied()
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = Option<State>> {
+        (0..self.of.len()).map(|statement| self.get(statement))
+    }
+}

@@ -100,7 +100,7 @@ impl Language for UrScript {
         let mut program = Program::default();
         for (file, source) in sources.iter().enumerate() {
             check_bytes(source)?;
-            let reader = Reader::new(source).read()?;
+            let mut reader = Reader::new(source).read()?;
             if !reader.recognised {
                 return Err(ReadError::NotThisLanguage {
                     file: source.name.clone(),
@@ -109,6 +109,7 @@ impl Language for UrScript {
                 });
             }
             Moves::new(&mut program, source, file).list(&reader.notes);
+            program.numbers.append(&mut reader.notes.numbers);
         }
         Ok(program)
     }

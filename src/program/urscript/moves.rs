@@ -47,7 +47,8 @@ pub struct Moves<'p, 's> {
     pub program: &'p mut Program,
     report: Report<'s>,
     file: u32,
-    targets: HashMap<LiteralId, TargetId>,
+    /// By literal.
+    targets: Vec<Option<TargetId>>,
     tools: HashMap<([u64; 7], [u64; 4]), ToolId>,
     frames: HashMap<String, Vec<([u64; 7], FrameId)>>,
     unknown: HashMap<String, FrameId>,
@@ -59,7 +60,7 @@ impl<'p, 's> Moves<'p, 's> {
             program,
             report: Report::new(source),
             file: index(file),
-            targets: HashMap::new(),
+            targets: Vec::new(),
             tools: HashMap::new(),
             frames: HashMap::new(),
             unknown: HashMap::new(),
@@ -68,6 +69,7 @@ impl<'p, 's> Moves<'p, 's> {
 
     /// Lists the moves of a file in their order.
     pub fn list(&mut self, notes: &Notes) {
+        self.targets = vec![None; notes.literals.len()];
         let mut variables = Variables::new(notes);
         variables.targets = direct_targets(&variables);
         let variables = variables;
@@ -194,22 +196,23 @@ impl<'p, 's> Moves<'p, 's> {
     }
 
     fn base(&mut self) -> FrameId {
-        self.frame(BASE.into(), Pose::identity())
+        self.frame(BASE, Pose::identity())
     }
 
-    fn frame(&mut self, name: String, pose: Pose) -> FrameId {
+    fn frame(&mut self, name: &str, pose: Pose) -> FrameId {
         let key = bits(&pose);
-        let known = self.frames.entry(name.clone()).or_default();
+        let known = self.frames.get(name).map_or(&[][..], Vec::as_slice);
         if let Some((_, id)) = known.iter().find(|(bits, _)| *bits == key) {
             return *id;
         }
         let id = self.program.frames.len();
         // a name has few values; more are only told apart by their places
+        let known = self.frames.entry(name.into()).or_default();
         if known.len() < 16 {
             known.push((key, id));
         }
         self.program.frames.push(Frame {
-            name,
+            name: name.into(),
             world_from_frame: Some(pose),
         });
         id
@@ -228,13 +231,12 @@ impl<'p, 's> Moves<'p, 's> {
 
     /// The target of a literal.
     fn target(&mut self, notes: &Notes, id: LiteralId, name: Option<Symbol>) -> TargetId {
-        if let Some(&target) = self.targets.get(&id) {
+        if let Some(target) = self.targets[id as usize] {
             return target;
         }
         let literal = notes.literal(id);
-        let numbers = &notes.numbers[literal.numbers.start as usize..literal.numbers.end as usize];
-        let first = index(self.program.numbers.len());
-        self.program.numbers.extend_from_slice(numbers);
+        // the file's numbers follow those of the files before it
+        let before = index(self.program.numbers.len());
         let target = self.program.targets.len();
         self.program.targets.push(Target {
             name: name.map(|name| notes.spelling(name).into()),
@@ -248,10 +250,10 @@ impl<'p, 's> Moves<'p, 's> {
                 },
                 variant: u8::from(literal.content == Content::Degrees),
             },
-            numbers: first..index(self.program.numbers.len()),
+            numbers: before + literal.numbers.start..before + literal.numbers.end,
             blocked: literal.content == Content::Expressions,
         });
-        self.targets.insert(id, target);
+        self.targets[id as usize] = Some(target);
         target
     }
 
@@ -404,11 +406,11 @@ impl<'p, 's> Moves<'p, 's> {
             _ => "feature".into(),
         };
         match (variables.constant(feature, function), around) {
-            (Ok(pose), None) => Ok((self.frame(name.clone(), pose), pose, name)),
+            (Ok(pose), None) => Ok((self.frame(&name, pose), pose, name)),
             (Ok(pose), Some((outer, before))) => {
                 let name = format!("{before}.{name}");
                 let pose = outer * pose;
-                Ok((self.frame(name.clone(), pose), pose, name))
+                Ok((self.frame(&name, pose), pose, name))
             }
             (Err(NotConstant::Unknown(_)), None) => {
                 let id = self.unknown_frame(name.clone());
@@ -430,7 +432,7 @@ impl<'p, 's> Moves<'p, 's> {
             let Expr::Literal(id) = notes.expression(value) else {
                 continue;
             };
-            let Some(&target) = self.targets.get(&id) else {
+            let Some(target) = self.targets[id as usize] else {
                 continue;
             };
             let target = &self.program.targets[target];
@@ -464,13 +466,16 @@ impl<'p, 's> Moves<'p, 's> {
             for (new, &old) in order.iter().enumerate() {
                 place[old] = new;
             }
-            let mut old: Vec<Option<Target>> = targets.iter().cloned().map(Some).collect();
-            for (target, &at) in targets.iter_mut().zip(&order) {
-                *target = old[at].take().expect("each stands once in the order");
-            }
             for motion in &mut self.program.moves {
                 if motion.file == self.file {
                     motion.target = first_target + place[motion.target - first_target];
+                }
+            }
+            for at in 0..targets.len() {
+                while place[at] != at {
+                    let to = place[at];
+                    targets.swap(at, to);
+                    place.swap(at, to);
                 }
             }
         }

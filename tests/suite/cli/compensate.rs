@@ -371,3 +371,43 @@ fn a_folder_that_cannot_be_written_leaves_nothing() {
     );
     assert_eq!(files_below(folder.path()).len(), 2);
 }
+
+#[test]
+fn a_profile_without_calibration_is_said_to_correct_nothing() {
+    let folder = with_sample();
+    let nominal = repository("robots/abb_irb120.yaml");
+    let nominal = nominal.to_str().expect("UTF-8");
+    let arguments = ["a b.mod", "-o", "out.mod", "--profile", nominal];
+    let output = run(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0));
+    let told = String::from_utf8(output.stdout).expect("UTF-8");
+    assert!(told.contains("nothing to correct: "), "{told}");
+    let told = run(folder.path(), &["a b.mod", "-o", "real.mod"]).stdout;
+    assert!(!String::from_utf8_lossy(&told).contains("nothing to correct"));
+}
+
+#[test]
+fn orientations_rounded_away_are_told_with_their_size() {
+    let folder = scratch();
+    let program = "MODULE m
+  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];
+  CONST robtarget p1 := [[430.123,-200.456,300.789],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ p1,v200,fine,artifact;
+  ENDPROC
+ENDMODULE
+";
+    std::fs::write(folder.path().join("m.mod"), program).expect("scratch");
+    let output = run(folder.path(), &["m.mod", "-o", "out.mod", "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let turned = report["summary"]["max_rounding_deg"].as_f64();
+    assert!(turned > Some(0.3), "{turned:?}");
+    assert_eq!(report["findings"][0]["id"], "rounding");
+    let output = run(
+        folder.path(),
+        &["m.mod", "-o", "fine.mod", "--json", "--decimals", "3"],
+    );
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert!(report["summary"]["max_rounding_deg"].as_f64() < Some(1e-3));
+    assert_eq!(report["findings"], serde_json::json!([]));
+}
