@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
 use super::page::ReportFile;
-use super::table::{SPREAD_HEADER, aligned, spread_row};
+use super::table::{SPREAD_HEADER, aligned, spread_row, width, wrapped};
 use super::{Answer, Output, files, print, print_json};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::calibration::{
@@ -282,11 +282,14 @@ fn text(found: &Calibration, all: bool) -> String {
         } else {
             format!("like {}", with.join(", "))
         };
-        out += &wrapped(&format!(
-            "  {}: {}{why}",
-            names[dropped.parameter].key,
-            weak.unwrap_or_default()
-        ));
+        out += &wrapped(
+            &format!(
+                "  {}: {}{why}",
+                names[dropped.parameter].key,
+                weak.unwrap_or_default()
+            ),
+            width(),
+        );
     }
     let strong = u.strong_correlations(STRONG_CORRELATION);
     if !strong.is_empty() {
@@ -332,22 +335,4 @@ fn text(found: &Calibration, all: bool) -> String {
         out += &aligned(&rows);
     }
     out
-}
-
-/// A line broken at 80 columns.
-fn wrapped(line: &str) -> String {
-    let mut out = String::new();
-    let mut length = 0;
-    for (n, word) in line.split(' ').enumerate() {
-        if length + 1 + word.chars().count() > 80 && length > 4 {
-            out += "\n     ";
-            length = 5;
-        } else if n > 0 {
-            out.push(' ');
-            length += 1;
-        }
-        out += word;
-        length += word.chars().count();
-    }
-    out + "\n"
 }

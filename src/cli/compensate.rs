@@ -1,20 +1,17 @@
 //! `compensate`: program files in, program files with fake targets out.
 
-use super::check::Loader;
 use super::failure::Failure;
 use super::files::same_file;
 use super::page::ReportFile;
+use super::way::Drawing;
 use super::{Answer, Output, files, json_text, print, values};
 use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
-use crate::check::trace::{Traced, trace};
 use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use crate::geometry::units::MM;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::program::{LANGUAGES, Language, Marker, Source};
 use crate::report;
-use crate::report::html::page::Page;
-use crate::report::html::programs::{Compensated, SAMPLES, Scenery, add_written, compensate_page};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -287,83 +284,6 @@ impl Compensate {
             None => Ok(jobs),
         }
     }
-}
-
-/// The report while it is made: the program as it was, then as it is written.
-struct Drawing {
-    page: Page,
-    original: Vec<Traced>,
-}
-
-impl Drawing {
-    fn begin(
-        header: &report::compensation::Header,
-        compensation: &Compensation,
-        profile: &Profile,
-        profile_file: &Path,
-        options: &Options,
-    ) -> Self {
-        let original = traced(header.language, header.sources, None, profile, options);
-        let mut drawn = profile.clone();
-        let mut meshes = Loader::default();
-        for shape in &mut drawn.shapes {
-            // a body whose file is missing is not drawn
-            let _ = meshes.load(&mut shape.shape, profile_file);
-        }
-        let scenery = Scenery {
-            profile: &drawn,
-            cell: None,
-            meshes: &meshes.meshes,
-        };
-        let page = compensate_page(&Compensated {
-            header,
-            compensation,
-            traced: &original,
-            work_offset: options.work_offset.as_ref(),
-            scenery: &scenery,
-        });
-        Self { page, original }
-    }
-
-    fn add_written(
-        &mut self,
-        language: &dyn Language,
-        written: &[Source],
-        sources: &[Source],
-        profile: &Profile,
-        options: &Options,
-    ) {
-        let way = traced(language, written, Some(sources), profile, options);
-        add_written(
-            &mut self.page,
-            &way,
-            &self.original,
-            options.work_offset.as_ref(),
-        );
-    }
-}
-
-/// The way of a program; none where it cannot be followed, which the findings tell.
-fn traced(
-    language: &dyn Language,
-    sources: &[Source],
-    nominal: Option<&[Source]>,
-    profile: &Profile,
-    options: &Options,
-) -> Vec<Traced> {
-    let scene = crate::check::Scene::default();
-    let subject = crate::check::Subject {
-        language,
-        sources,
-        nominal,
-        profile,
-        scene: &scene,
-    };
-    let checked = crate::check::Options {
-        given: options.given.clone(),
-        ..crate::check::Options::default()
-    };
-    trace(&subject, &checked, SAMPLES).unwrap_or_default()
 }
 
 /// A profile whose calibration cannot be meant.

@@ -25,6 +25,7 @@ mod simulate;
 mod table;
 mod validate;
 mod values;
+mod way;
 
 use clap::{Args, Parser, Subcommand};
 use failure::Failure;

@@ -161,9 +161,13 @@ pub fn sentence(effect: &Effect) -> String {
             deg(100.0 * p[0])
         ),
         Kind::JointHarmonic => format!(
-            "{joint} runs fast and slow by {} deg, {} times a turn (eccentric gear or encoder)",
+            "{joint} runs fast and slow by {} deg, {} a turn (eccentric gear or encoder)",
             deg(length(&p[..2])),
-            site.order
+            match site.order {
+                1 => "once".to_owned(),
+                2 => "twice".to_owned(),
+                n => format!("{n} times"),
+            }
         ),
         Kind::JointCoupling => format!(
             "{joint} is taken along by J{}: {} deg in 90 deg",

@@ -19,7 +19,7 @@ say compensate programs/krl/cam/in/pocket.src --profile programs/krl/profile.yam
   --report "$out/krl.html" --json > "$out/krl.json"
 
 # measurements: the shipped robot measured by `simulate`, with two more errors than its profile tells
-sed 's/^  effects:$/&\n    - {effect: joint_harmonic, joint: 6, order: 1, cos_deg: 0.05, sin_deg: 0.03}\n    - {effect: joint_scale, joint: 1, ratio: 0.0004}/' \
+sed 's/^  effects:$/&\n    - {effect: joint_harmonic, joint: 4, order: 1, cos_deg: 0.03, sin_deg: 0.02}\n    - {effect: joint_scale, joint: 1, ratio: 0.0004}/' \
   $profile > "$out/real.yaml"
 { sed '/^  effects:$/,$d' $profile; echo '  effects: []'; } > "$out/nominal.yaml"
 say plan --profile $profile --count 60 --candidates 1000 --starts 2 -o "$out/joints.csv" --program "$out/joints.mod" \

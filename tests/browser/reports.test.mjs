@@ -57,6 +57,7 @@ for (const kind of kinds) {
   for (const dark of [false, true]) {
     test(`${kind} opens without an error or a request and draws ${dark ? "in the dark" : "in light"}`, async () => {
       await inside(kind, { dark }, async (page) => {
+        assert.equal(await page.evaluate(() => window.scrollY), 0, "the page opens at its top");
         for (const canvas of await page.locator(".stage canvas").all()) {
           await canvas.scrollIntoViewIfNeeded();
           await page.waitForTimeout(150);

@@ -112,7 +112,7 @@ export function showChart(chart, table, onselect) {
       width,
       height: rows ? 60 + 20 * count : chart.height ?? 260,
       marginLeft: rows ? Math.min(width * 0.62, 14 + 6.6 * longest) : 56,
-      marginBottom: 40,
+      marginBottom: 46,
       style: { background: "transparent", fontSize: "12px", overflow: "visible" },
       x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) : undefined },
       y: rows ? { label: null, type: "band", domain: Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) } : { label: label(chart.y), grid: true, type: chart.log ? "log" : "linear", zero: !chart.log && chart.zero !== false, nice: !chart.log },

@@ -112,7 +112,13 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
     fill();
     const tr = body.querySelector(`tr[data-row="${row}"]`);
     if (tr && focus) tr.focus();
-    if (tr) tr.scrollIntoView({ block: "nearest" });
+    // within its box only: the page stays where it is
+    const box = grid.parentElement;
+    if (tr && box) {
+      const top = tr.offsetTop - box.offsetTop;
+      if (top < box.scrollTop + tr.offsetHeight) box.scrollTop = top - tr.offsetHeight;
+      else if (top + tr.offsetHeight > box.scrollTop + box.clientHeight) box.scrollTop = top + tr.offsetHeight - box.clientHeight;
+    }
     if (tell) onselect?.(row);
   }
 
