@@ -41,6 +41,7 @@ say register docs/measuring/nominal.csv docs/measuring/probed.csv --at 1000,0,0 
 say handeye docs/measuring/robot.csv docs/measuring/board.csv --setup eye-in-hand \
   --report "$out/handeye.html" --json > "$out/handeye.json"
 say hexapod docs/measuring/lengths.csv --report "$out/hexapod.html" --json > "$out/hexapod.json"
+say axes docs/measuring/sweeps.csv --profile $profile --report "$out/axes.html" --json > "$out/axes.json"
 
 # names that are markup, and no target at all
 evil="$out/<img src=x onerror=alert(1)>'\"&.csv"

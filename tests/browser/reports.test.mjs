@@ -49,7 +49,7 @@ function agrees(shown, value, what) {
 }
 
 test("there is a report of every kind", () => {
-  const wished = ["calibrate", "check", "compensate", "diagnose", "empty", "evil", "handeye", "hexapod", "krl", "many", "plan", "register", "validate"];
+  const wished = ["axes", "calibrate", "check", "compensate", "diagnose", "empty", "evil", "handeye", "hexapod", "krl", "many", "plan", "register", "validate"];
   assert.deepEqual(kinds.toSorted(), wished);
 });
 
@@ -235,6 +235,10 @@ test("tables agree with --json", async () => {
     for (const sigma of await rowsOf(page, "Expected standard deviations")) {
       agrees(sigma["expected sigma"], report.expected_sigma.find((one) => one.key === sigma.parameter).sigma, sigma.parameter);
     }
+  });
+  await inside("axes", {}, async (page) => {
+    const joints = json("axes").joints;
+    for (const row of await rowsOf(page, "Joints")) agrees(row["radius, mm"], joints.find((one) => one.joint === number(row.joint)).radius_mm, `joint ${row.joint}`);
   });
   await inside("handeye", {}, async (page) => {
     const rows = json("handeye").poses;

@@ -96,7 +96,6 @@ export function showChart(chart, table, onselect) {
   const picked = chart.series.find((series) => series.kind === "line" || series.kind === "dots");
   const draw = (width) => {
     const marks = [Plot.ruleY(rows ? [] : [0], { strokeOpacity: 0.3 })];
-    if (chart.log) marks.length = 0;
     for (const series of chart.series) marks.push(...marksOf(series, columns));
     if (picked) {
       const all = thinned(rowsWith([columns[picked.x], columns[picked.y]]), (row) => cell(columns[picked.y], row));
@@ -115,7 +114,7 @@ export function showChart(chart, table, onselect) {
       marginBottom: 46,
       style: { background: "transparent", fontSize: "12px", overflow: "visible" },
       x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) : undefined },
-      y: rows ? { label: null, type: "band", domain: Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) } : { label: label(chart.y), grid: true, type: chart.log ? "log" : "linear", zero: !chart.log && chart.zero !== false, nice: !chart.log },
+      y: rows ? { label: null, type: "band", domain: Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) } : { label: label(chart.y), grid: true, zero: true, nice: true },
       marks,
     });
     plot.setAttribute("role", "img");

@@ -174,7 +174,11 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
         }
     };
     match kind {
-        EffectKind::JointHarmonic | EffectKind::JointScale if site.index < 6 => joint(site.index),
+        EffectKind::JointHarmonic | EffectKind::JointScale | EffectKind::LinkGeometry
+            if site.index < 6 =>
+        {
+            joint(site.index)
+        }
         EffectKind::JointCoupling if site.on < 6 => joint(site.on),
         EffectKind::JointCompliance | EffectKind::ComplianceKnee if site.index < 6 => {
             torque(site.index)
@@ -202,7 +206,6 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
             unit: "s",
             values: rows.iter().map(|row| row.conditions.time_s).collect(),
         },
-        EffectKind::LinkGeometry if site.index < 6 => joint(site.index),
         _ => Variable {
             label: "row".into(),
             unit: "",
@@ -532,7 +535,7 @@ fn show_lists(page: &mut Page, found: &Diagnosis) {
                     "effect",
                     list.iter().map(|c| c.kind.definition().id.to_owned()),
                 ),
-                Column::texts("needs", list.iter().map(|c| c.missing.to_string())),
+                Column::texts("needs", list.iter().map(|c| c.missing.clone())),
             ],
         };
         page.show("cannot-test", "What could not be tested", "", table);

@@ -173,8 +173,6 @@ pub struct Chart {
     pub wide: bool,
     /// x are names in the order of the rows.
     pub bands: bool,
-    /// y by powers of ten.
-    pub log: bool,
     /// Its rows are items of the view in space.
     pub picks: bool,
 }
@@ -192,7 +190,6 @@ impl Chart {
             series: Vec::new(),
             wide: false,
             bands: false,
-            log: false,
             picks: false,
         }
     }

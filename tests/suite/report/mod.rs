@@ -45,18 +45,15 @@ fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Val
         .iter()
         .find(|c| c["label"] == label && c["unit"].as_str() == unit);
     let values = &found.unwrap_or_else(|| panic!("{table}: {label}"))["values"];
-    match values.as_array() {
-        Some(values) => values.clone(),
-        None => {
-            let index = values["index"].as_array().expect("indices").iter();
-            index
-                .map(|i| {
-                    i.as_u64()
-                        .map_or(Value::Null, |i| values["names"][i as usize].clone())
-                })
-                .collect()
-        }
+    if let Some(values) = values.as_array() {
+        return values.clone();
     }
+    let named = |index: &Value| {
+        let index = index.as_u64().and_then(|i| usize::try_from(i).ok());
+        index.map_or(Value::Null, |i| values["names"][i].clone())
+    };
+    let index = values["index"].as_array().expect("indices");
+    index.iter().map(named).collect()
 }
 
 /// Each number of a page is one of the report rounded to so many digits.

@@ -33,7 +33,7 @@ fn samples_stay_within_the_bounds_and_end_where_the_moves_end() {
             profile: &profile,
             scene: &scene,
         };
-        let traced = trace(&subject, &options, 100).expect("a way");
+        let traced = trace(&subject, &options, 1000).expect("a way");
         assert_eq!(traced.len(), found.moves.len());
         assert!(!traced[0].continues && traced[1..].iter().all(|one| one.continues));
         for (one, told) in traced.iter().zip(&found.moves) {
