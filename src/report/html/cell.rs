@@ -60,7 +60,7 @@ pub struct Points {
     /// Six joint angles of each; empty without a robot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Number>,
-    /// Index of each item's tool in [`Robot::tools`]; empty where there is one.
+    /// Index of each item's tool among the robot's; empty where there is one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tool: Vec<u32>,
     /// The size that colours it; empty where they are alike.
