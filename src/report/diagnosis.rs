@@ -161,13 +161,9 @@ pub fn sentence(effect: &Effect) -> String {
             deg(100.0 * p[0])
         ),
         Kind::JointHarmonic => format!(
-            "{joint} runs fast and slow by {} deg, {} a turn (eccentric gear or encoder)",
+            "{joint} runs fast and slow by {} deg, {} times a turn (eccentric gear or encoder)",
             deg(length(&p[..2])),
-            match site.order {
-                1 => "once".to_owned(),
-                2 => "twice".to_owned(),
-                n => format!("{n} times"),
-            }
+            site.order
         ),
         Kind::JointCoupling => format!(
             "{joint} is taken along by J{}: {} deg in 90 deg",

@@ -115,7 +115,7 @@ function detailOf(box, cell, table, findings) {
     for (const column of table.columns) {
       if (column.code || column.hidden) continue;
       const value = valueOf(column, row);
-      if (value == null) continue;
+      if (value == null || value === "") continue;
       list.append(element("dt", {}, heading(column)), element("dd", {}, text(value)));
     }
     const code = table.columns.find((column) => column.code);

@@ -106,6 +106,8 @@ export function showChart(chart, table, onselect) {
       })));
     }
     const count = rowsOf(table);
+    const counted = chart.series.find((series) => series.kind === "histogram");
+    const highest = counted ? Math.max(...Array.from({ length: count }, (_, row) => cell(columns[counted.y], row))) : Infinity;
     const longest = rows ? Math.max(4, ...Array.from({ length: count }, (_, row) => String(cell(columns[chart.series[0].x], row)).length)) : 0;
     const plot = Plot.plot({
       width,
@@ -114,7 +116,7 @@ export function showChart(chart, table, onselect) {
       marginBottom: 46,
       style: { background: "transparent", fontSize: "12px", overflow: "visible" },
       x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) : undefined },
-      y: rows ? { label: null, type: "band", domain: Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) } : { label: label(chart.y), grid: true, zero: true, nice: true },
+      y: rows ? { label: null, type: "band", domain: Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) } : { label: label(chart.y), grid: true, zero: true, nice: true, ticks: Math.min(highest, 5) },
       marks,
     });
     plot.setAttribute("role", "img");

@@ -150,7 +150,8 @@ export class View {
 
   /** A grid to tell up from down: through the robot's base, else below everything. */
   ground() {
-    const size = 200 * 2 ** Math.ceil(Math.log2(Math.max(1, this.extent / 100)));
+    const reach = (this.cell.robot?.rows ?? []).reduce((sum, row) => sum + Math.abs(row[1]) + Math.abs(row[4]), 0);
+    const size = 200 * 2 ** Math.ceil(Math.log2(Math.max(1, this.extent, reach) / 100));
     const grid = new GridHelper(size, 16, 0x888888, 0x888888);
     grid.material.transparent = true;
     grid.material.opacity = 0.18;
