@@ -9,7 +9,7 @@ use super::robust::{Shape, limit};
 use super::screening::{self, Remark};
 use super::solver::{Solution, Stop, absorb_base, solve};
 use super::start::{self, Start, base_gap};
-use super::statistics::{Quality, misses};
+use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -97,8 +97,8 @@ pub struct Calibration {
     pub observability: Observability,
     /// The profile as it was, on the measurements.
     pub before: Quality,
-    /// The values of the profile as it was.
-    pub before_estimate: Estimate,
+    /// What it missed of every row.
+    pub before_misses: Vec<Miss>,
     /// With base, tool and points fitted.
     pub frames_only_quality: Quality,
     /// With everything.
@@ -246,7 +246,8 @@ pub fn calibrate(
         world_from_base: profile.world_from_base,
         ..estimate.clone()
     };
-    let before = Quality::of(&problem.rows, &misses(&problem, &before_estimate));
+    let before_misses = misses(&problem, &before_estimate);
+    let before = Quality::of(&problem.rows, &before_misses);
     if moved_base {
         estimate
             .effects
@@ -326,7 +327,7 @@ pub fn calibrate(
         base_replaced,
         uncertainty,
         before,
-        before_estimate,
+        before_misses,
         frames_only_quality,
         after,
         held_out,

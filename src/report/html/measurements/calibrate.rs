@@ -93,7 +93,6 @@ pub fn calibrate_page(
         models.push(("held out, after".into(), full));
     }
     page.summary = Some(summary(&models));
-    let before = misses(problem, &found.before_estimate);
     let frames = misses(problem, &found.frames_only.estimate);
     let after = misses(problem, &found.solution.estimate);
     let rows = Rows {
@@ -103,7 +102,7 @@ pub fn calibrate_page(
             Judged {
                 name: "before",
                 tone: Tone::Before,
-                misses: &before,
+                misses: &found.before_misses,
             },
             Judged {
                 name: "frames only",
