@@ -402,7 +402,7 @@ fn outliers(
     problem: &Problem,
     measurements: &Measurements,
     solution: &Solution,
-    misses: &[super::statistics::Miss],
+    misses: &[Miss],
 ) -> Vec<Outlier> {
     let counts = problem.rows.iter().map(|row| row.observed.count());
     let scale = super::robust::scale_of(&solution.normal.squares, counts);
