@@ -147,9 +147,11 @@ impl Compensate {
             .is_wanted()
             .then(|| Drawing::begin(&header, &compensation, &profile, &self.profile, &options));
         let mut outputs = Vec::new();
+        let inserted = refined.moves;
         if writes {
             let written = render(language, &sources, compensation, &profile_sha256, refined)?;
             if let Some(drawing) = &mut drawing {
+                drawing.tell_inserted(inserted);
                 drawing.add_written(language, &written, &sources, &profile, &options);
             }
             let written = written.into_iter().map(|source| source.bytes);

@@ -47,6 +47,13 @@ impl Drawing {
         Self { page, original }
     }
 
+    /// How many moves were inserted to keep the path near the wanted one.
+    pub fn tell_inserted(&mut self, moves: usize) {
+        if moves > 0 {
+            self.page.fact("moves inserted", moves.to_string());
+        }
+    }
+
     /// And as it is written.
     pub fn add_written(
         &mut self,

@@ -362,3 +362,41 @@ fn what_cannot_be_done_leaves_no_report_and_an_answer_of_no_has_one() {
     let severities = column(&data(&page), "findings", "severity", None);
     assert!(severities.contains(&Value::from("error")));
 }
+
+#[test]
+fn inserted_moves_are_told_and_drawn_as_a_way_of_their_own() {
+    let folder = scratch();
+    let (program, out, page) = (
+        folder.path().join("t.mod"),
+        folder.path().join("out.mod"),
+        folder.path().join("page.html"),
+    );
+    let text = "MODULE t\n  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  CONST robtarget p1 := [[430.123,-200.456,300.789],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  CONST robtarget p2 := [[430.123,200.456,300.789],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;\n    MoveJ p1,v200,fine,artifact;\n    MoveL p2,v100,fine,artifact;\n  ENDPROC\nENDMODULE\n";
+    std::fs::write(&program, text).expect("scratch");
+    let (status, _, error) = run(&[
+        "compensate",
+        name(&program),
+        "--profile",
+        PROFILE,
+        "--max-path-error",
+        "0.05",
+        "--decimals",
+        "5",
+        "-o",
+        name(&out),
+        "--report",
+        name(&page),
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let html = std::fs::read_to_string(&page).expect("a page");
+    assert!(html.contains("moves inserted"));
+    let data = data(&page);
+    let paths = &data["sections"][0]["paths"];
+    let (before, after) = (deviations(&paths[0]), deviations(&paths[1]));
+    assert!(after.len() > before.len());
+    // the straight move, in parts, is within the limit
+    let straight = &after[49..];
+    assert!(straight.iter().all(|e| *e < 0.05), "{straight:?}");
+    let items = paths[1]["items"].as_array().expect("items");
+    assert!(items[49..].iter().all(|item| item == 2));
+}
