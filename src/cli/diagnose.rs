@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
+use super::page::ReportFile;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
@@ -36,6 +37,8 @@ pub struct Diagnose {
     /// Leave out the check on rows not used
     #[arg(long)]
     quick: bool,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 /// A line on standard error that tells what is being done, on a terminal only.
@@ -76,6 +79,9 @@ impl Diagnose {
             quick: self.quick,
         };
         let (profile, profile_hash) = files::read_profile(&self.profile)?;
+        let read = self.measurements.paths().chain([self.profile.as_path()]);
+        let outputs = self.output.iter().chain(&self.poses).map(PathBuf::as_path);
+        self.report.refuse_over(read, outputs)?;
         let (measurements, hashes) = self.measurements.read()?;
         let name = self.measurements.name();
         let mut progress = Progress {
@@ -117,6 +123,11 @@ impl Diagnose {
             }
             outputs.push((path.clone(), text.into_bytes()));
             json["poses"] = json!(path.display().to_string());
+        }
+        if self.report.is_wanted() {
+            let lines: Vec<usize> = measurements.rows.iter().map(|row| row.line).collect();
+            let page = crate::report::html::diagnosis::page(&found, &lines, &name);
+            outputs.extend(self.report.output(Some(&page)));
         }
         files::write_all(&outputs)?;
         let answer = if sure { Answer::Yes } else { Answer::No };
