@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
 use super::page::ReportFile;
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
@@ -11,7 +12,6 @@ use crate::model::profile::rewritten;
 use crate::report::{diagnosis as report, identification};
 use clap::Args;
 use serde_json::json;
-use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 
 /// Find where model and measurements disagree, name the missing effect, add it
@@ -41,36 +41,6 @@ pub struct Diagnose {
     report: ReportFile,
 }
 
-/// A line on standard error that tells what is being done, on a terminal only.
-struct Progress {
-    shown: bool,
-    step: usize,
-}
-
-/// Steps of a diagnosis that are told.
-const STEPS: usize = 5;
-
-impl Progress {
-    fn tell(&mut self, what: &str) {
-        if !self.shown {
-            return;
-        }
-        self.step += 1;
-        let done = self.step.min(STEPS);
-        let bar: String = (0..STEPS)
-            .map(|k| if k < done { '#' } else { '.' })
-            .collect();
-        // whoever closed standard error does not want it
-        let _ = write!(std::io::stderr(), "\r[{bar}] {what:<40}");
-    }
-
-    fn end(&self) {
-        if self.shown {
-            let _ = write!(std::io::stderr(), "\r{:60}\r", "");
-        }
-    }
-}
-
 impl Diagnose {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = Options {
@@ -84,14 +54,11 @@ impl Diagnose {
         self.report.refuse_over(read, outputs)?;
         let (measurements, hashes) = self.measurements.read()?;
         let name = self.measurements.name();
-        let mut progress = Progress {
-            shown: !output.quiet && !output.json && std::io::stderr().is_terminal(),
-            step: 0,
-        };
+        let progress = Progress::new(output, "diagnosing");
         let found = diagnose(&profile, &measurements, &options, &mut |what| {
-            progress.tell(what);
+            progress.say(what);
         });
-        progress.end();
+        drop(progress);
         let found = found.map_err(|error| identify_failure(&name, &error))?;
         let mut json = report::diagnosis(&found, &name);
         json["profile_sha256"] = json!(profile_hash);
