@@ -17,7 +17,7 @@
 use super::course::{Leg, Piece};
 use super::query::{Body, Nearest};
 use super::scene::{FixedForm, Other, Scene, Watched};
-use crate::geometry::{Jet, Pose, Vector, norm, sub};
+use crate::geometry::{Jet, Pose, Vector, norm};
 use crate::model::Model;
 use crate::model::effects::Deflection;
 use std::collections::BinaryHeap;
@@ -374,13 +374,23 @@ impl Search<'_> {
                     .speed(&rates, from, moving.link, moving.body.extent(), base);
             let poses = [0, 1, 2].map(|i| self.relative(&frames[i], &pair));
             let (moved, sag) = (speed * half, gain * half * half / 8.0);
-            let cutoff = self.margin.min(self.horizon_m) - CLOSE_M + pair.required_m;
+            // what is farther than this adds nothing; it falls with every sample
+            let cutoff_of =
+                |search: &Self| search.margin.min(search.horizon_m) - CLOSE_M + pair.required_m;
             let (centre, radius) = moving.body.ball();
             let centre = poses[1].transform(centre);
-            let judge = |search: &mut Self, other: &Body, item: Item| {
+            let into_body = poses[1].inverse();
+            let apart_from = |other: &Body| {
                 let (centre_b, radius_b) = other.ball();
-                let apart = norm(sub(centre, centre_b)) - radius - radius_b - moved;
-                if radius_b.is_finite() && apart >= cutoff {
+                if radius_b.is_finite() {
+                    moving.body.least_distance(into_body.transform(centre_b)) - radius_b - moved
+                } else {
+                    f64::NEG_INFINITY
+                }
+            };
+            let judge = |search: &mut Self, other: &Body, item: Item, apart: f64| {
+                let cutoff = cutoff_of(search);
+                if apart >= cutoff {
                     return (apart - pair.required_m, false);
                 }
                 let found = moving.body.nearest(&poses[1], other);
@@ -395,7 +405,7 @@ impl Search<'_> {
                     let stays = -other.support(n.map(|x| -x));
                     least = least.max(stays - far - sag);
                 }
-                (least - pair.required_m, least < cutoff)
+                (least - pair.required_m, least < cutoff_of(search))
             };
             let mut keep = |item: Item, (least, open): (f64, bool)| {
                 if open {
@@ -408,33 +418,42 @@ impl Search<'_> {
             match pair.b {
                 Other::Moving(b) => {
                     let other = &self.scene.moving[b].body;
-                    let judged = judge(self, other, *item);
+                    let judged = judge(self, other, *item, apart_from(other));
                     keep(*item, judged);
                 }
                 Other::Fixed(k) => match &self.scene.fixed[k].form {
                     FixedForm::Convex(other) => {
-                        let judged = judge(self, other, *item);
+                        let judged = judge(self, other, *item, apart_from(other));
                         keep(*item, judged);
                     }
                     FixedForm::Mesh { triangles, .. } => {
                         if let Some(t) = item.triangle {
-                            let judged = judge(self, &triangles.bodies[t as usize], *item);
+                            let body = &triangles.bodies[t as usize];
+                            let judged = judge(self, body, *item, apart_from(body));
                             keep(*item, judged);
                             continue;
                         }
+                        let cutoff = cutoff_of(self);
                         let reach = radius + moved + cutoff.max(0.0);
                         let mut near = Vec::new();
-                        triangles.near(centre, reach, |t| near.push(t));
+                        triangles.near(centre, reach, |t| {
+                            let apart = apart_from(&triangles.bodies[t as usize]);
+                            if apart < cutoff {
+                                near.push((apart, t));
+                            }
+                        });
+                        // the nearest first: what is found there settles most others
+                        near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
                         // what is not near is at least so far
                         keep(*item, (cutoff - pair.required_m, false));
                         let mut some = Vec::new();
                         let mut least = f64::INFINITY;
-                        for t in near {
+                        for (apart, t) in near {
                             let item = Item {
                                 triangle: Some(t),
                                 ..*item
                             };
-                            let judged = judge(self, &triangles.bodies[t as usize], item);
+                            let judged = judge(self, &triangles.bodies[t as usize], item, apart);
                             if judged.1 {
                                 least = least.min(judged.0);
                                 some.push(item);

@@ -23,12 +23,15 @@ pub struct Limits {
 
 /// Samples of the distance from singularities in each piece.
 const SAMPLES: usize = 4;
+/// A joint cannot be said to leave the straight line between two samples by more than this, radians.
+const MOST_BULGE_RAD: f64 = 0.5;
 
 /// The largest value of a function over a piece from its ends and the bound of its curvature.
 fn reach(ends: [f64; 2], jet: &Jet, long: f64) -> [f64; 2] {
     let bulge = jet.bend.magnitude() * long * long / 8.0;
     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-    if bulge.is_finite() {
+    // near a singularity the bound says nothing: samples do
+    if bulge < MOST_BULGE_RAD {
         [low - bulge, high + bulge]
     } else {
         [low, high]
@@ -51,9 +54,16 @@ pub(crate) fn limits(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Lim
     for piece in pieces {
         let begin = at;
         let long = piece.to - piece.from;
+        let (mut low, mut high, mut seen) = (at, at, [0.0_f64; 6]);
         for k in 1..=SAMPLES {
             let s = piece.from + long * k as f64 / SAMPLES as f64;
+            let last = at;
             at = leg.joints(s, &at);
+            for i in 0..6 {
+                (low[i], high[i]) = (low[i].min(at[i]), high[i].max(at[i]));
+                let rate = (at[i] - last[i]).abs() * SAMPLES as f64 / long;
+                seen[i] = seen[i].max(rate);
+            }
             let here = arm.posture(&at).1;
             let least = &mut found.margins;
             least.wrist_rad = least.wrist_rad.min(here.wrist_rad);
@@ -62,14 +72,16 @@ pub(crate) fn limits(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Lim
         }
         for i in 0..6 {
             // a joint path is straight in the joints: its ends say it all
-            let [low, high] = reach([begin[i], at[i]], &piece.joints[i], long);
-            let margin = (low - joints[i].min_rad).min(joints[i].max_rad - high);
+            let [least, most] = reach([begin[i], at[i]], &piece.joints[i], long);
+            let (least, most) = (least.min(low[i]), most.max(high[i]));
+            let margin = (least - joints[i].min_rad).min(joints[i].max_rad - most);
             if margin < found.margin_rad {
                 (found.margin_rad, found.joint) = (margin, i);
             }
             let rate = piece.joints[i].slope.magnitude();
-            let seen = (at[i] - begin[i]).abs() / long;
-            found.rate_rad[i] = found.rate_rad[i].max(if rate.is_finite() { rate } else { seen });
+            // a bound that is far above what is seen bounds nothing
+            let is_tight = rate * long < seen[i] * long + MOST_BULGE_RAD;
+            found.rate_rad[i] = found.rate_rad[i].max(if is_tight { rate } else { seen[i] });
         }
     }
     found.turn_rad = std::array::from_fn(|i| at[i] - leg.start[i]);

@@ -4,11 +4,15 @@
 //! landing is at; what comes before it on the same way are parts of that move.
 
 use super::course::Course;
-use super::{CheckError, LANDED_M, Options, Subject, Walk};
+use super::walk::Walk;
+use super::{CheckError, Options, Subject};
+use crate::geometry::units::MM;
 use crate::geometry::{Pose, norm, sub};
 use crate::model::Conditions;
 use crate::program::Motion;
 
+/// A landing this near to a wanted pose is the landing at it, metres.
+const LANDED_M: f64 = 0.5 * MM;
 /// Joints of the two programs that differ by less are the same, radians.
 const KEPT_RAD: f64 = 1e-9;
 

@@ -191,6 +191,19 @@ impl Body {
         self.ball
     }
 
+    /// The body is at least so far from a point of its own frame: exactly so where it is a capsule. Negative inside.
+    #[must_use]
+    pub fn least_distance(&self, point: Vector) -> f64 {
+        match &self.core {
+            Core::Segment([from, to]) => {
+                let (along, here) = (sub(*to, *from), sub(point, *from));
+                let part = dot(here, along) / dot(along, along).max(f64::MIN_POSITIVE);
+                norm(sub(here, scale(part.clamp(0.0, 1.0), along))) - self.radius_m
+            }
+            _ => norm(sub(point, self.ball.0)) - self.ball.1,
+        }
+    }
+
     /// Largest distance of its points from the origin of its frame.
     #[must_use]
     pub fn extent(&self) -> f64 {

@@ -6,7 +6,8 @@
 
 use super::course::{Course, Leg, ToolCourse};
 use super::deviation::{self, Models, Wanted};
-use super::{CheckError, Options, Subject, Walk};
+use super::walk::Walk;
+use super::{CheckError, Options, Subject};
 use crate::compensate::Compensation;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
@@ -14,7 +15,10 @@ use crate::geometry::{Jet, Pose};
 use crate::inverse::{Inverse, Status};
 use crate::model::Conditions;
 use crate::program::number::{Fraction, Style};
-use crate::program::{Between, Displacement, Edits, Motion, Posture, Role, Settings, Shape, Value};
+use crate::program::{
+    Between, Displacement, Edits, Insertion, Motion, Posture, Replacements, Role, Settings, Shape,
+    Value,
+};
 use rayon::prelude::*;
 
 /// A move is cut into at most so many parts.
@@ -31,6 +35,8 @@ pub struct Refined {
     pub targets: usize,
     /// New moves.
     pub moves: usize,
+    /// Targets that no move may go to any more: points of arcs, which have other points now.
+    pub freed: usize,
 }
 
 /// A pose on the way, as the controller is told it.
@@ -73,31 +79,65 @@ pub fn refine(
         .collect();
     let mut refined = Refined::default();
     let mut findings = Vec::new();
-    let mut edits: Vec<(usize, Edits)> = Vec::new();
-    for change in changes {
-        findings.extend(change.findings);
-        refined.targets += change.targets;
-        refined.moves += change.moves;
+    let mut spans: Vec<Replacements> = vec![Vec::new(); subject.sources.len()];
+    for (file, spans) in spans.iter_mut().enumerate() {
+        let (mut insertions, mut counts) = (Vec::new(), Vec::new());
+        for change in changes.iter().filter(|change| change.file == file) {
+            match &change.what {
+                What::Told(finding) => findings.push(finding.clone()),
+                What::Insert(insertion, count) => {
+                    insertions.push(insertion.clone());
+                    counts.push((*count, change.whole_m));
+                }
+            }
+        }
+        if insertions.is_empty() {
+            continue;
+        }
+        let program = &walk.route.program;
+        let inserted = subject
+            .language
+            .insert(subject.sources, program, file, &insertions);
+        for ((insertion, done), (count, whole_m)) in
+            insertions.iter().zip(inserted.moves).zip(counts)
+        {
+            if let Some(text) = done {
+                refined.targets += count.targets;
+                refined.moves += count.moves;
+                refined.freed += count.freed;
+                spans.extend(text);
+            } else {
+                let why = "the text of this move cannot be repeated";
+                findings.push(job.failed(insertion.motion, whole_m, why));
+            }
+        }
+        spans.extend(inserted.rest);
+    }
+    for (edits, spans) in compensation.edits.iter_mut().zip(spans) {
         let mut some = Edits::default();
-        for (span, text) in change.spans {
-            compensation.edits[change.file].take_back(&span);
+        for (span, text) in spans {
+            edits.take_back(&span);
             some.replace(span, |out| out.extend(text));
         }
-        edits.push((change.file, some));
-    }
-    for (file, some) in edits {
-        compensation.edits[file].append(&some);
+        edits.append(&some);
     }
     compensation.findings.extend(findings);
     Ok(refined)
 }
 
+/// What a move needs.
 struct Change {
     file: usize,
-    spans: Vec<(std::ops::Range<usize>, Vec<u8>)>,
-    targets: usize,
-    moves: usize,
-    findings: Vec<Finding>,
+    /// How far its path is beside the wanted one, metres.
+    whole_m: f64,
+    what: What,
+}
+
+enum What {
+    /// Moves before it, and what they count for.
+    Insert(Insertion, Refined),
+    /// Nothing can be done.
+    Told(Finding),
 }
 
 struct Job<'a> {
@@ -127,7 +167,8 @@ impl Job<'_> {
         let is_pose = program.targets[motion.target].layout.shape == Shape::Pose;
         let via = (motion.motion == Motion::ArcEnd)
             .then(|| index.checked_sub(1))
-            .flatten();
+            .flatten()
+            .filter(|via| program.moves[*via].motion == Motion::ArcVia);
         let start = self.joints_at(via.unwrap_or(index).checked_sub(1)?)?;
         let end = self.joints_at(index)?;
         let arms = self.walk.arms(&stop);
@@ -150,38 +191,14 @@ impl Job<'_> {
         // the point of an arc that had a name is a target of its own now
         let named =
             via.is_some_and(|via| program.targets[program.moves[via].target].name.is_some());
-        let change = |spans, points: &[Point], findings| Change {
-            file: motion.file as usize,
-            spans,
-            targets: points.len() * each + usize::from(named),
-            moves: points.len() * each,
-            findings,
+        let change = |what| {
+            Some(Change {
+                file: motion.file as usize,
+                whole_m: whole,
+                what,
+            })
         };
-        let told = |id: &'static str, severity: Severity, message: String, hint: &str| {
-            let source = &self.subject.sources[motion.file as usize];
-            let (line, column) = source.line_column(motion.offset as usize);
-            let finding = Finding {
-                id,
-                severity,
-                file: source.name.clone(),
-                line,
-                column,
-                message,
-                hint: hint.into(),
-            };
-            let mut change = change(Vec::new(), &[], vec![finding]);
-            (change.targets, change.moves) = (0, 0);
-            Some(change)
-        };
-        let failed = |why: &str| {
-            let message = format!(
-                "the path of this move is up to {:.3} mm beside the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
-                mm_from_m(whole),
-                mm_from_m(self.limit_m)
-            );
-            let hint = "a larger --max-path-error, or shorter moves";
-            told("path-not-refined", Severity::Error, message, hint)
-        };
+        let failed = |why| change(What::Told(self.failed(index, whole, why)));
         // a joint target that stays as it is: no target between helps at the end itself
         let beside = |point: &Point| {
             let nominal = leg.joints(point.s, &leg.start);
@@ -196,7 +213,14 @@ impl Job<'_> {
                 mm_from_m(ends)
             );
             let hint = "--joint-targets correct shifts joint targets, too";
-            return told("path-from-kept-target", Severity::Note, message, hint);
+            let note = Severity::Note;
+            return change(What::Told(self.finding(
+                index,
+                "path-from-kept-target",
+                note,
+                message,
+                hint,
+            )));
         }
         if !is_pose {
             return failed("its target is given in joints");
@@ -214,15 +238,42 @@ impl Job<'_> {
         let Some(between) = between else {
             return failed("an arc's part cannot be reached");
         };
+        let moves = points.len() * each;
+        let freed = usize::from(named);
+        let count = Refined {
+            targets: moves + freed,
+            moves,
+            freed,
+        };
+        let insertion = Insertion {
+            motion: index,
+            between,
+        };
+        change(What::Insert(insertion, count))
+    }
+
+    fn finding(
+        &self,
+        motion: usize,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) -> Finding {
+        let motion = &self.walk.route.program.moves[motion];
         let source = &self.subject.sources[motion.file as usize];
-        let written = self
-            .subject
-            .language
-            .insert(source, program, index, &between);
-        match written {
-            Some(spans) => Some(change(spans, &points, Vec::new())),
-            None => failed("the text of this move cannot be repeated"),
-        }
+        source.finding(motion.offset as usize, id, severity, message, hint)
+    }
+
+    /// No targets can be inserted where they are needed.
+    fn failed(&self, motion: usize, whole_m: f64, why: &str) -> Finding {
+        let message = format!(
+            "the path of this move is up to {:.3} mm beside the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
+            mm_from_m(whole_m),
+            mm_from_m(self.limit_m)
+        );
+        let hint = "a larger --max-path-error, or shorter moves";
+        self.finding(motion, "path-not-refined", Severity::Error, message, hint)
     }
 
     /// The real inverse of the wanted pose at `s`.

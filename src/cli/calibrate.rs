@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
 use super::page::ReportFile;
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row, width, wrapped};
 use super::{Answer, Output, files, print, print_json};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -122,8 +123,10 @@ impl Calibrate {
         self.report.refuse_over(read, outputs)?;
         let (measurements, hashes) = self.measurements.read()?;
         let name = self.measurements.name();
+        let progress = Progress::new(output, "identifying");
         let found = calibrate(&profile, &measurements, &options)
             .map_err(|error| identify_failure(&name, &error))?;
+        drop(progress);
         let mut report = identification::calibration(&found, &name);
         report["profile_sha256"] = json!(profile_hash);
         report["measurements_sha256"] = json!(hashes);
@@ -258,6 +261,21 @@ fn text(found: &Calibration, all: bool) -> String {
         }
     }
     out += &aligned(&rows);
+    for (feature, place) in found.features() {
+        let [x, y, z] = place.centre_m.map(mm_from_m);
+        out += &format!(
+            "{} {} at ({x:.3}, {y:.3}, {z:.3}) mm",
+            feature.kind.id(),
+            feature.name
+        );
+        if let Some(radius_m) = place.radius_m {
+            out += &format!(", radius {:.4} mm", mm_from_m(radius_m));
+        }
+        if let Some([x, y, z]) = place.normal {
+            out += &format!(", normal ({x:.6}, {y:.6}, {z:.6})");
+        }
+        out.push('\n');
+    }
     let names = &found.problem.parameters;
     if !found.solution.identifiable.dropped.is_empty() {
         out += "\nnot determined by these data, left as they were\n";

@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
 use super::page::ReportFile;
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
@@ -11,7 +12,6 @@ use crate::model::profile::rewritten;
 use crate::report::{diagnosis as report, identification};
 use clap::Args;
 use serde_json::json;
-use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 
 /// Find where model and measurements disagree, name the missing effect, add it
@@ -41,36 +41,6 @@ pub struct Diagnose {
     report: ReportFile,
 }
 
-/// A line on standard error that tells what is being done, on a terminal only.
-struct Progress {
-    shown: bool,
-    step: usize,
-}
-
-/// Steps of a diagnosis that are told.
-const STEPS: usize = 5;
-
-impl Progress {
-    fn tell(&mut self, what: &str) {
-        if !self.shown {
-            return;
-        }
-        self.step += 1;
-        let done = self.step.min(STEPS);
-        let bar: String = (0..STEPS)
-            .map(|k| if k < done { '#' } else { '.' })
-            .collect();
-        // whoever closed standard error does not want it
-        let _ = write!(std::io::stderr(), "\r[{bar}] {what:<40}");
-    }
-
-    fn end(&self) {
-        if self.shown {
-            let _ = write!(std::io::stderr(), "\r{:60}\r", "");
-        }
-    }
-}
-
 impl Diagnose {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = Options {
@@ -84,14 +54,11 @@ impl Diagnose {
         self.report.refuse_over(read, outputs)?;
         let (measurements, hashes) = self.measurements.read()?;
         let name = self.measurements.name();
-        let mut progress = Progress {
-            shown: !output.quiet && !output.json && std::io::stderr().is_terminal(),
-            step: 0,
-        };
+        let progress = Progress::new(output, "diagnosing");
         let found = diagnose(&profile, &measurements, &options, &mut |what| {
-            progress.tell(what);
+            progress.say(what);
         });
-        progress.end();
+        drop(progress);
         let found = found.map_err(|error| identify_failure(&name, &error))?;
         let mut json = report::diagnosis(&found, &name);
         json["profile_sha256"] = json!(profile_hash);
@@ -152,6 +119,40 @@ impl Diagnose {
     }
 }
 
+/// A probability in few characters; what is too small for a number is said to be below one.
+fn probability(p: f64) -> String {
+    if p < 1e-300 {
+        "< 1e-300".into()
+    } else {
+        format!("{p:.0e}")
+    }
+}
+
+/// The effects found with their evidence, and their values under them.
+fn values(found: &Diagnosis) -> String {
+    let mut out = String::new();
+    for f in &found.found {
+        let (again, of) = f.found_again;
+        let (label, p) = (f.effect.label(), probability(f.p_value));
+        out += &format!("\n{label}: chi-squared -{:.0}, p {p}", f.gain);
+        if of > 0 {
+            out += &format!(", again {again}/{of}");
+        }
+        out.push('\n');
+        for (number, sigma) in f.sought.iter().zip(&f.sigmas) {
+            let p = &f.effect.definition().parameters[*number];
+            let unit = p.unit.in_si();
+            out += &format!(
+                "  {:<16} {:>11.4e} ± {:.1e}\n",
+                p.key,
+                f.effect.parameters[*number] / unit,
+                sigma / unit
+            );
+        }
+    }
+    out
+}
+
 /// The report for people.
 fn text(found: &Diagnosis, all: bool) -> String {
     let mut out = report::summary(found);
@@ -183,40 +184,7 @@ fn text(found: &Diagnosis, all: bool) -> String {
         mm_from_m(found.noise_m),
         mm_from_m(found.left_m)
     );
-    if !found.found.is_empty() {
-        let mut rows = vec![
-            [
-                "effect",
-                "parameter",
-                "value",
-                "sigma",
-                "unit",
-                "chi2 fall",
-                "p",
-                "again",
-            ]
-            .map(str::to_owned)
-            .to_vec(),
-        ];
-        for f in &found.found {
-            for (k, (number, sigma)) in f.sought.iter().zip(&f.sigmas).enumerate() {
-                let p = &f.effect.definition().parameters[*number];
-                let unit = p.unit.in_si();
-                let first = |text: String| if k == 0 { text } else { String::new() };
-                rows.push(vec![
-                    first(f.effect.label()),
-                    p.key.into(),
-                    format!("{:.4e}", f.effect.parameters[*number] / unit),
-                    format!("{:.1e}", sigma / unit),
-                    p.unit.symbol().into(),
-                    first(format!("{:.0}", f.gain)),
-                    first(format!("{:.0e}", f.p_value)),
-                    first(format!("{}/{}", f.found_again.0, f.found_again.1)),
-                ]);
-            }
-        }
-        out += &format!("\n{}", aligned(&rows));
-    }
+    out += &values(found);
     let most = if all { usize::MAX } else { 5 };
     if !found.spots.is_empty() {
         out += "\nwhere the present model misses, strongest first\n";
@@ -232,7 +200,7 @@ fn text(found: &Diagnosis, all: bool) -> String {
                 format!("{:.3}", mm_from_m(s.size_m)),
                 format!("{:.3}", mm_from_m(s.largest_m)),
                 format!("{:.0} %", 100.0 * s.part),
-                format!("{:.0e}", s.p_value),
+                probability(s.p_value),
             ]);
         }
         out += &aligned(&rows);

@@ -18,6 +18,7 @@ mod page;
 mod plan;
 mod points;
 mod profile;
+mod progress;
 mod register;
 mod registration;
 mod shell;

@@ -3,10 +3,11 @@
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure};
 use super::page::ReportFile;
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::identify::measurements::Purpose;
-use crate::identify::validation::{Judged, Validation, validate};
+use crate::identify::validation::{Judged, Validation, validate_telling};
 use crate::report::html::measurements::validate_page;
 use crate::report::identification;
 use clap::Args;
@@ -49,8 +50,16 @@ impl Validate {
         }
         let name = self.measurements.name();
         let folds = self.folds.map(|n| n as usize);
-        let found = validate(&profile, &measurements, self.refit_frames, folds)
-            .map_err(|error| identify_failure(&name, &error))?;
+        let progress = Progress::new(output, "validating");
+        let found = validate_telling(
+            &profile,
+            &measurements,
+            self.refit_frames,
+            folds,
+            &mut |done, of| progress.tell(done, of),
+        )
+        .map_err(|error| identify_failure(&name, &error))?;
+        drop(progress);
         if self.report.is_wanted() {
             let page = validate_page(&found, &measurements, &profile, &name);
             let page = self.report.output(Some(&page));

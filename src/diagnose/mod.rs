@@ -5,11 +5,14 @@
 //! beyond the parameters that are fitted with it. Source: C. R. Rao's score test; A. Zellner's g-prior for a calibration
 //! that is trusted in part; G. Schwarz (1978) for the information criterion.
 
+mod attempt;
 pub mod candidates;
 pub mod chances;
+mod conclusion;
 pub mod diagnosis;
 pub mod fit;
 pub mod poses;
+mod proof;
 pub mod refit;
 pub mod search;
 pub mod session;

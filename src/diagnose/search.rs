@@ -416,6 +416,28 @@ impl World<'_> {
     }
 }
 
+impl World<'_> {
+    /// What explains most first, then what explains most beside it, and so on.
+    #[must_use]
+    pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
+        let mut ordered: Vec<Chosen> = Vec::new();
+        while chosen.len() > 1 {
+            let fit = self.fit(&ordered);
+            let gain = |one: &Chosen| {
+                let projections = fit.projections(&one.columns);
+                let group: Vec<_> = projections.iter().collect();
+                fit.gain(&group, &vec![None; group.len()])
+                    .map_or(0.0, |gain| gain.gain)
+            };
+            let gains: Vec<f64> = chosen.iter().map(gain).collect();
+            let most = (0..gains.len()).max_by(|i, j| gains[*i].total_cmp(&gains[*j]));
+            ordered.push(chosen.remove(most.unwrap_or(0)));
+        }
+        ordered.append(&mut chosen);
+        ordered
+    }
+}
+
 /// The best variant of each effect.
 fn best_of_each<'a>(world: &World, scored: impl Iterator<Item = &'a Scored>) -> Vec<Scored> {
     let mut best: Vec<Scored> = Vec::new();

@@ -1,8 +1,9 @@
 //! What a diagnosis starts from: the model's residuals and the parameters that are fitted along.
 
-use super::candidates::{Candidates, Tried};
+use super::candidates::{Candidate, Candidates, Tried, columns_of};
 use super::fit::Held;
 use super::refit::refit;
+use super::search::{Chosen, World};
 use super::table::{Column, Layout, table};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -148,6 +149,11 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
             *value = from.points_m[index];
         }
     }
+    for (feature, value) in problem.features.iter().zip(&mut into.features) {
+        if let Some(index) = other.features.iter().position(|f| f.name == feature.name) {
+            *value = feature.numbers_of(&other.features[index].place(&from.features[index]));
+        }
+    }
 }
 
 fn profile_base(profile: &Profile) -> Pose {
@@ -246,7 +252,7 @@ pub fn session(
         Trust::Calibrated { g } => g / (1.0 + g),
     };
     let free = |subject: Subject| match subject {
-        Subject::Point { .. } => true,
+        Subject::Point { .. } | Subject::Feature { .. } => true,
         Subject::Effect(slot) => elsewhere && estimate.effects[slot.effect].kind == Kind::BaseFrame,
     };
     let shares = problem
@@ -286,5 +292,86 @@ impl Session {
             share: *share,
         })
         .collect()
+    }
+
+    /// What the search looks at, with the rows in use.
+    #[must_use]
+    pub fn world<'a>(&'a self, used: &'a [bool], accepted: &'a [Pick]) -> World<'a> {
+        World {
+            layout: &self.layout,
+            residual: &self.residual,
+            held: &self.columns,
+            shares: &self.shares,
+            candidates: &self.candidates,
+            used,
+            floor: self.floor(),
+            accepted,
+        }
+    }
+
+    /// The residuals' scale is at least this: stated noise is not doubted downwards.
+    #[must_use]
+    pub fn floor(&self) -> f64 {
+        if self.problem.sigma_assumed {
+            1e-6
+        } else {
+            1.0
+        }
+    }
+
+    /// Adds candidates with list values nearer to those found: a knee's torque, a time constant. Whether there were any.
+    pub fn refine(&mut self, chosen: &[Chosen]) -> bool {
+        let mut any = false;
+        for found in chosen {
+            let effect = &found.candidate.effect;
+            let number = match effect.kind {
+                Kind::ComplianceKnee => 0,
+                Kind::WarmUpDrift => 4,
+                _ => continue,
+            };
+            let at = effect.parameters[number];
+            let near: Vec<f64> = self
+                .candidates
+                .list
+                .iter()
+                .filter(|c| c.effect.kind == effect.kind && c.effect.site == effect.site)
+                .map(|c| c.effect.parameters[number])
+                .collect();
+            let below = near
+                .iter()
+                .copied()
+                .filter(|v| *v < at)
+                .fold(0.5 * at, f64::max);
+            let above = near
+                .iter()
+                .copied()
+                .filter(|v| *v > at)
+                .fold(f64::INFINITY, f64::min)
+                .min(2.0 * at);
+            let mut wanted = Vec::new();
+            for value in [
+                0.6 * at + 0.4 * below,
+                0.8 * at + 0.2 * below,
+                0.8 * at + 0.2 * above,
+                0.6 * at + 0.4 * above,
+            ] {
+                let mut effect = effect.clone();
+                effect.parameters[number] = value;
+                wanted.push((effect, found.candidate.sought.clone()));
+            }
+            let columns = columns_of(&self.problem, &self.estimate, &wanted);
+            for ((effect, _), own) in wanted.into_iter().zip(columns) {
+                let first = self.candidates.columns.len();
+                let count = own.len();
+                self.candidates.columns.extend(own);
+                self.candidates.list.push(Candidate {
+                    effect,
+                    columns: (first..first + count).collect(),
+                    ..found.candidate.clone()
+                });
+            }
+            any = true;
+        }
+        any
     }
 }

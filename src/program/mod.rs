@@ -10,6 +10,7 @@ mod edit;
 mod error;
 pub mod fanuc;
 pub mod inform;
+mod insert;
 pub mod krl;
 mod marker;
 pub mod number;
@@ -19,6 +20,7 @@ pub mod urscript;
 
 pub use edit::Edits;
 pub use error::ReadError;
+pub use insert::{Between, Inserted, Insertion, Replacements};
 pub use marker::Marker;
 pub use source::Source;
 
@@ -140,31 +142,28 @@ pub trait Language: Sync {
         out.extend_from_slice(format!("{value}").as_bytes());
     }
 
-    /// Text that puts moves before one of a program's, like it but for their targets: byte ranges of its file and what to put
-    /// in their place. Where the move is an arc, the last entry of `between` is the move itself with another point on its
-    /// way. `None` where the move cannot be repeated, or the language does not do this.
+    /// How fast a move is and how near it must come to its target, as far as its text tells. By default what
+    /// [`Language::read`] told.
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        let _ = source;
+        motion.pace
+    }
+
+    /// Text that puts moves between those of one file, which is the `file`-th of the sources. A move that cannot be
+    /// repeated, because its text does more than go to its target, is refused; by default all are.
     fn insert(
         &self,
-        source: &Source,
+        sources: &[Source],
         program: &Program,
-        motion: usize,
-        between: &[Between],
-    ) -> Option<Vec<(Range<usize>, Vec<u8>)>> {
-        let _ = (source, program, motion, between);
-        None
+        file: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        let _ = (sources, program, file);
+        Inserted::none(insertions)
     }
 
     /// Where the marker goes and its text in the file's own line ends.
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>);
-}
-
-/// A target to be put between two of a program: the text of each number, in the order of [`Language::roles`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Between {
-    /// The point that an arc to it passes through.
-    pub via: Option<Vec<Vec<u8>>>,
-    /// The target.
-    pub end: Vec<Vec<u8>>,
 }
 
 /// Which kind of target the numbers are.
@@ -343,6 +342,16 @@ pub struct Pace {
     pub speed_m_s: Option<f64>,
     /// Radius of the corner, metres; 0 where the robot stops.
     pub zone_m: Option<f64>,
+    /// The robot cuts the corner, by how much the text does not tell.
+    pub blends: bool,
+}
+
+impl Pace {
+    /// Whether the robot may pass its target by.
+    #[must_use]
+    pub fn cuts_corner(&self) -> bool {
+        self.blends || self.zone_m.is_some_and(|zone| zone > 0.0)
+    }
 }
 
 /// One use of a target by a move instruction, in the order of the text.

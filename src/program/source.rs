@@ -1,5 +1,6 @@
 //! A program file as bytes, and its lines.
 
+use crate::finding::{Finding, Severity};
 use std::sync::OnceLock;
 
 /// A file's name and bytes. The encoding does not matter: nothing is decoded but for messages.
@@ -44,6 +45,28 @@ impl Source {
         let starts = self.line_starts();
         let line = starts.partition_point(|&start| start <= offset);
         (line, offset - starts[line - 1] + 1)
+    }
+
+    /// A finding at a byte of this file.
+    #[must_use]
+    pub fn finding(
+        &self,
+        offset: usize,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) -> Finding {
+        let (line, column) = self.line_column(offset);
+        Finding {
+            id,
+            severity,
+            file: self.name.clone(),
+            line,
+            column,
+            message,
+            hint: hint.into(),
+        }
     }
 
     /// The line end of this file: that of its first line, LF where it has only one line.

@@ -73,6 +73,7 @@ fn entry(header: &Header, report: &MoveReport) -> Value {
         "name": report.target,
         "target": target,
         "joints_deg": report.joints.map(|q| tidy(q / DEG)),
+        "cuts_corner": report.cuts_corner,
         "zone_mm": report.zone_m.map(mm_from_m).map(tidy),
         "target_error_mm": tidy(mm_from_m(report.target_error.distance_m)),
         "target_error_deg": tidy(report.target_error.angle_rad / DEG),

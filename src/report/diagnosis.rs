@@ -143,7 +143,7 @@ pub fn sentence(effect: &Effect) -> String {
     let length = |x: &[f64]| x.iter().map(|v| v * v).sum::<f64>().sqrt();
     let text = match effect.kind {
         Kind::BaseFrame => format!(
-            "The base stands {} mm from where the profile has it and is turned by {} deg",
+            "The base stands {} mm from where the profile has it and is turned by {}°",
             mm(length(&p[..3])),
             deg(length(&p[3..]))
         ),
@@ -152,30 +152,25 @@ pub fn sentence(effect: &Effect) -> String {
             mm(length(&p[..3]))
         ),
         Kind::LinkGeometry => format!("Link {} differs from the profile", site.index + 1),
-        Kind::JointScale => format!(
-            "{joint} turns {} deg too far in 90 deg",
-            deg(p[0] * 90.0 * DEG)
-        ),
-        Kind::JointCompliance => format!(
-            "{joint} gives way by {} deg under 100 N m",
-            deg(100.0 * p[0])
-        ),
+        Kind::JointScale => format!("{joint} turns {}° too far in 90°", deg(p[0] * 90.0 * DEG)),
+        Kind::JointCompliance => {
+            format!("{joint} gives way by {}° under 100 N m", deg(100.0 * p[0]))
+        }
         Kind::JointHarmonic => format!(
-            "{joint} runs fast and slow by {} deg, {} times a turn (eccentric gear or encoder)",
+            "{joint} runs fast and slow by {}°, {} times a turn (eccentric gear or encoder)",
             deg(length(&p[..2])),
             site.order
         ),
         Kind::JointCoupling => format!(
-            "{joint} is taken along by J{}: {} deg in 90 deg",
+            "{joint} is taken along by J{}: {}° in 90°",
             site.on + 1,
             deg(p[0] * 90.0 * DEG)
         ),
-        Kind::Backlash if p[0] < 0.0 => format!(
-            "{joint} loses {} deg when it turns the other way",
-            deg(-p[0])
-        ),
+        Kind::Backlash if p[0] < 0.0 => {
+            format!("{joint} loses {}° when it turns the other way", deg(-p[0]))
+        }
         Kind::Backlash => format!(
-            "{joint} runs {} deg ahead when it turns the other way",
+            "{joint} runs {}° ahead when it turns the other way",
             deg(p[0])
         ),
         Kind::PayloadError => format!(
@@ -184,17 +179,17 @@ pub fn sentence(effect: &Effect) -> String {
             mm(length(&p[1..4]))
         ),
         Kind::ComplianceKnee => format!(
-            "{joint} is soft near zero load: {} deg more up to {} N m",
+            "{joint} is soft near zero load: {}° more up to {} N m",
             deg(p[0] * p[1]),
             digits(p[0])
         ),
         Kind::LinkCompliance => format!(
-            "Link {} bends: {} deg under 100 N m",
+            "Link {} bends: {}° under 100 N m",
             site.index + 1,
             deg(100.0 * length(&p[..2]))
         ),
         Kind::BaseCompliance => format!(
-            "The pedestal tilts: {} deg under 100 N m",
+            "The pedestal tilts: {}° under 100 N m",
             deg(100.0 * length(&p[..2]))
         ),
         Kind::ThermalGrowth => format!(
@@ -207,7 +202,7 @@ pub fn sentence(effect: &Effect) -> String {
             p[4] / 60.0
         ),
         Kind::WarmUpDrift => format!(
-            "{joint} drifts by {} deg while it warms up, in some {:.0} min",
+            "{joint} drifts by {}° while it warms up, in some {:.0} min",
             deg(p[0]),
             p[4] / 60.0
         ),
@@ -226,6 +221,34 @@ pub fn sentence(effect: &Effect) -> String {
     format!("{text} ({}).", effect.definition().id)
 }
 
+/// Columns of a terminal.
+const WIDTH: usize = 80;
+
+/// Text in lines that a terminal shows whole, the first behind `first`, the others behind `others`.
+fn wrapped(text: &str, first: &str, others: &str) -> String {
+    let mut out = first.to_owned();
+    let mut width = first.chars().count();
+    let mut is_start = true;
+    for word in text.split(' ') {
+        let long = word.chars().count();
+        if !is_start && width + 1 + long > WIDTH {
+            out += "\n";
+            out += others;
+            width = others.chars().count();
+            is_start = true;
+        }
+        if !is_start {
+            out.push(' ');
+            width += 1;
+        }
+        out += word;
+        width += long;
+        is_start = false;
+    }
+    out.push('\n');
+    out
+}
+
 /// The first lines of a report: what it is, and how much of the disagreement goes.
 #[must_use]
 pub fn summary(d: &Diagnosis) -> String {
@@ -238,18 +261,18 @@ pub fn summary(d: &Diagnosis) -> String {
         Verdict::Undetermined => "It cannot be told what is missing:\n".to_owned(),
     };
     for reason in &d.reasons {
-        out += &format!("  - {reason}\n");
+        out += &wrapped(reason, "  - ", "    ");
     }
     if d.verdict == Verdict::Undetermined && !d.found.is_empty() {
         out += "The best that the effects known can do:\n";
     }
     for f in &d.found {
-        out += &format!("{}\n", sentence(&f.effect));
+        out += &wrapped(&sentence(&f.effect), "", "  ");
     }
     if let Some((before, after)) = d.held_out.filter(|_| !d.found.is_empty() || d.absorbed) {
         let gone = 100.0 * (1.0 - after.mean / before.mean.max(1e-12));
         out += &format!(
-            "{gone:.0} % of the disagreement goes: {:.3} -> {:.3} mm on {} rows not used.\n",
+            "{gone:.0} % of the disagreement goes: {:.3} → {:.3} mm on {} poses not used.\n",
             before.mean, after.mean, after.n
         );
     }

@@ -122,6 +122,8 @@ pub struct Case {
     /// Size, in root mean squares of the noise.
     pub size: f64,
     pub independent: bool,
+    /// Length of each row's noise.
+    pub noise_mm: Vec<f64>,
 }
 
 /// An effect without its values: rows from which on it holds are rounded away.
@@ -490,6 +492,7 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
         text += ",sigma_mm";
     }
     text += "\n";
+    let mut noise = Vec::new();
     for r in 0..rows {
         let mut p = seen[r].map(|x| x * 1e3);
         // Student's t with three degrees of freedom, and gross errors
@@ -507,6 +510,12 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
         for x in &mut p {
             *x += NOISE_MM * heavy * normal(&mut random) + gross * normal(&mut random);
         }
+        noise.push(
+            (0..3)
+                .map(|k| (p[k] - 1e3 * seen[r][k]).powi(2))
+                .sum::<f64>()
+                .sqrt(),
+        );
         let cells: Vec<String> = q[r]
             .iter()
             .map(|a| format!("{:.9}", a.to_degrees()))
@@ -538,6 +547,7 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
         what,
         size,
         independent,
+        noise_mm: noise,
     }
 }
 

@@ -45,16 +45,18 @@ mod angles;
 mod config;
 mod findings;
 mod frames;
+mod insert;
 mod instructions;
 pub mod mark;
 mod meaning;
+mod pace;
 mod points;
 mod resolve;
 mod sections;
 
 use super::{
-    About, Configuration, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role,
-    Settings, Shape, Source, Value,
+    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Move, Pace,
+    Posture, Program, ReadError, Role, Settings, Shape, Source, Value,
 };
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
@@ -219,6 +221,20 @@ impl Language for Fanuc {
         out: &mut Vec<u8>,
     ) {
         config::write(index - PLAIN, value, old, out);
+    }
+
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        pace::pace(&source.bytes, motion.offset as usize)
+    }
+
+    fn insert(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        file: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        insert::insert(&sources[file], program, file, insertions)
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -43,16 +43,18 @@
 
 mod cnd;
 mod findings;
+mod insert;
 mod instruction;
 mod job;
 mod lines;
+mod pace;
 mod rconf;
 mod resolve;
 mod shift;
 
 use super::{
-    About, Configuration, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role,
-    Settings, Shape, Source, Value,
+    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Move, Pace,
+    Posture, Program, ReadError, Role, Settings, Shape, Source, Value,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Rotation};
@@ -190,6 +192,20 @@ impl Language for Inform {
     }
 
     /// Comments behind NOP, in lines short enough for every controller.
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        pace::pace(&source.bytes, motion.offset as usize)
+    }
+
+    fn insert(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        file: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        insert::insert(&sources[file], program, file, insertions)
+    }
+
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let end = source.line_end();
         let mut text = Vec::new();

@@ -41,8 +41,10 @@
 mod aggregate;
 mod findings;
 mod flow;
+mod insert;
 mod moves;
 mod notes;
+mod pace;
 mod places;
 mod reader;
 mod sniff;
@@ -59,7 +61,7 @@ use super::{
 use crate::finding::Severity;
 use crate::geometry::Rotation;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::program::Configuration;
+use crate::program::{Configuration, Inserted, Insertion, Move, Pace};
 use findings::{Cause, Report};
 use moves::Moves;
 use notes::{DataKind, Index, Notes};
@@ -206,6 +208,20 @@ impl Language for Krl {
 
     fn write_configuration(&self, _: Layout, _: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
         status::write(whole(value), old, out);
+    }
+
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        pace::pace(&source.bytes, motion.offset as usize)
+    }
+
+    fn insert(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        _: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        Inserted::each(insertions, |one| insert::insert(sources, program, one))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -1,52 +1,31 @@
-//! Moves between those of a program.
+//! Moves between those of a program: the instruction again, with a target written out.
 
-use crate::program::{Between, Program, Source, Target};
+use crate::program::insert::{arguments, bracketed, indent, spliced, with_numbers};
+use crate::program::{Between, Insertion, Program, Replacements, Source, Target};
 use std::ops::Range;
+
+/// Instructions that do nothing but go to their target, or go on with their process on the way. Others switch outputs, count
+/// distances or call procedures at their target, and would do so again at each new one.
+const REPEATED: &[&str] = &[
+    "movej", "movel", "movec", "arcl", "arcc", "displ", "dispc", "paintl", "paintc",
+];
 
 /// The text of an instruction up to its semicolon; strings and comments do not stand in one that moves.
 fn instruction(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
-    let end = bytes[offset..].iter().position(|b| *b == b';')? + offset;
+    let end = memchr::memchr(b';', &bytes[offset..])? + offset;
     let text = &bytes[offset..end];
     (!text.contains(&b'!') && !text.contains(&b'"')).then_some(offset..end + 1)
 }
 
-/// The positional arguments of an instruction, without the blanks about them.
-fn arguments(bytes: &[u8], span: &Range<usize>) -> Vec<Range<usize>> {
-    let text = &bytes[span.clone()];
-    let named = text
-        .iter()
-        .position(|b| !(b.is_ascii_alphanumeric() || *b == b'_'))
-        .unwrap_or(0);
-    let (mut depth, mut start, mut found) = (0, named, Vec::new());
-    for (at, byte) in text.iter().enumerate().skip(named) {
-        match byte {
-            b'[' | b'(' | b'{' => depth += 1,
-            b']' | b')' | b'}' => depth -= 1,
-            b',' | b';' if depth == 0 => {
-                found.push(start..at);
-                start = at + 1;
-            }
-            _ => {}
-        }
-    }
-    let trimmed = |range: Range<usize>| {
-        let part = &text[range.clone()];
-        let before = part.iter().take_while(|b| b.is_ascii_whitespace()).count();
-        let behind = part
-            .iter()
-            .rev()
-            .take_while(|b| b.is_ascii_whitespace())
-            .count();
-        let end = (range.end - behind).max(range.start + before);
-        span.start + range.start + before..span.start + end
-    };
-    found.into_iter().map(trimmed).collect()
-}
-
 /// The argument that is a target: its literal, or its name.
-fn argument(bytes: &[u8], all: &[Range<usize>], target: &Target) -> Option<Range<usize>> {
+fn argument(
+    bytes: &[u8],
+    all: &[Range<usize>],
+    target: &Target,
+    inside: bool,
+) -> Option<Range<usize>> {
     let offset = target.offset as usize;
-    if let Some(found) = all.iter().find(|range| range.start == offset) {
+    if inside && let Some(found) = all.iter().find(|range| range.start == offset) {
         return Some(found.clone());
     }
     let name = target.name.as_ref()?.as_bytes();
@@ -55,130 +34,95 @@ fn argument(bytes: &[u8], all: &[Range<usize>], target: &Target) -> Option<Range
         .cloned()
 }
 
-/// The text of a target's aggregate.
-fn literal(bytes: &[u8], target: &Target) -> Option<Range<usize>> {
-    let start = target.offset as usize;
-    let (mut depth, mut end) = (0, None);
-    for (at, byte) in bytes.iter().enumerate().skip(start) {
-        match byte {
-            b'[' => depth += 1,
-            b']' => {
-                depth -= 1;
-                if depth == 0 {
-                    end = Some(at + 1);
-                    break;
-                }
-            }
-            b';' => break,
-            _ if depth == 0 => break,
-            _ => {}
-        }
-    }
-    Some(start..end?)
-}
-
 /// The aggregate of a target with other numbers.
-fn with_numbers(
-    bytes: &[u8],
+fn aggregate(
+    sources: &[Source],
     program: &Program,
     target: &Target,
     texts: &[Vec<u8>],
 ) -> Option<Vec<u8>> {
-    let span = literal(bytes, target)?;
-    let mut out = Vec::new();
-    let mut done = span.start;
-    for (number, text) in program.numbers_of(target).iter().zip(texts) {
-        let start = number.start as usize;
-        if start < done || start >= span.end {
-            return None;
-        }
-        out.extend_from_slice(&bytes[done..start]);
-        out.extend_from_slice(text);
-        done = start + usize::from(number.length);
-    }
-    out.extend_from_slice(&bytes[done..span.end]);
+    let bytes = &sources[target.file as usize].bytes;
+    let span = bracketed(bytes, target.offset as usize)?;
+    let mut out = with_numbers(bytes, &span, program.numbers_of(target), texts)?;
     // what was broken over lines stays one line
     out.retain(|b| !matches!(b, b'\n' | b'\r'));
     Some(out)
 }
 
 /// External axes of a target, as they are written.
-fn external<'a>(bytes: &'a [u8], program: &Program, target: &Target) -> Option<&'a [u8]> {
+fn external<'a>(sources: &'a [Source], program: &Program, target: &Target) -> Option<&'a [u8]> {
+    let bytes = &sources[target.file as usize].bytes;
     let last = program.numbers_of(target).last()?;
-    let span = literal(bytes, target)?;
+    let span = bracketed(bytes, target.offset as usize)?;
     bytes.get(last.start as usize + usize::from(last.length)..span.end)
+}
+
+/// Whether external axes stand still from one target to another, as far as the text tells.
+fn stands_still(sources: &[Source], program: &Program, from: &Target, to: &Target) -> bool {
+    from.layout != to.layout || external(sources, program, from) == external(sources, program, to)
 }
 
 /// See [`crate::program::Language::insert`].
 pub(super) fn insert(
-    source: &Source,
+    sources: &[Source],
     program: &Program,
-    index: usize,
-    between: &[Between],
-) -> Option<Vec<(Range<usize>, Vec<u8>)>> {
+    insertion: &Insertion,
+) -> Option<Replacements> {
+    let motion = &program.moves[insertion.motion];
+    let source = &sources[motion.file as usize];
     let bytes = &source.bytes;
-    let motion = &program.moves[index];
     let target = &program.targets[motion.target];
-    // a target declared in another file is written with that file's numbers
-    if target.file != motion.file {
-        return None;
-    }
     let span = instruction(bytes, motion.offset as usize)?;
-    let all = arguments(bytes, &span);
-    let end = argument(bytes, &all, target)?;
-    let is_arc = between.iter().any(|b| b.via.is_some());
+    let word = bytes[span.clone()]
+        .iter()
+        .take_while(|b| b.is_ascii_alphanumeric() || **b == b'_')
+        .count();
+    let verb = &bytes[span.start..span.start + word];
+    let known = |name: &&&str| verb.eq_ignore_ascii_case(name.as_bytes());
+    REPEATED.iter().find(known)?;
+    let all = arguments(bytes, span.start + word, span.end - 1);
+    let end = argument(bytes, &all, target, target.file == motion.file)?;
+    let is_arc = insertion.between.iter().any(|b| b.via.is_some());
     let mut via = None;
     if is_arc {
-        let before = &program.moves[index.checked_sub(1)?];
+        let before = &program.moves[insertion.motion.checked_sub(1)?];
         let through = &program.targets[before.target];
-        via = Some(argument(bytes, &all, through)?);
+        let inside = through.file == motion.file;
+        via = Some(argument(bytes, &all, through, inside)?);
     }
-    // external axes do not move on the way
-    let before = index.checked_sub(if is_arc { 2 } else { 1 })?;
+    let before = insertion.motion.checked_sub(if is_arc { 2 } else { 1 })?;
     let before = &program.targets[program.moves[before].target];
-    if before.layout == target.layout
-        && before.file == target.file
-        && external(bytes, program, before) != external(bytes, program, target)
-    {
+    if !stands_still(sources, program, before, target) {
         return None;
     }
-    let start = span.start;
-    let line = bytes[..start]
-        .iter()
-        .rposition(|b| matches!(b, b'\n' | b'\r'))
-        .map_or(0, |at| at + 1);
-    let indent: Vec<u8> = bytes[line..start]
-        .iter()
-        .copied()
-        .take_while(|b| b" \t".contains(b))
-        .collect();
-    let put = |at: &Range<usize>, with: &[u8], text: &mut Vec<u8>, done: &mut usize| {
-        text.extend_from_slice(&bytes[*done..at.start]);
-        text.extend_from_slice(with);
-        *done = at.end;
-    };
-    let mut text = Vec::new();
-    let mut spans = Vec::new();
-    for (number, step) in between.iter().enumerate() {
-        let through = match &step.via {
-            Some(numbers) => Some(with_numbers(bytes, program, target, numbers)?),
+    let blanks = indent(bytes, span.start).unwrap_or_default();
+    let written = |numbers: &[Vec<u8>]| aggregate(sources, program, target, numbers);
+    let (mut text, mut spans) = (Vec::new(), Vec::new());
+    for (
+        number,
+        Between {
+            via: through,
+            end: here,
+        },
+    ) in insertion.between.iter().enumerate()
+    {
+        let through = match through {
+            Some(numbers) => Some((via.clone()?, written(numbers)?)),
             None => None,
         };
         // the last part of an arc is the move itself with another point
-        if is_arc && number + 1 == between.len() {
-            spans.push((via.clone()?, through?));
+        if is_arc && number + 1 == insertion.between.len() {
+            spans.extend(through);
             continue;
         }
-        let here = with_numbers(bytes, program, target, &step.end)?;
-        let mut done = start;
-        if let (Some(at), Some(through)) = (&via, &through) {
-            put(at, through, &mut text, &mut done);
-        }
-        put(&end, &here, &mut text, &mut done);
-        text.extend_from_slice(&bytes[done..span.end]);
+        let here = written(here)?;
+        let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
+        parts.extend(through.iter().map(|(at, text)| (at.clone(), &text[..])));
+        parts.push((end.clone(), &here));
+        text.extend(spliced(bytes, &span, &parts));
         text.extend_from_slice(source.line_end());
-        text.extend_from_slice(&indent);
+        text.extend_from_slice(blanks);
     }
-    spans.push((start..start, text));
+    spans.push((span.start..span.start, text));
     Some(spans)
 }

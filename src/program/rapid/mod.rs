@@ -57,7 +57,7 @@ use super::{
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
-use crate::program::{Between, Configuration};
+use crate::program::{Configuration, Inserted, Insertion};
 use findings::{Cause, Report};
 use moves::Moves;
 use reader::{Reader, index};
@@ -195,12 +195,12 @@ impl Language for Rapid {
 
     fn insert(
         &self,
-        source: &Source,
+        sources: &[Source],
         program: &Program,
-        motion: usize,
-        between: &[Between],
-    ) -> Option<Vec<(std::ops::Range<usize>, Vec<u8>)>> {
-        insert::insert(source, program, motion, between)
+        _: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        Inserted::each(insertions, |one| insert::insert(sources, program, one))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

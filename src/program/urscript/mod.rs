@@ -34,8 +34,10 @@ mod calls;
 mod expressions;
 mod findings;
 mod flow;
+mod insert;
 mod literals;
 mod moves;
+mod pace;
 mod reader;
 mod rotation;
 mod sniff;
@@ -49,6 +51,7 @@ use super::{
     Settings, Shape, Source, Value,
 };
 use crate::geometry::units::DEG;
+use crate::program::{Inserted, Insertion, Move, Pace};
 use moves::Moves;
 use reader::Reader;
 
@@ -165,6 +168,20 @@ impl Language for UrScript {
             _ => panic!("a value of the other shape"),
         };
         numbers.copy_from_slice(&new);
+    }
+
+    fn pace(&self, source: &Source, motion: &Move) -> Pace {
+        pace::pace(&source.bytes, motion.offset as usize)
+    }
+
+    fn insert(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        _: usize,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        Inserted::each(insertions, |one| insert::insert(sources, program, one))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -24,7 +24,7 @@ fn path(lines: &str) -> Program {
 }
 
 fn to(program: &Program) -> Vec<String> {
-    let name = |used: &super::super::Move| {
+    let name = |used: &Move| {
         let target = &program.targets[used.target];
         let name = target.name.as_deref().unwrap_or("-");
         format!("{name}{}", if target.blocked { "!" } else { "" })

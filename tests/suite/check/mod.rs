@@ -1,6 +1,8 @@
 //! `check`: laws of the bounds, known cases, the command, URDF.
 
 mod command;
+mod findings;
+mod insert;
 mod laws;
 mod urdf;
 

@@ -185,3 +185,149 @@ fn a_person_overrules() {
         "{names:?}"
     );
 }
+
+/// The measurements with each row's place changed: by the row, and all places.
+fn with_places(csv: &str, change: impl Fn(usize, &[[f64; 3]]) -> [f64; 3]) -> String {
+    let header = csv.lines().next().expect("a header");
+    let at = header
+        .split(',')
+        .position(|c| c == "x_mm")
+        .expect("a column");
+    let cells: Vec<Vec<&str>> = csv
+        .lines()
+        .skip(1)
+        .map(|l| l.split(',').collect())
+        .collect();
+    let places: Vec<[f64; 3]> = cells
+        .iter()
+        .map(|row| std::array::from_fn(|k| row[at + k].parse().expect("a number")))
+        .collect();
+    let mut out = format!("{header}\n");
+    for (number, row) in cells.iter().enumerate() {
+        let new = change(number, &places).map(|x| format!("{x:.6}"));
+        let mut row: Vec<&str> = row.clone();
+        for k in 0..3 {
+            row[at + k] = &new[k];
+        }
+        out += &format!("{}\n", row.join(","));
+    }
+    out
+}
+
+/// Status, standard output and standard error of a diagnosis.
+fn diagnosed(case: &Case, more: &[&str]) -> (i32, String, String) {
+    let (_folder, profile, csv) = files(case);
+    let run = poseshift()
+        .args(["diagnose", "--profile"])
+        .arg(&profile)
+        .arg("--measurements")
+        .arg(&csv)
+        .args(more)
+        .output()
+        .expect("the program starts");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (
+        run.status.code().expect("it ended"),
+        text(&run.stdout),
+        text(&run.stderr),
+    )
+}
+
+#[test]
+fn lengths_in_another_unit_are_told_by_name() {
+    let mut case = case(group("clean"), 0, 3, 60);
+    let plain = case.csv.clone();
+    for (of_mm, says) in [(1e-3, "metres"), (1.0 / 25.4, "inches")] {
+        case.csv = with_places(&plain, |row, all| all[row].map(|x| of_mm * x));
+        let (status, out, error) = diagnosed(&case, &["--quick"]);
+        assert_eq!((status, out.as_str()), (2, ""));
+        assert!(error.contains(says), "{error}");
+    }
+}
+
+#[test]
+fn rows_that_belong_to_other_poses_get_no_confident_name() {
+    let mut case = case(group("clean"), 0, 3, 60);
+    let plain = case.csv.clone();
+    case.csv = with_places(&plain, |row, all| all[(37 * row + 11) % all.len()]);
+    let (status, out, error) = diagnosed(&case, &["--quick"]);
+    assert_ne!(status, 0, "{out}{error}");
+    assert!(!out.contains("of the disagreement goes"), "{out}");
+}
+
+#[test]
+fn one_pose_again_and_again_says_nothing() {
+    let mut case = case(group("clean"), 0, 3, 40);
+    let first = case.csv.lines().nth(1).expect("a row").to_owned();
+    let header = case.csv.lines().next().expect("a header");
+    case.csv = format!("{header}\n{}", format!("{first}\n").repeat(40));
+    let (status, out, error) = diagnosed(&case, &[]);
+    assert_eq!((status, out.as_str()), (2, ""));
+    assert!(error.contains("same pose"), "{error}");
+}
+
+#[test]
+fn the_text_is_read_in_a_minute() {
+    let number = (0..64)
+        .find(|n| case(group("calibrated"), *n, 3, 30).what == "backlash")
+        .expect("every kind is hidden");
+    let (status, out, error) = diagnosed(&case(group("calibrated"), number, 3, 150), &[]);
+    assert_eq!(status, 0, "{error}");
+    let first = out.lines().next().expect("a sentence");
+    assert!(
+        first.starts_with('J') && first.ends_with("when it turns the other way (backlash)."),
+        "{first}"
+    );
+    let second = out.lines().nth(1).expect("another");
+    assert!(
+        second.contains("% of the disagreement goes: ")
+            && second.ends_with("mm on 150 poses not used."),
+        "{second}"
+    );
+    // no bar where nobody looks, no line wider than a terminal
+    assert_eq!(error, "");
+    for line in out.lines() {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+}
+
+#[test]
+fn where_a_column_is_missing_the_effects_that_need_it_are_listed() {
+    let mut case = case(group("clean"), 0, 3, 60);
+    // without directions, temperatures, times
+    case.csv = case
+        .csv
+        .lines()
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let kept: Vec<&str> = cells[..9].iter().chain(&cells[17..]).copied().collect();
+            kept.join(",") + "\n"
+        })
+        .collect();
+    let (status, out, error) = diagnosed(&case, &["--json", "--quick"]);
+    assert_eq!(status, 0, "{error}");
+    let report: Value = serde_json::from_str(&out).expect("JSON");
+    let missing: Vec<(&str, &str)> = report["cannot_test"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|c| {
+            (
+                c["effect"].as_str().expect("an id"),
+                c["missing"].as_str().expect("a column"),
+            )
+        })
+        .collect();
+    for (effect, column) in [
+        ("backlash", "dir"),
+        ("thermal_growth", "temperature_c"),
+        ("warm_up_drift", "time_s"),
+    ] {
+        assert!(
+            missing
+                .iter()
+                .any(|(e, m)| *e == effect && m.contains(column)),
+            "{missing:?}"
+        );
+    }
+}

@@ -1,0 +1,149 @@
+//! What the arms come near on a move, and how it is told.
+
+use super::Job;
+use crate::check::MoveReport;
+use crate::check::collision::{self, Clearance};
+use crate::check::course::{Leg, Piece};
+use crate::check::walk::{Arms, Which};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, mm_from_m};
+
+/// One of the two arms, and what is told of it.
+struct Told {
+    name: &'static str,
+    other: &'static str,
+    touches: &'static str,
+    near: &'static str,
+    severity: Severity,
+}
+
+const REAL: Told = Told {
+    name: "real",
+    other: "nominal",
+    touches: "collision",
+    near: "clearance",
+    severity: Severity::Error,
+};
+
+const NOMINAL: Told = Told {
+    name: "nominal",
+    other: "real",
+    touches: "nominal-collision",
+    near: "nominal-clearance",
+    severity: Severity::Warning,
+};
+
+impl Job<'_> {
+    /// Clearances of both arms; `first` where the robot only stands at the target, as it comes from an unknown place.
+    pub(super) fn judge_collisions(
+        &self,
+        index: usize,
+        (leg, pieces): (&Leg, &[Piece]),
+        arms: &Arms,
+        first: bool,
+        report: &mut MoveReport,
+        findings: &mut Vec<Finding>,
+    ) {
+        let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
+        let found = collision::clearance(scene, &arms.mover(Which::Real), leg, pieces, horizon);
+        report.clearance = Some(found);
+        if first {
+            for pair in collision::inside(scene, &arms.plain.real, leg, &leg.start) {
+                let (a, b) = scene.names_of(&scene.watched[pair]);
+                let message = format!("{a} is inside {b}");
+                let hint = "is the cell in the robot's world frame?";
+                findings.push(self.finding(index, "collision", Severity::Error, message, hint));
+            }
+        }
+        let alike = arms.real_is_nominal && self.original.is_none();
+        report.nominal_clearance = if alike {
+            Some(found)
+        } else {
+            self.nominal_clearance(index, leg, pieces, arms)
+        };
+        let nominal = report.nominal_clearance;
+        findings.extend(self.encounter(index, &REAL, Some(found), nominal, first));
+        if !alike {
+            findings.extend(self.encounter(index, &NOMINAL, nominal, Some(found), first));
+        }
+    }
+
+    /// What is told of an arm that touches something or comes too near; nothing where it does not.
+    fn encounter(
+        &self,
+        index: usize,
+        told: &Told,
+        found: Option<Clearance>,
+        other: Option<Clearance>,
+        first: bool,
+    ) -> Option<Finding> {
+        let found = found?;
+        let touches = found.sampled_m <= 0.0;
+        if found.clearance_m >= found.required_m && !touches {
+            return None;
+        }
+        let scene = self.subject.scene;
+        let (a, b) = scene.names_of(&scene.watched[found.pair?]);
+        let joints = found.joints.map(|q| format!("{:.2}", q / DEG)).join(", ");
+        let [x, y, z] = found.points[1].map(mm_from_m);
+        let when = if first {
+            "where it begins".to_owned()
+        } else {
+            format!("at {:.1} % of the move", 100.0 * found.at)
+        };
+        let place = format!("{when} (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)");
+        let comparison = compared(told.other, other);
+        let name = told.name;
+        let (id, message) = if touches {
+            let message = format!("the {name} arm's {a} touches {b} {place}{comparison}");
+            (told.touches, message)
+        } else {
+            let message = format!(
+                "the {name} arm's {a} comes within {:.3} mm of {b}, required {:.3} mm, {place}{comparison}",
+                mm_from_m(found.clearance_m),
+                mm_from_m(found.required_m)
+            );
+            (told.near, message)
+        };
+        let hint = if first {
+            "this is where the program starts: is the cell in the robot's world frame?"
+        } else {
+            "`pairs` in the cell file allows what may touch"
+        };
+        Some(self.finding(index, id, told.severity, message, hint))
+    }
+
+    /// The arm as the simulation believes it: in the original program where there is one.
+    fn nominal_clearance(
+        &self,
+        index: usize,
+        leg: &Leg,
+        pieces: &[Piece],
+        arms: &Arms,
+    ) -> Option<Clearance> {
+        let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
+        let part = self.parts.and_then(|parts| parts[index]);
+        if let (Some(original), Some(part)) = (self.original, part) {
+            let leg = original.leg(part.motion, self.options.turning)?;
+            let stop = original.route.stops[part.motion]?;
+            let mover = original.arms(&stop).mover(Which::Controller);
+            let pieces = leg.pieces();
+            return Some(collision::clearance(scene, &mover, &leg, &pieces, horizon));
+        }
+        let mover = arms.mover(Which::Controller);
+        Some(collision::clearance(scene, &mover, leg, pieces, horizon))
+    }
+}
+
+/// What the other arm does meanwhile.
+fn compared(who: &str, other: Option<Clearance>) -> String {
+    match other {
+        None => String::new(),
+        Some(other) if other.sampled_m <= 0.0 => format!("; so does the {who} arm"),
+        Some(other) if other.pair.is_some() => format!(
+            "; the {who} arm stays clear by {:.3} mm",
+            mm_from_m(other.clearance_m)
+        ),
+        Some(_) => format!("; the {who} arm stays clear"),
+    }
+}

@@ -1,0 +1,168 @@
+//! What a move asks of the joints: limits, singularities, the posture at its end, turns, and speeds.
+
+use super::Job;
+use crate::check::course::{Course, Leg};
+use crate::check::limits::Limits;
+use crate::compensate::route::Stop;
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, MM, mm_from_m};
+
+/// Two joint angles that differ by less are the same, radians.
+const SAME_RAD: f64 = 0.5 * DEG;
+
+impl Job<'_> {
+    pub(super) fn judge_limits(
+        &self,
+        index: usize,
+        leg: &Leg,
+        stop: &Stop,
+        limits: &Limits,
+        findings: &mut Vec<Finding>,
+    ) {
+        let joint = &leg.equipped.arm.mechanism().joints[limits.joint];
+        let span = format!(
+            "limits {:.2} to {:.2} deg",
+            joint.min_rad / DEG,
+            joint.max_rad / DEG
+        );
+        if limits.margin_rad < -1e-9 {
+            let message = format!(
+                "joint {} leaves its limits by {:.3} deg on this move ({span})",
+                limits.joint + 1,
+                -limits.margin_rad / DEG
+            );
+            findings.push(self.finding(
+                index,
+                "joint-limit",
+                Severity::Error,
+                message,
+                "move the target, or another configuration",
+            ));
+        } else if limits.margin_rad < self.options.limit_margin_rad {
+            let message = format!(
+                "joint {} comes within {:.3} deg of its limits ({span})",
+                limits.joint + 1,
+                limits.margin_rad / DEG
+            );
+            findings.push(self.finding(index, "near-joint-limit", Severity::Warning, message, ""));
+        }
+        let margins = &limits.margins;
+        let least = self.options.singularity_rad;
+        let by_tool = matches!(leg.course, Course::Tool(_));
+        for (name, margin) in [("wrist", margins.wrist_rad), ("elbow", margins.elbow_rad)] {
+            if by_tool && margin < least {
+                let message = format!(
+                    "this move passes {:.3} deg from the {name} singularity",
+                    margin / DEG
+                );
+                findings.push(self.finding(
+                    index,
+                    "near-singularity",
+                    Severity::Warning,
+                    message,
+                    "joints move fast there",
+                ));
+            }
+        }
+        if by_tool && margins.shoulder_m < 5.0 * MM {
+            let message = format!(
+                "this move passes {:.2} mm from the shoulder singularity",
+                mm_from_m(margins.shoulder_m)
+            );
+            findings.push(self.finding(
+                index,
+                "near-singularity",
+                Severity::Warning,
+                message,
+                "joints move fast there",
+            ));
+        }
+        self.judge_end(index, leg, stop, findings);
+        let wrist = [3, 5].map(|i| (i, limits.turn_rad[i].abs()));
+        if let Some((i, turn)) = wrist
+            .into_iter()
+            .find(|(_, turn)| *turn > std::f64::consts::PI)
+        {
+            let message = format!(
+                "joint {} turns by {:.1} deg on this move",
+                i + 1,
+                turn / DEG
+            );
+            findings.push(self.finding(
+                index,
+                "large-turn",
+                Severity::Note,
+                message,
+                "cables and hoses turn along",
+            ));
+        }
+        let speeds = &self.subject.profile.joint_speeds;
+        let Some(duration) = limits.duration_s else {
+            return;
+        };
+        for i in 0..6 {
+            if let Some(most) = speeds[i]
+                && limits.rate_rad[i] / duration > most
+            {
+                let message = format!(
+                    "at the programmed speed joint {} would turn at {:.1} deg/s; it can {:.1}",
+                    i + 1,
+                    limits.rate_rad[i] / duration / DEG,
+                    most / DEG
+                );
+                findings.push(self.finding(
+                    index,
+                    "joint-speed",
+                    Severity::Warning,
+                    message,
+                    "the controller will slow down",
+                ));
+                break;
+            }
+        }
+    }
+
+    /// A path of the tool must end in the posture that its target asks for.
+    fn judge_end(&self, index: usize, leg: &Leg, stop: &Stop, findings: &mut Vec<Finding>) {
+        if !matches!(leg.course, Course::Tool(_)) {
+            return;
+        }
+        let mut q = leg.start;
+        for k in 1..=16 {
+            let s = f64::from(k) / 16.0;
+            if leg.beyond(s) > 0.0 {
+                let message = format!(
+                    "the straight or circular way is out of reach at {:.0} % of the move",
+                    100.0 * s
+                );
+                findings.push(self.finding(
+                    index,
+                    "path-out-of-reach",
+                    Severity::Error,
+                    message,
+                    "go round with a target between, or a joint move",
+                ));
+                return;
+            }
+            q = leg.joints(s, &q);
+        }
+        let aligned = leg.equipped.arm.posture(&stop.q).1.wrist_rad < SAME_RAD;
+        let other = (0..6)
+            .find(|&i| (q[i] - stop.q[i]).abs() > SAME_RAD && !(aligned && (i == 3 || i == 5)));
+        if let Some(i) = other {
+            let message = format!(
+                "the target's configuration cannot be reached on this way: joint {} comes to {:.1} deg, and the target has {:.1}",
+                i + 1,
+                q[i] / DEG,
+                stop.q[i] / DEG
+            );
+            findings.push(self.finding(
+                index,
+                "configuration-change",
+                Severity::Error,
+                message,
+                "a joint move can change it",
+            ));
+        }
+    }
+}

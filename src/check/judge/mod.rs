@@ -1,0 +1,185 @@
+//! What one move does, and what of it a person should look at.
+
+mod encounter;
+mod joints;
+
+use super::course::{Course, Leg, Piece};
+use super::deviation::{self, PathError, Wanted};
+use super::walk::{Arms, Walk};
+use super::{MoveReport, Options, Subject, limits, nominal};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::mm_from_m;
+use crate::geometry::{norm, scale, sub};
+use crate::program::Motion;
+
+/// What every move is judged with.
+pub(super) struct Job<'a> {
+    pub subject: &'a Subject<'a>,
+    pub options: &'a Options,
+    pub walk: &'a Walk,
+    pub original: Option<&'a Walk>,
+    /// For each move, the part of the original's move that it is.
+    pub parts: Option<&'a [Option<nominal::Part>]>,
+}
+
+impl Job<'_> {
+    fn finding(
+        &self,
+        motion: usize,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) -> Finding {
+        let motion = &self.walk.route.program.moves[motion];
+        let source = &self.subject.sources[motion.file as usize];
+        source.finding(motion.offset as usize, id, severity, message, hint)
+    }
+
+    /// What the move does, and what a person should look at.
+    pub fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
+        let mut findings = Vec::new();
+        let program = &self.walk.route.program;
+        let motion = &program.moves[index];
+        let Some(stop) = self.walk.route.stops[index] else {
+            return (None, findings);
+        };
+        if motion.motion == Motion::ArcVia {
+            return (None, findings);
+        }
+        let arms = self.walk.arms(&stop);
+        let source = &self.subject.sources[motion.file as usize];
+        let pace = self.subject.language.pace(source, motion);
+        let part = self.parts.and_then(|parts| parts[index]);
+        let wanted_end = match (self.original, part) {
+            (Some(original), Some(part)) => part.end_pose(original, self.options),
+            _ => stop.pose,
+        };
+        let conditions = self.walk.conditions(&stop);
+        let landed = arms.plain.real.forward(&stop.q, &conditions);
+        let mut report = MoveReport {
+            motion: index,
+            file: motion.file as usize,
+            line: source.line_column(motion.offset as usize).0,
+            kind: motion.motion,
+            target: program.targets[motion.target]
+                .name
+                .as_deref()
+                .map(str::to_owned),
+            commanded: stop.pose,
+            target_error: landed.separation(&wanted_end),
+            uncertainty_m: arms.spread.as_ref().map(|spread| {
+                let by = sub(landed.translation, wanted_end.translation);
+                let long = norm(by);
+                let direction = (long > 1e-9).then(|| scale(long.recip(), by));
+                spread.sigma_m(&stop.q, &conditions, direction)
+            }),
+            joints: stop.q,
+            path: None,
+            clearance: None,
+            nominal_clearance: None,
+            limits: None,
+            zone_m: pace.zone_m,
+            cuts_corner: pace.cuts_corner(),
+        };
+        // where the robot comes from is unknown: its posture alone
+        let standing;
+        let (leg, comes) = if let Some(leg) = self.walk.leg(index, self.options.turning) {
+            (leg, true)
+        } else {
+            standing = Course::Joint {
+                from: stop.q,
+                to: stop.q,
+            };
+            let equipped = self.walk.equipped(&stop);
+            let leg = Leg {
+                branch: stop.branch,
+                equipped,
+                course: standing,
+                start: stop.q,
+                conditions,
+            };
+            (leg, false)
+        };
+        let pieces = leg.pieces();
+        if comes {
+            report.path = Some(self.path_error(&leg, &pieces, arms, index));
+            let limits = limits::limits(&leg, &pieces, pace.speed_m_s);
+            self.judge_limits(index, &leg, &stop, &limits, &mut findings);
+            report.limits = Some(limits);
+        }
+        if !self.subject.scene.is_empty() {
+            self.judge_collisions(
+                index,
+                (&leg, &pieces),
+                arms,
+                !comes,
+                &mut report,
+                &mut findings,
+            );
+        }
+        self.judge_path(index, &report, &mut findings);
+        (Some(report), findings)
+    }
+
+    fn path_error(&self, leg: &Leg, pieces: &[Piece], arms: &Arms, index: usize) -> PathError {
+        let part = self.parts.and_then(|parts| parts[index]);
+        if let (Some(original), Some(part)) = (self.original, part)
+            && let Some(wanted) = original.leg(part.motion, self.options.turning)
+        {
+            let stop = original.route.stops[part.motion].expect("a leg ends at a stop");
+            let of_original = original.arms(&stop);
+            let wanted = Wanted {
+                leg: &wanted,
+                from: part.from,
+                to: part.to,
+                controller: &of_original.plain.controller,
+                controller_jet: &of_original.jets.controller,
+                own: false,
+            };
+            return deviation::path_error(leg, pieces, &wanted, &arms.plain, &arms.jets);
+        }
+        let wanted = Wanted {
+            leg,
+            from: 0.0,
+            to: 1.0,
+            controller: &arms.plain.controller,
+            controller_jet: &arms.jets.controller,
+            own: true,
+        };
+        deviation::path_error(leg, pieces, &wanted, &arms.plain, &arms.jets)
+    }
+
+    fn judge_path(&self, index: usize, report: &MoveReport, findings: &mut Vec<Finding>) {
+        let Some(path) = &report.path else { return };
+        if !path.certified {
+            let message = "bounds between samples cannot be guaranteed here: the move passes near a singularity, or the controller's own chain is calibrated";
+            findings.push(self.finding(
+                index,
+                "path-uncertified",
+                Severity::Note,
+                message.into(),
+                "only samples were looked at",
+            ));
+        }
+        let Some(limit) = self.options.max_path_error_m else {
+            return;
+        };
+        if path.bound.distance_m > limit {
+            let message = format!(
+                "the real tool is up to {:.3} mm beside the wanted path (limit {:.3} mm; {:.3} mm at {:.0} % of the move)",
+                mm_from_m(path.bound.distance_m),
+                mm_from_m(limit),
+                mm_from_m(path.sampled.distance_m),
+                100.0 * path.at
+            );
+            findings.push(self.finding(
+                index,
+                "path-error",
+                Severity::Error,
+                message,
+                "`poseshift compensate --max-path-error` inserts targets where the path needs them",
+            ));
+        }
+    }
+}

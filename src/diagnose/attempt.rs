@@ -1,0 +1,185 @@
+//! One search on one set of assumptions about the profile, and what of its outcome must be doubted.
+
+use super::diagnosis::Options;
+use super::fit::Fit;
+use super::refit::{Refit, refit, shrink};
+use super::search::{Chosen, World};
+use super::session::{Session, Trust, for_choice, session};
+use super::unknown::{Library, Likeness, Unknown, chance, likeness};
+use crate::identify::IdentifyError;
+use crate::identify::measurements::Measurements;
+use crate::identify::screening::Remark;
+use crate::model::effects::Effect;
+use crate::model::profile::Profile;
+
+/// A function outside the registry is better than an effect where it gains this much more.
+const UNKNOWN_BETTER: f64 = 14.0;
+/// And this part: an effect's torque or time constant is known to a grid only.
+const UNKNOWN_PART: f64 = 0.01;
+/// Neighbours are alike where that is less likely by chance.
+pub(super) const ALIKE: f64 = 2e-4;
+/// A calibration is off as a whole where the pull at it is less likely by chance.
+const STRAINED: f64 = 1e-4;
+/// Noise is more than stated where that is less likely by chance, in standard deviations of its estimate.
+const LOUDER: f64 = 4.0;
+
+/// What a search on one set of assumptions found.
+pub(super) struct Attempt {
+    pub session: Session,
+    pub chosen: Vec<Chosen>,
+    pub refit: Refit,
+    /// Functions outside the registry that explain what is left.
+    pub unknown: Vec<Unknown>,
+    /// Functions outside the registry that explain more than the effect with this index.
+    pub rivalled: Vec<(usize, Unknown)>,
+    pub likeness: Likeness,
+    pub strained: Option<f64>,
+    pub louder: Option<f64>,
+    /// Deviance and costs in common units: less is better.
+    merit: f64,
+    pub trust: Trust,
+}
+
+impl Attempt {
+    /// Nothing speaks against it.
+    pub fn clean(&self) -> bool {
+        self.unknown.is_empty()
+            && self.rivalled.is_empty()
+            && self.likeness.in_order > ALIKE
+            && self.likeness.in_posture > ALIKE
+            && self.strained.is_none()
+            && self.louder.is_none()
+    }
+
+    /// Its merit with residuals of this variance: less is better.
+    pub fn merit_at(&self, variance: f64) -> f64 {
+        let fit = &self.refit.fit;
+        self.merit - fit.deviance + fit.deviance / variance
+    }
+}
+
+/// Effects found that a function outside the registry would explain better, by their index.
+fn outdone(
+    session: &Session,
+    library: &Library,
+    world: &World,
+    chosen: &[Chosen],
+    fit: &Fit,
+    refit: &Refit,
+) -> Vec<(usize, Unknown)> {
+    let mut outdone = Vec::new();
+    for (i, own) in chosen.iter().enumerate() {
+        let mut others = chosen.to_vec();
+        others.remove(i);
+        let without = fit.with_held(&session.layout, &session.residual, &world.held(&others));
+        let own_gain =
+            (without.deviance - refit.fit.deviance.min(fit.deviance)) / fit.scale.powi(2);
+        let parameters = own.values.len() + own.candidate.chosen;
+        if let Some(best) = library.scan(&session.layout, &without).into_iter().next() {
+            let fair = 3.0 * (best.count as f64 - parameters as f64).max(0.0);
+            if best.gain - fair > own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER {
+                outdone.push((i, best));
+            }
+        }
+    }
+    outdone
+}
+
+/// Probability that what a calibration holds is pulled this hard by chance, where that is small.
+fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
+    let Trust::Calibrated { g } = trust else {
+        return None;
+    };
+    let (strain, count) = refit.fit.strain;
+    if count == 0 {
+        return None;
+    }
+    let p = chance(strain / (refit.fit.scale.powi(2) * (1.0 + g)), count);
+    (p < STRAINED).then_some(p)
+}
+
+/// What is left over the noise that is stated, where that is beyond chance.
+fn louder(session: &Session, refit: &Refit) -> Option<f64> {
+    let spread = (2.0 / refit.fit.freedom).sqrt();
+    let excess = (refit.fit.scale * refit.fit.scale - 1.0) / spread;
+    (!session.problem.sigma_assumed && excess > LOUDER).then_some(refit.fit.scale)
+}
+
+/// Deviance, the information criterion's price of what is fitted freely, and what naming the effects costs.
+fn merit(session: &Session, trust: Trust, used: &[bool], chosen: &[Chosen], refit: &Refit) -> f64 {
+    let columns = match trust {
+        Trust::Nothing => session.shares.len(),
+        Trust::Calibrated { .. } => session.shares.iter().filter(|s| **s == 1.0).count(),
+    };
+    let numbers = (0..session.layout.rows())
+        .filter(|r| used[*r])
+        .map(|r| session.layout.row(r).len())
+        .sum::<usize>() as f64;
+    refit.fit.deviance + columns as f64 * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>()
+}
+
+/// Searches on one set of assumptions, and asks what of the outcome must be doubted.
+///
+/// # Errors
+/// As [`super::diagnose`].
+pub(super) fn attempt(
+    profile: &Profile,
+    measurements: &Measurements,
+    trust: Trust,
+    options: &Options,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(Attempt, Vec<Remark>), IdentifyError> {
+    let leave = |effect: &Effect| options.reject.iter().any(|pick| pick.means(effect));
+    progress("fitting frames and geometry");
+    let (mut session, remarks) = session(profile, measurements, trust, &leave)?;
+    let used = for_choice(measurements);
+    progress("trying every effect");
+    let mut chosen = Vec::new();
+    for round in 0..3 {
+        let world = session.world(&used, &options.accept);
+        chosen = world.search(chosen);
+        if round == 2 || !session.refine(&chosen) {
+            break;
+        }
+    }
+    let chosen = session.world(&used, &options.accept).ordered(chosen);
+    progress("fitting what was found");
+    let mut refit = refit(
+        &session.problem,
+        &session.layout,
+        &session.estimate,
+        &session.shares,
+        &chosen,
+        &used,
+        session.floor(),
+    );
+    let world = session.world(&used, &options.accept);
+    progress("looking for what no effect explains");
+    let library = Library::of(&session.problem, &session.estimate);
+    let fit = world.fit(&chosen);
+    let mut unknown = library.scan(&session.layout, &refit.fit);
+    unknown.retain(|u| u.gain > library.cost(u.count));
+    let rivalled = outdone(&session, &library, &world, &chosen, &fit, &refit);
+    let likeness = likeness(&session.problem, &session.layout, &used, &refit.fit);
+    let strained = strain(trust, &refit);
+    let louder = louder(&session, &refit);
+    let merit = merit(&session, trust, &used, &chosen, &refit);
+    if matches!(trust, Trust::Calibrated { .. }) {
+        shrink(&session.problem, &session.shares, &mut refit);
+    }
+    Ok((
+        Attempt {
+            session,
+            chosen,
+            refit,
+            unknown,
+            rivalled,
+            likeness,
+            strained,
+            louder,
+            merit,
+            trust,
+        },
+        remarks,
+    ))
+}

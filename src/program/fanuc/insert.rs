@@ -1,0 +1,253 @@
+//! Moves between those of a program: the instruction again, to a new point below `/POS`.
+//!
+//! New lines have a colon and no number: controllers number the lines of a listing themselves when they load it, and all
+//! other lines stay as they are.
+
+use super::points::Points;
+use super::sections::{Sections, line_end};
+use crate::program::insert::{line_start, spliced, with_numbers};
+use crate::program::{Between, Inserted, Insertion, Program, Replacements, Source, Target};
+use std::ops::Range;
+
+/// Most points of a program.
+const MOST_POINTS: u32 = 32767;
+
+/// The instruction from its first letter to behind its semicolon.
+fn instruction(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
+    let end = memchr::memchr(b';', &bytes[offset..])? + offset;
+    let text = &bytes[offset..end];
+    (!text.contains(&b'\'') && !text.contains(&b'!')).then_some(offset..end + 1)
+}
+
+/// The blanks, number and colon before an instruction; `None` where its line holds something else.
+fn head(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
+    let start = line_start(bytes, offset);
+    let text = bytes[start..offset].trim_ascii();
+    let digits = text.strip_suffix(b":").unwrap_or(text).trim_ascii();
+    let starts_alone = bytes[..start]
+        .trim_ascii_end()
+        .last()
+        .is_none_or(|b| *b == b';' || b.is_ascii_uppercase());
+    (starts_alone && digits.iter().all(u8::is_ascii_digit)).then_some(start..offset)
+}
+
+/// `P[3:name]` from `from` on.
+fn point(bytes: &[u8], from: usize, end: usize) -> Option<Range<usize>> {
+    let start = from
+        + bytes[from..end]
+            .iter()
+            .position(|b| !b" \t\r\n:".contains(b))?;
+    let open = bytes[start..end].strip_prefix(b"P")?;
+    let blanks = open.len() - open.trim_ascii_start().len();
+    let close = memchr::memchr(b']', open)?;
+    (open.get(blanks) == Some(&b'[')).then_some(start..start + 1 + close + 1)
+}
+
+/// Whether a word behind the point says no more than how fast and how near to go.
+fn is_plain(word: &[u8]) -> bool {
+    let behind = |prefix: &[u8]| word.strip_prefix(prefix);
+    let numbered = |prefix: &[u8]| {
+        behind(prefix).is_some_and(|rest| {
+            rest.is_empty() || rest.iter().all(u8::is_ascii_digit) || rest.starts_with(b"R[")
+        })
+    };
+    // a time is that of the whole way
+    let is_number = word.first().is_some_and(u8::is_ascii_digit) || word.starts_with(b"R[");
+    let is_rate = word.ends_with(b"%") || word.contains(&b'/');
+    is_number && (is_rate || word.iter().all(u8::is_ascii_digit))
+        || ["FINE", "CNT", "CR", "ACC", "PTH", "Wjnt", "MROT"]
+            .iter()
+            .any(|known| numbered(known.as_bytes()))
+}
+
+/// What the copies of one move are made of.
+struct Copied {
+    /// Its instruction.
+    span: Range<usize>,
+    /// The points in it.
+    points: Vec<Range<usize>>,
+    /// Text that starts a line of its own.
+    head: Vec<u8>,
+    /// The text of its target below `/POS`, and of that up to behind its name.
+    target: Range<usize>,
+    name: Range<usize>,
+}
+
+/// The text of a target, and its `P[3:"name"]`.
+fn declared(bytes: &[u8], target: &Target) -> Option<(Range<usize>, Range<usize>)> {
+    let start = target.offset as usize;
+    let open = start + memchr::memchr(b'{', &bytes[start..])?;
+    let close = open + memchr::memchr(b'}', &bytes[open..])?;
+    let close = close + memchr::memchr(b';', &bytes[close..]).filter(|gap| *gap <= 4)?;
+    let name = start..start + bytes[start..open].trim_ascii_end().len();
+    Some((start..close + 1, name))
+}
+
+/// Whether a target has other axes than the six of the arm.
+fn has_more_axes(text: &[u8]) -> bool {
+    let finds = |needle: &[u8]| memchr::memmem::find(text, needle).is_some();
+    finds(b"GP2") || (1..=9).any(|axis| finds(format!("E{axis}").as_bytes()))
+}
+
+impl Copied {
+    fn of(source: &Source, program: &Program, insertion: &Insertion) -> Option<Self> {
+        let bytes = &source.bytes;
+        let motion = &program.moves[insertion.motion];
+        let target = &program.targets[motion.target];
+        let span = instruction(bytes, motion.offset as usize)?;
+        let before = head(bytes, span.start)?;
+        let is_arc = insertion.between.iter().any(|b| b.via.is_some());
+        let verb = bytes[span.start];
+        if is_arc != (verb == b'C') || !b"JLC".contains(&verb) {
+            return None;
+        }
+        let mut points = Vec::new();
+        let mut at = span.start + 1;
+        for _ in 0..if is_arc { 2 } else { 1 } {
+            let found = point(bytes, at, span.end)?;
+            at = found.end;
+            points.push(found);
+        }
+        let words = bytes[at..span.end - 1].split(u8::is_ascii_whitespace);
+        let mut words = words.filter(|word| !word.is_empty());
+        if !words.all(is_plain) {
+            return None;
+        }
+        let (held, name) = declared(bytes, target)?;
+        if has_more_axes(&bytes[held.clone()]) {
+            return None;
+        }
+        // the column of the instruction stays
+        let width = before.len();
+        let mut head = vec![b' '; width.saturating_sub(1)];
+        if bytes[before].contains(&b':') {
+            head.push(b':');
+        } else {
+            head.resize(width, b' ');
+        }
+        Some(Self {
+            span,
+            points,
+            head,
+            target: held,
+            name,
+        })
+    }
+}
+
+/// New points of a file.
+struct NewPoints<'a> {
+    bytes: &'a [u8],
+    end: &'a [u8],
+    next: u32,
+    text: Vec<u8>,
+}
+
+impl NewPoints<'_> {
+    /// A point like that of a move with other numbers; its name in moves.
+    fn add(
+        &mut self,
+        program: &Program,
+        target: &Target,
+        copied: &Copied,
+        numbers: &[Vec<u8>],
+    ) -> Option<Vec<u8>> {
+        let body = copied.name.end..copied.target.end;
+        let body = with_numbers(self.bytes, &body, program.numbers_of(target), numbers)?;
+        if self.next > MOST_POINTS {
+            return None;
+        }
+        let name = format!("P[{}]", self.next).into_bytes();
+        self.next += 1;
+        self.text.extend_from_slice(&name);
+        self.text.extend(body);
+        self.text.extend_from_slice(self.end);
+        Some(name)
+    }
+}
+
+/// The highest number of a point, and the byte behind the last one's line.
+fn points_of(bytes: &[u8], sections: &Sections) -> (u32, usize) {
+    let mut reader = Points::new(bytes, sections.points.start);
+    let (mut highest, mut end) = (0, sections.points.start);
+    while let Ok(Some(point)) = reader.next() {
+        highest = highest.max(point.number);
+        let start = point.offset as usize;
+        let close = memchr::memchr(b'}', &bytes[start..]).map_or(start, |length| start + length);
+        end = line_end(bytes, close);
+    }
+    (highest, end)
+}
+
+/// See [`crate::program::Language::insert`].
+pub(super) fn insert(
+    source: &Source,
+    program: &Program,
+    file: usize,
+    insertions: &[Insertion],
+) -> Inserted {
+    let bytes = &source.bytes;
+    let Some(sections) = Sections::of(bytes) else {
+        return Inserted::none(insertions);
+    };
+    let (highest, behind_points) = points_of(bytes, &sections);
+    let mut points = NewPoints {
+        bytes,
+        end: source.line_end(),
+        next: highest + 1,
+        text: Vec::new(),
+    };
+    let mut inserted = Inserted::default();
+    for insertion in insertions {
+        let motion = &program.moves[insertion.motion];
+        let target = &program.targets[motion.target];
+        let own = target.file as usize == file;
+        let copied = Copied::of(source, program, insertion).filter(|_| own);
+        let (next, length) = (points.next, points.text.len());
+        let done =
+            copied.and_then(|copied| repeat(program, target, &copied, insertion, &mut points));
+        if done.is_none() {
+            points.next = next;
+            points.text.truncate(length);
+        }
+        inserted.moves.push(done);
+    }
+    if !points.text.is_empty() {
+        inserted
+            .rest
+            .push((behind_points..behind_points, points.text));
+    }
+    inserted
+}
+
+fn repeat(
+    program: &Program,
+    target: &Target,
+    copied: &Copied,
+    insertion: &Insertion,
+    points: &mut NewPoints,
+) -> Option<Replacements> {
+    let is_arc = copied.points.len() == 2;
+    let (mut text, mut changes) = (Vec::new(), Vec::new());
+    for (number, Between { via, end }) in insertion.between.iter().enumerate() {
+        let via = match via {
+            Some(numbers) => Some(points.add(program, target, copied, numbers)?),
+            None => None,
+        };
+        // the last part of an arc is the move itself with another point
+        if is_arc && number + 1 == insertion.between.len() {
+            changes.push((copied.points[0].clone(), via?));
+            continue;
+        }
+        let here = points.add(program, target, copied, end)?;
+        let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
+        parts.extend(via.iter().map(|name| (copied.points[0].clone(), &name[..])));
+        parts.push((copied.points[copied.points.len() - 1].clone(), &here));
+        text.extend_from_slice(&copied.head);
+        text.extend(spliced(points.bytes, &copied.span, &parts));
+        text.extend_from_slice(points.end);
+    }
+    let at = line_start(points.bytes, copied.span.start);
+    changes.push((at..at, text));
+    Some(changes)
+}

@@ -1,0 +1,197 @@
+//! Moves put between those of a program: what languages share.
+
+use super::Number;
+use std::ops::Range;
+
+/// A target to be put between two of a program: the text of each number, in the order of [`super::Language::roles`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Between {
+    /// The point that an arc to it passes through.
+    pub via: Option<Vec<Vec<u8>>>,
+    /// The target.
+    pub end: Vec<Vec<u8>>,
+}
+
+/// Moves to be put before one of a program's, like it but for their targets. Where the move is an arc, the last entry is the
+/// move itself with another point on its way.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Insertion {
+    /// Index of the move in [`super::Program::moves`].
+    pub motion: usize,
+    /// The targets on the way.
+    pub between: Vec<Between>,
+}
+
+/// Byte ranges of a file, and what to put in their place.
+pub type Replacements = Vec<(Range<usize>, Vec<u8>)>;
+
+/// What puts moves into a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Inserted {
+    /// For each insertion its text; `None` where the move cannot be repeated.
+    pub moves: Vec<Option<Replacements>>,
+    /// What the file needs beside them: positions that stand elsewhere, counts.
+    pub rest: Replacements,
+}
+
+impl Inserted {
+    /// No move can be repeated.
+    #[must_use]
+    pub fn none(insertions: &[Insertion]) -> Self {
+        Self::each(insertions, |_| None)
+    }
+
+    /// Each by itself.
+    pub fn each(
+        insertions: &[Insertion],
+        insert: impl FnMut(&Insertion) -> Option<Replacements>,
+    ) -> Self {
+        Self {
+            moves: insertions.iter().map(insert).collect(),
+            rest: Vec::new(),
+        }
+    }
+}
+
+/// The blanks before a byte of a line; `None` where something else stands there.
+pub(super) fn indent(bytes: &[u8], at: usize) -> Option<&[u8]> {
+    let line = line_start(bytes, at);
+    let blanks = &bytes[line..at];
+    blanks
+        .iter()
+        .all(|b| matches!(b, b' ' | b'\t'))
+        .then_some(blanks)
+}
+
+/// First byte of the line that a byte stands in.
+pub(super) fn line_start(bytes: &[u8], at: usize) -> usize {
+    let before = bytes[..at].iter().rposition(|b| matches!(b, b'\n' | b'\r'));
+    before.map_or(0, |end| end + 1)
+}
+
+/// The end of the line that a byte stands in, without its line end.
+pub(super) fn line_end(bytes: &[u8], at: usize) -> usize {
+    memchr::memchr2(b'\n', b'\r', &bytes[at..]).map_or(bytes.len(), |length| at + length)
+}
+
+/// The range from an opening bracket to the one that closes it.
+pub(super) fn bracketed(bytes: &[u8], start: usize) -> Option<Range<usize>> {
+    let (open, close) = match bytes.get(start)? {
+        b'[' => (b'[', b']'),
+        b'{' => (b'{', b'}'),
+        b'(' => (b'(', b')'),
+        _ => return None,
+    };
+    let mut depth = 0_usize;
+    for (at, byte) in bytes.iter().enumerate().skip(start) {
+        if *byte == open {
+            depth += 1;
+        } else if *byte == close {
+            depth -= 1;
+            if depth == 0 {
+                return Some(start..at + 1);
+            }
+        }
+    }
+    None
+}
+
+/// Pairs of numbers with something else, in the order of the text.
+fn in_order<'a, T>(numbers: &'a [Number], with: &'a [T]) -> Vec<(&'a Number, &'a T)> {
+    let mut pairs: Vec<_> = numbers.iter().zip(with).collect();
+    pairs.sort_by_key(|(number, _)| number.start);
+    pairs
+}
+
+/// A part of a file with other numbers; `None` where one of them does not stand in it.
+pub(super) fn with_numbers(
+    bytes: &[u8],
+    span: &Range<usize>,
+    numbers: &[Number],
+    texts: &[Vec<u8>],
+) -> Option<Vec<u8>> {
+    let mut out = Vec::new();
+    let mut done = span.start;
+    for (number, text) in in_order(numbers, texts) {
+        let start = number.start as usize;
+        let end = start + usize::from(number.length);
+        if start < done || end > span.end {
+            return None;
+        }
+        out.extend_from_slice(&bytes[done..start]);
+        out.extend_from_slice(text);
+        done = end;
+    }
+    out.extend_from_slice(&bytes[done..span.end]);
+    Some(out)
+}
+
+/// A part of a file with parts of it replaced, in the order of the text.
+pub(super) fn spliced(
+    bytes: &[u8],
+    span: &Range<usize>,
+    parts: &[(Range<usize>, &[u8])],
+) -> Vec<u8> {
+    let mut out = Vec::new();
+    let mut done = span.start;
+    for (at, with) in parts {
+        out.extend_from_slice(&bytes[done..at.start]);
+        out.extend_from_slice(with);
+        done = at.end;
+    }
+    out.extend_from_slice(&bytes[done..span.end]);
+    out
+}
+
+/// Ranges of the arguments of a call or instruction, from behind its name or opening bracket up to `end`: what stands
+/// between commas outside brackets, without the blanks about it.
+pub(super) fn arguments(bytes: &[u8], from: usize, end: usize) -> Vec<Range<usize>> {
+    let (mut depth, mut start, mut found) = (0_i32, from, Vec::new());
+    for at in from..=end {
+        let byte = bytes.get(at).copied().filter(|_| at < end);
+        match byte {
+            Some(b'[' | b'(' | b'{') => depth += 1,
+            Some(b']' | b')' | b'}') => depth -= 1,
+            None | Some(b',') if depth == 0 || byte.is_none() => {
+                let part = &bytes[start..at];
+                let before = part.iter().take_while(|b| b.is_ascii_whitespace()).count();
+                let inside = part.trim_ascii().len();
+                found.push(start + before..start + before + inside);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_are_what_stands_between_commas_outside_brackets() {
+        let text = b"f( a, p[1,2] ,g(x, y) )";
+        let all: Vec<&[u8]> = arguments(text, 2, text.len() - 1)
+            .into_iter()
+            .map(|range| &text[range])
+            .collect();
+        assert_eq!(all, [&b"a"[..], b"p[1,2]", b"g(x, y)"]);
+        assert_eq!(bracketed(text, 1), Some(1..text.len()));
+        assert_eq!(bracketed(b"{a{b}", 0), None);
+    }
+
+    #[test]
+    fn numbers_are_put_where_they_stand_whatever_their_order() {
+        let number = |start| Number {
+            start,
+            length: 1,
+            value: 0.0,
+        };
+        let numbers = [number(5), number(1)];
+        let texts = [b"xx".to_vec(), b"".to_vec()];
+        let out = with_numbers(b"a1b, 2;", &(0..7), &numbers, &texts);
+        assert_eq!(out.as_deref(), Some(&b"ab, xx;"[..]));
+        assert_eq!(with_numbers(b"a1b, 2;", &(0..5), &numbers, &texts), None);
+    }
+}

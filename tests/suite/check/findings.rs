@@ -1,0 +1,262 @@
+//! What a check says of single moves: singularities, configurations, turns, reach; how sure it is; whole circles.
+
+use super::{THESIS, joint_move, part, profile, rapid, run};
+use crate::support::{poseshift, repository, scratch};
+use poseshift::check::{Check, Options};
+use poseshift::finding::Severity;
+use poseshift::model::Conditions;
+
+/// A straight move to where joints would bring the nominal arm, with configuration data.
+fn straight_to(q: [f64; 6], by_mm: [f64; 3], configuration: [i32; 4]) -> String {
+    let profile = profile(THESIS);
+    let tool = profile.tool("artifact").expect("its tool");
+    let model = profile.controller_model(&tool);
+    let pose = model.forward(&q.map(f64::to_radians), &Conditions::default());
+    let t: Vec<String> = (0..3)
+        .map(|k| format!("{:.6}", 1e3 * pose.translation[k] + by_mm[k]))
+        .collect();
+    let r = pose.rotation.quaternion().0.map(|x| format!("{x:.10}"));
+    format!(
+        "    MoveL [[{}],[{}],{configuration:?},[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n",
+        t.join(","),
+        r.join(",")
+    )
+}
+
+fn checked(lines: &str) -> Check {
+    run(
+        &profile(THESIS),
+        None,
+        &rapid(lines),
+        None,
+        &Options::default(),
+    )
+}
+
+fn ids(check: &Check) -> Vec<(&'static str, Severity)> {
+    check.findings.iter().map(|f| (f.id, f.severity)).collect()
+}
+
+#[test]
+fn a_straight_move_past_a_stretched_wrist_is_warned_of() {
+    // the tool keeps its orientation and goes down: joints 2 and 3 pass where joint 5 is zero
+    let q = [10.0, 0.0, 0.0, 0.0, 4.0, 0.0];
+    let off = "    ConfL\\Off;\n";
+    let near = checked(&(joint_move(q) + off + &straight_to(q, [0.0, 0.0, -60.0], [0, 0, 0, 0])));
+    assert!(
+        ids(&near).contains(&("near-singularity", Severity::Warning)),
+        "{:?}",
+        near.findings
+    );
+    let q = [10.0, 0.0, 0.0, 0.0, 60.0, 0.0];
+    let far = checked(&(joint_move(q) + off + &straight_to(q, [0.0, 0.0, -60.0], [0, 0, 0, 0])));
+    assert!(
+        !ids(&far).iter().any(|(id, _)| *id == "near-singularity"),
+        "{:?}",
+        far.findings
+    );
+}
+
+#[test]
+fn a_configuration_that_a_straight_move_cannot_reach_is_an_error() {
+    let from = [10.0, 10.0, 10.0, 60.0, 40.0, 10.0];
+    let by = [10.0, 15.0, 5.0];
+    let same = checked(&(joint_move(from) + &straight_to(from, by, [0, 0, 0, 0])));
+    assert!(!same.is_refused(), "{:?}", same.findings);
+    // joints 4 and 6 turned by half, joint 5 to the other side
+    let other = checked(&(joint_move(from) + &straight_to(from, by, [0, -2, -2, 1])));
+    assert!(
+        ids(&other).contains(&("configuration-change", Severity::Error)),
+        "{:?}",
+        other.findings
+    );
+}
+
+#[test]
+fn a_straight_move_past_axis_1_leaves_the_limits_though_both_ends_are_inside() {
+    let from = [60.0, 0.0, 20.0, 0.0, 70.0, 0.0];
+    let to = [-120.0, 0.0, 20.0, 0.0, 70.0, 0.0];
+    let lines = joint_move(from) + "    ConfL\\Off;\n" + &straight_to(to, [0.0; 3], [-2, 0, 0, 0]);
+    let found = checked(&lines);
+    // axis 1 would go on to 240 degrees
+    let limit = found
+        .findings
+        .iter()
+        .find(|f| f.id == "joint-limit")
+        .expect("it is found");
+    assert!(
+        limit.severity == Severity::Error
+            && limit.message.contains("joint 1 leaves its limits by 75.0"),
+        "{}",
+        limit.message
+    );
+    assert!(ids(&found).contains(&("configuration-change", Severity::Error)));
+}
+
+#[test]
+fn near_a_singularity_numbers_are_those_of_samples() {
+    let q = [10.0, 0.0, 0.0, 0.0, 4.0, 0.0];
+    let off = "    ConfL\\Off;\n";
+    let found = checked(&(joint_move(q) + off + &straight_to(q, [0.0, 0.0, -60.0], [0, 0, 0, 0])));
+    let limits = found.moves[1].limits.expect("it comes from the first");
+    assert!(limits.margin_rad.abs() < 7.0, "{limits:?}");
+    assert!(found.moves[1].path.is_some_and(|path| !path.certified));
+}
+
+#[test]
+fn a_wrist_that_turns_more_than_half_a_turn_is_noted() {
+    let at = |q6: f64| joint_move([0.0, 0.0, 0.0, 0.0, 30.0, q6]);
+    let found = checked(&(at(-150.0) + &at(150.0)));
+    let note = found
+        .findings
+        .iter()
+        .find(|f| f.id == "large-turn")
+        .expect("it is noted");
+    assert!(
+        note.severity == Severity::Note && note.message.contains("joint 6 turns by 300.0"),
+        "{}",
+        note.message
+    );
+    assert!(!found.is_refused());
+}
+
+fn command(arguments: &[&str]) -> (i32, String) {
+    let output = poseshift()
+        .current_dir(repository(""))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let status = output.status.code().expect("it ended");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, error) = (text(&output.stdout), text(&output.stderr));
+    (status, if out.is_empty() { error } else { out })
+}
+
+#[test]
+fn a_calibrated_robot_is_predicted_with_an_uncertainty_that_grows_with_the_noise() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let mut state = 5;
+    let mut joints = String::from("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n");
+    for _ in 0..60 {
+        let half = [150.0, 60.0, 50.0, 140.0, 110.0, 170.0];
+        let q = half.map(|h| format!("{:.4}", h * (2.0 * part(&mut state) - 1.0)));
+        joints += &format!("{}\n", q.join(","));
+    }
+    std::fs::write(at("joints.csv"), joints).expect("a writable folder");
+    let program = "MODULE t
+  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];
+  PROC main()
+    MoveAbsJ [[20,10,10,10,40,10],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;
+  ENDPROC
+ENDMODULE
+";
+    std::fs::write(at("t.mod"), program).expect("a writable folder");
+    let robot = "robots/abb_irb120_thesis.yaml";
+    let mut sigmas = Vec::new();
+    for noise in ["0.02", "0.1"] {
+        let simulate = [
+            "simulate",
+            "--profile",
+            robot,
+            "--joints",
+            &at("joints.csv"),
+            "--noise-mm",
+            noise,
+            "--seed",
+            "4",
+            "-o",
+            &at("m.csv"),
+        ]
+        .map(str::to_owned);
+        let (status, told) = command(&simulate.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(status, 0, "{told}");
+        let (m, c, t) = (at("m.csv"), at("c.yaml"), at("t.mod"));
+        let calibrate = [
+            "calibrate",
+            "--profile",
+            robot,
+            "--measurements",
+            &m,
+            "-o",
+            &c,
+        ];
+        let (status, told) = command(&calibrate);
+        assert_eq!(status, 0, "{told}");
+        let (status, text) = command(&["check", &t, "--profile", &c]);
+        assert_eq!(status, 0, "{text}");
+        assert!(text.contains(" \u{b1} "), "{text}");
+        let (_, text) = command(&["check", &t, "--profile", &c, "--json"]);
+        let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        sigmas.push(
+            report["moves"][0]["uncertainty_mm"]
+                .as_f64()
+                .unwrap_or_else(|| panic!("{text}")),
+        );
+    }
+    // five times the noise, five times the uncertainty, as far as 60 rows tell the noise
+    let ratio = sigmas[1] / sigmas[0];
+    assert!((3.0..8.0).contains(&ratio), "{sigmas:?}");
+    assert!((0.001..0.05).contains(&sigmas[0]), "{sigmas:?}");
+}
+
+#[test]
+fn a_whole_circle_stays_one_within_the_limit() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let point = |x: f64, y: f64| {
+        format!(
+            "[[{x:.4},{y:.4},300.1234],[0.0001,0.0000,0.9999,0.0000],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+        )
+    };
+    let (a, b, c, d) = (
+        point(500.0, 0.0),
+        point(380.0, 120.0),
+        point(260.0, 0.0),
+        point(380.0, -120.0),
+    );
+    let text = format!(
+        "MODULE t
+  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];
+  PROC main()
+    ConfL\\Off;
+    ConfJ\\Off;
+    MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;
+    MoveJ {a},v200,fine,artifact;
+    MoveC {b},{c},v100,z1,artifact;
+    MoveC {d},{a},v100,fine,artifact;
+  ENDPROC
+ENDMODULE
+"
+    );
+    std::fs::write(at("t.mod"), text).expect("a writable folder");
+    let robot = "robots/abb_irb120_thesis.yaml";
+    let mut worst = Vec::new();
+    for (name, limit) in [("plain.mod", "10"), ("fine.mod", "0.03")] {
+        let (t, out) = (at("t.mod"), at(name));
+        let (status, told) = command(&[
+            "compensate",
+            &t,
+            "--profile",
+            robot,
+            "--max-path-error",
+            limit,
+            "-o",
+            &out,
+        ]);
+        assert_eq!(status, 0, "{told}");
+        let (_, json) = command(&["check", &out, "--nominal", &t, "--profile", robot, "--json"]);
+        let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        let moves = report["moves"].as_array().expect("moves");
+        let arcs = moves.iter().filter(|m| m["kind"] == "arc");
+        let errors = arcs.filter_map(|m| m["max_path_error_mm"].as_f64());
+        worst.push(errors.fold(0.0, f64::max));
+    }
+    assert!(worst[0] > 0.03 && worst[1] <= 0.03, "{worst:?}");
+    // nothing but arcs was put in
+    let fine = std::fs::read_to_string(at("fine.mod")).expect("it was written");
+    assert!(
+        fine.matches("MoveC").count() > 2 && !fine.contains("MoveL"),
+        "{fine}"
+    );
+}
