@@ -9,13 +9,7 @@ use poseshift::model::profile::Profile;
 
 /// A set's profile and measurements; `None`, told, where the folder is not there.
 fn read(set: &str, file: &str) -> Option<(Profile, Measurements)> {
-    let folder = repository("../shared/data/real");
-    let folder = if folder.is_dir() {
-        folder
-    } else {
-        "/work/shared/data/real".into()
-    };
-    let folder = folder.join(set);
+    let folder = repository("../shared/data/real").join(set);
     let Ok(text) = std::fs::read_to_string(folder.join("profile.yaml")) else {
         println!("skipped: {} is not there", folder.display());
         return None;
