@@ -14,6 +14,7 @@ mod icp;
 mod import_ur;
 mod kinematics;
 mod measurements;
+mod page;
 mod plan;
 mod points;
 mod profile;
@@ -25,6 +26,7 @@ mod simulate;
 mod table;
 mod validate;
 mod values;
+mod way;
 
 use clap::{Args, Parser, Subcommand};
 use failure::Failure;

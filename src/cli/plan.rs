@@ -2,12 +2,14 @@
 
 use super::failure::Failure;
 use super::measurements::{identify_failure, picks};
+use super::page::ReportFile;
 use super::progress::Progress;
 use super::table::{JOINTS, Table, aligned, cell};
 use super::{Answer, Output, files, print, print_json, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::parameters::{Level, Selection};
 use crate::identify::plan::{Constraints, Plan, Request, plan_telling};
+use crate::report::html::frames::plan_page;
 use crate::report::{approach, identification};
 use clap::Args;
 use serde_json::{Value, json};
@@ -79,6 +81,8 @@ pub struct PlanCommand {
     /// Half angle in which the reflector is seen
     #[arg(long, value_name = "DEG", default_value_t = 30.0)]
     cone_deg: f64,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 fn metres<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
@@ -172,6 +176,10 @@ impl PlanCommand {
 
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let request = self.request()?;
+        let read = self.given.iter().chain([&self.profile]);
+        let outputs = self.output.iter().chain(&self.program);
+        self.report
+            .refuse_over(read.map(PathBuf::as_path), outputs.map(PathBuf::as_path))?;
         let (profile, _) = files::read_profile(&self.profile)?;
         let tool = values::chosen_tool(self.tool.as_deref(), &profile)?;
         let selection = Selection {
@@ -224,6 +232,10 @@ impl PlanCommand {
             })?;
             written.push((path.clone(), text.into_bytes()));
         }
+        if self.report.is_wanted() {
+            let page = plan_page(&found, &profile, &tool, &name);
+            written.extend(self.report.output(Some(&page)));
+        }
         files::write_all(&written)?;
         if output.json {
             let mut report = report(&found);
@@ -238,6 +250,7 @@ impl PlanCommand {
             print(&table)?;
         } else if !output.quiet {
             print(&text(&found, self.sigma_mm))?;
+            print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }

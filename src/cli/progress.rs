@@ -56,6 +56,11 @@ impl Progress {
         Self { bar, done }
     }
 
+    /// What is going on now.
+    pub fn say(&self, what: &str) {
+        self.bar.set_message(what.to_owned());
+    }
+
     /// How much of the work is done.
     pub fn tell(&self, done: usize, of: usize) {
         if self.bar.length().is_none() {

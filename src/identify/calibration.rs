@@ -10,7 +10,7 @@ use super::robust::{Shape, limit};
 use super::screening::{self, Remark};
 use super::solver::{Solution, Stop, absorb_base, solve};
 use super::start::{self, Start, base_gap};
-use super::statistics::{Quality, misses};
+use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -98,6 +98,8 @@ pub struct Calibration {
     pub observability: Observability,
     /// The profile as it was, on the measurements.
     pub before: Quality,
+    /// What it missed of every row.
+    pub before_misses: Vec<Miss>,
     /// With base, tool and points fitted.
     pub frames_only_quality: Quality,
     /// With everything.
@@ -242,7 +244,7 @@ pub fn calibrate(
             parameters: problem.parameters.len(),
         });
     }
-    let before = {
+    let (before, before_misses) = {
         let mut own = Estimate {
             world_from_base: profile.world_from_base,
             ..estimate.clone()
@@ -250,7 +252,8 @@ pub fn calibrate(
         // what was touched stands where this model puts it
         let mut problem = problem.clone();
         contact::start(&mut problem, &mut own)?;
-        Quality::of(&problem.rows, &misses(&problem, &own))
+        let misses = misses(&problem, &own);
+        (Quality::of(&problem.rows, &misses), misses)
     };
     if moved_base {
         estimate
@@ -335,6 +338,7 @@ pub fn calibrate(
         base_replaced,
         uncertainty,
         before,
+        before_misses,
         frames_only_quality,
         after,
         held_out,
@@ -410,7 +414,7 @@ fn outliers(
     problem: &Problem,
     measurements: &Measurements,
     solution: &Solution,
-    misses: &[super::statistics::Miss],
+    misses: &[Miss],
 ) -> Vec<Outlier> {
     let counts = problem.rows.iter().map(|row| row.observed.count());
     let scale = super::robust::scale_of(&solution.normal.squares, counts);
