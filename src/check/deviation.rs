@@ -54,7 +54,7 @@ impl Wanted<'_> {
         self.from + s * (self.to - self.from)
     }
 
-    fn at(&self, s: f64, joints: &[f64; 6]) -> Pose {
+    pub(super) fn at(&self, s: f64, joints: &[f64; 6]) -> Pose {
         if self.own {
             return self.leg.controller_pose(s, joints, self.controller);
         }

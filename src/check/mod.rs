@@ -23,6 +23,7 @@ mod nominal;
 mod query;
 pub mod refine;
 mod scene;
+pub mod trace;
 mod uncertainty;
 mod walk;
 

@@ -1,6 +1,7 @@
 //! `axes`: base and tool from sweeps of single joints.
 
 use super::failure::Failure;
+use super::page::ReportFile;
 use super::registration::sigma_json;
 use super::table::{JOINTS, POSE, Table};
 use super::{Answer, Output, files, print, print_json};
@@ -9,6 +10,7 @@ use crate::geometry::{Quaternion, norm};
 use crate::register::axes::{Axis, Placed, Row, Sweep, axis, base, tool};
 use crate::register::frame_file::Sigma;
 use crate::report;
+use crate::report::html::axes as page;
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -30,12 +32,16 @@ pub struct Axes {
     /// Rows with this name in the column `point` only
     #[arg(long, value_name = "NAME")]
     point: Option<String>,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 const DIRECTIONS: [&str; 6] = ["dir1", "dir2", "dir3", "dir4", "dir5", "dir6"];
 
 impl Axes {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        self.report
+            .refuse_over([self.profile.as_path(), self.sweeps.as_path()], [])?;
         let (profile, _) = files::read_profile(&self.profile)?;
         let sweeps = self.read()?;
         let name = self.sweeps.display();
@@ -57,6 +63,25 @@ impl Axes {
             }
             _ => None,
         };
+        if self.report.is_wanted() {
+            let drawn: Vec<_> = axes
+                .iter()
+                .zip(&sweeps)
+                .map(|(axis, sweep)| page::Sweep {
+                    joint: axis.joint + 1,
+                    angle_rad: sweep.rows.iter().map(|row| row.q[sweep.joint]).collect(),
+                    tangential_rad: axis.tangential_rad.clone(),
+                    radial_m: axis.radial_m.clone(),
+                    axial_m: axis.axial_m.clone(),
+                    radius_m: axis.radius_m,
+                    backlash_rad: axis.backlash_rad,
+                })
+                .collect();
+            let pose = |placed: &Option<Placed>| placed.as_ref().map(|placed| placed.pose);
+            let (base, tool) = (pose(&placed_base), pose(&placed_tool));
+            let page = page::page(&drawn, base.as_ref(), tool.as_ref(), &name.to_string());
+            files::write_all(self.report.output(Some(&page)).as_slice())?;
+        }
         if output.json {
             let joints: Vec<Value> = axes.iter().map(joint_json).collect();
             print_json(&json!({
@@ -70,6 +95,7 @@ impl Axes {
             }))?;
         } else {
             print(&text(&axes, placed_base.as_ref(), placed_tool.as_ref()))?;
+            print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }

@@ -2,15 +2,19 @@
 
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
-use super::table::{SPREAD_HEADER, aligned, spread_row};
+use super::page::ReportFile;
+use super::progress::Progress;
+use super::table::{SPREAD_HEADER, aligned, spread_row, width, wrapped};
 use super::{Answer, Output, files, print, print_json};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::calibration::{
     BasePolicy, Calibration, Options, STRONG_CORRELATION, calibrate,
 };
+use crate::identify::measurements::Purpose;
 use crate::identify::parameters::{Level, Selection};
 use crate::identify::robust::Shape;
 use crate::model::profile::rewritten;
+use crate::report::html::measurements::calibrate_page;
 use crate::report::identification;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -81,6 +85,8 @@ pub struct Calibrate {
     /// Date for the profile's provenance, as you write it
     #[arg(long, value_name = "TEXT")]
     date: Option<String>,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 impl Calibrate {
@@ -112,22 +118,35 @@ impl Calibrate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = self.options()?;
         let (profile, profile_hash) = files::read_profile(&self.profile)?;
+        let read = self.measurements.paths().chain([self.profile.as_path()]);
+        let outputs = self.output.iter().map(PathBuf::as_path);
+        self.report.refuse_over(read, outputs)?;
         let (measurements, hashes) = self.measurements.read()?;
         let name = self.measurements.name();
+        let progress = Progress::new(output, "identifying");
         let found = calibrate(&profile, &measurements, &options)
             .map_err(|error| identify_failure(&name, &error))?;
+        drop(progress);
         let mut report = identification::calibration(&found, &name);
         report["profile_sha256"] = json!(profile_hash);
         report["measurements_sha256"] = json!(hashes);
+        let mut outputs = Vec::new();
         if let Some(path) = &self.output {
             let mut calibrated = found.profile();
             calibrated.quality = Some(identification::profile_quality(&found));
             calibrated.provenance = Some(self.provenance(&found, &profile_hash, &hashes));
             let text = rewritten(&files::read_text(&self.profile)?, &calibrated)
                 .map_err(|error| Failure::new(format!("{}: {error}", self.profile.display())))?;
-            files::write_all(&[(path.clone(), text.into_bytes())])?;
+            outputs.push((path.clone(), text.into_bytes()));
             report["output"] = json!(path.display().to_string());
         }
+        if self.report.is_wanted() {
+            let fit = measurements.filtered(|_, row| row.purpose != Some(Purpose::Validate));
+            let written = self.output.as_ref().map(|path| path.display().to_string());
+            let page = calibrate_page(&found, &fit, &name, written.as_deref());
+            outputs.extend(self.report.output(Some(&page)));
+        }
+        files::write_all(&outputs)?;
         if output.json {
             print_json(&report)?;
             return Ok(Answer::Yes);
@@ -138,6 +157,7 @@ impl Calibrate {
             if let Some(path) = &self.output {
                 print(&format!("\nwritten to {}\n", path.display()))?;
             }
+            print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }
@@ -241,6 +261,21 @@ fn text(found: &Calibration, all: bool) -> String {
         }
     }
     out += &aligned(&rows);
+    for (feature, place) in found.features() {
+        let [x, y, z] = place.centre_m.map(mm_from_m);
+        out += &format!(
+            "{} {} at ({x:.3}, {y:.3}, {z:.3}) mm",
+            feature.kind.id(),
+            feature.name
+        );
+        if let Some(radius_m) = place.radius_m {
+            out += &format!(", radius {:.4} mm", mm_from_m(radius_m));
+        }
+        if let Some([x, y, z]) = place.normal {
+            out += &format!(", normal ({x:.6}, {y:.6}, {z:.6})");
+        }
+        out.push('\n');
+    }
     let names = &found.problem.parameters;
     if !found.solution.identifiable.dropped.is_empty() {
         out += "\nnot determined by these data, left as they were\n";
@@ -265,11 +300,14 @@ fn text(found: &Calibration, all: bool) -> String {
         } else {
             format!("like {}", with.join(", "))
         };
-        out += &wrapped(&format!(
-            "  {}: {}{why}",
-            names[dropped.parameter].key,
-            weak.unwrap_or_default()
-        ));
+        out += &wrapped(
+            &format!(
+                "  {}: {}{why}",
+                names[dropped.parameter].key,
+                weak.unwrap_or_default()
+            ),
+            width(),
+        );
     }
     let strong = u.strong_correlations(STRONG_CORRELATION);
     if !strong.is_empty() {
@@ -315,22 +353,4 @@ fn text(found: &Calibration, all: bool) -> String {
         out += &aligned(&rows);
     }
     out
-}
-
-/// A line broken at 80 columns.
-fn wrapped(line: &str) -> String {
-    let mut out = String::new();
-    let mut length = 0;
-    for (n, word) in line.split(' ').enumerate() {
-        if length + 1 + word.chars().count() > 80 && length > 4 {
-            out += "\n     ";
-            length = 5;
-        } else if n > 0 {
-            out.push(' ');
-            length += 1;
-        }
-        out += word;
-        length += word.chars().count();
-    }
-    out + "\n"
 }

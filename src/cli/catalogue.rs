@@ -1,6 +1,7 @@
 //! `robots`, `effects`, `languages`: what is built in.
 
 use super::failure::Failure;
+use super::table::{width, wrapped_lines};
 use super::{Answer, Output, print, print_json};
 use crate::model::effects::REGISTRY;
 use crate::model::profile::{Mounted, Profile, SHIPPED};
@@ -94,7 +95,7 @@ impl Effects {
                 }
                 text += &format!("  source: {}\n\n", d.source);
             }
-            print(&text)?;
+            print(&wrapped_lines(&text, width()))?;
         }
         Ok(Answer::Yes)
     }
@@ -124,7 +125,7 @@ impl Languages {
                     text.extend(items.iter().map(|item| format!("    {item}\n")));
                 }
             }
-            print(&text)?;
+            print(&wrapped_lines(&text, width()))?;
         }
         Ok(Answer::Yes)
     }

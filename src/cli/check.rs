@@ -2,9 +2,11 @@
 
 use super::compensate::{common_language, explain, language_by_id, programs_in};
 use super::failure::Failure;
+use super::page::ReportFile;
 use super::{Answer, Output, files, json_text, print, values};
 use crate::check::cell::Cell;
 use crate::check::mesh::Mesh;
+use crate::check::trace::trace;
 use crate::check::{self, CheckError, Meshes, Options, Scene, Subject, Turning, baseline};
 use crate::compensate::Given;
 use crate::geometry::units::{DEG, MM};
@@ -12,6 +14,7 @@ use crate::model::profile::Profile;
 use crate::model::shape::{Form, Shape};
 use crate::program::Source;
 use crate::report;
+use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -63,6 +66,8 @@ pub struct Check {
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 /// How the controller turns the tool
@@ -92,6 +97,7 @@ impl Check {
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let sources = read_programs(&self.programs, asked)?;
         let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
+        self.refuse_reports(&sources)?;
         let nominal = if self.nominal.is_empty() {
             None
         } else {
@@ -104,15 +110,15 @@ impl Check {
             profile: &profile,
             scene: &scene,
         };
-        let found =
-            check::check(&subject, &self.options(&profile)?).map_err(|error| match error {
-                CheckError::Program(error) => explain(&error, &sources),
-                CheckError::Nominal(error) => explain(&error, nominal.as_deref().unwrap_or(&[])),
-                CheckError::NoCounterpart { .. } => Failure::with_hint(
-                    error.to_string(),
-                    "is it the program that this one was made from?",
-                ),
-            })?;
+        let options = self.options(&profile)?;
+        let found = check::check(&subject, &options).map_err(|error| match error {
+            CheckError::Program(error) => explain(&error, &sources),
+            CheckError::Nominal(error) => explain(&error, nominal.as_deref().unwrap_or(&[])),
+            CheckError::NoCounterpart { .. } => Failure::with_hint(
+                error.to_string(),
+                "is it the program that this one was made from?",
+            ),
+        })?;
         let names = |sources: &[Source]| sources.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
         let (inputs, originals) = (
             names(&sources),
@@ -135,14 +141,41 @@ impl Check {
             let xml = report::check::junit(&header, &found, comparison.as_ref());
             outputs.push((path.clone(), xml.into_bytes()));
         }
+        let worse = comparison.as_ref().map_or(0, |c| c.worse.len());
+        let page = self.report.is_wanted().then(|| {
+            // what could be checked can be followed
+            let traced = trace(&subject, &options, SAMPLES).unwrap_or_default();
+            check_page(&Checked {
+                header: &header,
+                sources: &sources,
+                check: &found,
+                traced: &traced,
+                worse,
+                scenery: &Scenery {
+                    profile: &profile,
+                    cell: cell.as_ref(),
+                    meshes: &meshes.meshes,
+                },
+            })
+        });
+        outputs.extend(self.report.output(page.as_ref()));
         files::write_all(&outputs)?;
         print(&self.tell(&header, &found, comparison.as_ref(), &meshes.notes, output))?;
-        let worse = comparison.as_ref().is_some_and(|c| !c.worse.is_empty());
+        let worse = worse > 0;
         Ok(if found.is_refused() || worse {
             Answer::No
         } else {
             Answer::Yes
         })
+    }
+
+    /// A report takes the place of nothing that is read, nor of another output.
+    fn refuse_reports(&self, sources: &[Source]) -> Result<(), Failure> {
+        let read = sources.iter().map(|source| Path::new(&source.name));
+        let named = [&self.profile].into_iter().chain(&self.cell);
+        let read = read.chain(named.chain(&self.nominal).map(PathBuf::as_path));
+        let written = self.baseline.iter().chain(&self.junit);
+        self.report.refuse_over(read, written.map(PathBuf::as_path))
     }
 
     fn refuse_nonsense(&self) -> Result<(), Failure> {
@@ -239,6 +272,9 @@ impl Check {
         if let (Some(path), true) = (&self.baseline, self.update_baseline && !output.quiet) {
             text += &format!("stored as {}\n", path.display());
         }
+        if !output.quiet {
+            text += &self.report.told();
+        }
         text
     }
 }
@@ -273,14 +309,14 @@ fn read_programs(
 
 /// Reads the meshes that profiles and cells name, each once.
 #[derive(Default)]
-struct Loader {
-    meshes: Meshes,
+pub(super) struct Loader {
+    pub(super) meshes: Meshes,
     notes: Vec<String>,
 }
 
 impl Loader {
     /// Reads the mesh of a shape, if it is one; its name becomes the key of the mesh.
-    fn load(&mut self, shape: &mut Shape, named_in: &Path) -> Result<(), Failure> {
+    pub(super) fn load(&mut self, shape: &mut Shape, named_in: &Path) -> Result<(), Failure> {
         let Form::Mesh { file, scale } = &mut shape.form else {
             return Ok(());
         };

@@ -1,6 +1,9 @@
 //! `compensate`: program files in, program files with fake targets out.
 
 use super::failure::Failure;
+use super::files::same_file;
+use super::page::ReportFile;
+use super::way::Drawing;
 use super::{Answer, Output, files, json_text, print, values};
 use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
@@ -64,6 +67,8 @@ pub struct Compensate {
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 /// What to do with joint targets
@@ -85,10 +90,15 @@ impl Compensate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let (profile, profile_sha256) = files::read_profile(&self.profile)?;
         refuse_doubtful(&profile, &self.profile)?;
-        let each = output.json || self.max_path_error.is_some();
+        let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
         let options = self.options(&profile, each)?;
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let found = self.find_programs(asked)?;
+        let inputs = found.iter().map(|job| job.input.as_path());
+        self.report.refuse_over(
+            inputs.chain([self.profile.as_path()]),
+            found.iter().map(|job| job.output.as_path()),
+        )?;
         let sources = found
             .iter()
             .map(|job| {
@@ -132,15 +142,25 @@ impl Compensate {
                 self.max_path_error.unwrap_or_default()
             );
         }
+        let mut drawing = self
+            .report
+            .is_wanted()
+            .then(|| Drawing::begin(&header, &compensation, &profile, &self.profile, &options));
+        let mut outputs = Vec::new();
+        let inserted = refined.moves;
         if writes {
             let written = render(language, &sources, compensation, &profile_sha256, refined)?;
+            if let Some(drawing) = &mut drawing {
+                drawing.tell_inserted(inserted);
+                drawing.add_written(language, &written, &sources, &profile, &options);
+            }
             let written = written.into_iter().map(|source| source.bytes);
-            let outputs: Vec<_> = found
-                .into_iter()
-                .map(|job| job.output)
-                .zip(written)
-                .collect();
-            files::write_all(&outputs)?;
+            outputs.extend(found.into_iter().map(|job| job.output).zip(written));
+        }
+        outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
+        files::write_all(&outputs)?;
+        if !output.json && !output.quiet {
+            told += &self.report.told();
         }
         print(&told)?;
         Ok(if refused { Answer::No } else { Answer::Yes })
@@ -400,13 +420,6 @@ pub(super) fn programs_in(
         }
     }
     Ok(found)
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    match (std::fs::canonicalize(a), std::fs::canonicalize(b)) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    }
 }
 
 /// The files' new bytes: edits and marker, read again to make sure that they say what was meant. Takes the compensation,

@@ -2,6 +2,8 @@
 
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
+use super::page::ReportFile;
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
@@ -10,7 +12,6 @@ use crate::model::profile::rewritten;
 use crate::report::{diagnosis as report, identification};
 use clap::Args;
 use serde_json::json;
-use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 
 /// Find where model and measurements disagree, name the missing effect, add it
@@ -36,36 +37,8 @@ pub struct Diagnose {
     /// Leave out the check on rows not used
     #[arg(long)]
     quick: bool,
-}
-
-/// A line on standard error that tells what is being done, on a terminal only.
-struct Progress {
-    shown: bool,
-    step: usize,
-}
-
-/// Steps of a diagnosis that are told.
-const STEPS: usize = 5;
-
-impl Progress {
-    fn tell(&mut self, what: &str) {
-        if !self.shown {
-            return;
-        }
-        self.step += 1;
-        let done = self.step.min(STEPS);
-        let bar: String = (0..STEPS)
-            .map(|k| if k < done { '#' } else { '.' })
-            .collect();
-        // whoever closed standard error does not want it
-        let _ = write!(std::io::stderr(), "\r[{bar}] {what:<40}");
-    }
-
-    fn end(&self) {
-        if self.shown {
-            let _ = write!(std::io::stderr(), "\r{:60}\r", "");
-        }
-    }
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 impl Diagnose {
@@ -76,16 +49,16 @@ impl Diagnose {
             quick: self.quick,
         };
         let (profile, profile_hash) = files::read_profile(&self.profile)?;
+        let read = self.measurements.paths().chain([self.profile.as_path()]);
+        let outputs = self.output.iter().chain(&self.poses).map(PathBuf::as_path);
+        self.report.refuse_over(read, outputs)?;
         let (measurements, hashes) = self.measurements.read()?;
         let name = self.measurements.name();
-        let mut progress = Progress {
-            shown: !output.quiet && !output.json && std::io::stderr().is_terminal(),
-            step: 0,
-        };
+        let progress = Progress::new(output, "diagnosing");
         let found = diagnose(&profile, &measurements, &options, &mut |what| {
-            progress.tell(what);
+            progress.say(what);
         });
-        progress.end();
+        drop(progress);
         let found = found.map_err(|error| identify_failure(&name, &error))?;
         let mut json = report::diagnosis(&found, &name);
         json["profile_sha256"] = json!(profile_hash);
@@ -117,6 +90,11 @@ impl Diagnose {
             }
             outputs.push((path.clone(), text.into_bytes()));
             json["poses"] = json!(path.display().to_string());
+        }
+        if self.report.is_wanted() {
+            let lines: Vec<usize> = measurements.rows.iter().map(|row| row.line).collect();
+            let page = crate::report::html::diagnosis::page(&found, &lines, &name);
+            outputs.extend(self.report.output(Some(&page)));
         }
         files::write_all(&outputs)?;
         let answer = if sure { Answer::Yes } else { Answer::No };

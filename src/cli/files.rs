@@ -57,6 +57,14 @@ pub fn sha256(bytes: &[u8]) -> String {
         .collect()
 }
 
+/// Whether two names lead to one file that exists.
+pub fn same_file(a: &Path, b: &Path) -> bool {
+    match (std::fs::canonicalize(a), std::fs::canonicalize(b)) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}
+
 /// Writes all files or none: each is written beside its place, and only when all are on disk they are renamed into it.
 pub fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
     let mut waiting = Vec::with_capacity(files.len());

@@ -1,6 +1,7 @@
 //! `handeye`: where a camera is.
 
 use super::failure::Failure;
+use super::page::ReportFile;
 use super::registration::sigma_json;
 use super::table::{JOINTS, POSE, Table};
 use super::{Answer, Output, files, print, print_json};
@@ -13,7 +14,10 @@ use crate::register::frame_file::{Frame, Sigma};
 use crate::register::handeye::{
     Corners, HandEye, Method, Refined, Setup, WEAK_RAD, refine_by_corners,
 };
+use crate::register::uncertainty::PoseCovariance;
 use crate::report;
+use crate::report::html::frames::{HandEyeRow, Uncertain, add_hand_eye, frame_page, pose_text};
+use crate::report::html::page::Page;
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -49,6 +53,8 @@ pub struct Handeye {
     /// Write the camera's pose as a frame file
     #[arg(short, long, value_name = "FRAME.yaml")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 /// Where the camera is mounted
@@ -70,6 +76,11 @@ struct Outcome {
 
 impl Handeye {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let read = [&self.robot, &self.board].into_iter();
+        let read = read.chain(&self.corners).chain(&self.profile);
+        let outputs = self.output.iter().map(PathBuf::as_path);
+        self.report
+            .refuse_over(read.map(PathBuf::as_path), outputs)?;
         let robot = self.read_robot()?;
         let board = read_poses(&self.board)?;
         let setup = match self.setup {
@@ -126,10 +137,15 @@ impl Handeye {
             corners,
             findings,
         };
+        let mut outputs = Vec::new();
         if let Some(path) = &self.output {
             let text = self.frame(&result).to_yaml();
-            files::write_all(&[(path.clone(), text.into_bytes())])?;
+            outputs.push((path.clone(), text.into_bytes()));
         }
+        if self.report.is_wanted() {
+            outputs.extend(self.report.output(Some(&self.drawn(&result, &robot))));
+        }
+        files::write_all(&outputs)?;
         if output.json {
             print_json(&as_json(&result))?;
         } else {
@@ -139,9 +155,84 @@ impl Handeye {
             );
             if !output.quiet {
                 print(&as_text(&result, output.verbose))?;
+                print(&self.report.told())?;
             }
         }
         Ok(Answer::Yes)
+    }
+
+    /// The page: the camera's and the board's uncertainty, what is left of each row, what each method found.
+    fn drawn(&self, result: &Outcome, robot: &[Pose]) -> Page {
+        let refined = &result.refined;
+        let (camera, _) = camera_of(result);
+        let uncertain = |name: &str, covariance: &PoseCovariance, place_m: Vector| {
+            let ellipsoid = covariance.ellipsoid(place_m);
+            Uncertain {
+                name: name.into(),
+                place_m,
+                half_axes_m: ellipsoid.half_axes_m,
+                axes: std::array::from_fn(|i| ellipsoid.axes.axis(i)),
+            }
+        };
+        let corners = result.corners.as_ref().filter(|c| c.accepted);
+        let of_camera = corners.map_or(&refined.camera_covariance, |c| &c.covariance);
+        let of_camera = uncertain("camera", of_camera, camera.translation);
+        let of_board = uncertain(
+            "board",
+            &refined.board_covariance,
+            refined.board.translation,
+        );
+        let (out_m, out_rad) = left_out(refined);
+        let mut page = frame_page(&report::html::frames::Frame {
+            title: "Hand-eye calibration".into(),
+            lead: vec![format!(
+                "{} and {}, {}",
+                self.robot.display(),
+                self.board.display(),
+                match result.problem.setup() {
+                    Setup::EyeToHand => "eye to hand",
+                    Setup::EyeInHand => "eye in hand",
+                }
+            )],
+            answer: format!(
+                "{} poses agree to {:.4} mm and {:.5} deg; a pose left out of the fit to {:.4} mm and {:.5} deg",
+                result.problem.count(),
+                mm_from_m(refined.distance_m),
+                refined.rotation_rad / DEG,
+                mm_from_m(out_m),
+                out_rad / DEG
+            ),
+            facts: vec![
+                ("camera".into(), pose_text(&camera)),
+                ("board".into(), pose_text(&refined.board)),
+            ],
+            points: Vec::new(),
+            ellipsoids: vec![of_camera.clone(), of_board.clone()],
+            findings: result.findings.clone(),
+        });
+        let rows = refined
+            .rows
+            .iter()
+            .zip(robot)
+            .map(|(row, robot)| HandEyeRow {
+                place_m: robot.translation,
+                distance_m: row.distance_m,
+                rotation_rad: row.rotation_rad,
+                out_distance_m: row.out_distance_m,
+                out_rotation_rad: row.out_rotation_rad,
+            });
+        let mut methods: Vec<(String, Option<Pose>)> = result
+            .by_method
+            .iter()
+            .map(|(method, pose)| (method.id().to_owned(), *pose))
+            .collect();
+        methods.push(("refined".into(), Some(refined.camera)));
+        let in_base = match result.problem.setup() {
+            Setup::EyeToHand => &of_camera,
+            Setup::EyeInHand => &of_board,
+        };
+        add_hand_eye(&mut page, &rows.collect::<Vec<_>>(), in_base, &methods);
+        page
     }
 
     fn finding(

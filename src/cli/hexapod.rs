@@ -1,6 +1,7 @@
 //! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot can measure.
 
 use super::failure::Failure;
+use super::page::ReportFile;
 use super::registration::sigma_json;
 use super::table::{JOINTS, POSE, Row, Table, cell};
 use super::{Answer, Output, files, print, print_json, values};
@@ -13,6 +14,8 @@ use crate::register::hexapod::{
 };
 use crate::register::uncertainty::PoseCovariance;
 use crate::report;
+use crate::report::html::frames::{Left, Uncertain, frame_page};
+use crate::report::html::page::Page;
 use clap::Args;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -63,6 +66,8 @@ pub struct Hexapod {
     /// Tool of the profile whose frame is that of the tool balls: origin T1, x to T2, T3 in the xy plane
     #[arg(long, value_name = "NAME")]
     tool: Option<String>,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 /// One row of lengths, solved.
@@ -81,6 +86,16 @@ impl Hexapod {
                 self.sigma_mm
             )));
         }
+        if self.report.is_wanted() && self.lengths.is_none() {
+            return Err(Failure::with_hint(
+                "--report goes with LENGTHS only",
+                "--taught and --reach have nothing to look at",
+            ));
+        }
+        let read = self.lengths.iter().chain(&self.frame);
+        let outputs = self.output.iter().map(PathBuf::as_path);
+        self.report
+            .refuse_over(read.map(PathBuf::as_path), outputs)?;
         if let Some(path) = &self.taught {
             return self.set_base(path, output);
         }
@@ -99,11 +114,17 @@ impl Hexapod {
         for (number, row) in table.rows().enumerate() {
             settings.push(setting(&table, &row, number)?);
         }
+        let several = settings.iter().filter(|s| s.found.len() > 1).count();
+        let mut outputs = Vec::new();
         if let Some(out) = &self.output {
             let text = self.measurements(&settings, path)?;
-            files::write_all(&[(out.clone(), text.into_bytes())])?;
+            outputs.push((out.clone(), text.into_bytes()));
         }
-        let several = settings.iter().filter(|s| s.found.len() > 1).count();
+        if self.report.is_wanted() {
+            let page = self.drawn(&settings, path, several);
+            outputs.extend(self.report.output(Some(&page)));
+        }
+        files::write_all(&outputs)?;
         if output.json {
             let poses: Vec<Value> = settings
                 .iter()
@@ -114,17 +135,70 @@ impl Hexapod {
             )?;
         } else if !output.quiet {
             print(&self.text(&settings, several))?;
+            print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }
 
-    fn sigma(&self, solved: &Solved, spread: &Spread) -> Sigma {
+    fn covariance(&self, solved: &Solved, spread: &Spread) -> PoseCovariance {
         let square = m_from_mm(self.sigma_mm).powi(2);
-        let covariance = PoseCovariance {
+        PoseCovariance {
             centre_m: solved.pose.translation,
             matrix: spread.pose.map(|row| row.map(|v| v * square)),
-        };
-        Sigma::of(&covariance, &solved.pose)
+        }
+    }
+
+    fn sigma(&self, solved: &Solved, spread: &Spread) -> Sigma {
+        Sigma::of(&self.covariance(solved, spread), &solved.pose)
+    }
+
+    /// The page: the tool balls of every pose with their ellipsoids.
+    fn drawn(&self, settings: &[Setting], path: &Path, several: usize) -> Page {
+        let mut ellipsoids = Vec::new();
+        for setting in settings {
+            for (solved, spread) in &setting.found {
+                let covariance = self.covariance(solved, spread);
+                for (k, ball) in solved.tool_points_m.iter().enumerate() {
+                    let ellipsoid = covariance.ellipsoid(*ball);
+                    ellipsoids.push(Uncertain {
+                        name: format!("{} mode {} T{}", setting.id, solved.mode, k + 1),
+                        place_m: *ball,
+                        half_axes_m: ellipsoid.half_axes_m,
+                        axes: std::array::from_fn(|i| ellipsoid.axes.axis(i)),
+                    });
+                }
+            }
+        }
+        let poses: usize = settings.iter().map(|s| s.found.len()).sum();
+        let largest = ellipsoids
+            .iter()
+            .map(|e| e.half_axes_m[0])
+            .fold(0.0, f64::max);
+        let points = ellipsoids.iter().map(|e| Left {
+            id: e.name.clone(),
+            place_m: e.place_m,
+            left_m: [0.0; 3],
+            rejected: None,
+        });
+        frame_page(&report::html::frames::Frame {
+            title: "Ballbar hexapod".into(),
+            lead: vec![format!(
+                "{}, in the frame of the base balls; {} mm a length",
+                path.display(),
+                self.sigma_mm
+            )],
+            answer: format!("{poses} poses of {} rows", settings.len()),
+            facts: vec![
+                (
+                    "largest uncertainty of a ball".into(),
+                    format!("{:.5} mm", mm_from_m(largest)),
+                ),
+                ("rows with more than one mode".into(), several.to_string()),
+            ],
+            points: points.collect(),
+            ellipsoids,
+            findings: Vec::new(),
+        })
     }
 
     fn pose_json(&self, setting: &Setting, (solved, spread): &(Solved, Spread)) -> Value {

@@ -8,7 +8,7 @@ use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
 use crate::program::Source;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Files of measurements.
 #[derive(Args)]
@@ -46,6 +46,11 @@ impl MeasurementFiles {
             }
         }
         Ok((all.expect("at least one file is required"), hashes))
+    }
+
+    /// Where they are.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.measurements.iter().map(PathBuf::as_path)
     }
 
     /// How reports name them.

@@ -2,11 +2,14 @@
 
 use super::failure::Failure;
 use super::measurements::{identify_failure, picks};
+use super::page::ReportFile;
+use super::progress::Progress;
 use super::table::{JOINTS, Table, aligned, cell};
 use super::{Answer, Output, files, print, print_json, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::parameters::{Level, Selection};
-use crate::identify::plan::{Constraints, Plan, Request, plan};
+use crate::identify::plan::{Constraints, Plan, Request, plan_telling};
+use crate::report::html::frames::plan_page;
 use crate::report::{approach, identification};
 use clap::Args;
 use serde_json::{Value, json};
@@ -78,6 +81,8 @@ pub struct PlanCommand {
     /// Half angle in which the reflector is seen
     #[arg(long, value_name = "DEG", default_value_t = 30.0)]
     cone_deg: f64,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 fn metres<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
@@ -171,6 +176,10 @@ impl PlanCommand {
 
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let request = self.request()?;
+        let read = self.given.iter().chain([&self.profile]);
+        let outputs = self.output.iter().chain(&self.program);
+        self.report
+            .refuse_over(read.map(PathBuf::as_path), outputs.map(PathBuf::as_path))?;
         let (profile, _) = files::read_profile(&self.profile)?;
         let tool = values::chosen_tool(self.tool.as_deref(), &profile)?;
         let selection = Selection {
@@ -185,8 +194,12 @@ impl PlanCommand {
             priors: false,
         };
         let name = self.profile.display().to_string();
-        let found = plan(&profile, &tool, &selection, &request)
-            .map_err(|error| identify_failure(&name, &error))?;
+        let progress = Progress::new(output, "choosing");
+        let found = plan_telling(&profile, &tool, &selection, &request, &mut |done, of| {
+            progress.tell(done, of);
+        })
+        .map_err(|error| identify_failure(&name, &error))?;
+        drop(progress);
         let mut table = format!("id,{}\n", JOINTS.join(","));
         for (i, q) in found.joints.iter().enumerate() {
             let cells: Vec<String> = q.iter().map(|q| cell(q / DEG)).collect();
@@ -202,14 +215,26 @@ impl PlanCommand {
                 .as_deref()
                 .or(profile.language.as_deref())
                 .unwrap_or_default();
-            let text = approach::program(language, &found.joints, self.approach_deg * DEG)
-                .ok_or_else(|| {
-                    Failure::with_hint(
-                        format!("no program can be written in `{language}`"),
-                        format!("--language is one of: {}", approach::LANGUAGES.join(", ")),
-                    )
-                })?;
+            let text = approach::program(
+                language,
+                &found.joints,
+                self.approach_deg * DEG,
+                profile.pulses_per_deg,
+            )
+            .ok_or_else(|| {
+                Failure::with_hint(
+                    format!("no program can be written in `{language}`"),
+                    format!(
+                        "--language is one of: {}; inform needs controller.pulses_per_deg in the profile",
+                        approach::LANGUAGES.join(", ")
+                    ),
+                )
+            })?;
             written.push((path.clone(), text.into_bytes()));
+        }
+        if self.report.is_wanted() {
+            let page = plan_page(&found, &profile, &tool, &name);
+            written.extend(self.report.output(Some(&page)));
         }
         files::write_all(&written)?;
         if output.json {
@@ -225,14 +250,18 @@ impl PlanCommand {
             print(&table)?;
         } else if !output.quiet {
             print(&text(&found, self.sigma_mm))?;
+            print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }
 }
 
 fn report(found: &Plan) -> Value {
-    let mut report = identification::observability(&found.observability);
-    report["poseshift"] = json!("plan/1");
+    let mut report = json!({"poseshift": "plan/1"});
+    let observability = identification::observability(&found.observability);
+    if let (Value::Object(report), Value::Object(own)) = (&mut report, observability) {
+        report.extend(own);
+    }
     let kept = found.identifiable.kept.iter().zip(&found.sigma);
     report["expected_sigma"] = kept
         .map(|(i, sigma)| {

@@ -1,6 +1,7 @@
 //! `register`: the rigid motion between two sets of points, or a frame from probe touches.
 
 use super::failure::Failure;
+use super::page::ReportFile;
 use super::points::{Feature, Pair, PointRow, Points, matched};
 use super::registration::{Measured, Registration, Touched, tell};
 use super::{Answer, Output, values};
@@ -59,6 +60,8 @@ pub struct Register {
     /// Match points by nearness (unknown correspondence) instead of by id or order
     #[command(flatten)]
     pub(super) icp: super::icp::IcpOptions,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 /// How touches make a frame
@@ -89,6 +92,10 @@ impl Register {
                 )));
             }
         }
+        let read = [&self.from].into_iter().chain(&self.to);
+        let outputs = self.output.iter().map(PathBuf::as_path);
+        self.report
+            .refuse_over(read.map(PathBuf::as_path), outputs)?;
         let registration = match (&self.to, self.frame) {
             (_, Some(kind)) => self.construct(kind)?,
             (Some(to), None) => {
@@ -109,7 +116,13 @@ impl Register {
                     .ok_or_else(|| Failure::new(format!("--at {text}: it must be x,y,z in mm")))
             })
             .collect::<Result<Vec<_>, _>>()?;
-        tell(&registration, &at, self.output.as_deref(), output)
+        tell(
+            &registration,
+            &at,
+            self.output.as_deref(),
+            &self.report,
+            output,
+        )
     }
 
     fn construct(&self, kind: Construction) -> Result<Registration, Failure> {
@@ -238,7 +251,7 @@ impl Register {
             let mut rows: Vec<Measured> = touched
                 .iter()
                 .zip(&fit.points_m)
-                .map(|(t, r)| Measured::new(&t.id, *r))
+                .map(|(t, r)| Measured::new(&t.id, *r).at(t.to_m))
                 .collect();
             let mut sum: f64 = fit.points_m.iter().map(|r| norm(*r).powi(2)).sum();
             for ((id, left), plane) in plane_ids.iter().zip(&fit.planes_m).zip(&planes) {
@@ -336,7 +349,7 @@ impl Register {
         let mut rows: Vec<Measured> = touched
             .iter()
             .zip(&left)
-            .map(|(t, r)| Measured::new(&t.id, *r))
+            .map(|(t, r)| Measured::new(&t.id, *r).at(t.to_m))
             .collect();
         for bad in &rejected {
             rows[bad.index].rejected = Some(format!("{:.1} standard deviations", bad.sigmas));

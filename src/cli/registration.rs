@@ -1,6 +1,7 @@
 //! What `register` tells and writes.
 
 use super::failure::Failure;
+use super::page::ReportFile;
 use super::{Answer, Output, files, print, print_json};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -8,6 +9,8 @@ use crate::geometry::{Pose, Vector, norm};
 use crate::register::frame_file::{Frame, Sigma};
 use crate::register::uncertainty::PoseCovariance;
 use crate::report;
+use crate::report::html::frames::{Left, Uncertain, frame_page, pose_text};
+use crate::report::html::page::Page;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -27,6 +30,8 @@ pub struct Measured {
     pub id: String,
     pub left_m: Vector,
     pub rejected: Option<String>,
+    /// Where it is in TO.
+    pub place_m: Option<Vector>,
 }
 
 impl Measured {
@@ -35,7 +40,14 @@ impl Measured {
             id: id.into(),
             left_m,
             rejected: None,
+            place_m: None,
         }
+    }
+
+    /// It is here in TO.
+    pub fn at(mut self, place_m: Vector) -> Self {
+        self.place_m = Some(place_m);
+        self
     }
 }
 
@@ -85,16 +97,22 @@ pub fn tell(
     found: &Registration,
     at: &[Vector],
     file: Option<&Path>,
+    page: &ReportFile,
     output: Output,
 ) -> Result<Answer, Failure> {
     let refused = found
         .findings
         .iter()
         .any(|finding| finding.severity == Severity::Error);
+    let mut outputs = Vec::new();
     if let Some(path) = file.filter(|_| !refused) {
         let text = frame(found).to_yaml();
-        files::write_all(&[(path.to_owned(), text.into_bytes())])?;
+        outputs.push((path.to_owned(), text.into_bytes()));
     }
+    if page.is_wanted() {
+        outputs.extend(page.output(Some(&drawn(found, at))));
+    }
+    files::write_all(&outputs)?;
     let written = file.filter(|_| !refused);
     if output.json {
         print_json(&as_json(found, at, written))?;
@@ -103,9 +121,76 @@ pub fn tell(
         anstream::eprint!("{findings}");
         if !output.quiet {
             print(&as_text(found, at, written, output.verbose))?;
+            print(&page.told())?;
         }
     }
     Ok(if refused { Answer::No } else { Answer::Yes })
+}
+
+/// The page: residuals where points are known, ellipsoids where they were asked for and at FROM's origin.
+fn drawn(found: &Registration, at: &[Vector]) -> Page {
+    let mut facts = vec![("TO from FROM".to_owned(), pose_text(&found.to_from_from))];
+    if let Some(rmsd) = found.rmsd_m {
+        facts.push(("rmsd".into(), format!("{:.4} mm", mm_from_m(rmsd))));
+    }
+    if let Some(sigma) = found.sigma_m {
+        let source = if found.sigma_given {
+            "given"
+        } else {
+            "from the residuals"
+        };
+        facts.push((
+            format!("noise of a coordinate, {source}"),
+            format!("{:.4} mm", mm_from_m(sigma)),
+        ));
+    }
+    if let Some((scale, sigma)) = found.scale {
+        facts.push(("scale".into(), format!("{scale:.6} \u{b1} {sigma:.6}")));
+    }
+    for (_, _, told) in &found.more {
+        if let Some((what, value)) = told.split_once(": ") {
+            facts.push((what.to_owned(), value.to_owned()));
+        }
+    }
+    let points = found.rows.iter().filter_map(|row| {
+        Some(Left {
+            id: row.id.clone(),
+            place_m: row.place_m?,
+            left_m: row.left_m,
+            rejected: row.rejected.clone(),
+        })
+    });
+    let named = std::iter::once(("FROM's origin".to_owned(), [0.0; 3])).chain(at.iter().map(|p| {
+        let [x, y, z] = p.map(mm_from_m);
+        (format!("{x} {y} {z} of FROM"), *p)
+    }));
+    let ellipsoids = found.covariance.iter().flat_map(|covariance| {
+        named.clone().map(|(name, p)| {
+            let place_m = found.to_from_from.transform(p);
+            let ellipsoid = covariance.ellipsoid(place_m);
+            Uncertain {
+                name,
+                place_m,
+                half_axes_m: ellipsoid.half_axes_m,
+                axes: std::array::from_fn(|i| ellipsoid.axes.axis(i)),
+            }
+        })
+    });
+    frame_page(&report::html::frames::Frame {
+        title: "Registration".into(),
+        lead: vec![format!(
+            "{} \u{2192} {} ({})",
+            found.from, found.to, found.method
+        )],
+        answer: found.rmsd_m.map_or_else(
+            || "The frame is constructed".into(),
+            |rmsd| format!("The points agree to {:.4} mm (rmsd)", mm_from_m(rmsd)),
+        ),
+        facts,
+        points: points.collect(),
+        ellipsoids: ellipsoids.collect(),
+        findings: found.findings.clone(),
+    })
 }
 
 fn frame(found: &Registration) -> Frame {

@@ -189,6 +189,7 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
         Observed::Position(_) => header.extend(POSITION_COLUMNS),
         Observed::Pose(_) => header.extend(POSITION_COLUMNS.iter().chain(&QUATERNION_COLUMNS)),
         Observed::Distance { .. } => header.extend(DISTANCE_COLUMNS),
+        Observed::Contact(_) => {}
     }
     header.extend(DIRECTION_COLUMNS);
     header.extend(FORCE_COLUMNS.iter().filter(|_| forces));
@@ -226,6 +227,8 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
                 cells.push(cell(mm_from_m(distance_m)));
                 cells.extend(from_m.map(|x| cell(mm_from_m(x))));
             }
+            // no simulated device touches
+            Observed::Contact(_) => {}
         }
         cells.extend(row.conditions.direction.map(cell));
         if forces {

@@ -218,6 +218,38 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
     out
 }
 
+/// Columns of the terminal, at most 100; 80 where nobody tells.
+pub fn width() -> usize {
+    let told = std::env::var("COLUMNS").ok().and_then(|n| n.parse().ok());
+    let terminal = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
+    told.or_else(terminal).unwrap_or(80).clamp(40, 100)
+}
+
+/// A line broken at spaces where it is wider than the terminal; the rest stands two letters further in.
+pub fn wrapped(line: &str, width: usize) -> String {
+    let indent = line.len() - line.trim_start().len();
+    let mut out = " ".repeat(indent);
+    let mut length = indent;
+    for (n, word) in line.trim_start().split(' ').enumerate() {
+        let long = word.chars().count();
+        if n > 0 && length + 1 + long > width {
+            out += &format!("\n{}", " ".repeat(indent + 2));
+            length = indent + 2;
+        } else if n > 0 {
+            out.push(' ');
+            length += 1;
+        }
+        out += word;
+        length += long;
+    }
+    out + "\n"
+}
+
+/// Every line of a text broken.
+pub fn wrapped_lines(text: &str, width: usize) -> String {
+    text.lines().map(|line| wrapped(line, width)).collect()
+}
+
 /// Header of a table of statistics.
 pub const SPREAD_HEADER: [&str; 8] = ["error", "n", "mean", "std", "rms", "95 %", "99.7 %", "max"];
 
@@ -228,4 +260,29 @@ pub fn spread_row(name: &str, s: &crate::identify::statistics::Spread) -> Vec<St
     let decimals = if s.max < 1e-3 { 7 } else { 3 };
     row.extend([s.mean, s.std, s.rms, s.p95, s.p997, s.max].map(|v| format!("{v:.decimals$}")));
     row
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lines_are_broken_at_spaces_and_keep_their_words() {
+        let line = "  a line of many words that is wider than the terminal it stands on";
+        let broken = wrapped(line, 40);
+        assert!(
+            broken.lines().all(|line| line.chars().count() <= 40),
+            "{broken}"
+        );
+        assert!(broken.lines().skip(1).all(|line| line.starts_with("    ")));
+        let words = |text: &str| {
+            text.split_whitespace()
+                .map(str::to_owned)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(words(&broken), words(line));
+        assert_eq!(wrapped("  short", 40), "  short\n");
+        // a word that is too long stands alone
+        assert_eq!(wrapped("x yyyyyyyyyy z", 5), "x\n  yyyyyyyyyy\n  z\n");
+    }
 }

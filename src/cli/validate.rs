@@ -2,10 +2,13 @@
 
 use super::failure::Failure;
 use super::measurements::{MeasurementFiles, identify_failure};
+use super::page::ReportFile;
+use super::progress::Progress;
 use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::identify::measurements::Purpose;
-use crate::identify::validation::{Judged, Validation, validate};
+use crate::identify::validation::{Judged, Validation, validate_telling};
+use crate::report::html::measurements::validate_page;
 use crate::report::identification;
 use clap::Args;
 use serde_json::{Value, json};
@@ -28,11 +31,15 @@ pub struct Validate {
     /// Use rows of every set, not only those for `validate`
     #[arg(long)]
     all_sets: bool,
+    #[command(flatten)]
+    report: ReportFile,
 }
 
 impl Validate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let (profile, hash) = files::read_profile(&self.profile)?;
+        let read = self.measurements.paths().chain([self.profile.as_path()]);
+        self.report.refuse_over(read, [])?;
         let (mut measurements, hashes) = self.measurements.read()?;
         let marked = measurements
             .rows
@@ -43,8 +50,21 @@ impl Validate {
         }
         let name = self.measurements.name();
         let folds = self.folds.map(|n| n as usize);
-        let found = validate(&profile, &measurements, self.refit_frames, folds)
-            .map_err(|error| identify_failure(&name, &error))?;
+        let progress = Progress::new(output, "validating");
+        let found = validate_telling(
+            &profile,
+            &measurements,
+            self.refit_frames,
+            folds,
+            &mut |done, of| progress.tell(done, of),
+        )
+        .map_err(|error| identify_failure(&name, &error))?;
+        drop(progress);
+        if self.report.is_wanted() {
+            let page = validate_page(&found, &measurements, &profile, &name);
+            let page = self.report.output(Some(&page));
+            files::write_all(page.as_slice())?;
+        }
         if output.json {
             let mut report = report(&found);
             report["profile_sha256"] = json!(hash);
@@ -52,6 +72,7 @@ impl Validate {
             print_json(&report)?;
         } else if !output.quiet {
             print(&text(&found, output.verbose))?;
+            print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }

@@ -9,7 +9,7 @@ use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
 use crate::model::effects::Need;
-use crate::program::{Configuration, Decoded, Displacement, Value};
+use crate::program::{Configuration, Decoded, Displacement, Role, Value};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
 const BORDER_RAD: f64 = 0.05 * DEG;
@@ -18,6 +18,8 @@ const LIMIT_RAD: f64 = 2.0 * DEG;
 /// A joint that moves less than this keeps the direction in which it moved before.
 const STANDSTILL_RAD: f64 = 1e-6;
 
+/// Parts of an orientation beyond this, in degrees or radians, are no angles: 1e5 degrees are 278 turns.
+const MOST_ANGLE: f64 = 1e5;
 /// Name of the finding about a target that the nominal arm does not reach.
 pub(super) const OUT_OF_REACH: &str = "out-of-reach";
 
@@ -141,6 +143,19 @@ pub(super) fn task(
         value,
         configuration,
     } = decoded(job, target)?;
+    if let Some(angle) = endless_angle(job, target) {
+        findings.push(job.at_target(
+            "angle-too-large",
+            Severity::Error,
+            target,
+            format!(
+                "an angle of {angle:e} in {} is none that anybody means",
+                name_of(job, target)
+            ),
+            "write its orientation with angles of a few turns at most",
+        ));
+        return None;
+    }
     let value = match (value, displacement) {
         (Value::Joints(_), _) | (_, Displacement::None) => value,
         (Value::Pose(pose), Displacement::By(shift)) => Value::Pose(shift.apply(&pose)),
@@ -172,6 +187,15 @@ pub(super) fn task(
         direction: [0; 6],
         honoured,
     })
+}
+
+/// A part of the target's orientation so large that its turn is lost in rounding.
+fn endless_angle(job: &Job, target: usize) -> Option<f64> {
+    let target = &job.program.targets[target];
+    let roles = job.language.roles(target.layout);
+    let numbers = job.program.numbers_of(target).iter().zip(roles);
+    let mut angles = numbers.filter(|(_, role)| **role == Role::Orientation);
+    angles.find_map(|(number, _)| Some(number.value).filter(|angle| angle.abs() > MOST_ANGLE))
 }
 
 /// A target whose branch is to be found.

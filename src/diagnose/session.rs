@@ -149,6 +149,11 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
             *value = from.points_m[index];
         }
     }
+    for (feature, value) in problem.features.iter().zip(&mut into.features) {
+        if let Some(index) = other.features.iter().position(|f| f.name == feature.name) {
+            *value = feature.numbers_of(&other.features[index].place(&from.features[index]));
+        }
+    }
 }
 
 fn profile_base(profile: &Profile) -> Pose {
@@ -247,7 +252,7 @@ pub fn session(
         Trust::Calibrated { g } => g / (1.0 + g),
     };
     let free = |subject: Subject| match subject {
-        Subject::Point { .. } => true,
+        Subject::Point { .. } | Subject::Feature { .. } => true,
         Subject::Effect(slot) => elsewhere && estimate.effects[slot.effect].kind == Kind::BaseFrame,
     };
     let shares = problem

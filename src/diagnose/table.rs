@@ -1,6 +1,6 @@
 //! Residuals and columns in memory: what a parameter does to every measured number, in standard deviations of the rows.
 
-use crate::identify::observation::{MOST_NUMBERS, Observation};
+use crate::identify::observation::MOST_NUMBERS;
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Motion;
@@ -62,7 +62,7 @@ pub fn table(
     let mut motions = vec![Motion::default(); effects.count()];
     for row in &problem.rows {
         let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
-        let seen = Observation::new(row, pose, problem.point_in_tool_m(estimate, row));
+        let seen = problem.observe(estimate, row, pose);
         let (gap, weights, count) = (seen.gap(), seen.weights(), row.observed.count());
         residual.extend((0..count).map(|k| gap[k] * weights[k]));
         let mut motion = motions.iter();
@@ -70,6 +70,7 @@ pub fn table(
             let slope = match parameter.subject {
                 Subject::Effect(_) => motion.next().map_or([0.0; MOST_NUMBERS], |m| seen.slope(m)),
                 Subject::Point { point, axis } => seen.slope_of_point(point, axis),
+                Subject::Feature { feature, value } => seen.slope_of_feature(feature, value),
             };
             column.extend((0..count).map(|k| slope[k] * weights[k] * parameter.scale));
         }

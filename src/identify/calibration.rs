@@ -1,5 +1,6 @@
 //! The whole identification: screened measurements, a start, a solution, what it is worth.
 
+use super::contact;
 use super::error::IdentifyError;
 use super::identifiability::{Observability, observability, singular_values};
 use super::measurements::{Measurements, Purpose};
@@ -9,7 +10,7 @@ use super::robust::{Shape, limit};
 use super::screening::{self, Remark};
 use super::solver::{Solution, Stop, absorb_base, solve};
 use super::start::{self, Start, base_gap};
-use super::statistics::{Quality, misses};
+use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -97,6 +98,8 @@ pub struct Calibration {
     pub observability: Observability,
     /// The profile as it was, on the measurements.
     pub before: Quality,
+    /// What it missed of every row.
+    pub before_misses: Vec<Miss>,
     /// With base, tool and points fitted.
     pub frames_only_quality: Quality,
     /// With everything.
@@ -135,7 +138,7 @@ pub(super) fn begin(problem: &Problem, estimate: &mut Estimate, start: &Start) {
         };
         let fitted = |kind: Kind, subject: Subject| match subject {
             Subject::Effect(slot) => estimate.effects[slot.effect].kind == kind,
-            Subject::Point { .. } => false,
+            Subject::Point { .. } | Subject::Feature { .. } => false,
         };
         if !problem
             .parameters
@@ -187,7 +190,7 @@ pub fn fit_frames(
     let base = guess
         .as_ref()
         .map_or(profile.world_from_base, |s| s.world_from_base);
-    let (problem, mut estimate) = Problem::new(profile, measurements, &selection, base)?;
+    let (mut problem, mut estimate) = Problem::new(profile, measurements, &selection, base)?;
     if let Some(guess) = &guess {
         estimate
             .effects
@@ -195,6 +198,7 @@ pub fn fit_frames(
             .filter(|e| e.kind == Kind::BaseFrame)
             .for_each(|e| e.parameters = [0.0; 6]);
         begin(&problem, &mut estimate, guess);
+        contact::start(&mut problem, &mut estimate)?;
     }
     let solution = solve(&problem, estimate, shape, true)?;
     Ok((problem, solution))
@@ -231,7 +235,7 @@ pub fn calibrate(
         },
     };
     let moved_base = guess.world_from_base != profile.world_from_base;
-    let (problem, mut estimate) =
+    let (mut problem, mut estimate) =
         Problem::new(profile, &fit, &options.selection, guess.world_from_base)?;
     if problem.numbers() <= problem.parameters.len() {
         return Err(IdentifyError::TooFew {
@@ -240,11 +244,17 @@ pub fn calibrate(
             parameters: problem.parameters.len(),
         });
     }
-    let before_estimate = Estimate {
-        world_from_base: profile.world_from_base,
-        ..estimate.clone()
+    let (before, before_misses) = {
+        let mut own = Estimate {
+            world_from_base: profile.world_from_base,
+            ..estimate.clone()
+        };
+        // what was touched stands where this model puts it
+        let mut problem = problem.clone();
+        contact::start(&mut problem, &mut own)?;
+        let misses = misses(&problem, &own);
+        (Quality::of(&problem.rows, &misses), misses)
     };
-    let before = Quality::of(&problem.rows, &misses(&problem, &before_estimate));
     if moved_base {
         estimate
             .effects
@@ -253,6 +263,7 @@ pub fn calibrate(
             .for_each(|e| e.parameters = [0.0; 6]);
     }
     begin(&problem, &mut estimate, &guess);
+    contact::start(&mut problem, &mut estimate)?;
     let frames_selection = Selection {
         level: Level::Frames,
         identify: options
@@ -269,13 +280,15 @@ pub fn calibrate(
         let mut start = estimate.clone();
         start.effects.truncate(start.effects.len());
         let mut frames = frames;
+        frames.features.clone_from(&problem.features);
         frames.parameters = problem
             .parameters
             .iter()
             .filter(|p| frames.parameters.iter().any(|f| f.key == p.key))
             .cloned()
             .collect();
-        solve(&frames, start, options.shape, sought)?
+        solve(&frames, start, options.shape, sought)
+            .map_err(|error| screening::doubt_rest(error, &guess))?
     };
     let frames_only_quality = Quality::of(&problem.rows, &misses(&problem, &frames_only.estimate));
     let mut solution = solve(
@@ -283,7 +296,8 @@ pub fn calibrate(
         frames_only.estimate.clone(),
         options.shape,
         sought,
-    )?;
+    )
+    .map_err(|error| screening::doubt_rest(error, &guess))?;
     let counts: Vec<usize> = problem
         .rows
         .iter()
@@ -324,6 +338,7 @@ pub fn calibrate(
         base_replaced,
         uncertainty,
         before,
+        before_misses,
         frames_only_quality,
         after,
         held_out,
@@ -354,6 +369,7 @@ pub fn judge(
     }
     values.effects.clone_from(&estimate.effects);
     let mut other = other;
+    contact::carry((problem, estimate), &mut other, &mut values)?;
     other.sort_rigs(&values.effects);
     Ok(Quality::of(&other.rows, &misses(&other, &values)))
 }
@@ -398,7 +414,7 @@ fn outliers(
     problem: &Problem,
     measurements: &Measurements,
     solution: &Solution,
-    misses: &[super::statistics::Miss],
+    misses: &[Miss],
 ) -> Vec<Outlier> {
     let counts = problem.rows.iter().map(|row| row.observed.count());
     let scale = super::robust::scale_of(&solution.normal.squares, counts);
@@ -447,6 +463,14 @@ impl Calibration {
                 let value = self.solution.estimate.value(parameter.subject);
                 (parameter, value, at.map(|at| self.uncertainty.sigma[at]))
             })
+    }
+
+    /// What the probe touched and was not wholly known, and where it was found.
+    pub fn features(&self) -> impl Iterator<Item = (&contact::Feature, contact::Place)> {
+        let values = &self.solution.estimate.features;
+        let all = self.problem.features.iter().zip(values);
+        all.filter(|(feature, _)| feature.unknowns() > 0)
+            .map(|(feature, values)| (feature, feature.place(values)))
     }
 
     /// The calibrated robot: the profile with the identified effects, points and, where it was replaced, base.

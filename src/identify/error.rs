@@ -98,6 +98,16 @@ pub enum IdentifyError {
         /// What it needs.
         need: &'static str,
     },
+    /// A touched feature that its touches do not tell.
+    #[error("line {line}: feature `{feature}`: {reason}")]
+    Feature {
+        /// Line of its first row.
+        line: usize,
+        /// Its name.
+        feature: String,
+        /// Why.
+        reason: String,
+    },
     /// No parameter is left.
     #[error("no parameter is left to identify")]
     NoParameters,
@@ -124,6 +134,7 @@ impl IdentifyError {
             Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or --fix".into(),
             Self::Suspicious { hint, .. } => hint.clone(),
             Self::NoStart { .. } => "measure at least 5 configurations in which every joint moves; or give the base in the profile".into(),
+            Self::Feature { .. } => "touch it more often and farther apart, or give its numbers: cx_mm,cy_mm,cz_mm, radius_mm, nx,ny,nz".into(),
             Self::NotConverged { .. } => "identify less (--level 1 first), or look at the rows with the largest residuals".into(),
             _ => String::new(),
         }

@@ -2,80 +2,172 @@
 
 use super::random::Random;
 use nalgebra::DMatrix;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Exchanges of one start before it counts as done.
 const EXCHANGES: usize = 400;
 /// A factor of the determinant below which an exchange is not worth it.
 const WORTH: f64 = 1.0 + 1e-9;
 
-/// Derivatives of all candidates, one candidate a lane: `rows[row][parameter][candidate]`.
+/// Candidates of a block: their numbers stand side by side.
+const LANES: usize = 16;
+
+/// Derivatives of all candidates in blocks of [`LANES`]: `[block][row][parameter][candidate of the block]`.
 pub(super) struct Rows {
-    pub lanes: usize,
     pub height: usize,
     pub width: usize,
-    pub cells: Vec<f32>,
+    cells: Vec<f32>,
 }
 
 impl Rows {
-    fn at(&self, row: usize, column: usize) -> &[f32] {
-        let start = (row * self.width + column) * self.lanes;
-        &self.cells[start..start + self.lanes]
-    }
-}
-
-/// `J_c · U` for every candidate c, then the candidate's block `G_c` changed by it.
-struct Update<'a> {
-    rows: &'a Rows,
-    /// `U = M⁻¹ Jₖᵀ`, one column a row of the block.
-    direction: &'a DMatrix<f64>,
-    /// `± S⁻¹`, symmetric.
-    middle: &'a DMatrix<f64>,
-    /// Upper triangles of all blocks, by lane.
-    blocks: &'a mut [Vec<f32>],
-    scratch: &'a mut [Vec<f32>],
-}
-
-impl pulp::NullaryFnOnce for Update<'_> {
-    type Output = ();
-
-    #[inline(always)]
+    /// Of one matrix a candidate, rows by parameters.
     #[allow(
         clippy::cast_possible_truncation,
         reason = "what is chosen by it is checked in double precision"
     )]
-    fn call(self) {
-        let (height, width, lanes) = (self.rows.height, self.rows.width, self.rows.lanes);
-        // scratch[r * height + s] = Σ J[r][c] U[c][s]
-        for r in 0..height {
-            for s in 0..height {
-                self.scratch[r * height + s].fill(0.0);
+    pub fn of(jacobians: &[DMatrix<f64>], width: usize) -> Self {
+        let height = jacobians.first().map_or(0, DMatrix::nrows);
+        let size = height * width * LANES;
+        let mut cells = vec![0.0; size * jacobians.len().div_ceil(LANES)];
+        for (candidate, jacobian) in jacobians.iter().enumerate() {
+            let block = &mut cells[candidate / LANES * size..][..size];
+            for r in 0..height {
+                for c in 0..width {
+                    block[(r * width + c) * LANES + candidate % LANES] = jacobian[(r, c)] as f32;
+                }
             }
-            for c in 0..width {
-                let j = self.rows.at(r, c);
-                for s in 0..height {
-                    let u = self.direction[(c, s)] as f32;
-                    let into = &mut self.scratch[r * height + s][..lanes];
-                    for (into, j) in into.iter_mut().zip(j) {
-                        *into += u * j;
+        }
+        Self {
+            height,
+            width,
+            cells,
+        }
+    }
+
+    fn blocks(&self) -> std::slice::ChunksExact<'_, f32> {
+        self.cells.chunks_exact(self.height * self.width * LANES)
+    }
+}
+
+/// Numbers of the upper triangle of a candidate's block.
+const fn triangle(height: usize) -> usize {
+    height * (height + 1) / 2
+}
+
+/// Changes the block `G_c` of every candidate c by `(J_c U) · K · (J_c U)ᵀ`.
+struct Update<'a> {
+    rows: &'a Rows,
+    /// `U` by columns.
+    direction: &'a [f32],
+    /// How many columns.
+    columns: usize,
+    /// `K`, symmetric.
+    middle: &'a [f32],
+    /// Upper triangles: `[block][number][candidate of the block]`.
+    grams: &'a mut [f32],
+}
+
+impl WithSimd for Update<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        match (self.rows.height, self.columns) {
+            (3, 3) => self.fixed::<S, 3, 3>(simd),
+            (6, 6) => self.fixed::<S, 6, 6>(simd),
+            (3, 1) => self.fixed::<S, 3, 1>(simd),
+            _ => self.any(),
+        }
+    }
+}
+
+impl Update<'_> {
+    /// With the products of a block in registers.
+    #[inline(always)]
+    fn fixed<S: Simd, const H: usize, const C: usize>(self, simd: S) {
+        let width = self.rows.width;
+        let middle: [[S::f32s; C]; C] = std::array::from_fn(|s| {
+            std::array::from_fn(|v| simd.splat_f32s(self.middle[s * C + v]))
+        });
+        let step = LANES / S::F32_LANES;
+        let grams = self.grams.chunks_exact_mut(triangle(H) * LANES);
+        for (cells, grams) in self.rows.blocks().zip(grams) {
+            let (cells, _) = S::as_simd_f32s(cells);
+            let (grams, _) = S::as_mut_simd_f32s(grams);
+            for part in 0..step {
+                let mut products = [[simd.splat_f32s(0.0); C]; H];
+                for c in 0..width {
+                    let u: [S::f32s; C] =
+                        std::array::from_fn(|s| simd.splat_f32s(self.direction[s * width + c]));
+                    for r in 0..H {
+                        let j = cells[(r * width + c) * step + part];
+                        for s in 0..C {
+                            products[r][s] = simd.mul_add_e_f32s(j, u[s], products[r][s]);
+                        }
+                    }
+                }
+                let mut index = 0;
+                for r in 0..H {
+                    let mut turned = [simd.splat_f32s(0.0); C];
+                    for s in 0..C {
+                        for v in 0..C {
+                            turned[v] =
+                                simd.mul_add_e_f32s(products[r][s], middle[s][v], turned[v]);
+                        }
+                    }
+                    for t in r..H {
+                        let into = &mut grams[index * step + part];
+                        for v in 0..C {
+                            *into = simd.mul_add_e_f32s(turned[v], products[t][v], *into);
+                        }
+                        index += 1;
                     }
                 }
             }
         }
-        let mut index = 0;
-        for r in 0..height {
-            for t in r..height {
-                for s in 0..height {
-                    for v in 0..height {
-                        let k = self.middle[(s, v)] as f32;
-                        let (a, b) = (&self.scratch[r * height + s], &self.scratch[t * height + v]);
-                        let into = &mut self.blocks[index][..lanes];
-                        for ((into, a), b) in into.iter_mut().zip(a).zip(b) {
-                            *into += k * a * b;
+    }
+
+    /// Blocks of several points.
+    #[inline(always)]
+    fn any(self) {
+        let (height, width, columns) = (self.rows.height, self.rows.width, self.columns);
+        let mut products = vec![[0.0_f32; LANES]; height * columns];
+        let mut turned = vec![[0.0_f32; LANES]; height * columns];
+        let grams = self.grams.chunks_exact_mut(triangle(height) * LANES);
+        for (cells, grams) in self.rows.blocks().zip(grams) {
+            products.fill([0.0; LANES]);
+            turned.fill([0.0; LANES]);
+            for r in 0..height {
+                for c in 0..width {
+                    let j = &cells[(r * width + c) * LANES..][..LANES];
+                    for s in 0..columns {
+                        let u = self.direction[s * width + c];
+                        for (into, j) in products[r * columns + s].iter_mut().zip(j) {
+                            *into += u * j;
                         }
                     }
                 }
-                index += 1;
+                for s in 0..columns {
+                    for v in 0..columns {
+                        let k = self.middle[s * columns + v];
+                        for l in 0..LANES {
+                            turned[r * columns + v][l] += k * products[r * columns + s][l];
+                        }
+                    }
+                }
+            }
+            let mut index = 0;
+            for r in 0..height {
+                for t in r..height {
+                    let into = &mut grams[index * LANES..][..LANES];
+                    for v in 0..columns {
+                        let (a, b) = (&turned[r * columns + v], &products[t * columns + v]);
+                        for l in 0..LANES {
+                            into[l] += a[l] * b[l];
+                        }
+                    }
+                    index += 1;
+                }
             }
         }
     }
@@ -87,6 +179,7 @@ pub(super) struct Chooser<'a> {
     pub rows: &'a Rows,
     /// What the given configurations contribute.
     pub base: &'a DMatrix<f64>,
+    pub arch: Arch,
 }
 
 impl Chooser<'_> {
@@ -105,68 +198,79 @@ impl Chooser<'_> {
         })
     }
 
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "what is chosen by it is checked in double precision"
+    )]
+    fn update(&self, direction: &DMatrix<f64>, middle: &DMatrix<f64>, grams: &mut [f32]) {
+        let narrow = |m: &DMatrix<f64>| m.iter().map(|x| *x as f32).collect::<Vec<_>>();
+        self.arch.dispatch(Update {
+            rows: self.rows,
+            direction: &narrow(direction),
+            columns: direction.ncols(),
+            middle: &narrow(middle),
+            grams,
+        });
+    }
+
     /// Adds or removes (`sign` −1) one candidate: inverse and blocks by rank-3 (or 6) updates.
     fn change(
         &self,
         inverse: &mut DMatrix<f64>,
-        blocks: &mut [Vec<f32>],
-        scratch: &mut [Vec<f32>],
+        grams: &mut [f32],
         k: usize,
         sign: f64,
-    ) -> Option<f64> {
+    ) -> Option<()> {
         let j = &self.jacobians[k];
         let direction = &*inverse * j.transpose();
         let height = j.nrows();
         let s = DMatrix::identity(height, height) + sign * (j * &direction);
-        let determinant = s.determinant();
         let middle = s.try_inverse()? * -sign;
         inverse.gemm(1.0, &(&direction * &middle), &direction.transpose(), 1.0);
-        Arch::new().dispatch(Update {
-            rows: self.rows,
-            direction: &direction,
-            middle: &middle,
-            blocks,
-            scratch,
-        });
-        Some(determinant)
+        self.update(&direction, &middle, grams);
+        Some(())
     }
 
-    /// `det(1 + sign · G)` of each candidate.
-    fn ratios(&self, blocks: &[Vec<f32>], sign: f32) -> Vec<f32> {
-        let (height, lanes) = (self.rows.height, self.rows.lanes);
+    /// `det(1 + sign · G)` of one candidate.
+    fn ratio(&self, grams: &[f32], candidate: usize, sign: f32) -> f32 {
+        let height = self.rows.height;
+        let block = &grams[candidate / LANES * triangle(height) * LANES..];
+        let at = |index: usize| sign * block[index * LANES + candidate % LANES];
         if height == 3 {
-            let [a, b, c, d, e, f] = std::array::from_fn(|i| &blocks[i][..lanes]);
-            return (0..lanes)
-                .map(|i| {
-                    let (a, d, f) = (1.0 + sign * a[i], 1.0 + sign * d[i], 1.0 + sign * f[i]);
-                    let (b, c, e) = (sign * b[i], sign * c[i], sign * e[i]);
-                    a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d)
-                })
-                .collect();
+            let (a, d, f) = (1.0 + at(0), 1.0 + at(3), 1.0 + at(5));
+            let (b, c, e) = (at(1), at(2), at(4));
+            return a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d);
         }
-        (0..lanes)
-            .map(|lane| {
-                let mut m = DMatrix::<f32>::identity(height, height);
-                let mut index = 0;
-                for r in 0..height {
-                    for t in r..height {
-                        let value = sign * blocks[index][lane];
-                        m[(r, t)] += value;
-                        if r != t {
-                            m[(t, r)] += value;
-                        }
-                        index += 1;
-                    }
+        let mut m = DMatrix::<f32>::identity(height, height);
+        let mut index = 0;
+        for r in 0..height {
+            for t in r..height {
+                m[(r, t)] += at(index);
+                if r != t {
+                    m[(t, r)] += at(index);
                 }
-                m.determinant()
-            })
-            .collect()
+                index += 1;
+            }
+        }
+        m.determinant()
+    }
+
+    /// The best of some candidates by [`Self::ratio`].
+    fn best(
+        &self,
+        grams: &[f32],
+        sign: f32,
+        candidates: impl Iterator<Item = usize>,
+    ) -> Option<usize> {
+        candidates
+            .map(|i| (self.ratio(grams, i, sign), i))
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, i)| i)
     }
 
     /// One start: a random set, improved by exchanges until none raises the determinant.
     pub fn run(&self, count: usize, random: &mut Random) -> (f64, Vec<usize>, usize) {
         let total = self.jacobians.len();
-        let height = self.rows.height;
         let mut used = vec![false; total];
         let mut set = Vec::with_capacity(count);
         while set.len() < count {
@@ -176,78 +280,59 @@ impl Chooser<'_> {
                 set.push(i);
             }
         }
-        let mut best = Self::log_determinant(&self.information(&set));
+        let mut information = self.information(&set);
+        let mut best = Self::log_determinant(&information);
         let mut exchanges = 0;
-        let Some(mut inverse) = self.information(&set).try_inverse() else {
+        let Some(factor) = information.clone().cholesky() else {
             return (best, set, 0);
         };
-        let mut blocks = vec![vec![0.0_f32; self.rows.lanes]; height * (height + 1) / 2];
-        let mut scratch = vec![vec![0.0_f32; self.rows.lanes]; height * height];
-        // G of every candidate: one column of the inverse's factor at a time
+        let mut inverse = factor.inverse();
+        let lanes = total.div_ceil(LANES) * LANES;
+        let mut grams = vec![0.0_f32; lanes * triangle(self.rows.height)];
+        // G of every candidate: the inverse's factor, one column at a time
         if let Some(factor) = inverse.clone().cholesky() {
-            let l = factor.l();
-            for column in 0..l.ncols() {
-                let direction = l.column(column);
-                for (r, line) in scratch.iter_mut().take(height).enumerate() {
-                    line.fill(0.0);
-                    for c in 0..self.rows.width {
-                        #[allow(
-                            clippy::cast_possible_truncation,
-                            reason = "checked in double precision"
-                        )]
-                        let u = direction[c] as f32;
-                        for (into, j) in line.iter_mut().zip(self.rows.at(r, c)) {
-                            *into += u * j;
-                        }
-                    }
-                }
-                let mut index = 0;
-                for r in 0..height {
-                    for t in r..height {
-                        for lane in 0..self.rows.lanes {
-                            blocks[index][lane] += scratch[r][lane] * scratch[t][lane];
-                        }
-                        index += 1;
-                    }
-                }
+            let one = DMatrix::identity(1, 1);
+            for column in factor.l().column_iter() {
+                self.update(
+                    &DMatrix::from_column_slice(column.len(), 1, column.clone_owned().as_slice()),
+                    &one,
+                    &mut grams,
+                );
             }
         }
         while exchanges < EXCHANGES {
-            let add = self.ratios(&blocks, 1.0);
-            let entering = (0..total)
-                .filter(|i| !used[*i])
-                .max_by(|a, b| add[*a].total_cmp(&add[*b]));
-            let Some(entering) = entering else { break };
+            let free = (0..total).filter(|i| !used[*i]);
+            let Some(entering) = self.best(&grams, 1.0, free) else {
+                break;
+            };
             if self
-                .change(&mut inverse, &mut blocks, &mut scratch, entering, 1.0)
+                .change(&mut inverse, &mut grams, entering, 1.0)
                 .is_none()
             {
                 break;
             }
-            let lose = self.ratios(&blocks, -1.0);
             let inside = set.iter().copied().chain([entering]);
-            let leaving = inside
-                .max_by(|a, b| lose[*a].total_cmp(&lose[*b]))
-                .expect("one entered");
-            if leaving == entering {
-                break;
-            }
-            if self
-                .change(&mut inverse, &mut blocks, &mut scratch, leaving, -1.0)
-                .is_none()
+            let leaving = self.best(&grams, -1.0, inside).expect("one entered");
+            if leaving == entering
+                || self
+                    .change(&mut inverse, &mut grams, leaving, -1.0)
+                    .is_none()
             {
                 break;
             }
-            let mut next = set.clone();
-            next.retain(|i| *i != leaving);
-            next.push(entering);
             // the decision in double precision
-            let now = Self::log_determinant(&self.information(&next));
-            if now.is_finite() && (now - best).exp() < WORTH {
+            let mut next = information.clone();
+            let (new, old) = (&self.jacobians[entering], &self.jacobians[leaving]);
+            next.gemm_tr(1.0, new, new, 1.0);
+            next.gemm_tr(-1.0, old, old, 1.0);
+            let now = Self::log_determinant(&next);
+            if !now.is_finite() || (now - best).exp() < WORTH {
                 break;
             }
             (used[leaving], used[entering]) = (false, true);
-            set = next;
+            set.retain(|i| *i != leaving);
+            set.push(entering);
+            information = next;
             best = now;
             exchanges += 1;
         }

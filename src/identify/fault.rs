@@ -67,6 +67,14 @@ pub enum MeasurementFault {
         /// Its length.
         norm: f64,
     },
+    /// Rows that say different things of one touched feature.
+    #[error("feature `{feature}` is another one in line {earlier}")]
+    Contradiction {
+        /// Its name.
+        feature: String,
+        /// Line of the earlier row.
+        earlier: usize,
+    },
     /// A row with both a position and a distance, or with neither.
     #[error("the row has {} a position and a distance; it must have one of them", if *both { "both" } else { "neither" })]
     Kind {
@@ -85,6 +93,9 @@ impl MeasurementError {
             }
             MeasurementFault::Kind { .. } => {
                 "leave the cells of the other kind empty: x_mm,y_mm,z_mm or distance_mm,from_x_mm,from_y_mm,from_z_mm".into()
+            }
+            MeasurementFault::Contradiction { .. } => {
+                "one name is one feature: the same contact, cx_mm,cy_mm,cz_mm, radius_mm and nx,ny,nz in every row, or empty cells".into()
             }
             _ => String::new(),
         }

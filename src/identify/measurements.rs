@@ -4,6 +4,8 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion, Vector};
 use crate::model::Conditions;
 
+use super::contact::{self, Contact, ContactKind};
+
 pub use super::fault::{MeasurementError, MeasurementFault};
 
 use super::fault::UNIT_TOLERANCE;
@@ -23,6 +25,11 @@ pub const DIRECTION_COLUMNS: [&str; 6] = ["dir1", "dir2", "dir3", "dir4", "dir5"
 /// Columns of the external force on the tool.
 pub const FORCE_COLUMNS: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
 
+/// Columns of a touched sphere's centre, of a point of a touched plane, or of a touched point.
+pub const CENTRE_COLUMNS: [&str; 3] = ["cx_mm", "cy_mm", "cz_mm"];
+/// Columns of the outward normal of a touched plane.
+pub const NORMAL_COLUMNS: [&str; 3] = ["nx", "ny", "nz"];
+
 /// What the device gave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Observed {
@@ -37,16 +44,19 @@ pub enum Observed {
         /// Where it is measured from.
         from_m: Vector,
     },
+    /// Contact with something of which not all is known; see [`Measurement::contact`].
+    Contact(ContactKind),
 }
 
 impl Observed {
-    /// How many numbers are compared: 3, 6 or 1.
+    /// How many numbers are compared: 3, 6, 1, or those of the contact.
     #[must_use]
     pub const fn count(&self) -> usize {
         match self {
             Self::Position(_) => 3,
             Self::Pose(_) => 6,
             Self::Distance { .. } => 1,
+            Self::Contact(kind) => kind.count(),
         }
     }
 
@@ -56,7 +66,7 @@ impl Observed {
         match self {
             Self::Position(p) => Some(*p),
             Self::Pose(pose) => Some(pose.translation),
-            Self::Distance { .. } => None,
+            Self::Distance { .. } | Self::Contact(_) => None,
         }
     }
 }
@@ -104,6 +114,8 @@ pub struct Measurement {
     pub sigma_m: Option<f64>,
     /// What the row is for.
     pub purpose: Option<Purpose>,
+    /// What the probe touched.
+    pub contact: Option<Contact>,
 }
 
 /// A file's readings in the order in which they were measured.
@@ -125,13 +137,13 @@ fn whole_file(fault: MeasurementFault) -> MeasurementError {
 }
 
 /// The header and where each column of the format stands.
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     bytes: &'a [u8],
     header: Vec<String>,
 }
 
-struct Cells<'a> {
-    reader: &'a Reader<'a>,
+pub(super) struct Cells<'a> {
+    pub(super) reader: &'a Reader<'a>,
     line: usize,
     record: csv::StringRecord,
 }
@@ -141,7 +153,7 @@ impl Reader<'_> {
         self.header.iter().position(|name| name == column)
     }
 
-    fn has(&self, columns: &[&str]) -> bool {
+    pub(super) fn has(&self, columns: &[&str]) -> bool {
         columns.iter().all(|column| self.index(column).is_some())
     }
 
@@ -169,12 +181,12 @@ impl Reader<'_> {
 }
 
 impl Cells<'_> {
-    fn text(&self, column: &str) -> Option<&str> {
+    pub(super) fn text(&self, column: &str) -> Option<&str> {
         let text = self.record.get(self.reader.index(column)?)?;
         (!text.is_empty()).then_some(text)
     }
 
-    fn error(&self, column: &'static str, fault: MeasurementFault) -> MeasurementError {
+    pub(super) fn error(&self, column: &'static str, fault: MeasurementFault) -> MeasurementError {
         let index = self.reader.index(column).unwrap_or(0);
         let mut lines = self.reader.bytes.split(|b| *b == b'\n');
         let line = lines.nth(self.line.saturating_sub(1)).unwrap_or_default();
@@ -188,7 +200,7 @@ impl Cells<'_> {
         }
     }
 
-    fn number(&self, column: &'static str) -> Result<f64, MeasurementError> {
+    pub(super) fn number(&self, column: &'static str) -> Result<f64, MeasurementError> {
         let text = self.text(column).unwrap_or_default();
         let number = text.parse().ok().filter(|n: &f64| n.is_finite());
         number.ok_or_else(|| {
@@ -197,7 +209,7 @@ impl Cells<'_> {
         })
     }
 
-    fn numbers<const N: usize>(
+    pub(super) fn numbers<const N: usize>(
         &self,
         columns: [&'static str; N],
     ) -> Result<[f64; N], MeasurementError> {
@@ -223,19 +235,12 @@ impl Cells<'_> {
             (Some(_), None) => {
                 let found = "an empty cell".to_owned();
                 let allowed = "a name";
-                Err(self.error(
-                    column,
-                    MeasurementFault::NotAllowed {
-                        column,
-                        found,
-                        allowed,
-                    },
-                ))
+                Err(self.not_allowed(column, found, allowed))
             }
         }
     }
 
-    fn is_empty(&self, columns: &[&str]) -> bool {
+    pub(super) fn is_empty(&self, columns: &[&str]) -> bool {
         columns.iter().all(|column| self.text(column).is_none())
     }
 
@@ -250,19 +255,15 @@ impl Cells<'_> {
                 return Err(self.error("x_mm", MeasurementFault::Kind { both: point }));
             }
         }
+        if !point && !distance {
+            return Err(self.error("contact", MeasurementFault::Kind { both: false }));
+        }
         if distance {
             let [distance, x, y, z] = self.numbers(DISTANCE_COLUMNS)?;
             if distance < 0.0 {
                 let (column, allowed) = ("distance_mm", "zero or more");
                 let found = distance.to_string();
-                return Err(self.error(
-                    column,
-                    MeasurementFault::NotAllowed {
-                        column,
-                        found,
-                        allowed,
-                    },
-                ));
+                return Err(self.not_allowed(column, found, allowed));
             }
             return Ok(Observed::Distance {
                 distance_m: m_from_mm(distance),
@@ -304,14 +305,7 @@ impl Cells<'_> {
                 *slot = self.number(column)?;
                 if ![-1.0, 0.0, 1.0].contains(slot) {
                     let (found, allowed) = (slot.to_string(), "-1, 0 or 1");
-                    return Err(self.error(
-                        column,
-                        MeasurementFault::NotAllowed {
-                            column,
-                            found,
-                            allowed,
-                        },
-                    ));
+                    return Err(self.not_allowed(column, found, allowed));
                 }
             }
         }
@@ -322,14 +316,7 @@ impl Cells<'_> {
         if sigma_m.is_some_and(|sigma| sigma <= 0.0) {
             let (column, allowed) = ("sigma_mm", "greater than zero");
             let found = self.text(column).unwrap_or_default().to_owned();
-            return Err(self.error(
-                column,
-                MeasurementFault::NotAllowed {
-                    column,
-                    found,
-                    allowed,
-                },
-            ));
+            return Err(self.not_allowed(column, found, allowed));
         }
         let purpose = match self.name("set")?.as_deref() {
             None => None,
@@ -337,29 +324,27 @@ impl Cells<'_> {
             Some("validate") => Some(Purpose::Validate),
             Some(found) => {
                 let (column, allowed, found) = ("set", "fit or validate", format!("`{found}`"));
-                return Err(self.error(
-                    column,
-                    MeasurementFault::NotAllowed {
-                        column,
-                        found,
-                        allowed,
-                    },
-                ));
+                return Err(self.not_allowed(column, found, allowed));
             }
         };
+        let contact = self.contact(kinds)?;
         Ok(Measurement {
             line: self.line,
             id: self
                 .text("id")
                 .map_or_else(|| number.to_string(), str::to_owned),
             q,
-            observed: self.observed(kinds)?,
+            observed: match &contact {
+                Some(contact) => contact.observed(),
+                None => self.observed(kinds)?,
+            },
             tool: self.name("tool")?,
             point,
             point_in_tool_m,
             conditions,
             sigma_m,
             purpose,
+            contact,
         })
     }
 }
@@ -367,13 +352,15 @@ impl Cells<'_> {
 /// Which groups of columns a file has.
 #[derive(Clone, Copy)]
 #[allow(clippy::struct_excessive_bools, reason = "one a group of columns")]
-struct Kinds {
+pub(super) struct Kinds {
     position: bool,
     quaternion: bool,
     distance: bool,
     point: bool,
     directions: bool,
     force: bool,
+    contact: bool,
+    pub(super) probe: bool,
 }
 
 impl Measurements {
@@ -422,6 +409,8 @@ impl Measurements {
             point: reader.group(&POINT_COLUMNS)?,
             directions: reader.group(&DIRECTION_COLUMNS)?,
             force: reader.group(&FORCE_COLUMNS)?,
+            contact: reader.group(&["contact"])?,
+            probe: reader.group(&["probe_radius_mm"])?,
         };
         for single in [
             "id",
@@ -434,7 +423,14 @@ impl Measurements {
         ] {
             reader.group(&[single])?;
         }
-        if !kinds.position && (!kinds.distance || kinds.quaternion) {
+        let centre = reader.group(&CENTRE_COLUMNS)?;
+        let described = reader.group(&NORMAL_COLUMNS)? | centre | reader.group(&["radius_mm"])?;
+        let named = reader.group(&["feature"])?;
+        if kinds.contact != named || described && !named {
+            return Err(reader.missing(&["contact", "feature"]));
+        }
+        let others = kinds.position || kinds.distance && !kinds.quaternion;
+        if !others && !kinds.contact {
             return Err(reader.missing(&POSITION_COLUMNS));
         }
         let mut rows = Vec::new();
@@ -451,6 +447,15 @@ impl Measurements {
         if rows.is_empty() {
             return Err(whole_file(MeasurementFault::NoRows));
         }
+        contact::settle(&mut rows).map_err(|conflict| MeasurementError {
+            line: conflict.line,
+            column: 1,
+            length: 0,
+            fault: MeasurementFault::Contradiction {
+                feature: conflict.feature,
+                earlier: conflict.earlier,
+            },
+        })?;
         Ok(Self {
             rows,
             columns: reader.header.clone(),

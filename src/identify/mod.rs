@@ -22,6 +22,8 @@ pub mod solver;
 pub mod start;
 
 pub mod calibration;
+pub mod contact;
+mod contact_cells;
 mod error;
 mod exchange;
 mod fault;

@@ -1,5 +1,6 @@
 //! What a model expects of a row: residual and derivatives.
 
+use super::contact::{ContactKind, Touch};
 use super::measurements::Observed;
 use super::problem::{LEVER_M, PointRef, Row};
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, sub};
@@ -17,6 +18,8 @@ pub struct Observation<'a> {
     arm: Vector,
     /// Direction of a distance.
     toward: Vector,
+    /// What a contact leaves and what its feature does.
+    touch: Touch,
 }
 
 impl<'a> Observation<'a> {
@@ -38,7 +41,15 @@ impl<'a> Observation<'a> {
             world_from_tool,
             arm,
             toward,
+            touch: Touch::default(),
         }
+    }
+
+    /// With what its contact leaves.
+    #[inline(always)]
+    pub(super) fn touch(&mut self, touch: Touch) {
+        self.toward = touch.toward;
+        self.touch = touch;
     }
 
     /// Where the point is expected in the world, metres.
@@ -69,6 +80,10 @@ impl<'a> Observation<'a> {
                 let length = norm(sub(expected, from_m));
                 [distance_m - length, 0.0, 0.0, 0.0, 0.0, 0.0]
             }
+            Observed::Contact(_) => {
+                let [x, y, z] = self.touch.gap;
+                [x, y, z, 0.0, 0.0, 0.0]
+            }
         }
     }
 
@@ -82,10 +97,17 @@ impl<'a> Observation<'a> {
     }
 
     /// What a motion of the tool does to the expectation.
+    ///
+    /// The gap of a touched point is taken along axes that turn with the tool: it is as long, and turns of the arm and of the
+    /// unknown point together leave it as it is, whatever is left of it.
     #[inline(always)]
     #[must_use]
     pub fn slope(&self, motion: &Motion) -> [f64; MOST_NUMBERS] {
-        let shift = add(motion.shift_m, cross(motion.turn_rad, self.arm));
+        let arm = match self.row.observed {
+            Observed::Contact(ContactKind::Point) => add(self.arm, self.touch.gap),
+            _ => self.arm,
+        };
+        let shift = add(motion.shift_m, cross(motion.turn_rad, arm));
         self.of_shift(shift, motion.turn_rad)
     }
 
@@ -100,12 +122,31 @@ impl<'a> Observation<'a> {
         }
     }
 
+    /// What growth of one number of a touched feature does; zero where the row touches another one.
+    #[inline(always)]
+    #[must_use]
+    pub fn slope_of_feature(&self, feature: usize, value: usize) -> [f64; MOST_NUMBERS] {
+        let mut slope = [0.0; MOST_NUMBERS];
+        match (self.row.observed, self.row.touched) {
+            (Observed::Contact(kind), Some((mine, _))) if mine == feature => match kind {
+                ContactKind::Point => slope[value] = -1.0,
+                _ => slope[0] = self.touch.by_feature[value],
+            },
+            _ => {}
+        }
+        slope
+    }
+
     #[inline(always)]
     fn of_shift(&self, [x, y, z]: Vector, turn: Vector) -> [f64; MOST_NUMBERS] {
         match self.row.observed {
-            Observed::Position(_) => [x, y, z, 0.0, 0.0, 0.0],
+            Observed::Position(_) | Observed::Contact(ContactKind::Point) => {
+                [x, y, z, 0.0, 0.0, 0.0]
+            }
             Observed::Pose(_) => [x, y, z, turn[0], turn[1], turn[2]],
-            Observed::Distance { .. } => [dot(self.toward, [x, y, z]), 0.0, 0.0, 0.0, 0.0, 0.0],
+            Observed::Distance { .. } | Observed::Contact(_) => {
+                [dot(self.toward, [x, y, z]), 0.0, 0.0, 0.0, 0.0, 0.0]
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Errors of distances between all pairs of points, streamed.
 
-use crate::geometry::{Vector, norm};
+use crate::geometry::{Vector, norm, sub};
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 /// Errors of the distances between all pairs of points.
@@ -25,17 +26,72 @@ impl Pairs {
 }
 
 /// Points that are compared with a block of others at a time: their coordinates stay in the nearest cache.
-const BLOCK: usize = 256;
-/// Pairs side by side.
-const WIDTH: usize = 8;
+const BLOCK: usize = 512;
 /// Beyond this part of a distance, squared, its error is computed the long way.
 const LARGE: f32 = 1e-3;
+/// Points nearer than this part of the cloud's extent are compared the long way.
+const NEAR: f64 = 1e-3;
 
-/// Coordinates by axis, padded to whole blocks with the last point.
-struct Cloud {
-    /// Measured x, y, z, then expected x, y, z.
-    axes: [Vec<f64>; 6],
-    count: usize,
+/// Coordinates by axis.
+struct Cloud<'a> {
+    measured: &'a [Vector],
+    expected: &'a [Vector],
+    /// Measured minus expected, less the mean of that.
+    gaps: [Vec<f32>; 3],
+    /// Measured plus expected, less the mean of that.
+    sums: [Vec<f32>; 3],
+    /// Square of the sum's difference below which the long way is gone.
+    near: f32,
+}
+
+impl<'a> Cloud<'a> {
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "relative to the mean, single precision tells a part in 1e7 of the extent"
+    )]
+    fn of(measured: &'a [Vector], expected: &'a [Vector]) -> Self {
+        let axis = |k: usize, sign: f64| {
+            let both = || {
+                measured
+                    .iter()
+                    .zip(expected)
+                    .map(|(m, e)| m[k] + sign * e[k])
+            };
+            let mean = both().sum::<f64>() / measured.len() as f64;
+            both().map(|x| (x - mean) as f32).collect::<Vec<_>>()
+        };
+        let sums: [Vec<f32>; 3] = std::array::from_fn(|k| axis(k, 1.0));
+        let extent = sums
+            .iter()
+            .flatten()
+            .fold(0.0_f32, |most, x| most.max(x.abs()));
+        Self {
+            measured,
+            expected,
+            gaps: std::array::from_fn(|k| axis(k, -1.0)),
+            sums,
+            near: (NEAR * f64::from(extent)).powi(2) as f32,
+        }
+    }
+
+    /// The pairs of point `i` with points `from..to`, in double precision.
+    fn long_way(&self, i: usize, from: usize, to: usize, total: &mut PairSums) {
+        for j in from..to {
+            let p = sub(self.measured[j], self.measured[i]);
+            let r = sub(self.expected[j], self.expected[i]);
+            // |p| − |r| without cancellation
+            let whole = norm(p) + norm(r);
+            let parts: f64 = (0..3).map(|k| (p[k] - r[k]) * (p[k] + r[k])).sum();
+            let error = if whole > 0.0 {
+                (parts / whole).abs()
+            } else {
+                0.0
+            };
+            total.sum += error;
+            total.squares += error * error;
+            total.max = total.max.max(error);
+        }
+    }
 }
 
 #[derive(Clone, Copy, Default)]
@@ -45,95 +101,91 @@ struct PairSums {
     max: f64,
 }
 
+/// With δ and σ the differences of the gaps and of the sums of two points, `|p|² − |r|² = δ·σ` and
+/// `(|p| + |r|)² = |σ|² + |δ|² − (|p| − |r|)²`: nothing large is subtracted.
 struct PairKernel<'a> {
-    cloud: &'a Cloud,
-    /// Blocks of first points.
-    blocks: std::ops::Range<usize>,
+    cloud: &'a Cloud<'a>,
+    /// A block of first points.
+    block: usize,
 }
 
-impl pulp::NullaryFnOnce for PairKernel<'_> {
+impl WithSimd for PairKernel<'_> {
     type Output = PairSums;
 
     #[inline(always)]
-    fn call(self) -> PairSums {
+    fn with_simd<S: Simd>(self, simd: S) -> PairSums {
         let mut total = PairSums::default();
-        let count = self.cloud.count;
-        let [ax, ay, az, bx, by, bz] = self.cloud.axes.each_ref().map(Vec::as_slice);
-        for block in self.blocks {
-            let (from, to) = (block * BLOCK, ((block + 1) * BLOCK).min(count));
-            let mut second = from;
-            while second < count {
-                let end = (second + BLOCK).min(count);
-                for i in from..to {
-                    let a = [ax[i], ay[i], az[i]];
-                    let b = [bx[i], by[i], bz[i]];
-                    // pairs with a later point only
-                    let start = second.max(i + 1);
-                    if start >= end {
-                        continue;
-                    }
-                    let mut sums = [0.0_f32; WIDTH];
-                    let mut squares = [0.0_f32; WIDTH];
-                    let mut most = [0.0_f32; WIDTH];
-                    let mut doubt = [0.0_f32; WIDTH];
-                    let whole = (end - start) / WIDTH;
-                    for k in 0..whole {
-                        let j = start + k * WIDTH;
-                        let (px, py, pz) =
-                            (&ax[j..j + WIDTH], &ay[j..j + WIDTH], &az[j..j + WIDTH]);
-                        let (rx, ry, rz) =
-                            (&bx[j..j + WIDTH], &by[j..j + WIDTH], &bz[j..j + WIDTH]);
-                        let mut difference = [0.0_f32; WIDTH];
-                        let mut both = [0.0_f32; WIDTH];
-                        for l in 0..WIDTH {
-                            let (x, y, z) = (px[l] - a[0], py[l] - a[1], pz[l] - a[2]);
-                            let (u, v, w) = (rx[l] - b[0], ry[l] - b[1], rz[l] - b[2]);
-                            // |p|² − |r|² without cancellation, and their sum
-                            let d = (x - u) * (x + u) + (y - v) * (y + v) + (z - w) * (z + w);
-                            let s = (x * x + y * y + z * z) + (u * u + v * v + w * w);
-                            #[allow(
-                                clippy::cast_possible_truncation,
-                                reason = "a quotient of them is taken"
-                            )]
-                            {
-                                difference[l] = d as f32;
-                                both[l] = s as f32;
-                            }
-                        }
-                        for l in 0..WIDTH {
-                            // |p| − |r| = d / (|p| + |r|), and (|p| + |r|)² = 2s − (|p| − |r|)²
-                            let first =
-                                difference[l] / (both[l] + both[l] + f32::MIN_POSITIVE).sqrt();
-                            let part = first * first / (both[l] + both[l] + f32::MIN_POSITIVE);
-                            let error = first.abs() * (1.0 + 0.5 * part);
-                            sums[l] += error;
-                            squares[l] += error * error;
-                            most[l] = if error > most[l] { error } else { most[l] };
-                            doubt[l] = if part > doubt[l] { part } else { doubt[l] };
-                        }
-                    }
-                    let mut tail = start + whole * WIDTH;
-                    if doubt.iter().any(|d| *d > LARGE) {
-                        // some pair is as near as its error: all of this strip the long way
-                        tail = start;
-                    } else {
-                        for l in 0..WIDTH {
-                            total.sum += f64::from(sums[l]);
-                            total.squares += f64::from(squares[l]);
-                            total.max = total.max.max(f64::from(most[l]));
-                        }
-                    }
-                    for j in tail..end {
-                        let p = [ax[j] - a[0], ay[j] - a[1], az[j] - a[2]];
-                        let r = [bx[j] - b[0], by[j] - b[1], bz[j] - b[2]];
-                        let error = (norm(p) - norm(r)).abs();
-                        total.sum += error;
-                        total.squares += error * error;
-                        total.max = total.max.max(error);
-                    }
+        let cloud = self.cloud;
+        let count = cloud.measured.len();
+        let (one, half) = (simd.splat_f32s(1.0), simd.splat_f32s(0.5));
+        let zero = simd.splat_f32s(0.0);
+        let (first, last) = (self.block * BLOCK, ((self.block + 1) * BLOCK).min(count));
+        let mut second = first;
+        while second < count {
+            let end = (second + BLOCK).min(count);
+            for i in first..last {
+                // pairs with a later point only
+                let start = second.max(i + 1);
+                if start >= end {
+                    continue;
                 }
-                second += BLOCK;
+                let at = |axis: &Vec<f32>| simd.splat_f32s(axis[i]);
+                let (u0, v0, w0) = (at(&cloud.gaps[0]), at(&cloud.gaps[1]), at(&cloud.gaps[2]));
+                let (x0, y0, z0) = (at(&cloud.sums[0]), at(&cloud.sums[1]), at(&cloud.sums[2]));
+                let (us, _) = S::as_simd_f32s(&cloud.gaps[0][start..end]);
+                let (vs, _) = S::as_simd_f32s(&cloud.gaps[1][start..end]);
+                let (ws, _) = S::as_simd_f32s(&cloud.gaps[2][start..end]);
+                let (xs, _) = S::as_simd_f32s(&cloud.sums[0][start..end]);
+                let (ys, _) = S::as_simd_f32s(&cloud.sums[1][start..end]);
+                let (zs, tail) = S::as_simd_f32s(&cloud.sums[2][start..end]);
+                let (mut sum, mut squares, mut most, mut doubt) = (zero, zero, zero, zero);
+                let mut nearest = simd.splat_f32s(f32::MAX);
+                let gaps = us.iter().zip(vs).zip(ws);
+                for (((&u, &v), &w), ((&x, &y), &z)) in gaps.zip(xs.iter().zip(ys).zip(zs)) {
+                    let (u, v, w) = (
+                        simd.sub_f32s(u, u0),
+                        simd.sub_f32s(v, v0),
+                        simd.sub_f32s(w, w0),
+                    );
+                    let (x, y, z) = (
+                        simd.sub_f32s(x, x0),
+                        simd.sub_f32s(y, y0),
+                        simd.sub_f32s(z, z0),
+                    );
+                    let across = simd.mul_f32s(u, x);
+                    let across = simd.mul_add_e_f32s(v, y, across);
+                    let across = simd.mul_add_e_f32s(w, z, across);
+                    let whole = simd.mul_f32s(x, x);
+                    let whole = simd.mul_add_e_f32s(y, y, whole);
+                    let whole = simd.mul_add_e_f32s(z, z, whole);
+                    nearest = simd.min_f32s(nearest, whole);
+                    let whole = simd.mul_add_e_f32s(u, u, whole);
+                    let whole = simd.mul_add_e_f32s(v, v, whole);
+                    let whole = simd.mul_add_e_f32s(w, w, whole);
+                    let inverse = simd.div_f32s(one, simd.sqrt_f32s(whole));
+                    let near = simd.mul_f32s(across, inverse);
+                    let part = simd.mul_f32s(near, inverse);
+                    let part = simd.mul_f32s(part, part);
+                    doubt = simd.max_f32s(doubt, part);
+                    let near = simd.abs_f32s(near);
+                    let error = simd.mul_add_e_f32s(near, simd.mul_f32s(half, part), near);
+                    sum = simd.add_f32s(sum, error);
+                    squares = simd.mul_add_e_f32s(error, error, squares);
+                    most = simd.max_f32s(most, error);
+                }
+                let clear = simd.reduce_max_f32s(doubt) < LARGE
+                    && simd.reduce_min_f32s(nearest) > cloud.near;
+                if clear {
+                    total.sum += f64::from(simd.reduce_sum_f32s(sum));
+                    total.squares += f64::from(simd.reduce_sum_f32s(squares));
+                    total.max = total.max.max(f64::from(simd.reduce_max_f32s(most)));
+                    cloud.long_way(i, end - tail.len(), end, &mut total);
+                } else {
+                    // some pair is as near as its error: all of this strip
+                    cloud.long_way(i, start, end, &mut total);
+                }
             }
+            second += BLOCK;
         }
         total
     }
@@ -141,33 +193,22 @@ impl pulp::NullaryFnOnce for PairKernel<'_> {
 
 /// Errors of the distances between all pairs of points, in the unit of the points; `None` with fewer than two points.
 ///
-/// Memory is that of the points. Differences are taken in double precision and only their quotient in single: the mean is
-/// right to some 1e-6 of itself.
+/// Memory is that of the points. Sums and differences of measured and expected points are rounded to single precision about
+/// their means: the mean is right to some 1e-6 of itself. Points that nearly coincide are compared in double precision.
 #[must_use]
 pub fn pairs(measured: &[Vector], expected: &[Vector]) -> Option<Pairs> {
     let count = measured.len().min(expected.len());
     if count < 2 {
         return None;
     }
-    let axis =
-        |points: &[Vector], k: usize| points[..count].iter().map(|p| p[k]).collect::<Vec<_>>();
-    let cloud = Cloud {
-        axes: std::array::from_fn(|k| {
-            if k < 3 {
-                axis(measured, k)
-            } else {
-                axis(expected, k - 3)
-            }
-        }),
-        count,
-    };
+    let cloud = Cloud::of(&measured[..count], &expected[..count]);
     let blocks = count.div_ceil(BLOCK);
+    let arch = Arch::new();
     let run = |block: usize| {
-        let kernel = PairKernel {
+        arch.dispatch(PairKernel {
             cloud: &cloud,
-            blocks: block..block + 1,
-        };
-        pulp::Arch::new().dispatch(kernel)
+            block,
+        })
     };
     let parts: Vec<PairSums> = if count > 1000 {
         (0..blocks).into_par_iter().map(run).collect()

@@ -24,6 +24,13 @@ pub enum Subject {
         /// Which coordinate.
         axis: usize,
     },
+    /// A number of something that the probe touched.
+    Feature {
+        /// Index of the feature.
+        feature: usize,
+        /// Which of its numbers.
+        value: usize,
+    },
 }
 
 /// One number that is identified.
@@ -274,6 +281,8 @@ pub(super) struct Seen {
     pub unknown_points: Vec<(usize, String)>,
     /// Joints that carry a torque that changes.
     pub loaded: [bool; JOINTS],
+    /// Parameters of unknown features, which are kept first.
+    pub features: Vec<Parameter>,
 }
 
 fn nearly_parallel(profile: &Profile, link: usize) -> bool {
@@ -408,7 +417,7 @@ pub(super) fn choose(
             .iter()
             .any(|pick| pick.holds(&effects[*index], key))
     });
-    let mut parameters = Vec::new();
+    let mut parameters = seen.features.clone();
     for (index, key) in wanted {
         let effect = &effects[index];
         let all = effect.definition().parameters;

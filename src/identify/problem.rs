@@ -1,7 +1,9 @@
 //! Measurements of one robot ready to be compared with a model of it.
 
+use super::contact::{self, Feature, MOST_VALUES};
 use super::error::IdentifyError;
 use super::measurements::{Measurement, Measurements, Observed};
+use super::observation::Observation;
 use super::parameters::{Parameter, Seen, Selection, Subject, choose};
 use crate::geometry::{Pose, Vector};
 use crate::model::effects::{Effect, Need};
@@ -46,6 +48,8 @@ pub struct Row {
     pub sigma_m: f64,
     /// Index of the arm's geometry among [`Problem::rigs`].
     pub rig: usize,
+    /// Index of what was touched among [`Problem::features`] and the radius of the probe's ball, metres.
+    pub touched: Option<(usize, f64)>,
 }
 
 /// A named point on a tool.
@@ -66,6 +70,8 @@ pub struct Estimate {
     pub effects: Vec<Effect>,
     /// Coordinates of the named points in the tool frame, metres.
     pub points_m: Vec<Vector>,
+    /// Numbers of each feature in [`Problem::features`], metres and radians.
+    pub features: Vec<[f64; MOST_VALUES]>,
 }
 
 impl Estimate {
@@ -75,6 +81,7 @@ impl Estimate {
         match subject {
             Subject::Effect(slot) => self.effects[slot.effect].parameters[slot.parameter],
             Subject::Point { point, axis } => self.points_m[point][axis],
+            Subject::Feature { feature, value } => self.features[feature][value],
         }
     }
 
@@ -83,6 +90,7 @@ impl Estimate {
         match subject {
             Subject::Effect(slot) => &mut self.effects[slot.effect].parameters[slot.parameter],
             Subject::Point { point, axis } => &mut self.points_m[point][axis],
+            Subject::Feature { feature, value } => &mut self.features[feature][value],
         }
     }
 }
@@ -105,6 +113,8 @@ pub struct Problem {
     pub tools: Vec<Mounted>,
     /// Named points.
     pub points: Vec<NamedPoint>,
+    /// What the probe touched and is not wholly known.
+    pub features: Vec<Feature>,
     /// Rows to compare.
     pub rows: Vec<Row>,
     /// Geometries in use.
@@ -208,6 +218,7 @@ impl Problem {
         world_from_base: Pose,
     ) -> Result<(Self, Estimate), IdentifyError> {
         let (points, points_m) = named_points(profile, measurements, selection.wants_points());
+        let features = contact::gather(&measurements.rows)?;
         let mut tools: Vec<Mounted> = Vec::new();
         let mut rows = Vec::with_capacity(measurements.rows.len());
         let mut sigma_assumed = false;
@@ -235,6 +246,10 @@ impl Problem {
                 },
                 sigma_m: m.sigma_m.unwrap_or(DEFAULT_SIGMA_M),
                 rig: 0,
+                touched: m.contact.as_ref().and_then(|contact| {
+                    let at = features.iter().position(|f| f.name == contact.feature);
+                    at.map(|at| (at, contact.probe_radius_m))
+                }),
             });
         }
         let mut placed = profile.clone();
@@ -269,6 +284,7 @@ impl Problem {
                 .map(|(i, p)| (i, p.name.clone()))
                 .collect(),
             loaded: loaded(&placed, &tools, &rows, true),
+            features: contact::parameters(&features),
         };
         let (effects, parameters) = choose(profile, selection, &seen);
         if parameters.is_empty() {
@@ -278,6 +294,7 @@ impl Problem {
             profile: profile.clone(),
             tools,
             points,
+            features,
             rows,
             rigs: Vec::new(),
             parameters,
@@ -285,11 +302,13 @@ impl Problem {
         };
         problem.check_needs(measurements, &effects, selection)?;
         problem.sort_rigs(&effects);
-        let start = Estimate {
+        let mut start = Estimate {
             world_from_base,
             effects,
             points_m,
+            features: vec![[0.0; MOST_VALUES]; problem.features.len()],
         };
+        contact::start(&mut problem, &mut start)?;
         Ok((problem, start))
     }
 
@@ -380,7 +399,7 @@ impl Problem {
             .iter()
             .filter_map(|p| match p.subject {
                 Subject::Effect(slot) => Some(slot),
-                Subject::Point { .. } => None,
+                Subject::Point { .. } | Subject::Feature { .. } => None,
             })
             .collect();
         self.rigs
@@ -406,6 +425,23 @@ impl Problem {
             PointRef::Known(point) => point,
             PointRef::Named(index) => estimate.points_m[index],
         }
+    }
+
+    /// What the model with its tool at this pose expects of a row.
+    #[inline(always)]
+    #[must_use]
+    pub fn observe<'a>(
+        &self,
+        estimate: &Estimate,
+        row: &'a Row,
+        world_from_tool: Pose,
+    ) -> Observation<'a> {
+        let point = self.point_in_tool_m(estimate, row);
+        let mut seen = Observation::new(row, world_from_tool, point);
+        if matches!(row.observed, Observed::Contact(_)) {
+            seen.touch(self.touch(estimate, row, seen.expected_m()));
+        }
+        seen
     }
 
     /// How many numbers were measured.

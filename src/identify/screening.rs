@@ -21,6 +21,8 @@ const HOPELESS_MM: f64 = 20.0;
 const POOR_MM: f64 = 2.0;
 /// A tool this far from where the profile has it is worth a warning, metres.
 const WRONG_TOOL_M: f64 = 0.005;
+/// The way out where nothing fits.
+const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong";
 /// Rows that are enough to try other readings of the file.
 const TRIED_ROWS: usize = 200;
 
@@ -105,6 +107,8 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
                 key.push(distance_m.to_bits());
                 key.extend(from_m.map(f64::to_bits));
             }
+            // the joint angles are the reading
+            Observed::Contact(kind) => key.push(kind as u64),
         }
         if let Some(line) = first.insert(key, row.line) {
             twice.push((row.line, line));
@@ -348,6 +352,21 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
     remarks
 }
 
+/// Doubts measurements from which no fit comes to rest: where even the best base and tool miss by far, they are not of this
+/// robot, and which parameters are identified does not matter.
+pub fn doubt_rest(error: IdentifyError, start: &Start) -> IdentifyError {
+    if !matches!(error, IdentifyError::NotConverged { .. }) || start.rms_m < GOOD_START_M {
+        return error;
+    }
+    suspicious(
+        format!(
+            "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, and with more parameters {error}",
+            mm_from_m(start.rms_m)
+        ),
+        NOT_OF_THIS_ROBOT,
+    )
+}
+
 /// Doubts a fit that misses by far more than any calibrated arm.
 ///
 /// # Errors
@@ -362,7 +381,7 @@ pub fn doubt_fit(after: &Quality, frames_only: &Quality) -> Result<Vec<Remark>, 
                 "the fitted model misses by {:.1} mm rms (base and tool alone fitted: {:.1} mm): no arm is that far from its drawing",
                 after.rms, frames.rms
             ),
-            "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong",
+            NOT_OF_THIS_ROBOT,
         ));
     }
     if after.rms > POOR_MM {

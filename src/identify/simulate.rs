@@ -142,6 +142,7 @@ pub fn simulate(
                 conditions,
                 sigma_m: (session.noise_m > 0.0).then_some(session.noise_m),
                 purpose: None,
+                contact: None,
             });
         }
     }

@@ -18,6 +18,8 @@ const MOST_PASSES: usize = 60;
 pub const STEP_LIMIT: f64 = 1e-7;
 /// A sum of squares that falls by less than this part of itself ends the iteration, if it promised no more.
 const FALL_LIMIT: f64 = 1e-9;
+/// A step below this part of every parameter's typical size leaves its square to a further one.
+const SMALL_STEP: f64 = 1e-3;
 /// From so many rows on, a sample is solved first.
 const SAMPLE_FROM: usize = 2000;
 /// Rows of that sample.
@@ -130,12 +132,14 @@ impl Iteration<'_> {
                 *estimate = moved(estimate, self.parameters, &step);
                 return Ok(Stop::Step(largest));
             }
-            if promised < 1e-12 && damping == 0.0 {
-                return Ok(Stop::Fall(promised));
-            }
             let mut next = moved(estimate, self.parameters, &step);
             if self.free_base {
                 absorb_base(&mut next);
+            }
+            if promised < FALL_LIMIT && damping == 0.0 && largest < SMALL_STEP {
+                // what a further pass would find is smaller still, as the square of this
+                *estimate = next;
+                return Ok(Stop::Fall(promised));
             }
             let tried = self.normal(&next);
             if tried.cost.is_finite() && tried.cost <= normal.cost * (1.0 + 1e-12) {
@@ -305,6 +309,6 @@ pub fn solve(
 pub fn belongs(estimate: &Estimate, parameter: &Parameter, kind: Kind) -> bool {
     match parameter.subject {
         Subject::Effect(slot) => estimate.effects[slot.effect].kind == kind,
-        Subject::Point { .. } => false,
+        Subject::Point { .. } | Subject::Feature { .. } => false,
     }
 }

@@ -103,7 +103,7 @@ pub fn misses(problem: &Problem, estimate: &Estimate) -> Vec<Miss> {
         .iter()
         .map(|row| {
             let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut none);
-            let seen = Observation::new(row, pose, problem.point_in_tool_m(estimate, row));
+            let seen = problem.observe(estimate, row, pose);
             miss(row, &seen)
         })
         .collect()
@@ -130,7 +130,7 @@ pub struct Quality {
     pub position: Option<Spread>,
     /// Error of orientation, degrees.
     pub orientation: Option<Spread>,
-    /// Error of distances measured from fixed points, mm.
+    /// Error of distances measured from fixed points, or between a ball and the surface it touches, mm.
     pub range: Option<Spread>,
 }
 
@@ -138,7 +138,7 @@ impl Quality {
     /// Of these misses.
     #[must_use]
     pub fn of(rows: &[Row], misses: &[Miss]) -> Self {
-        let is_range = |row: &Row| matches!(row.observed, Observed::Distance { .. });
+        let is_range = |row: &Row| row.observed.count() == 1;
         let lengths = |ranges: bool| {
             let both = rows
                 .iter()

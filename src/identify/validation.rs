@@ -1,6 +1,7 @@
 //! What a calibrated model is worth on measurements it has not seen.
 
 use super::calibration::{begin, fit_frames};
+use super::contact;
 use super::error::IdentifyError;
 use super::measurements::Measurements;
 use super::parameters::{Level, Parameter, Selection, Subject};
@@ -115,6 +116,20 @@ pub fn validate(
     refit: bool,
     folds: Option<usize>,
 ) -> Result<Validation, IdentifyError> {
+    validate_telling(profile, measurements, refit, folds, &mut |_, _| ())
+}
+
+/// As [`validate`]; `tell` hears how many of how many folds are done.
+///
+/// # Errors
+/// As [`validate`].
+pub fn validate_telling(
+    profile: &Profile,
+    measurements: &Measurements,
+    refit: bool,
+    folds: Option<usize>,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Validation, IdentifyError> {
     let selection = Selection::level(Level::Frames);
     let unknown = measurements.rows.iter().find(|row| {
         row.point_in_tool_m.is_none()
@@ -137,10 +152,11 @@ pub fn validate(
     let at_rest = |profile: &Profile| {
         Problem::new(profile, measurements, &selection, profile.world_from_base)
     };
-    let (_, nominal) = at_rest(&controller)?;
+    let (bare, nominal) = at_rest(&controller)?;
     let (problem, own) = at_rest(profile)?;
     // the controller knows nothing of fitted frames: the effects that the selection added are zero
     let mut controller_problem = problem.clone();
+    controller_problem.features = bare.features;
     controller_problem.sort_rigs(&nominal.effects);
     let (frames_problem, frames) = fit_frames(&controller, measurements, Shape::Squares, refit)?;
     let mut frames_problem = frames_problem;
@@ -160,7 +176,7 @@ pub fn validate(
         .map(|m| m.normalised * m.normalised);
     let normalised = (squares.sum::<f64>() / judged_real.misses.len() as f64).sqrt();
     let folds = match folds {
-        Some(count) => Some(cross_validate(profile, measurements, count)?),
+        Some(count) => Some(cross_validate(profile, measurements, count, tell)?),
         None => None,
     };
     Ok(Validation {
@@ -309,6 +325,7 @@ fn cross_validate(
     profile: &Profile,
     measurements: &Measurements,
     count: usize,
+    tell: &mut dyn FnMut(usize, usize),
 ) -> Result<(usize, Quality, Quality), IdentifyError> {
     let configurations = measurements.configurations();
     let total = configurations.last().map_or(0, |last| last + 1);
@@ -337,6 +354,7 @@ fn cross_validate(
         .for_each(|e| e.parameters = [0.0; 6]);
     if let Some(guess) = &guess {
         begin(&problem, &mut begun, guess);
+        contact::start(&mut problem, &mut begun)?;
     }
     let (mut full, mut alone) = (Vec::new(), Vec::new());
     let mut rows = Vec::new();
@@ -350,6 +368,7 @@ fn cross_validate(
         bare
     };
     for part in 0..count {
+        tell(part, count);
         let inside = |i: usize| configurations[i] % count == part;
         let training = problem.with_rows(|i| !inside(i));
         let test = problem.with_rows(inside);

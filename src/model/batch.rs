@@ -60,8 +60,9 @@ pub(crate) fn side_by_side<const N: usize>(rows: [&[f64; N]; WIDTH]) -> [Four; N
     columns
 }
 
+/// One of four poses.
 #[inline(always)]
-fn lane_of(pose: &Pose<Four>, lane: usize) -> Pose {
+pub(crate) fn lane_of(pose: &Pose<Four>, lane: usize) -> Pose {
     let mut one = Pose::identity();
     for i in 0..3 {
         for j in 0..3 {

@@ -4,10 +4,16 @@
 //! posture changes, so one evaluation with dual numbers gives them for all postures. An effect that deflects is evaluated
 //! with one dual number a posture; how a turned joint, link, base or tool moves the tool is geometry.
 
+mod four;
+
+pub(crate) use four::FourMotions;
+
 use super::chain::{Chain, Hanging, Loads};
 use super::effects::{Deflection, Effect, State};
 use super::{Conditions, Geometry, Mechanism, Model};
-use crate::geometry::{Dual, Pose, Rotation, Scalar, Turn, Vector, add, cross, dot, scale, sub};
+use crate::geometry::{
+    Dual, Pose, Rotation, Scalar, Turn, Vector, add, constant, cross, dot, scale, sub,
+};
 
 /// Columns that one pass with dual numbers takes where links bend.
 const CHUNK: usize = 8;
@@ -161,29 +167,31 @@ impl Column {
 }
 
 /// What a torque at each joint does to the tool, folded over the joints a column acts on.
-struct Torques {
+struct Torques<S = f64> {
     /// First moment of what hangs on each joint about its origin, and its mass.
-    moments: [Vector; 6],
-    masses: [f64; 6],
-    rotations: [Rotation; 6],
-    origins: [Vector; 6],
-    before: [Rotation; 6],
+    moments: [Vector<S>; 6],
+    masses: [S; 6],
+    rotations: [Rotation<S>; 6],
+    origins: [Vector<S>; 6],
+    before: [Rotation<S>; 6],
     /// dτ by a rigid turn of everything from this joint on.
-    by_turn: [Vector; 6],
+    by_turn: [Vector<S>; 6],
     /// dτ by the first moment.
-    by_moment: [Vector; 6],
+    by_moment: [Vector<S>; 6],
 }
 
-impl Torques {
-    fn of(chain: &Chain, turns: &[Turn; 6], hanging: &Hanging, field: Vector) -> Self {
+impl<S: Scalar> Torques<S> {
+    #[inline(always)]
+    fn of(chain: &Chain<S>, turns: &[Turn<S>; 6], hanging: &Hanging<S>, field: Vector<S>) -> Self {
+        let none = [[S::zero(); 3]; 6];
         let mut all = Self {
-            moments: [[0.0; 3]; 6],
+            moments: none,
             masses: hanging.mass_kg,
             rotations: [Rotation::identity(); 6],
-            origins: [[0.0; 3]; 6],
+            origins: none,
             before: [Rotation::identity(); 6],
-            by_turn: [[0.0; 3]; 6],
-            by_moment: [[0.0; 3]; 6],
+            by_turn: none,
+            by_moment: none,
         };
         let mut pose = chain.fixed[0];
         for i in 0..6 {
@@ -205,11 +213,12 @@ impl Torques {
     }
 
     /// dτ of every joint.
-    fn add_slopes(&self, twists: &[Twist], growths: &[Growth], slopes: &mut [f64; 6]) {
+    #[inline(always)]
+    fn add_slopes(&self, twists: &[Twist], growths: &[Growth], slopes: &mut [S; 6]) {
         for twist in twists.iter().filter(|twist| twist.at < 6) {
             let k = twist.at;
-            let turn = self.before[k] * twist.turn;
-            let shift = self.before[k] * twist.shift;
+            let turn = self.before[k] * constant(twist.turn);
+            let shift = self.before[k] * constant(twist.shift);
             let moment = add(cross(turn, self.moments[k]), scale(self.masses[k], shift));
             for i in 0..k {
                 slopes[i] += dot(self.by_moment[i], moment);
@@ -219,10 +228,10 @@ impl Torques {
             }
         }
         for growth in growths {
-            let moment = self.rotations[growth.link] * growth.moment;
+            let moment = self.rotations[growth.link] * constant(growth.moment);
             for i in 0..=growth.link {
                 let lever = sub(self.origins[growth.link], self.origins[i]);
-                let moment = add(moment, scale(growth.mass, lever));
+                let moment = add(moment, scale(S::constant(growth.mass), lever));
                 slopes[i] += dot(self.by_moment[i], moment);
             }
         }
@@ -239,6 +248,7 @@ struct Layout {
 }
 
 impl Layout {
+    #[inline(always)]
     fn of(model: &Model, turns: &[Turn; 6], deflection: &Deflection) -> Self {
         let chain = &model.chain;
         let mut before = [chain.fixed[0]; 7];

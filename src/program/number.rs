@@ -46,7 +46,7 @@ pub fn parse_start(text: &[u8]) -> Option<(f64, usize)> {
     while let Some(&byte) = text.get(at) {
         match byte {
             b'0'..=b'9' => {
-                whole = whole.wrapping_mul(10) + u64::from(byte - b'0');
+                whole = whole.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
                 digits += 1;
                 power -= i32::from(point);
             }

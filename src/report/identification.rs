@@ -163,6 +163,17 @@ pub fn calibration(calibration: &Calibration, file: &str) -> Value {
         "stopped": calibration.stop().describe(),
         "findings": findings(&calibration.remarks, file),
     });
+    let mm = |v: [f64; 3]| v.map(mm_from_m);
+    let touched = calibration.features().map(|(feature, place)| {
+        json!({
+            "feature": feature.name, "contact": feature.kind.id(), "centre_mm": mm(place.centre_m),
+            "radius_mm": place.radius_m.map(mm_from_m), "normal": place.normal,
+        })
+    });
+    let touched: Vec<Value> = touched.collect();
+    if !touched.is_empty() {
+        report["features"] = json!(touched);
+    }
     if let Some((frames, full)) = &calibration.held_out {
         report["held_out"] = json!({"frames_only": quality(frames), "after": quality(full)});
     }

@@ -5,6 +5,7 @@ pub mod check;
 pub mod compensation;
 pub mod diagnosis;
 pub mod findings;
+pub mod html;
 pub mod identification;
 pub mod profile;
 

@@ -13,6 +13,7 @@ mod path;
 mod physics;
 mod recover;
 mod register;
+mod report;
 mod support;
 #[path = "../trial/mod.rs"]
 #[allow(dead_code, reason = "the example prints more of it")]

@@ -10,7 +10,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("model", &["geometry"]),
     ("inverse", &["geometry", "model"]),
-    ("identify", &["geometry", "inverse", "model"]),
+    ("identify", &["geometry", "inverse", "model", "register"]),
     ("register", &["geometry", "inverse", "model"]),
     ("diagnose", &["geometry", "identify", "model"]),
     ("program", &["geometry", "finding"]),

@@ -411,3 +411,20 @@ ENDMODULE
     assert!(report["summary"]["max_rounding_deg"].as_f64() < Some(1e-3));
     assert_eq!(report["findings"], serde_json::json!([]));
 }
+
+#[test]
+fn an_angle_whose_turn_is_lost_in_rounding_is_refused() {
+    let folder = scratch();
+    let script = "def main():
+  set_tcp(p[0,0,0.1,0,0,0])
+  movel(p[0.3,0.1,0.4,0.0,-2555555555555555555555.614276,0.1],1.2,0.25)
+end
+";
+    std::fs::write(folder.path().join("a.script"), script).expect("scratch");
+    let profile = repository("programs/urscript/profile.yaml");
+    let profile = profile.to_str().expect("UTF-8");
+    let arguments = ["a.script", "-o", "b.script", "--profile", profile];
+    let told = refused(folder.path(), &arguments, 1, &["a.script"]);
+    assert!(told.contains("a.script:3:"), "{told}");
+    assert!(told.contains("-2.555555555555556e21"), "{told}");
+}

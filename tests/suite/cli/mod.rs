@@ -4,4 +4,5 @@ mod compensate;
 mod fuzzed;
 mod identify;
 mod jobs_and_tables_of_poses;
+mod reports;
 mod tables;

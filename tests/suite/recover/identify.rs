@@ -14,11 +14,11 @@ use poseshift::model::profile::Profile;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-const MM: f64 = 1e-3;
-const DEG: f64 = std::f64::consts::PI / 180.0;
+pub(super) const MM: f64 = 1e-3;
+pub(super) const DEG: f64 = std::f64::consts::PI / 180.0;
 
 /// The thesis's robot without its calibration.
-fn nominal() -> Profile {
+pub(super) fn nominal() -> Profile {
     let text = std::fs::read_to_string(repository("robots/abb_irb120_thesis.yaml"))
         .expect("a shipped profile");
     let mut profile = Profile::from_yaml(&text).expect("a shipped profile");
@@ -26,7 +26,7 @@ fn nominal() -> Profile {
     profile
 }
 
-fn effect(kind: Kind, index: usize, values: &[f64]) -> Effect {
+pub(super) fn effect(kind: Kind, index: usize, values: &[f64]) -> Effect {
     let mut parameters = [0.0; 6];
     parameters[..values.len()].copy_from_slice(values);
     let site = Site {
@@ -41,7 +41,12 @@ fn effect(kind: Kind, index: usize, values: &[f64]) -> Effect {
 }
 
 /// A robot with errors of these sizes in what a complete and minimal model has.
-fn hidden(random: &mut StdRng, length_m: f64, angle_rad: f64, compliant: bool) -> Profile {
+pub(super) fn hidden(
+    random: &mut StdRng,
+    length_m: f64,
+    angle_rad: f64,
+    compliant: bool,
+) -> Profile {
     let mut profile = nominal();
     let mut even = |size: f64| size * random.random_range(-1.0..1.0);
     for link in 1..6 {
@@ -73,7 +78,7 @@ fn hidden(random: &mut StdRng, length_m: f64, angle_rad: f64, compliant: bool) -
     profile
 }
 
-fn commands(random: &mut StdRng, profile: &Profile, count: usize) -> Vec<Command> {
+pub(super) fn commands(random: &mut StdRng, profile: &Profile, count: usize) -> Vec<Command> {
     let one = |_| Command {
         q: random_joints(random, profile),
         conditions: None,
@@ -81,7 +86,7 @@ fn commands(random: &mut StdRng, profile: &Profile, count: usize) -> Vec<Command
     (0..count).map(one).collect()
 }
 
-fn measure(truth: &Profile, commands: &[Command], session: &Session) -> Measurements {
+pub(super) fn measure(truth: &Profile, commands: &[Command], session: &Session) -> Measurements {
     let tool = truth.tool("artifact").expect("its tool");
     let points: Vec<_> = if truth.points.is_empty() {
         vec![(None, [0.0; 3])]
@@ -99,7 +104,7 @@ fn measure(truth: &Profile, commands: &[Command], session: &Session) -> Measurem
 }
 
 /// The tool is known.
-fn known_tool(level: Level) -> Options {
+pub(super) fn known_tool(level: Level) -> Options {
     let mut selection = Selection::level(level);
     selection.fix = Pick::parse_list("tool_frame").expect("a word");
     Options {
@@ -121,7 +126,7 @@ fn true_value(truth: &Profile, key: &str) -> f64 {
         .unwrap_or(0.0)
 }
 
-fn worst_mm(calibrated: &Profile, truth: &Profile, count: usize) -> (f64, f64) {
+pub(super) fn worst_mm(calibrated: &Profile, truth: &Profile, count: usize) -> (f64, f64) {
     let mut random = StdRng::seed_from_u64(99);
     let check = commands(&mut random, truth, count);
     let seen = measure(truth, &check, &Session::default());
@@ -394,4 +399,36 @@ fn files_that_are_read_wrongly_are_found_out() {
             .iter()
             .any(|r| r.id == "joint-never-moved" && r.message.contains("joint 4"))
     );
+}
+
+#[test]
+fn a_wrong_tool_and_rows_in_any_order_are_told_with_the_evidence() {
+    let mut random = StdRng::seed_from_u64(19);
+    let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, false);
+    let commands = commands(&mut random, &truth, 60);
+    let mut longer = truth.clone();
+    let mounted = longer.tools.get_mut("artifact").expect("its tool");
+    mounted.flange_from_tool.translation[2] += 30.0 * MM;
+    let seen = measure(&longer, &commands, &Session::default());
+    let found = calibrate(&nominal(), &seen, &Options::default()).expect("an answer");
+    let told = found.remarks.iter().find(|r| r.id == "tool-elsewhere");
+    let told = &told.expect("a warning").message;
+    let gap: f64 = told
+        .split_whitespace()
+        .find_map(|word| word.parse().ok())
+        .expect("a number");
+    assert!(
+        told.contains("`artifact`") && (gap - 30.0).abs() < 2.0,
+        "{told}"
+    );
+
+    // every point in the file, none in its row
+    let good = measure(&truth, &commands, &Session::default());
+    let mut mixed = good.clone();
+    for (i, row) in mixed.rows.iter_mut().enumerate() {
+        row.observed = good.rows[(7 * i + 3) % 60].observed;
+    }
+    let error = calibrate(&nominal(), &mixed, &Options::default()).expect_err("nonsense");
+    assert!(error.to_string().contains("mm rms"), "{error}");
+    assert!(error.hint().contains("order"), "{}", error.hint());
 }

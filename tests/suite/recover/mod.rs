@@ -1,4 +1,7 @@
 //! Hidden truths found again.
 
+mod contact;
 mod identify;
+mod judged;
+mod kinds;
 mod real;

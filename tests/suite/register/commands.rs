@@ -253,3 +253,36 @@ fn the_worked_examples_of_the_measuring_page_run_as_printed() {
     }
     assert!(commands >= 11 && lines >= 15, "{commands} {lines}");
 }
+
+#[test]
+fn bad_ballbar_lengths_are_refused_with_row_and_leg() {
+    let folder = scratch();
+    let at = folder.path();
+    let head = "design,b12_mm,b23_mm,b31_mm,t12_mm,t23_mm,t31_mm,r11_mm,r21_mm,r31_mm,r12_mm,r22_mm,r23_mm";
+    let good = "123/123,300,300,300,150,150,150,300,300,300,300,300,300";
+    let joints = ",q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg";
+    let swapped = |column: usize, cell: &str| {
+        let mut cells: Vec<&str> = good.split(',').collect();
+        cells[column] = cell;
+        format!("{head}\n{}\n", cells.join(","))
+    };
+    for (text, word) in [
+        (swapped(11, "930"), "r22 is likely wrong"),
+        (swapped(5, "500"), "t23"),
+        (swapped(7, "-300"), "r11"),
+        (swapped(7, "x"), "r11_mm"),
+        (swapped(7, "NaN"), "r11_mm"),
+        (swapped(0, "124/123"), "124/123"),
+        (format!("{head},mode\n{good},5\n"), "5"),
+        (
+            format!("{head}{joints}\n{good},1,2,3,4,5,6\n"),
+            "4 assembly modes",
+        ),
+        (format!("{head},mode\n{good},1\n"), "no joints"),
+    ] {
+        std::fs::write(at.join("lengths.csv"), text).expect("scratch");
+        let (status, out, told) = run(at, &["hexapod", "lengths.csv", "-o", "m.csv"]);
+        assert!(status == Some(2) && told.contains(word), "{word}: {told}");
+        assert!(out.is_empty() && !at.join("m.csv").exists(), "{word}");
+    }
+}

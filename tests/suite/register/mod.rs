@@ -1,8 +1,10 @@
 //! The measuring side: registration, hand-eye, hexapod, axes.
 
+mod camera;
 mod commands;
 mod oracle;
 mod part;
+mod procedure;
 mod recovery;
 
 use crate::support::table;

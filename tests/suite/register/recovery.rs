@@ -181,6 +181,33 @@ fn clouds_are_laid_on_each_other_from_any_turn() {
 }
 
 #[test]
+fn errors_of_fine_and_of_coarse_clouds_are_as_large_as_reported() {
+    let mut random = seeded(24);
+    // points of FROM and TO, noise: fine against the noise, and so coarse that the tangent planes are off by more than it
+    for (from_count, to_count, sigma) in [(4000, 5000, 5e-4), (1500, 2000, 5e-5)] {
+        let mut all = Vec::new();
+        for _ in 0..40 {
+            let truth = random_pose(&mut random, 1.0);
+            let from = cloud(&mut random, from_count, &Pose::identity(), sigma);
+            let to = cloud(&mut random, to_count, &truth, sigma);
+            let near = Pose::from_xyz_rxryrz([1e-3, -1e-3, 5e-4, 2e-3, 0.0, -2e-3]);
+            let options = Options {
+                start: Some(near * truth),
+                ..SEARCH
+            };
+            let found = icp(&from, &to, None, &options).expect("clouds");
+            assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+            let covariance = found.covariance.expect("no motion is free");
+            all.push(chi_squared(&found.to_from_from, &truth, &covariance));
+        }
+        let mean = all.iter().sum::<f64>() / 40.0;
+        println!("{from_count} points, {sigma} m: mean of chi squared {mean:.2}");
+        // 6 is expected; a sigma that is half as large as it should be makes 24
+        assert!((2.0..12.0).contains(&mean), "{from_count}: {mean}");
+    }
+}
+
+#[test]
 fn a_local_minimum_is_not_called_success() {
     let mut random = seeded(15);
     let from = cloud(&mut random, 3000, &Pose::identity(), 5e-5);

@@ -1,0 +1,563 @@
+//! The page of `diagnose`: the gap shrinking step by step, and for each step what gave the effect away.
+
+use super::cell::{Along, Cell, Path, Points, Robot};
+use super::numbers::{Column, Number, Table, fixed, significant};
+use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use crate::check::Meshes;
+use crate::diagnose::{Diagnosis, Found, NoiseSource, Verdict};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::{Vector, dot, scale, sub};
+use crate::identify::problem::{Estimate, Problem};
+use crate::identify::statistics::{Miss, misses};
+use crate::model::effects::Kind as EffectKind;
+use crate::report::diagnosis::sentence;
+use crate::report::identification;
+
+/// A joint whose turn moves the measured point by less than this, metres a radian, shows nothing of its angle.
+const ARM_M: f64 = 0.05;
+/// A turn by which the motion of a point is found, radians.
+const STEP_RAD: f64 = 1e-6;
+
+/// The page of `diagnose`.
+#[must_use]
+pub fn page(found: &Diagnosis, lines: &[usize], file: &str) -> Page {
+    let (level, answer) = match found.verdict {
+        Verdict::Explained => (
+            Level::Good,
+            "Explained: the effects found account for the disagreement down to the noise",
+        ),
+        Verdict::NothingMissing => (
+            Level::Good,
+            "Nothing is missing: the model agrees with the measurements within the noise",
+        ),
+        Verdict::Undetermined => (
+            Level::Warning,
+            "Undetermined: something is missing, and it cannot be told what",
+        ),
+    };
+    let mut page = Page::new("Diagnosis".into(), level, answer.into());
+    page.lead.push(file.to_owned());
+    page.lead
+        .push(super::programs::robot_name(&found.problem.profile));
+    page.fact("rows", found.problem.rows.len().to_string());
+    page.fact("effects found", found.found.len().to_string());
+    let source = match found.noise_source {
+        NoiseSource::Given => "sigma_mm",
+        NoiseSource::Repeats => "repeated poses",
+        NoiseSource::Left => "what no model explains",
+    };
+    page.fact(
+        &format!("noise of a coordinate, by {source}"),
+        format!("{:.4} mm", mm_from_m(found.noise_m)),
+    );
+    page.fact(
+        "left of a coordinate",
+        format!("{:.4} mm", mm_from_m(found.left_m)),
+    );
+    if let Some((before, after)) = &found.held_out {
+        page.fact(
+            "mean error, rows not used",
+            format!("{:.4} \u{2192} {:.4} mm", before.mean, after.mean),
+        );
+    }
+    let mut sentences: Vec<String> = found.found.iter().map(|f| sentence(&f.effect)).collect();
+    sentences.extend(found.reasons.iter().cloned());
+    if !sentences.is_empty() {
+        page.sections.push(Section::Text(super::page::Text {
+            title: "What was found".into(),
+            lines: sentences,
+        }));
+    }
+    show_steps(&mut page, found);
+    for (number, one) in found.found.iter().enumerate() {
+        show_effect(&mut page, found, number, one);
+    }
+    show_evidence(&mut page, found);
+    show_residuals(&mut page, found, lines);
+    show_lists(&mut page, found);
+    page.findings(&identification::findings(&found.remarks, file));
+    page
+}
+
+/// A bar a step, with the noise floor.
+fn show_steps(page: &mut Page, found: &Diagnosis) {
+    let mut steps: Vec<(String, f64)> = Vec::new();
+    if let Some((before, after)) = &found.held_out {
+        steps.push(("present model".into(), before.rms));
+        if let Some(s) = found.absorbed_only.filter(|_| found.absorbed) {
+            steps.push(("frames, geometry fitted".into(), s.rms));
+        }
+        for f in &found.found {
+            steps.extend(f.after.map(|s| (format!("+ {}", f.effect.label()), s.rms)));
+        }
+        if found.found.is_empty() {
+            steps.push(("after".into(), after.rms));
+        }
+    } else {
+        let rms = |lengths: &[f64]| {
+            let sum: f64 = lengths.iter().map(|l| l * l).sum();
+            mm_from_m((sum / lengths.len().max(1) as f64).sqrt())
+        };
+        steps.push(("present model".into(), rms(&found.lengths.0)));
+        steps.push(("with everything found".into(), rms(&found.lengths.1)));
+    }
+    let seen = found
+        .problem
+        .rows
+        .iter()
+        .filter(|row| row.observed.point_m().is_some())
+        .count();
+    let coordinates = if 2 * seen > found.problem.rows.len() {
+        3.0_f64
+    } else {
+        1.0
+    };
+    let floor = mm_from_m(found.noise_m) * coordinates.sqrt();
+    let table = Table {
+        columns: vec![
+            Column::texts("step", steps.iter().map(|(name, _)| name.clone())),
+            Column::numbers(
+                "error, rms",
+                "mm",
+                steps.iter().map(|(_, rms)| significant(*rms, 5)),
+            ),
+            Column::numbers("noise", "mm", steps.iter().map(|_| significant(floor, 4))),
+        ],
+    };
+    page.tables.insert("steps".into(), table);
+    let mut chart = Chart::new(
+        "The gap, step by step",
+        "steps",
+        Axis::new("", ""),
+        Axis::new("error, rms", "mm"),
+    );
+    chart.note = if found.held_out.is_some() {
+        "Errors on rows that were not used for the choice; the dashed line is the noise of the measurements.".into()
+    } else {
+        "The dashed line is the noise of the measurements.".into()
+    };
+    chart.bands = true;
+    chart.wide = true;
+    chart
+        .series
+        .push(Series::new(Kind::Bars, 0, 1, "error", Tone::Before));
+    chart
+        .series
+        .push(Series::new(Kind::Level, 0, 2, "noise", Tone::Limit));
+    page.sections.push(Section::Chart(chart));
+}
+
+/// What an effect shows itself against.
+struct Variable {
+    label: String,
+    unit: &'static str,
+    values: Vec<Option<f64>>,
+}
+
+fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
+    let rows = &problem.rows;
+    let (kind, site) = (one.effect.kind, &one.effect.site);
+    let joint = |index: usize| Variable {
+        label: format!("joint {}", index + 1),
+        unit: "deg",
+        values: rows.iter().map(|row| Some(row.q[index] / DEG)).collect(),
+    };
+    let torque = |index: usize| {
+        let models = problem.models(estimate, &[]);
+        let of = |row: &crate::identify::problem::Row| {
+            models[row.rig].model().torques(&row.q, &row.conditions)[index]
+        };
+        Variable {
+            label: format!("torque of joint {}", index + 1),
+            unit: "N m",
+            values: rows.iter().map(|row| Some(of(row))).collect(),
+        }
+    };
+    match kind {
+        EffectKind::JointHarmonic | EffectKind::JointScale | EffectKind::LinkGeometry
+            if site.index < 6 =>
+        {
+            joint(site.index)
+        }
+        EffectKind::JointCoupling if site.on < 6 => joint(site.on),
+        EffectKind::JointCompliance | EffectKind::ComplianceKnee if site.index < 6 => {
+            torque(site.index)
+        }
+        EffectKind::LinkCompliance if site.index < 6 => torque(site.index),
+        EffectKind::BaseCompliance | EffectKind::PayloadError => torque(1),
+        EffectKind::Backlash if site.index < 6 => Variable {
+            label: format!("direction of joint {}", site.index + 1),
+            unit: "",
+            values: rows
+                .iter()
+                .map(|row| Some(row.conditions.direction[site.index]))
+                .collect(),
+        },
+        EffectKind::ThermalGrowth => Variable {
+            label: "temperature".into(),
+            unit: "\u{b0}C",
+            values: rows
+                .iter()
+                .map(|row| row.conditions.temperature_c)
+                .collect(),
+        },
+        EffectKind::WarmUpDrift => Variable {
+            label: "time".into(),
+            unit: "s",
+            values: rows.iter().map(|row| row.conditions.time_s).collect(),
+        },
+        _ => Variable {
+            label: "row".into(),
+            unit: "",
+            values: (1..=rows.len()).map(|k| Some(k as f64)).collect(),
+        },
+    }
+}
+
+/// The values with an effect as it was before it was found.
+fn without(found: &Diagnosis, one: &Found) -> Estimate {
+    let mut estimate = found.estimate.clone();
+    let alike =
+        |e: &&crate::model::effects::Effect| e.kind == one.effect.kind && e.site == one.effect.site;
+    let known = found.problem.profile.effects.iter().find(alike);
+    for effect in &mut estimate.effects {
+        if effect.kind == one.effect.kind && effect.site == one.effect.site {
+            for n in &one.sought {
+                effect.parameters[*n] = known.map_or(0.0, |known| known.parameters[*n]);
+            }
+        }
+    }
+    estimate
+}
+
+/// How far each row's expected point moves with a joint, metres a radian.
+fn arms(problem: &Problem, estimate: &Estimate, joint: usize) -> Vec<Vector> {
+    let mut turned = problem.clone();
+    for row in &mut turned.rows {
+        row.q[joint] += STEP_RAD;
+    }
+    let (a, b) = (misses(problem, estimate), misses(&turned, estimate));
+    let by = |(a, b): (&Miss, &Miss)| scale(1.0 / STEP_RAD, sub(b.expected_m, a.expected_m));
+    a.iter().zip(&b).map(by).collect()
+}
+
+/// A row's residual as an angle of a joint, degrees; `None` where the joint hardly moves the point.
+fn as_angle(miss: &Miss, arm: Vector) -> Option<f64> {
+    let squared = dot(arm, arm);
+    let gap = [miss.gap[0], miss.gap[1], miss.gap[2]];
+    (squared > ARM_M * ARM_M).then(|| dot(gap, arm) / squared / DEG)
+}
+
+/// The residual before and after an effect, against what gave it away.
+fn show_effect(page: &mut Page, found: &Diagnosis, number: usize, one: &Found) {
+    let problem = &found.problem;
+    let before = misses(problem, &without(found, one));
+    let after = misses(problem, &found.estimate);
+    let against = variable(problem, &found.estimate, one);
+    let site = one.effect.site.index;
+    let of_joint = matches!(
+        one.effect.kind,
+        EffectKind::JointHarmonic
+            | EffectKind::JointScale
+            | EffectKind::JointCoupling
+            | EffectKind::JointCompliance
+            | EffectKind::ComplianceKnee
+            | EffectKind::Backlash
+    ) && site < 6
+        && problem
+            .rows
+            .iter()
+            .all(|row| row.observed.point_m().is_some());
+    let sizes = |misses: &[Miss]| -> Vec<Option<Number>> {
+        misses
+            .iter()
+            .map(|m| Some(significant(mm_from_m(m.length_m), 4)))
+            .collect()
+    };
+    let (label, unit, first, second) = if of_joint {
+        let arms = arms(problem, &found.estimate, site);
+        let angles = |misses: &[Miss]| -> Vec<Option<Number>> {
+            let pairs = misses.iter().zip(&arms);
+            pairs
+                .map(|(m, arm)| as_angle(m, *arm).map(|a| significant(a, 4)))
+                .collect()
+        };
+        (
+            format!("residual as an angle of joint {}", site + 1),
+            "deg",
+            angles(&before),
+            angles(&after),
+        )
+    } else {
+        ("residual".to_owned(), "mm", sizes(&before), sizes(&after))
+    };
+    let name = format!("effect-{}", number + 1);
+    let values = against.values.iter().map(|v| v.map(|v| significant(v, 6)));
+    let table = Table {
+        columns: vec![
+            Column::numbers(&against.label, against.unit, values),
+            Column::numbers(&format!("{label} without it"), unit, first),
+            Column::numbers(&format!("{label} with it"), unit, second),
+        ],
+    };
+    page.tables.insert(name.clone(), table);
+    let mut chart = Chart::new(
+        &format!("{}. {}", number + 1, one.effect.label()),
+        &name,
+        Axis::new(&against.label, against.unit),
+        Axis::new(&label, unit),
+    );
+    chart.note = format!("{} Everything else is as found.", sentence(&one.effect));
+    chart
+        .series
+        .push(Series::new(Kind::Dots, 0, 1, "without it", Tone::Before));
+    chart
+        .series
+        .push(Series::new(Kind::Dots, 0, 2, "with it", Tone::After));
+    page.sections.push(Section::Chart(chart));
+}
+
+fn show_evidence(page: &mut Page, found: &Diagnosis) {
+    if found.found.is_empty() {
+        return;
+    }
+    // a row for each parameter
+    let rows: Vec<(&Found, usize, f64)> = found
+        .found
+        .iter()
+        .flat_map(|f| {
+            f.sought
+                .iter()
+                .zip(&f.sigmas)
+                .map(move |(n, s)| (f, *n, *s))
+        })
+        .collect();
+    let parameter = |row: &(&Found, usize, f64)| &row.0.effect.definition().parameters[row.1];
+    let table = Table {
+        columns: vec![
+            Column::texts("effect", rows.iter().map(|r| r.0.effect.label())),
+            Column::texts(
+                "parameter",
+                rows.iter().map(|r| parameter(r).key.to_owned()),
+            ),
+            Column::numbers(
+                "value",
+                "",
+                rows.iter().map(|r| {
+                    significant(r.0.effect.parameters[r.1] / parameter(r).unit.in_si(), 5)
+                }),
+            ),
+            Column::numbers(
+                "sigma",
+                "",
+                rows.iter()
+                    .map(|r| significant(r.2 / parameter(r).unit.in_si(), 2)),
+            ),
+            Column::texts(
+                "unit",
+                rows.iter().map(|r| parameter(r).unit.symbol().to_owned()),
+            ),
+            Column::numbers(
+                "fall of chi squared",
+                "",
+                rows.iter().map(|r| significant(r.0.gain, 4)),
+            ),
+            Column::numbers("p", "", rows.iter().map(|r| significant(r.0.p_value, 2))),
+            Column::texts(
+                "found again",
+                rows.iter()
+                    .map(|r| format!("{} of {}", r.0.found_again.0, r.0.found_again.1)),
+            ),
+            Column::texts(
+                "by hand",
+                rows.iter()
+                    .map(|r| Some("yes".to_owned()).filter(|_| r.0.accepted)),
+            ),
+        ],
+    };
+    page.show("evidence", "Evidence", "The fall of chi squared and its probability by chance belong to the effect, not to the single parameter.", table);
+}
+
+fn show_residuals(page: &mut Page, found: &Diagnosis, lines: &[usize]) {
+    let problem = &found.problem;
+    let after = misses(problem, &found.estimate);
+    let line =
+        |row: &crate::identify::problem::Row| lines.get(row.measurement).copied().unwrap_or(0);
+    let lengths = |list: &[f64]| -> Vec<Number> {
+        list.iter().map(|l| significant(mm_from_m(*l), 5)).collect()
+    };
+    let table = Table {
+        columns: vec![
+            Column::counts("line", problem.rows.iter().map(line)),
+            Column::names(
+                "tool",
+                problem
+                    .rows
+                    .iter()
+                    .map(|row| problem.tools[row.tool].name.as_str()),
+            ),
+            Column::numbers("residual, present model", "mm", lengths(&found.lengths.0)),
+            Column::numbers("residual left", "mm", lengths(&found.lengths.1)),
+        ],
+    };
+    if table.rows() != found.lengths.0.len() || table.rows() != found.lengths.1.len() {
+        return;
+    }
+    page.tables.insert("rows".into(), table);
+    let mut points = Points {
+        name: "points",
+        title: "Measurements".into(),
+        ..Points::default()
+    };
+    let mut at = Vec::new();
+    for (row, miss) in problem.rows.iter().zip(&after) {
+        let place = row.observed.point_m().unwrap_or(miss.expected_m);
+        points.push(Some(place), Some(row.q));
+        points.tool.push(u32::try_from(row.tool).unwrap_or(0));
+        at.push(place);
+    }
+    points.error = found
+        .lengths
+        .1
+        .iter()
+        .map(|l| fixed(mm_from_m(*l), 5))
+        .collect();
+    points.first = super::programs::largest(&points.error);
+    let seen = problem
+        .rows
+        .iter()
+        .all(|row| row.observed.point_m().is_some());
+    let vectors = |misses: &[Miss]| -> Vec<Vector> {
+        misses
+            .iter()
+            .map(|m| [-m.gap[0], -m.gap[1], -m.gap[2]])
+            .collect()
+    };
+    let mut paths = Vec::new();
+    if seen {
+        let mut bare = found.estimate.clone();
+        for one in &found.found {
+            let less = without(found, one);
+            for (effect, other) in bare.effects.iter_mut().zip(&less.effects) {
+                if effect.kind == one.effect.kind && effect.site == one.effect.site {
+                    effect.parameters = other.parameters;
+                }
+            }
+        }
+        if !found.found.is_empty() {
+            paths.push(Path::vectors(
+                "without the effects found",
+                Tone::Before,
+                &at,
+                &vectors(&misses(problem, &bare)),
+            ));
+        }
+        paths.push(Path::vectors("left", Tone::After, &at, &vectors(&after)));
+    }
+    let mut profile = problem.profile.clone();
+    profile.world_from_base = found.estimate.world_from_base;
+    let tools: Vec<_> = problem.tools.iter().map(|t| t.flange_from_tool).collect();
+    page.sections.push(Section::Cell(Box::new(Cell {
+        title: "Residuals in space".into(),
+        note: "From each measured point to where the model expects it, magnified; the points' colour is what is left.".into(),
+        table: "rows".into(),
+        robot: Some(Robot::of(&profile, &tools, None, &Meshes::default())),
+        bodies: Vec::new(),
+        points,
+        paths,
+        ellipsoids: Vec::new(),
+        along: Along::No(false),
+    })));
+}
+
+fn show_lists(page: &mut Page, found: &Diagnosis) {
+    if !found.spots.is_empty() {
+        let list = &found.spots;
+        let table = Table {
+            columns: vec![
+                Column::texts("column", list.iter().map(|s| s.column.clone())),
+                Column::texts("most at", list.iter().map(|s| s.values.clone())),
+                Column::numbers(
+                    "rms",
+                    "mm",
+                    list.iter().map(|s| significant(mm_from_m(s.size_m), 4)),
+                ),
+                Column::numbers(
+                    "largest",
+                    "mm",
+                    list.iter().map(|s| significant(mm_from_m(s.largest_m), 4)),
+                ),
+                Column::numbers("part", "%", list.iter().map(|s| fixed(100.0 * s.part, 1))),
+                Column::numbers("p", "", list.iter().map(|s| significant(s.p_value, 2))),
+            ],
+        };
+        page.show(
+            "where",
+            "Where the present model misses",
+            "Strongest first.",
+            table,
+        );
+    }
+    if !found.rivals.is_empty() {
+        let list = &found.rivals;
+        let table = Table {
+            columns: vec![
+                Column::texts("effect", list.iter().map(|r| r.effect.label())),
+                Column::texts(
+                    "instead of",
+                    list.iter()
+                        .map(|r| found.found[r.instead_of].effect.label()),
+                ),
+                Column::numbers(
+                    "fall of chi squared",
+                    "",
+                    list.iter().map(|r| significant(r.gain, 4)),
+                ),
+                Column::numbers(
+                    "behind by",
+                    "",
+                    list.iter().map(|r| significant(r.behind, 3)),
+                ),
+            ],
+        };
+        page.show(
+            "alternatives",
+            "What explains the measurements nearly as well",
+            "",
+            table,
+        );
+    }
+    if !found.cannot_test.is_empty() {
+        let list = &found.cannot_test;
+        let table = Table {
+            columns: vec![
+                Column::texts(
+                    "effect",
+                    list.iter().map(|c| c.kind.definition().id.to_owned()),
+                ),
+                Column::texts("needs", list.iter().map(|c| c.missing.clone())),
+            ],
+        };
+        page.show("cannot-test", "What could not be tested", "", table);
+    }
+    if !found.outliers.is_empty() {
+        let list = &found.outliers;
+        let table = Table {
+            columns: vec![
+                Column::counts("line", list.iter().map(|o| o.line)),
+                Column::texts("id", list.iter().map(|o| o.id.clone())),
+                Column::numbers(
+                    "residual",
+                    "mm",
+                    list.iter().map(|o| significant(mm_from_m(o.length_m), 5)),
+                ),
+                Column::numbers(
+                    "times the noise",
+                    "",
+                    list.iter().map(|o| significant(o.times, 3)),
+                ),
+            ],
+        };
+        page.show("outliers", "Rows that fit no model", "", table);
+    }
+}

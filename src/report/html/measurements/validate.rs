@@ -1,0 +1,133 @@
+//! The page of `validate`.
+
+use super::{Judged, Rows, robot_lead, show_rows, summary};
+use crate::identify::measurements::Measurements;
+use crate::identify::statistics::Quality;
+use crate::identify::validation::Validation;
+use crate::model::profile::Profile;
+use crate::report::html::numbers::{Column, Table, significant};
+use crate::report::html::page::{Level, Page, Tone};
+
+/// The page of `validate`.
+#[must_use]
+pub fn validate_page(
+    found: &Validation,
+    measurements: &Measurements,
+    profile: &Profile,
+    files: &str,
+) -> Page {
+    let mean = |q: &Quality| q.main().map_or(f64::NAN, |s| s.mean);
+    let (controller, real) = (mean(&found.controller.quality), mean(&found.real.quality));
+    let level = if real <= controller {
+        Level::Good
+    } else {
+        Level::Warning
+    };
+    let answer = format!(
+        "Mean error {real:.3} mm of the real model, {controller:.3} mm of the controller's"
+    );
+    let mut page = Page::new("Validation".into(), level, answer);
+    robot_lead(&mut page, files, profile);
+    if found.refitted {
+        page.lead
+            .push("Base, tool and points were fitted to these rows first.".into());
+    }
+    page.fact("rows", found.problem.rows.len().to_string());
+    if let Some(pairs) = found.real.distance {
+        page.fact("distances between points", pairs.pairs.to_string());
+        page.fact("their error, mean", format!("{:.4} mm", pairs.mean));
+        page.fact(
+            "their error, mean + 3 std",
+            format!("{:.4} mm", pairs.mean_plus_3std()),
+        );
+        page.fact("their error, largest", format!("{:.4} mm", pairs.max));
+    }
+    if let Some(rms) = found.normalised_rms {
+        page.fact("residuals in standard deviations", format!("{rms:.2}"));
+    }
+    page.summary = Some(summary(&[
+        ("controller".to_owned(), &found.controller.quality),
+        ("frames only".to_owned(), &found.frames_only.quality),
+        ("real".to_owned(), &found.real.quality),
+    ]));
+    let middle = profile.quality.as_ref().and_then(|quality| {
+        let numbers = quality["middle_mm"].as_array()?;
+        let number = |k: usize| numbers.get(k)?.as_f64();
+        Some([number(0)?, number(1)?, number(2)?].map(crate::geometry::units::m_from_mm))
+    });
+    let rows = Rows {
+        problem: &found.problem,
+        measurements,
+        models: vec![
+            Judged {
+                name: "controller",
+                tone: Tone::Before,
+                misses: &found.controller.misses,
+            },
+            Judged {
+                name: "frames only",
+                tone: Tone::Frames,
+                misses: &found.frames_only.misses,
+            },
+            Judged {
+                name: "real",
+                tone: Tone::After,
+                misses: &found.real.misses,
+            },
+        ],
+        centre_m: middle,
+    };
+    show_rows(&mut page, &rows, profile);
+    if !found.parts.is_empty() {
+        let parts = &found.parts;
+        let table = Table {
+            columns: vec![
+                Column::texts("part", parts.iter().map(|p| format!("{} {}", p.by, p.name))),
+                Column::counts("n", parts.iter().map(|p| p.spread.n)),
+                Column::numbers(
+                    "mean",
+                    "mm",
+                    parts.iter().map(|p| significant(p.spread.mean, 5)),
+                ),
+                Column::numbers(
+                    "std",
+                    "mm",
+                    parts.iter().map(|p| significant(p.spread.std, 5)),
+                ),
+                Column::numbers(
+                    "largest",
+                    "mm",
+                    parts.iter().map(|p| significant(p.spread.max, 5)),
+                ),
+            ],
+        };
+        page.show("parts", "Real model by parts", "", table);
+    }
+    if !found.repeated.is_empty() {
+        let list = &found.repeated;
+        let table = Table {
+            columns: vec![
+                Column::counts("line", list.iter().map(|r| r.line)),
+                Column::counts("count", list.iter().map(|r| r.count)),
+                Column::numbers(
+                    "AP",
+                    "mm",
+                    list.iter().map(|r| significant(r.accuracy_mm, 4)),
+                ),
+                Column::numbers(
+                    "RP",
+                    "mm",
+                    list.iter().map(|r| significant(r.repeatability_mm, 4)),
+                ),
+                Column::numbers(
+                    "vAP",
+                    "mm",
+                    list.iter()
+                        .map(|r| r.variation_mm.map(|v| significant(v, 4))),
+                ),
+            ],
+        };
+        page.show("repeated", "Repeated poses, ISO 9283", "", table);
+    }
+    page
+}

@@ -1,0 +1,495 @@
+//! A page and its HTML.
+
+use super::cell::Cell;
+use super::numbers::{Column, Number, Table};
+use crate::finding::{Finding, Severity};
+use base64::Engine;
+use minijinja::value::{Serde, Value as Template};
+use minijinja::{Environment, context};
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// What draws the page.
+const SCRIPT: &str = include_str!("assets/report.js");
+const STYLE: &str = include_str!("assets/report.css");
+const TEMPLATE: &str = include_str!("assets/page.html");
+
+/// Findings that a page holds; of more it tells how many there are.
+pub const MOST_FINDINGS: usize = 5000;
+
+/// How the answer looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Level {
+    /// Nothing to worry about.
+    Good,
+    /// Look at it.
+    Warning,
+    /// The answer is no.
+    Error,
+}
+
+/// The answer in a sentence.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verdict {
+    /// How it looks.
+    pub level: Level,
+    /// The sentence.
+    pub text: String,
+}
+
+/// One of the few numbers that stand first.
+#[derive(Clone, Debug, Serialize)]
+pub struct Fact {
+    /// What it is.
+    pub label: String,
+    /// It, with its unit.
+    pub value: String,
+}
+
+/// A short table that is readable without a script.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// Headings.
+    pub heads: Vec<String>,
+    /// Rows of texts.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// A line through its points.
+    Line,
+    /// Points.
+    Dots,
+    /// Bars from x to x2.
+    Histogram,
+    /// Bars that stand, one for each name.
+    Bars,
+    /// Bars that lie, one for each name, with y2 as their error.
+    Rows,
+    /// A dashed level.
+    Level,
+}
+
+/// Colours by meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Tone {
+    /// No meaning.
+    One,
+    /// As it was.
+    Before,
+    /// With frames alone.
+    Frames,
+    /// As it is now.
+    After,
+    /// As it should be.
+    Wanted,
+    /// Not beyond this.
+    Limit,
+    /// Anything else.
+    Third,
+}
+
+/// Columns of a table drawn together, by their indices.
+#[derive(Clone, Debug, Serialize)]
+pub struct Series {
+    /// How.
+    pub kind: Kind,
+    /// Column of x, or of names.
+    pub x: usize,
+    /// Column of y.
+    pub y: usize,
+    /// Column of the other end of a bar.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x2: Option<usize>,
+    /// Column of the error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y2: Option<usize>,
+    /// Its name; empty where there is one series only.
+    pub name: String,
+    /// Its colour.
+    pub tone: Tone,
+}
+
+impl Series {
+    /// Two columns.
+    #[must_use]
+    pub fn new(kind: Kind, x: usize, y: usize, name: &str, tone: Tone) -> Self {
+        Self {
+            kind,
+            x,
+            y,
+            x2: None,
+            y2: None,
+            name: name.into(),
+            tone,
+        }
+    }
+}
+
+/// What an axis shows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Axis {
+    /// Its name.
+    pub label: String,
+    /// Its unit; empty where it has none.
+    pub unit: &'static str,
+}
+
+impl Axis {
+    /// A name and a unit.
+    #[must_use]
+    pub fn new(label: &str, unit: &'static str) -> Self {
+        Self {
+            label: label.into(),
+            unit,
+        }
+    }
+}
+
+/// A chart of columns of one of the page's tables.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chart {
+    /// Its title.
+    pub title: String,
+    /// What it tells.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// The table's name.
+    pub table: String,
+    /// Across.
+    pub x: Axis,
+    /// Up.
+    pub y: Axis,
+    /// What is drawn.
+    pub series: Vec<Series>,
+    /// It has the whole width.
+    pub wide: bool,
+    /// x are names in the order of the rows.
+    pub bands: bool,
+    /// Its rows are items of the view in space.
+    pub picks: bool,
+}
+
+impl Chart {
+    /// A chart without series.
+    #[must_use]
+    pub fn new(title: &str, table: &str, x: Axis, y: Axis) -> Self {
+        Self {
+            title: title.into(),
+            note: String::new(),
+            table: table.into(),
+            x,
+            y,
+            series: Vec::new(),
+            wide: false,
+            bands: false,
+            picks: false,
+        }
+    }
+}
+
+/// Correlations.
+#[derive(Clone, Debug, Serialize)]
+pub struct Heat {
+    /// Its title.
+    pub title: String,
+    /// What it tells.
+    pub note: String,
+    /// Of what.
+    pub names: Vec<String>,
+    /// The lower triangle, row by row.
+    pub values: Vec<Vec<Number>>,
+}
+
+/// A table shown as such.
+#[derive(Clone, Debug, Serialize)]
+pub struct Shown {
+    /// Its title.
+    pub title: String,
+    /// What it tells.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// The table's name.
+    pub table: String,
+}
+
+/// Sentences.
+#[derive(Clone, Debug, Serialize)]
+pub struct Text {
+    /// Its title.
+    pub title: String,
+    /// One paragraph each.
+    pub lines: Vec<String>,
+}
+
+/// A part of a page.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+pub enum Section {
+    /// A view in space.
+    Cell(Box<Cell>),
+    /// A chart.
+    Chart(Chart),
+    /// Correlations.
+    Heat(Heat),
+    /// A table.
+    Table(Shown),
+    /// Sentences.
+    Text(Text),
+}
+
+/// A report.
+#[derive(Clone, Debug, Serialize)]
+pub struct Page {
+    /// What it is about.
+    pub title: String,
+    /// Which files, which robot.
+    #[serde(skip)]
+    pub lead: Vec<String>,
+    /// The answer.
+    #[serde(skip)]
+    pub verdict: Verdict,
+    /// The numbers that stand first.
+    #[serde(skip)]
+    pub facts: Vec<Fact>,
+    /// A table that stands first.
+    #[serde(skip)]
+    pub summary: Option<Summary>,
+    /// Tables by name.
+    pub tables: BTreeMap<String, Table>,
+    /// What is shown, in this order.
+    pub sections: Vec<Section>,
+}
+
+/// What the template shows.
+#[derive(Serialize)]
+struct Head<'a> {
+    title: &'a str,
+    lead: &'a [String],
+    verdict: &'a Verdict,
+    facts: &'a [Fact],
+    summary: Option<&'a Summary>,
+}
+
+impl Page {
+    /// A page with nothing on it.
+    #[must_use]
+    pub fn new(title: String, level: Level, answer: String) -> Self {
+        Self {
+            title,
+            lead: Vec::new(),
+            verdict: Verdict {
+                level,
+                text: answer,
+            },
+            facts: Vec::new(),
+            summary: None,
+            tables: BTreeMap::new(),
+            sections: Vec::new(),
+        }
+    }
+
+    /// One of the numbers that stand first.
+    pub fn fact(&mut self, label: &str, value: String) {
+        self.facts.push(Fact {
+            label: label.into(),
+            value,
+        });
+    }
+
+    /// A table under a name, shown.
+    pub fn show(&mut self, name: &str, title: &str, note: &str, table: Table) {
+        self.tables.insert(name.into(), table);
+        self.sections.push(Section::Table(Shown {
+            title: title.into(),
+            note: note.into(),
+            table: name.into(),
+        }));
+    }
+
+    /// A histogram of values, with its table; none of no values.
+    pub fn histogram(
+        &mut self,
+        name: &str,
+        title: &str,
+        (label, unit): (&str, &'static str),
+        values: &[f64],
+        tone: Tone,
+    ) {
+        let table = super::numbers::histogram(label, unit, values);
+        if table.rows() == 0 {
+            return;
+        }
+        self.tables.insert(name.into(), table);
+        let mut chart = Chart::new(title, name, Axis::new(label, unit), Axis::new("count", ""));
+        let mut series = Series::new(Kind::Histogram, 0, 2, "", tone);
+        series.x2 = Some(1);
+        chart.series.push(series);
+        self.sections.push(Section::Chart(chart));
+    }
+
+    /// Findings: how many of each name, and the first of them, errors before warnings before notes.
+    pub fn findings(&mut self, findings: &[Finding]) {
+        if findings.is_empty() {
+            return;
+        }
+        let mut kept: Vec<usize> = (0..findings.len()).collect();
+        kept.sort_by_key(|&i| std::cmp::Reverse(findings[i].severity));
+        kept.truncate(MOST_FINDINGS);
+        let mut note = String::new();
+        if findings.len() > kept.len() {
+            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+            for finding in findings {
+                *counts.entry(finding.id).or_default() += 1;
+            }
+            let counts: Vec<String> = counts.iter().map(|(id, n)| format!("{n} {id}")).collect();
+            let _ = write!(
+                note,
+                "{} of {} are listed; --json has all. In all: {}.",
+                kept.len(),
+                findings.len(),
+                counts.join(", ")
+            );
+        }
+        let of = |i: &usize| &findings[*i];
+        let word = |severity: Severity| match severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        let table = Table {
+            columns: vec![
+                Column::names("severity", kept.iter().map(|i| word(of(i).severity))),
+                Column::names("id", kept.iter().map(|i| of(i).id)),
+                Column::names("file", kept.iter().map(|i| of(i).file.as_str())),
+                Column::counts("line", kept.iter().map(|i| of(i).line)),
+                Column::texts("message", kept.iter().map(|i| of(i).message.clone())),
+                Column::names("hint", kept.iter().map(|i| of(i).hint.as_str())),
+            ],
+        };
+        self.show("findings", "Findings", &note, table);
+    }
+
+    /// The whole file.
+    ///
+    /// # Panics
+    /// Never: the template is part of the program.
+    #[must_use]
+    pub fn html(&self) -> String {
+        let mut environment = Environment::new();
+        environment
+            .add_template("page.html", TEMPLATE)
+            .expect("the template is part of the program");
+        let page = Head {
+            title: &self.title,
+            lead: &self.lead,
+            verdict: &self.verdict,
+            facts: &self.facts,
+            summary: self.summary.as_ref(),
+        };
+        let values = context! {
+            page => Serde(page),
+            version => env!("CARGO_PKG_VERSION"),
+            style => Template::from_safe_string(STYLE.into()),
+            script => Template::from_safe_string(SCRIPT.into()),
+            script_hash => Template::from_safe_string(hash(SCRIPT)),
+            data => Template::from_safe_string(embedded(self)),
+        };
+        environment
+            .get_template("page.html")
+            .and_then(|template| template.render(values))
+            .expect("the template asks for what it is given")
+    }
+}
+
+/// The hash by which a content security policy knows a script.
+fn hash(script: &str) -> String {
+    let digest = Sha256::digest(script.as_bytes());
+    let text = base64::engine::general_purpose::STANDARD.encode(digest);
+    format!("sha256-{text}")
+}
+
+/// JSON in which no markup begins or ends, to stand in a script element.
+fn embedded(value: &impl Serialize) -> String {
+    let json =
+        serde_json::to_string(value).expect("a page holds numbers and texts under text keys");
+    let mut out = String::with_capacity(json.len() + json.len() / 16);
+    for letter in json.chars() {
+        match letter {
+            // these stand only in texts
+            '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
+                write!(out, "\\u{:04x}", u32::from(letter)).expect("a string takes all text");
+            }
+            _ => out.push(letter),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn finding(k: usize) -> Finding {
+        Finding {
+            id: if k.is_multiple_of(2) { "even" } else { "odd" },
+            severity: if k == 99_999 {
+                Severity::Error
+            } else {
+                Severity::Note
+            },
+            file: "</script><script>alert(1)</script>".into(),
+            line: k,
+            column: 1,
+            message: "\u{2028}\"quoted\" & <b>bold</b> \u{fc}".into(),
+            hint: String::new(),
+        }
+    }
+
+    #[test]
+    fn names_that_are_markup_stay_text() {
+        let evil = "</title><script>alert('x')</script>\"&";
+        let mut page = Page::new(evil.into(), Level::Error, evil.into());
+        page.lead.push(evil.into());
+        page.fact(evil, evil.into());
+        page.findings(&[finding(1)]);
+        let html = page.html();
+        // the two script elements are the data and the program itself
+        assert_eq!(html.matches("<script").count(), 2);
+        assert_eq!(html.matches("</script").count(), 2);
+        assert!(!html.contains("<b>bold"));
+        assert!(!html.contains('\u{2028}'));
+    }
+
+    #[test]
+    fn the_policy_names_the_script_that_the_page_has() {
+        let html = Page::new("t".into(), Level::Good, "fine".into()).html();
+        let script = html
+            .rsplit_once("<script>")
+            .and_then(|(_, rest)| rest.split_once("</script>"))
+            .expect("a script")
+            .0;
+        assert!(html.contains(&format!("script-src '{}'", hash(script))));
+        assert!(!script.contains("</script"), "the script would end itself");
+    }
+
+    #[test]
+    fn of_very_many_findings_the_worst_are_kept_and_all_are_counted() {
+        let findings: Vec<Finding> = (0..100_000).map(finding).collect();
+        let mut page = Page::new("t".into(), Level::Error, "no".into());
+        page.findings(&findings);
+        let table = &page.tables["findings"];
+        assert_eq!(table.rows(), MOST_FINDINGS);
+        let html = page.html();
+        assert!(html.contains("50000 even, 50000 odd"));
+        assert!(html.contains("99999"), "the only error is listed");
+        assert!(html.len() < 2_500_000, "{}", html.len());
+    }
+}

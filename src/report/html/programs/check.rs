@@ -1,0 +1,305 @@
+//! The page of `check`.
+
+use super::{
+    Lines, Scenery, answer, join, kept, largest, lead, path, thinned, title_of, tools_of, wanted,
+};
+use crate::check::Check;
+use crate::check::trace::Traced;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::program::{Motion, Source};
+use crate::report::check;
+use crate::report::html::cell::{Along, Cell, Points, Robot, bodies};
+use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
+use crate::report::html::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+
+/// What the page of `check` is made of.
+pub struct Checked<'a> {
+    /// As for the JSON.
+    pub header: &'a check::Header<'a>,
+    /// The files.
+    pub sources: &'a [Source],
+    /// What was found.
+    pub check: &'a Check,
+    /// The way.
+    pub traced: &'a [Traced],
+    /// What got worse than a stored run.
+    pub worse: usize,
+    /// What is drawn.
+    pub scenery: &'a Scenery<'a>,
+}
+
+/// The page of `check`.
+#[must_use]
+pub fn check_page(of: &Checked) -> Page {
+    let (header, found) = (of.header, of.check);
+    let (mut level, mut text) = answer(&found.findings, "No error found", "The answer is no");
+    if of.worse > 0 {
+        level = Level::Error;
+        text += &format!("; {} numbers are worse than the stored run's", of.worse);
+    }
+    let mut page = Page::new(format!("Check of {}", title_of(header.inputs)), level, text);
+    lead(
+        &mut page,
+        header.inputs,
+        &[],
+        of.scenery.profile,
+        header.profile_sha256,
+    );
+    if !header.nominal.is_empty() {
+        page.lead
+            .push(format!("wanted: {}", header.nominal.join(", ")));
+    }
+    let s = &found.summary;
+    page.fact("moves", s.moves.to_string());
+    page.fact(
+        "largest error at targets",
+        format!("{:.3} mm", mm_from_m(s.max_target_error.distance_m)),
+    );
+    page.fact(
+        "error along the way, never more than",
+        format!("{:.3} mm", mm_from_m(s.max_path_error.distance_m)),
+    );
+    if let Some(least) = s.min_clearance_m {
+        page.fact(
+            "clearance, never less than",
+            format!("{:.2} mm", mm_from_m(least)),
+        );
+        page.fact("moves that touch something", s.collisions.to_string());
+        page.fact("moves that come too near", s.too_near.to_string());
+    }
+    if s.unknown > 0 {
+        page.fact("moves not followed", s.unknown.to_string());
+    }
+    let moves = &found.moves;
+    let error = |i: usize| {
+        let path = moves[i].path.map_or(0.0, |p| p.bound.distance_m);
+        path.max(moves[i].target_error.distance_m)
+    };
+    let rows = kept(moves.len(), &error);
+    let tools = tools_of(of.scenery.profile, &found.program);
+    let (table, columns) = move_table(of, &rows);
+    let mut points = Points {
+        name: "moves' ends",
+        title: "Moves".into(),
+        ..Points::default()
+    };
+    let mut row_of = vec![None; found.program.moves.len()];
+    for (k, row) in rows.iter().enumerate() {
+        let report = &moves[*row];
+        row_of[report.motion] = Some(k);
+        points.push(Some(report.commanded.translation), Some(report.joints));
+        let tool = found.program.moves[report.motion].tool;
+        points.tool.push(u32::try_from(tool).unwrap_or(0));
+        points.error.push(fixed(mm_from_m(error(*row)), 4));
+    }
+    points.first = largest(&points.error);
+    page.tables.insert("moves".into(), table);
+    let item = |one: &Traced| row_of.get(one.motion).copied().flatten();
+    let real = path("real", Tone::Before, of.traced, None, &item);
+    page.sections.push(Section::Cell(Box::new(Cell {
+        title: "In the cell".into(),
+        note: join(&[
+            "Where the tool is wanted and where the real tool goes. Deviations are magnified; places are true.",
+            &thinned(&rows, moves.len(), "moves"),
+        ]),
+        table: "moves".into(),
+        robot: Some(Robot::of(of.scenery.profile, &tools, of.scenery.cell, of.scenery.meshes)),
+        bodies: bodies(of.scenery.cell, of.scenery.meshes),
+        points,
+        paths: vec![real, wanted(0)],
+        ellipsoids: Vec::new(),
+        along: Along::Note("Distance of the real tool from where it is wanted, in samples; the bounds between samples are those of each move.".into()),
+    })));
+    charts(&mut page, &columns, s.min_clearance_m.is_some());
+    let errors: Vec<f64> = moves
+        .iter()
+        .map(|m| mm_from_m(m.target_error.distance_m))
+        .collect();
+    page.histogram(
+        "errors",
+        "Errors at targets",
+        ("error", "mm"),
+        &errors,
+        Tone::One,
+    );
+    page.findings(&found.findings);
+    page
+}
+
+/// Columns that charts draw.
+struct Drawn {
+    number: usize,
+    target: usize,
+    bound: usize,
+    clearance: usize,
+    nominal: usize,
+    required: usize,
+    margin: usize,
+}
+
+fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
+    let moves = &of.check.moves;
+    let lines = Lines {
+        sources: of.sources,
+    };
+    let mm = |value: f64| significant(mm_from_m(value), 5);
+    let some = |of: &dyn Fn(usize) -> Option<Number>| -> Vec<Option<Number>> {
+        rows.iter().map(|row| of(*row)).collect()
+    };
+    let kind = |row: &usize| match moves[*row].kind {
+        Motion::Joint => "joint",
+        Motion::Linear => "linear",
+        Motion::ArcVia => "arc-via",
+        Motion::ArcEnd => "arc",
+    };
+    let pair = |row: &usize| {
+        let clearance = moves[*row].clearance.as_ref()?;
+        let (a, b) = of.header.scene.pair_names(clearance)?;
+        Some(format!("{a} / {b}"))
+    };
+    let pairs: Vec<Option<String>> = rows.iter().map(pair).collect();
+    let code = rows.iter().map(|row| {
+        let report = &moves[*row];
+        let offset = of.check.program.moves[report.motion].offset;
+        lines.text(report.file, offset as usize)
+    });
+    let mut columns = Vec::new();
+    let mut add = |column: Column| {
+        columns.push(column);
+        columns.len() - 1
+    };
+    let number = add(Column::counts("move", rows.iter().map(|row| row + 1)));
+    add(Column::names(
+        "file",
+        rows.iter()
+            .map(|r| of.header.inputs[moves[*r].file].as_str()),
+    ));
+    add(Column::counts("line", rows.iter().map(|r| moves[*r].line)));
+    add(Column::names("kind", rows.iter().map(kind)));
+    add(Column::texts(
+        "target",
+        rows.iter().map(|r| moves[*r].target.clone()),
+    ));
+    let target = add(Column::numbers(
+        "target error",
+        "mm",
+        some(&|r| Some(mm(moves[r].target_error.distance_m))),
+    ));
+    add(Column::numbers(
+        "uncertainty",
+        "mm",
+        some(&|r| moves[r].uncertainty_m.map(mm)),
+    ));
+    let bound = add(Column::numbers(
+        "path error",
+        "mm",
+        some(&|r| moves[r].path.map(|p| mm(p.bound.distance_m))),
+    ));
+    add(Column::numbers(
+        "path error",
+        "deg",
+        some(&|r| {
+            moves[r]
+                .path
+                .map(|p| significant(p.bound.angle_rad / DEG, 4))
+        }),
+    ));
+    let clearance = add(Column::numbers(
+        "clearance",
+        "mm",
+        some(&|r| moves[r].clearance.map(|c| mm(c.clearance_m))),
+    ));
+    let nominal = add(Column::numbers(
+        "nominal clearance",
+        "mm",
+        some(&|r| moves[r].nominal_clearance.map(|c| mm(c.clearance_m))),
+    ));
+    let required = add(Column::numbers(
+        "required",
+        "mm",
+        some(&|r| {
+            moves[r]
+                .clearance
+                .filter(|c| c.pair.is_some())
+                .map(|c| mm(c.required_m))
+        }),
+    ));
+    add(Column::names("nearest", pairs.iter().map(Option::as_deref)));
+    let margin = add(Column::numbers(
+        "joint margin",
+        "deg",
+        some(&|r| {
+            moves[r]
+                .limits
+                .as_ref()
+                .map(|l| significant(l.margin_rad / DEG, 4))
+        }),
+    ));
+    add(Column::numbers(
+        "wrist",
+        "deg",
+        some(&|r| {
+            moves[r]
+                .limits
+                .as_ref()
+                .map(|l| significant(l.margins.wrist_rad / DEG, 4))
+        }),
+    ));
+    add(Column::texts("code", code).of_code());
+    let drawn = Drawn {
+        number,
+        target,
+        bound,
+        clearance,
+        nominal,
+        required,
+        margin,
+    };
+    (Table { columns }, drawn)
+}
+
+fn charts(page: &mut Page, at: &Drawn, bodies: bool) {
+    let chart = |title: &str, note: &str, label: &str, unit: &'static str, series: Vec<Series>| {
+        let mut chart = Chart::new(
+            title,
+            "moves",
+            Axis::new("move", ""),
+            Axis::new(label, unit),
+        );
+        chart.note = note.into();
+        chart.series = series;
+        chart.picks = true;
+        Section::Chart(chart)
+    };
+    let line = |y: usize, name: &str, tone: Tone| Series::new(Kind::Line, at.number, y, name, tone);
+    page.sections.push(chart(
+        "Error of each move",
+        "The largest anywhere on the move, guaranteed between samples, and that at its end.",
+        "error",
+        "mm",
+        vec![
+            line(at.bound, "along the way", Tone::Before),
+            line(at.target, "at its end", Tone::After),
+        ],
+    ));
+    if bodies {
+        page.sections.push(chart(
+            "Clearance along the path",
+            "The least room on each move, of the real arm and of the nominal one, and what is required.",
+            "clearance",
+            "mm",
+            vec![
+                line(at.clearance, "real arm", Tone::After),
+                line(at.nominal, "nominal arm", Tone::Wanted),
+                line(at.required, "required", Tone::Limit),
+            ],
+        ));
+    }
+    page.sections.push(chart(
+        "Room to the joint limits",
+        "Of the joint that has least.",
+        "margin",
+        "deg",
+        vec![line(at.margin, "", Tone::One)],
+    ));
+}

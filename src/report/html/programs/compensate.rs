@@ -1,0 +1,281 @@
+//! The page of `compensate`.
+
+use super::{
+    Lines, SAMPLES, Scenery, answer, join, kept, largest, lead, moved, path, thinned, title_of,
+    tools_of, wanted,
+};
+use crate::check::trace::Traced;
+use crate::compensate::Compensation;
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::report::compensation;
+use crate::report::html::cell::{Along, Cell, Path, Points, Robot, bodies};
+use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
+use crate::report::html::page::{Page, Section, Tone};
+
+/// What the page of `compensate` is made of.
+pub struct Compensated<'a> {
+    /// As for the JSON.
+    pub header: &'a compensation::Header<'a>,
+    /// The compensation, with every target.
+    pub compensation: &'a Compensation,
+    /// The original program's way.
+    pub traced: &'a [Traced],
+    /// Where the part really stands.
+    pub work_offset: Option<&'a Pose>,
+    /// What is drawn.
+    pub scenery: &'a Scenery<'a>,
+}
+
+/// The page of `compensate`, without the way of the written program.
+#[must_use]
+pub fn compensate_page(of: &Compensated) -> Page {
+    let (header, compensation) = (of.header, of.compensation);
+    let program = &compensation.program;
+    let reports = &compensation.targets;
+    let written = !header.outputs.is_empty();
+    let good = if written { "Written" } else { "Computed" };
+    let bad = if written {
+        "Written with targets left as they were"
+    } else {
+        "Nothing is written"
+    };
+    let (level, text) = answer(&compensation.findings, good, bad);
+    let mut page = Page::new(
+        format!("Compensation of {}", title_of(&header.inputs)),
+        level,
+        text,
+    );
+    lead(
+        &mut page,
+        &header.inputs,
+        &header.outputs,
+        of.scenery.profile,
+        header.profile_sha256,
+    );
+    let s = &compensation.summary;
+    page.fact("targets", s.targets.to_string());
+    page.fact("shifted", s.compensated.to_string());
+    page.fact("mean shift", format!("{:.3} mm", mm_from_m(s.mean_shift_m)));
+    page.fact(
+        "largest shift",
+        format!("{:.3} mm", mm_from_m(s.max_shift_m)),
+    );
+    page.fact(
+        "largest residual",
+        format!("{:.1e} mm", mm_from_m(s.max_residual_m)),
+    );
+    page.fact(
+        "largest rounding",
+        format!(
+            "{:.4} mm, {:.4} deg",
+            mm_from_m(s.max_rounding_m),
+            s.max_rounding_rad / DEG
+        ),
+    );
+    let rows = kept(reports.len(), &|i| reports[i].shift.distance_m);
+    let lines = Lines {
+        sources: header.sources,
+    };
+    let of_row = |row: &usize| (&program.targets[*row], &reports[*row]);
+    let tools = |row: &usize| {
+        reports[*row]
+            .tool
+            .map(|t| program.tools[t as usize].name.as_ref())
+    };
+    let frames = |row: &usize| {
+        reports[*row]
+            .frame
+            .map(|f| program.frames[f as usize].name.as_ref())
+    };
+    let number = |of: &dyn Fn(&usize) -> f64, digits| -> Vec<Number> {
+        rows.iter()
+            .map(|row| significant(of(row), digits))
+            .collect()
+    };
+    let branches: Vec<Option<String>> = rows
+        .iter()
+        .map(|row| reports[*row].branch.map(|b| b.to_string()))
+        .collect();
+    let line_of = |row: &usize| {
+        let target = of_row(row).0;
+        header.sources[target.file as usize]
+            .line_column(target.offset as usize)
+            .0
+    };
+    let code = rows.iter().map(|row| {
+        let target = of_row(row).0;
+        lines.text(target.file as usize, target.offset as usize)
+    });
+    let mut columns = vec![
+        Column::texts(
+            "name",
+            rows.iter()
+                .map(|row| of_row(row).0.name.as_deref().map(str::to_owned)),
+        ),
+        Column::names(
+            "file",
+            rows.iter()
+                .map(|row| header.inputs[of_row(row).0.file as usize].as_str()),
+        ),
+        Column::counts("line", rows.iter().map(line_of)),
+        Column::names("tool", rows.iter().map(tools)),
+        Column::names("frame", rows.iter().map(frames)),
+        Column::numbers(
+            "shift",
+            "mm",
+            number(&|r| mm_from_m(reports[*r].shift.distance_m), 5),
+        ),
+        Column::numbers(
+            "shift",
+            "deg",
+            number(&|r| reports[*r].shift.angle_rad / DEG, 4),
+        ),
+        Column::numbers(
+            "residual",
+            "mm",
+            number(&|r| mm_from_m(reports[*r].residual.distance_m), 2),
+        ),
+        Column::numbers(
+            "rounding",
+            "mm",
+            number(&|r| mm_from_m(reports[*r].rounding.distance_m), 3),
+        ),
+        Column::counts(
+            "iterations",
+            rows.iter().map(|row| reports[*row].iterations as usize),
+        ),
+        Column::names("branch", branches.iter().map(Option::as_deref)),
+        Column::names(
+            "status",
+            rows.iter()
+                .map(|row| reports[*row].status.map(crate::inverse::Status::id)),
+        ),
+        Column::names(
+            "changed",
+            rows.iter()
+                .map(|row| if reports[*row].changed { "yes" } else { "no" }),
+        ),
+    ];
+    columns.push(Column::texts("code", code).of_code());
+    // where each target is wanted: at the end of the first move to it
+    let mut first_move: Vec<Option<&Traced>> = vec![None; program.targets.len()];
+    for one in of.traced.iter().rev() {
+        if let Some(slot) = first_move.get_mut(one.target) {
+            *slot = Some(one);
+        }
+    }
+    let mut row_of: Vec<Option<usize>> = vec![None; program.targets.len()];
+    for (k, row) in rows.iter().enumerate() {
+        row_of[*row] = Some(k);
+    }
+    let mut points = Points {
+        name: "targets",
+        title: "Targets".into(),
+        ..Points::default()
+    };
+    for row in &rows {
+        let place = first_move[*row].map(|one| moved(of.work_offset, one.commanded.translation));
+        let joints = reports[*row].q.or(first_move[*row].map(|one| one.joints));
+        points.push(place, joints);
+        points.tool.push(reports[*row].tool.unwrap_or(0));
+        points
+            .error
+            .push(fixed(mm_from_m(reports[*row].shift.distance_m), 4));
+    }
+    points.first = largest(&points.error);
+    page.tables.insert("targets".into(), Table { columns });
+    let item = |one: &Traced| row_of.get(one.target).copied().flatten();
+    let uncompensated = path(
+        "uncompensated",
+        Tone::Before,
+        of.traced,
+        of.work_offset,
+        &item,
+    );
+    page.sections.push(Section::Cell(Box::new(Cell {
+        title: "In the cell".into(),
+        note: join(&[
+            "Where the simulation wants the tool, and where the real tool goes without and with compensation. Deviations are magnified; places are true.",
+            &thinned(&rows, reports.len(), "targets"),
+        ]),
+        table: "targets".into(),
+        robot: Some(Robot::of(of.scenery.profile, &tools_of(of.scenery.profile, program), of.scenery.cell, of.scenery.meshes)),
+        bodies: bodies(of.scenery.cell, of.scenery.meshes),
+        points,
+        paths: vec![uncompensated, wanted(0)],
+        ellipsoids: Vec::new(),
+        along: Along::Note("Distance of the real tool from where it is wanted, between targets too.".into()),
+    })));
+    let shifts: Vec<f64> = reports
+        .iter()
+        .filter(|report| report.changed)
+        .map(|report| mm_from_m(report.shift.distance_m))
+        .collect();
+    page.histogram(
+        "shifts",
+        "Shifts of targets",
+        ("shift", "mm"),
+        &shifts,
+        Tone::One,
+    );
+    let roundings: Vec<f64> = reports
+        .iter()
+        .filter(|report| report.changed)
+        .map(|report| 1000.0 * mm_from_m(report.rounding.distance_m))
+        .collect();
+    page.histogram(
+        "roundings",
+        "What the file's decimals cost",
+        ("rounding", "\u{b5}m"),
+        &roundings,
+        Tone::One,
+    );
+    page.findings(&compensation.findings);
+    page
+}
+
+/// Adds the way of the written program to the page of `compensate`.
+pub fn add_written(
+    page: &mut Page,
+    traced: &[Traced],
+    original: &[Traced],
+    work_offset: Option<&Pose>,
+) {
+    let targets: std::collections::BTreeMap<usize, usize> = original
+        .iter()
+        .map(|one| (one.motion, one.target))
+        .collect();
+    for section in &mut page.sections {
+        let Section::Cell(cell) = section else {
+            continue;
+        };
+        let before = &cell.paths[0];
+        // rows of targets, as the original's way has them
+        let mut rows = std::collections::BTreeMap::new();
+        for (one, item) in original.iter().zip(items_of_moves(original, before)) {
+            rows.insert(one.target, item);
+        }
+        let item = |one: &Traced| rows.get(targets.get(&one.counterpart)?).copied();
+        let mut after = path("compensated", Tone::After, traced, work_offset, &item);
+        if after.at == before.at && after.starts == before.starts {
+            (after.at, after.like) = (None, Some(0));
+            (after.starts, after.items) = (Vec::new(), Vec::new());
+        }
+        cell.paths.insert(1, after);
+    }
+}
+
+/// For each move the item that its places belong to.
+fn items_of_moves<'a>(traced: &'a [Traced], path: &'a Path) -> impl Iterator<Item = usize> + 'a {
+    let every = traced.len().div_ceil(SAMPLES).max(1);
+    let mut at = 0;
+    traced.iter().enumerate().map(move |(k, one)| {
+        let drawn = !one.continues || k == 0 || every == 1 || k % every == 0;
+        let item = path.items.get(at).copied().unwrap_or(0);
+        if drawn {
+            at += one.places.len();
+        }
+        item
+    })
+}

@@ -1,0 +1,104 @@
+//! What holds for the report of every command.
+
+use crate::support::{poseshift, repository, scratch};
+
+/// Commands in an order in which each finds what it needs, their status, and the kind of their report. `@` is the repository.
+const COMMANDS: &[(&str, i32, &str)] = &[
+    (
+        "plan --profile @robots/abb_irb120_thesis.yaml --count 40 -o joints.csv",
+        0,
+        "plan/1",
+    ),
+    (
+        "simulate --profile @robots/abb_irb120_thesis.yaml --joints joints.csv --noise-mm 0.02 --seed 1 -o measured.csv",
+        0,
+        "simulation/1",
+    ),
+    (
+        "calibrate --profile @robots/abb_irb120_thesis.yaml --measurements measured.csv -o calibrated.yaml",
+        0,
+        "calibration/1",
+    ),
+    (
+        "validate --profile calibrated.yaml --measurements measured.csv",
+        0,
+        "validation/1",
+    ),
+    (
+        "diagnose --quick --profile calibrated.yaml --measurements measured.csv",
+        0,
+        "diagnosis/1",
+    ),
+    (
+        "fk --profile @robots/abb_irb120_thesis.yaml --joints joints.csv",
+        0,
+        "poses/1",
+    ),
+    (
+        "compensate @programs/rapid/olp/in/Deburr.mod --profile @robots/abb_irb120_thesis.yaml -o out.mod",
+        0,
+        "compensation/1",
+    ),
+    (
+        "check out.mod --nominal @programs/rapid/olp/in/Deburr.mod --profile @robots/abb_irb120_thesis.yaml",
+        0,
+        "check/1",
+    ),
+    (
+        "register @docs/measuring/nominal.csv @docs/measuring/probed.csv",
+        0,
+        "registration/1",
+    ),
+    (
+        "handeye @docs/measuring/robot.csv @docs/measuring/board.csv --setup eye-in-hand",
+        0,
+        "handeye/1",
+    ),
+    ("hexapod @docs/measuring/lengths.csv", 0, "hexapod/1"),
+    (
+        "axes @docs/measuring/sweeps.csv --profile @robots/abb_irb120_thesis.yaml",
+        0,
+        "axes/1",
+    ),
+    ("robots", 0, "robots/1"),
+    ("effects", 0, "effects/1"),
+    ("languages", 0, "languages/1"),
+    ("profile show @robots/ur5.yaml", 2, ""),
+    (
+        "profile show @robots/universal_robots_ur5.yaml",
+        0,
+        "profile-facts/1",
+    ),
+    ("profile new --robot abb_irb120", 0, "new-profile/1"),
+    (
+        "profile diff @robots/abb_irb120.yaml @robots/abb_irb120_thesis.yaml",
+        1,
+        "profile-diff/1",
+    ),
+];
+
+#[test]
+fn reports_begin_with_their_kind_and_are_alone_on_standard_output() {
+    let folder = scratch();
+    for (line, status, kind) in COMMANDS {
+        let mut command = poseshift();
+        command.current_dir(folder.path()).arg("--json");
+        for word in line.split(' ') {
+            match word.strip_prefix('@') {
+                Some(path) => command.arg(repository(path)),
+                None => command.arg(word),
+            };
+        }
+        let output = command.output().expect("the program starts");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(*status), "{line}: {told}");
+        let report = String::from_utf8(output.stdout).expect("UTF-8");
+        if kind.is_empty() {
+            assert_eq!(report, "", "{line}");
+            continue;
+        }
+        let begins = format!("{{\n  \"poseshift\": \"{kind}\"");
+        assert!(report.starts_with(&begins), "{line}: {}", &report[..80]);
+        let _: serde_json::Value = serde_json::from_str(&report).expect("one document");
+    }
+}

@@ -1,0 +1,402 @@
+//! `--report`: the page's numbers, what it may take the place of, and the way it draws.
+
+mod trace;
+
+use crate::support::{poseshift, repository, scratch};
+use serde_json::Value;
+use std::path::Path;
+
+const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
+const PROGRAM: &str = "programs/rapid/olp/in/Deburr.mod";
+
+/// Runs the program at the top of the repository: status, standard output, standard error.
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let output = poseshift()
+        .current_dir(repository(""))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+    (
+        output.status.code().expect("it ended"),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+fn name(path: &Path) -> &str {
+    path.to_str().expect("UTF-8")
+}
+
+/// The data of a page.
+fn data(page: &Path) -> Value {
+    let html = std::fs::read_to_string(page).expect("a page");
+    let (_, rest) = html
+        .split_once(r#"<script type="application/json" id="data">"#)
+        .expect("data");
+    let (json, _) = rest.split_once("</script>").expect("its end");
+    serde_json::from_str(json).expect("JSON")
+}
+
+/// A column of a table of a page by heading.
+fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Value> {
+    let columns = data["tables"][table]["columns"].as_array().expect(table);
+    let found = columns
+        .iter()
+        .find(|c| c["label"] == label && c["unit"].as_str() == unit);
+    let values = &found.unwrap_or_else(|| panic!("{table}: {label}"))["values"];
+    if let Some(values) = values.as_array() {
+        return values.clone();
+    }
+    let named = |index: &Value| {
+        let index = index.as_u64().and_then(|i| usize::try_from(i).ok());
+        index.map_or(Value::Null, |i| values["names"][i].clone())
+    };
+    let index = values["index"].as_array().expect("indices");
+    index.iter().map(named).collect()
+}
+
+/// Each number of a page is one of the report rounded to so many digits.
+fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
+    assert_eq!(shown.len(), told.len(), "{what}");
+    assert!(!shown.is_empty(), "{what}");
+    for (shown, told) in shown.iter().zip(told) {
+        let (Some(a), Some(b)) = (shown.as_f64(), told.as_f64()) else {
+            assert_eq!(shown, told, "{what}");
+            continue;
+        };
+        let slack = 0.51 * b.abs() * 10.0_f64.powi(1 - digits);
+        assert!((a - b).abs() <= slack + 1e-12, "{what}: {a} is not {b}");
+    }
+}
+
+fn each(list: &Value, key: &str) -> Vec<Value> {
+    let list = list.as_array().expect("a list").iter();
+    list.map(|one| one[key].clone()).collect()
+}
+
+#[test]
+fn the_page_of_compensate_has_the_numbers_of_its_json() {
+    let folder = scratch();
+    let (out, page) = (
+        folder.path().join("out.mod"),
+        folder.path().join("page.html"),
+    );
+    let (status, json, error) = run(&[
+        "compensate",
+        PROGRAM,
+        "--profile",
+        PROFILE,
+        "-o",
+        name(&out),
+        "--report",
+        name(&page),
+        "--json",
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let (report, data): (Value, _) = (serde_json::from_str(&json).expect("JSON"), data(&page));
+    let targets = &report["targets"];
+    for (label, unit, key, digits) in [
+        ("line", None, "line", 9),
+        ("name", None, "name", 9),
+        ("tool", None, "tool", 9),
+        ("shift", Some("mm"), "shift_mm", 5),
+        ("shift", Some("deg"), "shift_deg", 4),
+        ("residual", Some("mm"), "residual_mm", 2),
+        ("rounding", Some("mm"), "rounding_mm", 3),
+        ("iterations", None, "iterations", 9),
+        ("branch", None, "branch", 9),
+        ("status", None, "status", 9),
+    ] {
+        let shown = column(&data, "targets", label, unit);
+        agree(&shown, &each(targets, key), digits, label);
+    }
+    let cell = &data["sections"][0];
+    let paths: Vec<&str> = each_name(&cell["paths"]);
+    assert_eq!(paths, ["uncompensated", "compensated", "wanted"]);
+    assert!(out.exists());
+}
+
+fn each_name(list: &Value) -> Vec<&str> {
+    let list = list.as_array().expect("a list").iter();
+    list.map(|one| one["name"].as_str().expect("a name"))
+        .collect()
+}
+
+/// The deviations' lengths of a path of a page, mm.
+fn deviations(path: &Value) -> Vec<f64> {
+    let by: Vec<f64> = path["by"]
+        .as_array()
+        .expect("deviations")
+        .iter()
+        .map(|x| x.as_f64().expect("a number"))
+        .collect();
+    by.chunks(3)
+        .map(|d| d.iter().map(|x| x * x).sum::<f64>().sqrt())
+        .collect()
+}
+
+#[test]
+fn compensation_brings_the_drawn_path_onto_the_wanted_one() {
+    let folder = scratch();
+    let (out, page) = (
+        folder.path().join("out.mod"),
+        folder.path().join("page.html"),
+    );
+    let arguments = [
+        "compensate",
+        PROGRAM,
+        "--profile",
+        PROFILE,
+        "-o",
+        name(&out),
+        "--report",
+        name(&page),
+    ];
+    let (status, _, error) = run(&arguments);
+    assert_eq!(status, 0, "{error}");
+    let data = data(&page);
+    let paths = &data["sections"][0]["paths"];
+    let (before, after) = (deviations(&paths[0]), deviations(&paths[1]));
+    assert_eq!(before.len(), after.len());
+    // the first move starts at a joint target, which stays
+    let skip = before.len() / 3;
+    let largest = |list: &[f64]| list[skip..].iter().fold(0.0_f64, |a, b| a.max(*b));
+    assert!(largest(&before) > 1.0, "{}", largest(&before));
+    assert!(largest(&after) < 0.1, "{}", largest(&after));
+}
+
+#[test]
+fn the_page_of_check_has_the_numbers_of_its_json() {
+    let folder = scratch();
+    let page = folder.path().join("page.html");
+    let (status, json, error) = run(&[
+        "check",
+        PROGRAM,
+        "--profile",
+        PROFILE,
+        "--cell",
+        "tests/browser/cell.yaml",
+        "--report",
+        name(&page),
+        "--json",
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let (report, data): (Value, _) = (serde_json::from_str(&json).expect("JSON"), data(&page));
+    for (label, unit, key, digits) in [
+        ("line", None, "line", 9),
+        ("kind", None, "kind", 9),
+        ("target error", Some("mm"), "target_error_mm", 5),
+        ("path error", Some("mm"), "max_path_error_mm", 4),
+        ("clearance", Some("mm"), "clearance_mm", 4),
+        ("nominal clearance", Some("mm"), "nominal_clearance_mm", 4),
+        ("joint margin", Some("deg"), "joint_margin_deg", 3),
+    ] {
+        let shown = column(&data, "moves", label, unit);
+        agree(&shown, &each(&report["moves"], key), digits, label);
+    }
+    let bodies = each_name(&data["sections"][0]["bodies"]);
+    assert_eq!(bodies, ["table", "post", "floor"]);
+}
+
+#[test]
+fn pages_of_measurements_have_the_numbers_of_their_json() {
+    let folder = scratch();
+    let at = |file: &str| folder.path().join(file);
+    let (joints, measured) = (at("joints.csv"), at("m.csv"));
+    let plan = at("plan.html");
+    let (status, json, error) = run(&[
+        "plan",
+        "--profile",
+        PROFILE,
+        "--count",
+        "40",
+        "--candidates",
+        "200",
+        "--starts",
+        "1",
+        "-o",
+        name(&joints),
+        "--report",
+        name(&plan),
+        "--json",
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let shown = column(&data(&plan), "sigma", "expected sigma", None);
+    agree(
+        &shown,
+        &each(&report["expected_sigma"], "sigma"),
+        4,
+        "expected sigma",
+    );
+    let (status, _, error) = run(&[
+        "simulate",
+        "--profile",
+        PROFILE,
+        "--joints",
+        name(&joints),
+        "-o",
+        name(&measured),
+        "--noise-mm",
+        "0.03",
+        "--seed",
+        "4",
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let page = at("calibrate.html");
+    let (status, json, error) = run(&[
+        "calibrate",
+        "--profile",
+        PROFILE,
+        "--measurements",
+        name(&measured),
+        "--report",
+        name(&page),
+        "--json",
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let shown = data(&page);
+    for (label, key, digits) in [
+        ("parameter", "key", 9),
+        ("value", "value", 6),
+        ("sigma", "sigma", 3),
+    ] {
+        let column = column(&shown, "parameters", label, None);
+        agree(&column, &each(&report["parameters"], key), digits, label);
+    }
+    // the rows' errors are those that the statistics are of
+    for (model, key) in [
+        ("before", "before"),
+        ("frames only", "frames_only"),
+        ("after", "after"),
+    ] {
+        let errors = column(&shown, "rows", &format!("error, {model}"), Some("mm"));
+        let numbers: Vec<f64> = errors.iter().filter_map(Value::as_f64).collect();
+        let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+        let told = report[key]["position"]["mean_mm"].as_f64().expect("a mean");
+        assert!((mean - told).abs() < 1e-4 * told, "{model}: {mean} {told}");
+    }
+    let page = at("diagnose.html");
+    let (status, json, error) = run(&[
+        "diagnose",
+        "--profile",
+        PROFILE,
+        "--measurements",
+        name(&measured),
+        "--quick",
+        "--report",
+        name(&page),
+        "--json",
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(report["verdict"], "nothing_missing");
+    let html = std::fs::read_to_string(&page).expect("a page");
+    assert!(html.contains("Nothing is missing"));
+}
+
+#[test]
+fn a_report_takes_the_place_of_nothing_that_is_read_or_written() {
+    let folder = scratch();
+    let (program, out) = (folder.path().join("t.mod"), folder.path().join("out.mod"));
+    std::fs::copy(repository(PROGRAM), &program).expect("scratch");
+    let before = std::fs::read(&program).expect("a program");
+    for report in [&program, &out] {
+        let (status, _, error) = run(&[
+            "compensate",
+            name(&program),
+            "--profile",
+            PROFILE,
+            "-o",
+            name(&out),
+            "--report",
+            name(report),
+        ]);
+        assert_eq!(status, 2, "{error}");
+        assert!(error.contains(name(report)), "{error}");
+        assert!(!out.exists());
+    }
+    assert_eq!(std::fs::read(&program).expect("a program"), before);
+    let (status, _, error) = run(&[
+        "check",
+        name(&program),
+        "--profile",
+        PROFILE,
+        "--report",
+        PROFILE,
+    ]);
+    assert!(status == 2 && error.contains("written over"), "{error}");
+}
+
+#[test]
+fn what_cannot_be_done_leaves_no_report_and_an_answer_of_no_has_one() {
+    let folder = scratch();
+    let (program, out, page) = (
+        folder.path().join("t.mod"),
+        folder.path().join("out.mod"),
+        folder.path().join("page.html"),
+    );
+    let arguments = [
+        "compensate",
+        name(&program),
+        "--profile",
+        PROFILE,
+        "-o",
+        name(&out),
+        "--report",
+        name(&page),
+    ];
+    std::fs::write(&program, "MODULE t\n  PROC main()\n    MoveL [[1,").expect("scratch");
+    let (status, _, _) = run(&arguments);
+    assert!(status == 2 && !page.exists() && !out.exists());
+    // one target within reach, one far beyond it
+    let text = "MODULE t\n  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;\n    MoveL [[400.000,0.000,300.000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n    MoveL [[4000.000,0.000,300.000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n  ENDPROC\nENDMODULE\n";
+    std::fs::write(&program, text).expect("scratch");
+    let (status, _, error) = run(&arguments);
+    assert_eq!(status, 1, "{error}");
+    assert!(!out.exists());
+    let html = std::fs::read_to_string(&page).expect("a page");
+    assert!(html.contains("Nothing is written"));
+    let severities = column(&data(&page), "findings", "severity", None);
+    assert!(severities.contains(&Value::from("error")));
+}
+
+#[test]
+fn inserted_moves_are_told_and_drawn_as_a_way_of_their_own() {
+    let folder = scratch();
+    let (program, out, page) = (
+        folder.path().join("t.mod"),
+        folder.path().join("out.mod"),
+        folder.path().join("page.html"),
+    );
+    let text = "MODULE t\n  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  CONST robtarget p1 := [[430.123,-200.456,300.789],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  CONST robtarget p2 := [[430.123,200.456,300.789],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;\n    MoveJ p1,v200,fine,artifact;\n    MoveL p2,v100,fine,artifact;\n  ENDPROC\nENDMODULE\n";
+    std::fs::write(&program, text).expect("scratch");
+    let (status, _, error) = run(&[
+        "compensate",
+        name(&program),
+        "--profile",
+        PROFILE,
+        "--max-path-error",
+        "0.05",
+        "--decimals",
+        "5",
+        "-o",
+        name(&out),
+        "--report",
+        name(&page),
+    ]);
+    assert_eq!(status, 0, "{error}");
+    let html = std::fs::read_to_string(&page).expect("a page");
+    assert!(html.contains("moves inserted"));
+    let data = data(&page);
+    let paths = &data["sections"][0]["paths"];
+    let (before, after) = (deviations(&paths[0]), deviations(&paths[1]));
+    assert!(after.len() > before.len());
+    // the straight move, in parts, is within the limit
+    let straight = &after[49..];
+    assert!(straight.iter().all(|e| *e < 0.05), "{straight:?}");
+    let items = paths[1]["items"].as_array().expect("items");
+    assert!(items[49..].iter().all(|item| item == 2));
+}

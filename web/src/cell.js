@@ -1,0 +1,200 @@
+// A view in space with its list of items, what is known of the chosen one, and the slider that magnifies deviations.
+import { cell as valueOf, element, heading, rowsOf, text } from "./data.js";
+import { showChart } from "./charts.js";
+import { View, ramp } from "./scene.js";
+import { behind, showTable } from "./table.js";
+
+const TIMES = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000];
+
+/** A magnification with which the largest deviation is a tenth of the paths' extent. */
+function startTimes(cell) {
+  let [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  let most = 0;
+  for (const path of cell.paths) {
+    for (let k = 0; k + 2 < path.at.length; k += 3) {
+      for (let axis = 0; axis < 3; axis += 1) {
+        low[axis] = Math.min(low[axis], path.at[k + axis]);
+        high[axis] = Math.max(high[axis], path.at[k + axis]);
+      }
+    }
+    most = Math.max(most, path.worst ?? 0);
+  }
+  if (!cell.paths.length) {
+    cell.points.at.forEach((x, k) => {
+      if (x == null) return;
+      low[k % 3] = Math.min(low[k % 3], x);
+      high[k % 3] = Math.max(high[k % 3], x);
+    });
+  }
+  for (const { axes } of cell.ellipsoids ?? []) most = Math.max(most, ...axes.map(Math.abs));
+  const extent = Math.hypot(...high.map((x, axis) => x - low[axis]));
+  if (!(most > 0) || !Number.isFinite(extent)) return 0;
+  const wished = (0.1 * extent) / most;
+  let best = 0;
+  TIMES.forEach((times, index) => {
+    if (times <= wished) best = index;
+  });
+  return best;
+}
+
+/** Adds to paths that share the places of another one these places, and the size of each deviation. */
+export function complete(cell) {
+  for (const path of cell.paths) {
+    if (!path.at) {
+      const other = cell.paths[path.like];
+      path.at = other.at;
+      path.starts = other.starts;
+      path.items = other.items;
+    }
+    if (path.by) {
+      path.worst = 0;
+      path.error = new Array(path.at.length / 3);
+      for (let k = 0; k < path.error.length; k += 1) {
+        path.error[k] = Math.hypot(path.by[3 * k], path.by[3 * k + 1], path.by[3 * k + 2]);
+        path.worst = Math.max(path.worst, path.error[k]);
+      }
+    }
+  }
+  return cell;
+}
+
+function controls(view, cell) {
+  const bar = element("div", { className: "controls" });
+  const graded = cell.paths.some((path) => path.by) || (cell.ellipsoids ?? []).length > 0;
+  let apply = () => {};
+  if (graded) {
+    const told = element("output", {});
+    const slider = element("input", { type: "range", min: "0", max: String(TIMES.length - 1), step: "1", className: "magnify", "aria-label": "Magnify deviations" });
+    slider.value = String(startTimes(cell));
+    apply = () => {
+      const times = TIMES[Number(slider.value)];
+      told.textContent = `\u00d7${times}`;
+      slider.setAttribute("aria-valuetext", `times ${times}`);
+      view?.magnify(times);
+    };
+    slider.addEventListener("input", apply);
+    bar.append(element("label", {}, "Deviations ", slider, told));
+  }
+  if (view) {
+    for (const shown of view.layers.paths) {
+      const box = element("input", { type: "checkbox", checked: true, onchange: () => {
+        shown.lines.visible = box.checked;
+        view.draw();
+      } });
+      bar.append(element("label", {}, box, ` ${shown.path.name}`));
+    }
+    const toggles = [["robot", view.robot?.group], ["cell", cell.bodies.length ? view.solids : null], [cell.points.name, view.items]];
+    for (const [name, object] of toggles) {
+      if (!object) continue;
+      const box = element("input", { type: "checkbox", checked: true, onchange: () => {
+        object.visible = box.checked;
+        view.draw();
+      } });
+      bar.append(element("label", {}, box, ` ${name}`));
+    }
+    const from = { Corner: [1, -1.2, 0.75], Front: [1, 0, 0.02], Side: [0, -1, 0.02], Top: [0, -0.001, 1] };
+    const views = element("span", { className: "views" });
+    for (const [name, direction] of Object.entries(from)) views.append(element("button", { type: "button", onclick: () => view.view(direction) }, name));
+    if (cell.paths.length) views.append(element("button", { type: "button", onclick: () => view.near() }, "Closer"));
+    bar.append(views);
+  }
+  return { bar, apply };
+}
+
+function scaleBar(view, unit) {
+  const stops = Array.from({ length: 11 }, (_, k) => ramp(k / 10)).join(", ");
+  const worst = view.worst;
+  const digits = worst >= 1 ? 2 : Math.min(6, 1 - Math.floor(Math.log10(worst)));
+  return element("div", { className: "scale" }, element("span", {}, "0"), element("i", { style: `background: linear-gradient(to right, ${stops})` }), element("span", {}, `${worst.toFixed(digits)} ${unit}`));
+}
+
+/** What is known of an item: its line of the program, its numbers, its findings. */
+function detailOf(box, cell, table, findings) {
+  return (row) => {
+    const list = element("dl", {});
+    for (const column of table.columns) {
+      if (column.code || column.hidden) continue;
+      const value = valueOf(column, row);
+      if (value == null || value === "") continue;
+      list.append(element("dt", {}, heading(column)), element("dd", {}, text(value)));
+    }
+    const code = table.columns.find((column) => column.code);
+    const line = table.columns.find((column) => column.label === "line");
+    const shown = [];
+    if (code && valueOf(code, row) != null) {
+      const number = line ? element("span", { className: "lineno" }, `${valueOf(line, row)}  `) : null;
+      shown.push(element("pre", { className: "code" }, number, valueOf(code, row)));
+    }
+    const { joints } = cell.points;
+    if (joints && joints[6 * row] != null) {
+      list.append(element("dt", {}, "joints, deg"), element("dd", {}, joints.slice(6 * row, 6 * row + 6).map((q) => text(q)).join("  ")));
+    }
+    const own = findings(row);
+    const told = own.map((finding) => element("li", { className: "severity " + finding.severity }, `${finding.severity} ${finding.id}: ${finding.message}`));
+    box.replaceChildren(...shown, list, told.length ? element("ul", { className: "found" }, ...told) : "");
+  };
+}
+
+/** Error along the paths: against the way of the tool. */
+function along(cell, onselect) {
+  const paths = cell.paths.filter((path) => path.by && path.items);
+  if (!paths.length || cell.along === false) return null;
+  const columns = [];
+  const series = [];
+  const longest = Math.max(...paths.map((path) => path.error.length));
+  const filled = (values) => [...values, ...Array(longest - values.length).fill(null)];
+  for (const path of paths) {
+    const way = new Array(path.error.length);
+    let total = 0;
+    for (let k = 0; k < way.length; k += 1) {
+      if (k > 0) total += Math.hypot(path.at[3 * k] - path.at[3 * k - 3], path.at[3 * k + 1] - path.at[3 * k - 2], path.at[3 * k + 2] - path.at[3 * k - 1]);
+      way[k] = Number(total.toFixed(2));
+    }
+    const same = path.like != null && columns.length;
+    const x = same ? 0 : columns.push({ label: paths.length > 1 && columns.length ? `way (${path.name})` : "way of the tool", unit: "mm", values: filled(way) }) - 1;
+    const y = columns.push({ label: path.name, unit: "mm", values: filled(path.error.map((e) => Number(e.toPrecision(4)))) }) - 1;
+    series.push({ kind: "line", x, y, name: path.name, tone: path.tone });
+  }
+  const items = paths[0].items;
+  const chart = { title: "Error along the path", note: cell.along, wide: true, x: { label: "way of the tool", unit: "mm" }, y: { label: "error", unit: "mm" }, series };
+  return showChart(chart, { columns }, (sample) => onselect(items[sample]));
+}
+
+/** Shows a cell with its list. */
+export function showCell(cell, table, findings) {
+  complete(cell);
+  const stage = element("div", { className: "stage" });
+  const detail = element("div", { className: "detail", "aria-live": "polite" });
+  const show = detailOf(detail, cell, table, findings);
+  let view = null;
+  let list = null;
+  const select = (row, fromList = false) => {
+    if (row == null || row < 0 || row >= rowsOf(table)) return;
+    show(row);
+    view?.select(row);
+    if (!fromList) list?.select(row);
+  };
+  try {
+    view = new View(stage, cell, (row) => select(row));
+  } catch {
+    stage.append(element("p", { className: "missing" }, "This browser shows no WebGL: the view in space is left out. Charts and tables are complete."));
+  }
+  list = showTable(table, { title: cell.points.title, onselect: (row) => select(row, true), page: 15 });
+  const { bar, apply } = controls(view, cell);
+  const parts = [element("h2", {}, cell.title)];
+  if (cell.note) parts.push(element("p", {}, cell.note));
+  const scaled = view && cell.paths.some((path) => path.by && path.graded) ? scaleBar(view, "mm") : null;
+  parts.push(bar, element("div", { className: "cell" }, element("div", { className: "space" }, stage, scaled), detail), element("h3", {}, cell.points.title), list.node);
+  const node = element("section", {}, ...parts);
+  const chart = along(cell, (row) => select(row));
+  if (chart) node.append(chart);
+  const worst = cell.points.first ?? 0;
+  const start = () => {
+    apply();
+    if (rowsOf(table)) select(worst);
+    view?.view([1, -1.2, 0.75]);
+  };
+  return { node, select, start };
+}
+
+export { behind };

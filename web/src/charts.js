@@ -1,0 +1,196 @@
+// Charts as SVG: colours come from the page, so that they are right in light, dark and print.
+import * as Plot from "@observablehq/plot";
+import { cell, element, heading, rowsOf } from "./data.js";
+import { behind } from "./table.js";
+
+/** Points drawn of one series; more are thinned, never in the table. */
+const MOST = 3000;
+
+export const tone = (name) => `var(--${name ?? "one"})`;
+
+/** Of rows with x and y those to draw: in each of many slices of the rows the least and the greatest y, and the ends. */
+export function thinned(rows, y, most = MOST) {
+  if (rows.length <= most) return rows;
+  const slices = Math.floor(most / 2);
+  const kept = [];
+  for (let slice = 0; slice < slices; slice += 1) {
+    const from = Math.floor((slice * rows.length) / slices);
+    const to = Math.floor(((slice + 1) * rows.length) / slices);
+    let [low, high] = [rows[from], rows[from]];
+    for (let k = from; k < to; k += 1) {
+      if (y(rows[k]) < y(low)) low = rows[k];
+      if (y(rows[k]) > y(high)) high = rows[k];
+    }
+    if (low === high) kept.push(low);
+    else kept.push(...(rows.indexOf(low, from) < rows.indexOf(high, from) ? [low, high] : [high, low]));
+  }
+  return kept;
+}
+
+function rowsWith(columns) {
+  const count = rowsOf({ columns });
+  const rows = [];
+  for (let row = 0; row < count; row += 1) {
+    if (columns.every((column) => cell(column, row) != null)) rows.push(row);
+  }
+  return rows;
+}
+
+/** The marks of one series of a chart: what is drawn, from which columns of the table. */
+function marksOf(series, columns) {
+  const of = (index) => columns[index];
+  const colour = tone(series.tone);
+  const at = (index) => (row) => cell(of(index), row);
+  const used = [series.x, series.x2, series.y, series.y2].filter((index) => index != null).map(of);
+  const rows = rowsWith(used);
+  const [x, y] = [at(series.x), at(series.y)];
+  switch (series.kind) {
+    case "line":
+      return [Plot.line(thinned(rows, y), { x, y, stroke: colour, strokeWidth: 1.5 })];
+    case "histogram":
+      return [Plot.rectY(rows, { x1: x, x2: at(series.x2), y, fill: colour, inset: 0.4 })];
+    case "bars":
+      return [Plot.barY(rows, { x, y, fill: colour, fillOpacity: 0.85 })];
+    case "rows":
+      return [
+        Plot.ruleX([0]),
+        Plot.barX(rows, { x: y, y: x, fill: colour, fillOpacity: 0.85, sort: null }),
+        ...(series.y2 == null ? [] : [Plot.ruleY(rows, {
+          y: x, x1: (row) => y(row) - at(series.y2)(row), x2: (row) => y(row) + at(series.y2)(row), stroke: "currentColor", strokeWidth: 1.2,
+        })]),
+      ];
+    case "level":
+      return [Plot.ruleY(rows, { y, stroke: colour, strokeDasharray: "5 3", strokeWidth: 1.5 })];
+    default:
+      return [Plot.dot(thinned(rows, y), { x, y, fill: colour, fillOpacity: 0.75, r: rows.length > 600 ? 1.6 : 2.6 })];
+  }
+}
+
+function legend(series) {
+  const named = series.filter((one) => one.name);
+  if (named.length < 2) return null;
+  const entries = named.map((one) => element("li", {}, element("i", { style: `background:${tone(one.tone)}` }), one.name));
+  return element("ul", { className: "legend" }, ...entries);
+}
+
+/** Draws into a box again whenever its width changes. */
+function responsive(draw) {
+  const box = element("div", { className: "plot" });
+  let last = 0;
+  const redraw = () => {
+    const width = Math.round(box.clientWidth);
+    if (width > 0 && width !== last) {
+      last = width;
+      box.replaceChildren(draw(width));
+    }
+  };
+  new ResizeObserver(redraw).observe(box);
+  return box;
+}
+
+/** A chart of columns of a table, with its table behind it. `onselect(row)` is told when a point is clicked. */
+export function showChart(chart, table, onselect) {
+  const columns = table.columns;
+  const rows = chart.series.some((series) => series.kind === "rows");
+  const label = (axis) => (axis?.unit ? `${axis.label}, ${axis.unit}` : axis?.label);
+  const picked = chart.series.find((series) => series.kind === "line" || series.kind === "dots");
+  const draw = (width) => {
+    const marks = [Plot.ruleY(rows ? [] : [0], { strokeOpacity: 0.3 })];
+    for (const series of chart.series) marks.push(...marksOf(series, columns));
+    if (picked) {
+      const all = thinned(rowsWith([columns[picked.x], columns[picked.y]]), (row) => cell(columns[picked.y], row));
+      const channels = { x: (row) => cell(columns[picked.x], row), y: (row) => cell(columns[picked.y], row) };
+      marks.push(Plot.tip(all, Plot.pointer({
+        ...channels,
+        title: (row) => columns.filter((column) => !column.hidden).slice(0, 6).map((column) => `${heading(column)}: ${cell(column, row) ?? "\u2013"}`).join("\n"),
+      })));
+    }
+    const count = rowsOf(table);
+    const counted = chart.series.find((series) => series.kind === "histogram");
+    const highest = counted ? Math.max(...Array.from({ length: count }, (_, row) => cell(columns[counted.y], row))) : Infinity;
+    const longest = rows ? Math.max(4, ...Array.from({ length: count }, (_, row) => String(cell(columns[chart.series[0].x], row)).length)) : 0;
+    const plot = Plot.plot({
+      width,
+      height: rows ? 60 + 20 * count : chart.height ?? 260,
+      marginLeft: rows ? Math.min(width * 0.62, 14 + 6.6 * longest) : 56,
+      marginBottom: 46,
+      style: { background: "transparent", fontSize: "12px", overflow: "visible" },
+      x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) : undefined },
+      y: rows ? { label: null, type: "band", domain: Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) } : { label: label(chart.y), grid: true, zero: true, nice: true, ticks: Math.min(highest, 5) },
+      marks,
+    });
+    plot.setAttribute("role", "img");
+    plot.setAttribute("aria-label", chart.title);
+    if (onselect) {
+      plot.addEventListener("click", () => {
+        if (plot.value != null) onselect(plot.value);
+      });
+      plot.style.cursor = "pointer";
+    }
+    return plot;
+  };
+  return element(
+    "figure",
+    { className: chart.wide ? "chart wide" : "chart" },
+    element("figcaption", {}, element("h3", {}, chart.title), chart.note ? element("p", {}, chart.note) : null),
+    legend(chart.series),
+    responsive(draw),
+    behind(() => table, chart.title),
+  );
+}
+
+/** A square of correlations, each cell from -1 to 1. */
+export function showHeat(heat) {
+  const names = heat.names;
+  const cells = [];
+  for (let i = 0; i < names.length; i += 1) {
+    for (let j = 0; j < names.length; j += 1) {
+      const value = heat.values[Math.max(i, j)][Math.min(i, j)];
+      if (value != null) cells.push({ i, j, value });
+    }
+  }
+  const longest = Math.max(4, ...names.map((name) => name.length));
+  const draw = (width) => {
+    const margin = Math.min(width * 0.35, 10 + 6 * longest);
+    const step = Math.max(6, Math.min(26, (width - margin - 10) / names.length));
+    const small = step < 11;
+    const plot = Plot.plot({
+      width: margin + 10 + step * names.length,
+      height: margin + 10 + step * names.length,
+      marginLeft: margin,
+      marginTop: margin,
+      marginRight: 10,
+      marginBottom: 10,
+      style: { background: "transparent", fontSize: small ? "8px" : "11px" },
+      x: { axis: "top", type: "band", domain: names.map((_, i) => i), tickFormat: (i) => names[i], tickRotate: -90, label: null, padding: 0.04 },
+      y: { type: "band", domain: names.map((_, i) => i), tickFormat: (i) => names[i], label: null, padding: 0.04 },
+      marks: [
+        Plot.cell(cells, { x: "j", y: "i", fill: "none", stroke: "currentColor", strokeOpacity: 0.1 }),
+        Plot.cell(cells, { x: "j", y: "i", fill: { value: (c) => tone(c.value < 0 ? "after" : "before"), scale: null }, fillOpacity: { value: (c) => Math.abs(c.value), scale: null } }),
+        Plot.tip(cells, Plot.pointer({ x: "j", y: "i", title: (c) => `${names[c.i]}\n${names[c.j]}\n${c.value}` })),
+      ],
+    });
+    plot.setAttribute("role", "img");
+    plot.setAttribute("aria-label", heat.title);
+    return plot;
+  };
+  const table = () => {
+    const pairs = cells.filter((c) => c.i > c.j);
+    return {
+      columns: [
+        { label: "one", values: pairs.map((c) => names[c.i]) },
+        { label: "other", values: pairs.map((c) => names[c.j]) },
+        { label: "correlation", values: pairs.map((c) => c.value) },
+      ],
+    };
+  };
+  const scale = element("div", { className: "scale heat" }, element("span", {}, "\u22121"), element("i"), element("span", {}, "+1"));
+  return element(
+    "figure",
+    { className: "chart wide" },
+    element("figcaption", {}, element("h3", {}, heat.title), heat.note ? element("p", {}, heat.note) : null),
+    scale,
+    responsive(draw),
+    behind(table, heat.title),
+  );
+}

@@ -1,0 +1,134 @@
+// The robot: its chain, and what its links look like. Lengths in mm, z up.
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, CylinderGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshLambertMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3,
+} from "three";
+
+const RAD = Math.PI / 180;
+const UP = new Vector3(0, 1, 0);
+const Z = new Vector3(0, 0, 1);
+
+const matrix = (columns) => new Matrix4().fromArray(columns);
+
+/** A cylinder or capsule from one point to another. */
+function between(from, to, radius, make) {
+  const [a, b] = [new Vector3(...from), new Vector3(...to)];
+  const along = b.clone().sub(a);
+  const geometry = make(radius, along.length());
+  const turned = new Quaternion();
+  if (along.length() > 1e-9) turned.setFromUnitVectors(UP, along.clone().normalize());
+  geometry.applyQuaternion(turned);
+  geometry.translate(...a.add(b).multiplyScalar(0.5).toArray());
+  return geometry;
+}
+
+/** The geometry of a form as the page's JSON has it. */
+function geometryOf(form) {
+  switch (form.form) {
+    case "capsule":
+      return between(form.from, form.to, form.radius, (radius, length) => new CapsuleGeometry(radius, length, 8, 24));
+    case "box":
+      return new BoxGeometry(...form.size);
+    case "sphere":
+      return new SphereGeometry(form.radius, 32, 20);
+    case "cylinder":
+      return new CylinderGeometry(form.radius, form.radius, form.height, 32).rotateX(Math.PI / 2);
+    case "plane": {
+      const normal = new Vector3(...form.normal);
+      const plane = new PlaneGeometry(4000, 4000);
+      plane.applyQuaternion(new Quaternion().setFromUnitVectors(Z, normal));
+      return plane.translate(...normal.multiplyScalar(form.offset).toArray());
+    }
+    default: {
+      const mesh = new BufferGeometry();
+      mesh.setAttribute("position", new BufferAttribute(new Float32Array(form.corners), 3));
+      mesh.computeVertexNormals();
+      return mesh;
+    }
+  }
+}
+
+/** A body with a colour. */
+export function bodyOf(shape, colour, opacity = 1) {
+  const material = new MeshLambertMaterial({ color: colour, transparent: opacity < 1, opacity, side: 2, depthWrite: opacity > 0.5 });
+  const mesh = new Mesh(geometryOf(shape), material);
+  mesh.applyMatrix4(matrix(shape.at));
+  return mesh;
+}
+
+/** Three short lines along the axes of a frame. */
+export function triad(length) {
+  const corners = new Float32Array([0, 0, 0, length, 0, 0, 0, 0, 0, 0, length, 0, 0, 0, 0, 0, 0, length]);
+  const colours = new Float32Array([0.84, 0.2, 0.2, 0.84, 0.2, 0.2, 0.1, 0.6, 0.25, 0.1, 0.6, 0.25, 0.15, 0.4, 0.9, 0.15, 0.4, 0.9]);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(corners, 3));
+  geometry.setAttribute("color", new BufferAttribute(colours, 3));
+  const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, depthTest: false }));
+  lines.renderOrder = 3;
+  return lines;
+}
+
+/** The frames of base and links at controller's joint angles in degrees. */
+export function frames(robot, joints) {
+  const out = [matrix(robot.base)];
+  for (let i = 0; i < 6; i += 1) {
+    let turned = joints[i];
+    for (const { joint, on, ratio } of robot.coupling) if (joint === i) turned += ratio * joints[on];
+    const [alpha, a, beta, theta, d] = robot.rows[i];
+    const angle = (theta + robot.sign[i] * turned + robot.offset[i]) * RAD;
+    const link = new Matrix4().makeRotationX(alpha * RAD)
+      .multiply(new Matrix4().makeTranslation(a, 0, 0))
+      .multiply(new Matrix4().makeRotationY(beta * RAD))
+      .multiply(new Matrix4().makeRotationZ(angle))
+      .multiply(new Matrix4().makeTranslation(0, 0, d));
+    out.push(out[i].clone().multiply(link));
+  }
+  return out;
+}
+
+/** A robot that can be posed. */
+export function makeRobot(robot) {
+  const group = new Group();
+  const links = Array.from({ length: 7 }, () => new Group());
+  for (const link of links) {
+    link.matrixAutoUpdate = false;
+    group.add(link);
+  }
+  const sticks = new Group();
+  const stick = new MeshLambertMaterial({ color: 0x8a94a3 });
+  group.add(sticks);
+  const hasShapes = robot.shapes.length > 0;
+  for (const shape of robot.shapes) {
+    const body = bodyOf(shape, shape.attached ? 0x9a7b4f : shape.link % 2 ? 0xd98a3d : 0xc9ced6, 0.42);
+    body.renderOrder = 2;
+    links[shape.link].add(body);
+  }
+  const reach = robot.rows.reduce((sum, row) => sum + Math.abs(row[1]) + Math.abs(row[4]), 1);
+  const tip = triad(Math.max(20, reach * 0.06));
+  tip.matrixAutoUpdate = false;
+  group.add(tip);
+
+  function pose(joints, tool) {
+    const all = frames(robot, joints);
+    const flange = all[6].clone().multiply(matrix(robot.flange));
+    const end = flange.clone().multiply(matrix(robot.tools[tool] ?? robot.tools[0]));
+    all.forEach((frame, index) => {
+      links[index].matrix.copy(frame);
+      links[index].matrixWorldNeedsUpdate = true;
+    });
+    tip.matrix.copy(end);
+    tip.matrixWorldNeedsUpdate = true;
+    for (const old of sticks.children) old.geometry.dispose();
+    sticks.clear();
+    const origins = [...all, flange, end].map((frame) => new Vector3().setFromMatrixPosition(frame).toArray());
+    const radius = reach * (hasShapes ? 0.006 : 0.016);
+    for (let i = 0; i + 1 < origins.length; i += 1) {
+      const apart = Math.hypot(...origins[i].map((x, k) => x - origins[i + 1][k]));
+      if (apart > 0.5) {
+        const thin = i >= 6 ? radius * 0.6 : radius;
+        sticks.add(new Mesh(between(origins[i], origins[i + 1], thin, (r, length) => new CapsuleGeometry(r, length, 4, 12)), stick));
+      }
+    }
+  }
+  return { group, pose };
+}

@@ -1,0 +1,163 @@
+// Tables of any length: a page of rows at a time, sorted and searched, walked with the arrow keys.
+import { cell, csvButton, element, heading, rowsOf, slug, text } from "./data.js";
+
+const PAGE = 50;
+/** Texts longer than this are broken into lines. */
+const LONG = 44;
+
+/** Columns that tell something: not those that are empty, nor the file where there is one. */
+function shownColumns(table) {
+  const count = rowsOf(table);
+  return table.columns.filter((column) => {
+    if (column.hidden) return false;
+    if (column.label === "file" && column.values.names?.length === 1) return false;
+    if (column.values.names) return count === 0 || column.values.names.some((name) => name !== "");
+    return count === 0 || column.values.some((value) => value != null && value !== "");
+  });
+}
+
+/**
+ * Shows a table. `onselect(row)` makes its rows selectable; the result has `select(row)` to select from outside.
+ */
+export function showTable(table, { title, onselect, page = PAGE } = {}) {
+  const count = rowsOf(table);
+  const columns = shownColumns(table);
+  let order = Array.from({ length: count }, (_, row) => row);
+  let sorted = null;
+  let descending = false;
+  let first = 0;
+  let chosen = -1;
+  const body = element("tbody");
+  const where = element("span", { className: "where", "aria-live": "polite" });
+  const back = element("button", { type: "button", onclick: () => turn(-1) }, "\u2039 Previous");
+  const next = element("button", { type: "button", onclick: () => turn(1) }, "Next \u203a");
+
+  const heads = columns.map((column) => {
+    const button = element("button", { type: "button", className: "sort", onclick: () => sortBy(column) }, heading(column));
+    return element("th", { scope: "col", className: count && typeof cell(column, 0) === "number" ? "number" : "" }, button);
+  });
+
+  function turn(by) {
+    first = Math.max(0, Math.min(first + by * page, Math.floor(Math.max(0, order.length - 1) / page) * page));
+    fill();
+  }
+
+  function sortBy(column) {
+    descending = sorted === column ? !descending : typeof cell(column, 0) === "number";
+    sorted = column;
+    arrange();
+  }
+
+  function arrange() {
+    const wanted = search.value.trim().toLowerCase();
+    order = Array.from({ length: count }, (_, row) => row);
+    if (wanted) {
+      order = order.filter((row) => columns.some((column) => String(cell(column, row) ?? "").toLowerCase().includes(wanted)));
+    }
+    if (sorted) {
+      const sign = descending ? -1 : 1;
+      order.sort((a, b) => {
+        const [x, y] = [cell(sorted, a), cell(sorted, b)];
+        if (x == null || y == null) return (x == null) - (y == null);
+        return sign * (typeof x === "number" ? x - y : String(x).localeCompare(String(y)));
+      });
+    }
+    for (const [index, column] of columns.entries()) {
+      const state = sorted === column ? (descending ? "descending" : "ascending") : null;
+      if (state) heads[index].setAttribute("aria-sort", state);
+      else heads[index].removeAttribute("aria-sort");
+    }
+    first = 0;
+    fill();
+  }
+
+  function line(row) {
+    const cells = columns.map((column) => {
+      const value = cell(column, row);
+      const number = typeof value === "number";
+      const td = element("td", { className: number ? "number" : "" }, text(value));
+      if (typeof value === "string" && value.length > LONG) td.classList.add("long");
+      if (column.label === "severity" && value) td.classList.add("severity", String(value));
+      return td;
+    });
+    const tr = element("tr", { "data-row": String(row) }, ...cells);
+    if (onselect) {
+      tr.setAttribute("aria-selected", String(row === chosen));
+      tr.tabIndex = row === chosen || (chosen < 0 && row === order[first]) ? 0 : -1;
+      tr.addEventListener("click", () => choose(row, true));
+    }
+    return tr;
+  }
+
+  function fill() {
+    const shown = order.slice(first, first + page);
+    body.replaceChildren(...shown.map(line));
+    if (onselect && shown.length && !body.querySelector('tr[tabindex="0"]')) body.firstElementChild.tabIndex = 0;
+    const last = first + shown.length;
+    where.textContent = order.length ? `${first + 1}\u2013${last} of ${order.length}` : "no rows";
+    back.disabled = first === 0;
+    next.disabled = last >= order.length;
+  }
+
+  /** Selects a row: turns to its page, and moves the focus where a key asked for it. */
+  function choose(row, tell, focus = false) {
+    chosen = row;
+    let at = order.indexOf(row);
+    if (at < 0) {
+      search.value = "";
+      arrange();
+      at = order.indexOf(row);
+    }
+    if (at >= 0) first = Math.floor(at / page) * page;
+    fill();
+    const tr = body.querySelector(`tr[data-row="${row}"]`);
+    if (tr && focus) tr.focus();
+    // within its box only: the page stays where it is
+    const box = grid.parentElement;
+    if (tr && box) {
+      const top = tr.offsetTop - box.offsetTop;
+      if (top < box.scrollTop + tr.offsetHeight) box.scrollTop = top - tr.offsetHeight;
+      else if (top + tr.offsetHeight > box.scrollTop + box.clientHeight) box.scrollTop = top + tr.offsetHeight - box.clientHeight;
+    }
+    if (tell) onselect?.(row);
+  }
+
+  function walk(event) {
+    const at = order.indexOf(Number(event.target.closest("tr")?.dataset.row ?? chosen));
+    const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity };
+    if (event.key === "Enter" || event.key === " ") {
+      event.preventDefault();
+      choose(order[at], true, true);
+    } else if (event.key in steps && order.length) {
+      event.preventDefault();
+      const to = Math.max(0, Math.min(order.length - 1, at + steps[event.key]));
+      choose(order[to], true, true);
+    }
+  }
+
+  const search = element("input", { type: "search", placeholder: "search", "aria-label": `Search ${title ?? "table"}`, oninput: arrange });
+  const grid = element(
+    "table",
+    onselect ? { role: "grid", "aria-label": title, onkeydown: walk } : { "aria-label": title },
+    element("thead", {}, element("tr", {}, ...heads)),
+    body,
+  );
+  const many = count > page;
+  const bar = element("div", { className: "bar" });
+  if (count > 10) bar.append(search);
+  if (many) bar.append(back, next);
+  if (many || count > 10) bar.append(where);
+  bar.append(csvButton(table, slug(title ?? "table")));
+  fill();
+  const node = element("div", { className: "table" }, element("div", { className: "rows" }, grid), bar);
+  return { node, select: (row) => choose(row, false) };
+}
+
+/** The table behind a chart, made when it is opened. */
+export function behind(table, title) {
+  const details = element("details", { className: "behind" }, element("summary", {}, "Table"));
+  details.addEventListener("toggle", () => {
+    if (details.open && details.children.length === 1) details.append(showTable(table(), { title }).node);
+  });
+  return details;
+}
