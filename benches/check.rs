@@ -81,10 +81,10 @@ fn bench(c: &mut Criterion) {
         Profile::from_yaml(include_str!("../robots/abb_irb120_thesis.yaml")).expect("a profile");
     let mesh = Mesh::of(&triangles(), 1.0).expect("a mesh");
     assert_eq!(mesh.triangles.len(), 20_000);
-    let cell = "poseshift: cell/1\nclearance_mm: 5\nbodies: [{name: floor, mesh: floor.stl}]\n\
+    let cell_text = "poseshift: cell/1\nclearance_mm: 5\nbodies: [{name: floor, mesh: floor.stl}]\n\
         attached: [{name: gun, to: flange, capsule_mm: {from: [0, 0, 0], to: [50, 25, 100], radius: 10}}]\n\
-        pairs: [{a: link1, b: floor, allow: true}]\n";
-    let cell = Cell::from_yaml(cell).expect("a cell");
+        pairs: [{a: link1, b: floor, allow: true}, {a: link2, b: floor, allow: true}]\n";
+    let cell = Cell::from_yaml(cell_text).expect("a cell");
     let meshes: Meshes = [("floor.stl".to_owned(), mesh.clone())].into();
     let scene = Scene::new(&profile, Some(&cell), &meshes).expect("all meshes");
     let sources = [program(&profile)];
@@ -107,6 +107,16 @@ fn bench(c: &mut Criterion) {
     });
     group.bench_function("10 000 targets, paths, self, 20 000 triangles", |b| {
         b.iter(|| black_box(check(&subject(&scene), &Options::default())));
+    });
+    // the floor raised until the gun is 22 mm above it
+    let near = cell_text.replace(
+        "mesh: floor.stl}",
+        "mesh: floor.stl, at: {x_mm: 0, y_mm: 0, z_mm: 340, rx_deg: 0, ry_deg: 0, rz_deg: 0}}",
+    );
+    let near = Cell::from_yaml(&near).expect("a cell");
+    let near = Scene::new(&profile, Some(&near), &meshes).expect("all meshes");
+    group.bench_function("10 000 targets, the floor 22 mm away", |b| {
+        b.iter(|| black_box(check(&subject(&near), &Options::default())));
     });
     // parry alone: one posture a target, no guarantee between, is anything nearer than 105 mm?
     let vertices = mesh

@@ -62,7 +62,10 @@ function main() {
     }
   }
   for (const start of starts) start();
-  document.documentElement.dataset.ready = "yes";
+  // charts are drawn when their width is known: with the next frame
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    document.documentElement.dataset.ready = "yes";
+  }));
 }
 
 main();

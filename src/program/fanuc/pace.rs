@@ -10,13 +10,12 @@ fn speed(word: &[u8]) -> Option<f64> {
         .take_while(|b| b.is_ascii_digit() || **b == b'.')
         .count();
     let value = number::parse(&word[..digits])?;
-    let unit = match word[digits..].to_ascii_lowercase().as_slice() {
-        b"mm/sec" => MM,
-        b"cm/min" => 0.01 / 60.0,
-        b"inch/min" => 0.0254 / 60.0,
-        _ => return None,
-    };
-    Some(value * unit)
+    match word[digits..].to_ascii_lowercase().as_slice() {
+        b"mm/sec" => Some(value * MM),
+        b"cm/min" => Some(0.01 * value / 60.0),
+        b"inch/min" => Some(0.0254 * value / 60.0),
+        _ => None,
+    }
 }
 
 /// See [`crate::program::Language::pace`].

@@ -446,6 +446,15 @@ fn files_of_touches_are_calibrated_validated_and_refused_by_command() {
         after["range"]
     );
 
+    let judged = report(&[
+        "diagnose",
+        "--profile",
+        "found.yaml",
+        "--measurements",
+        "fit.csv",
+    ]);
+    assert_eq!(judged["verdict"], "nothing_missing", "{judged}");
+
     std::fs::remove_file(at.join("found.yaml")).expect("written");
     let lines = std::fs::read_to_string(at.join("fit.csv")).expect("scratch");
     let bad = lines.replacen("plane,floor,3,,", "plane,floor,3,5,", 1);
