@@ -9,12 +9,13 @@ pub struct Edits {
     text: Vec<u8>,
 }
 
-/// A replaced range and the range of its new text in [`Edits::text`]; files are smaller than 4 GiB.
+/// A replaced range, and where its new text begins in [`Edits::text`]: it ends where that of the next span begins. Files are
+/// smaller than 4 GiB.
 #[derive(Clone, Copy, Debug)]
 struct Span {
     start: u32,
     end: u32,
-    text: (u32, u32),
+    text: u32,
 }
 
 fn short(offset: usize) -> u32 {
@@ -36,24 +37,33 @@ impl Edits {
     /// # Panics
     /// If the file or all new text together has 4 GiB or more.
     pub fn replace(&mut self, span: Range<usize>, write: impl FnOnce(&mut Vec<u8>)) {
-        let start = self.text.len();
-        write(&mut self.text);
-        let text = (short(start), short(self.text.len()));
         self.spans.push(Span {
             start: short(span.start),
             end: short(span.end),
-            text,
+            text: short(self.text.len()),
         });
+        write(&mut self.text);
+    }
+
+    /// The replaced range and the new text of one change.
+    fn change(&self, index: usize) -> (Range<usize>, &[u8]) {
+        let span = self.spans[index];
+        let next = self.spans.get(index + 1);
+        let end = next.map_or(self.text.len(), |next| next.text as usize);
+        let replaced = span.start as usize..span.end as usize;
+        (replaced, &self.text[span.text as usize..end])
     }
 
     /// Takes back the replacements inside a range.
     pub fn take_back(&mut self, range: &Range<usize>) {
-        let inside = |span: &Span| {
-            span.start as usize >= range.start
-                && span.end as usize <= range.end
-                && span.start < span.end
-        };
-        self.spans.retain(|span| !inside(span));
+        let mut left = Self::default();
+        for (span, text) in (0..self.spans.len()).map(|i| self.change(i)) {
+            let inside = span.start >= range.start && span.end <= range.end && !span.is_empty();
+            if !inside {
+                left.replace(span, |out| out.extend_from_slice(text));
+            }
+        }
+        *self = left;
     }
 
     /// Adds the replacements of another list for the same file.
@@ -61,7 +71,7 @@ impl Edits {
         let by = short(self.text.len());
         self.text.extend_from_slice(&other.text);
         let moved = |span: &Span| Span {
-            text: (span.text.0 + by, span.text.1 + by),
+            text: span.text + by,
             ..*span
         };
         self.spans.extend(other.spans.iter().map(moved));
@@ -78,18 +88,22 @@ impl Edits {
     /// # Panics
     /// If two spans overlap or one lies outside the file: the caller's bug.
     #[must_use]
-    pub fn apply(mut self, bytes: &[u8]) -> Vec<u8> {
-        self.spans.sort_by_key(|span| (span.start, span.end));
+    pub fn apply(self, bytes: &[u8]) -> Vec<u8> {
+        let mut order: Vec<u32> = (0..short(self.spans.len())).collect();
+        order.sort_by_key(|i| {
+            let span = self.spans[*i as usize];
+            (span.start, span.end)
+        });
         let replaced = |span: &Span| (span.end - span.start) as usize;
         let gone: usize = self.spans.iter().map(replaced).sum();
         let mut out = Vec::with_capacity((bytes.len() + self.text.len()).saturating_sub(gone));
         let mut done = 0;
-        for span in &self.spans {
-            let start = span.start as usize;
+        for (span, text) in order.iter().map(|i| self.change(*i as usize)) {
+            let start = span.start;
             assert!(start >= done, "two changes of one span at byte {start}");
             out.extend_from_slice(&bytes[done..start]);
-            out.extend_from_slice(&self.text[span.text.0 as usize..span.text.1 as usize]);
-            done = span.end as usize;
+            out.extend_from_slice(text);
+            done = span.end;
         }
         out.extend_from_slice(&bytes[done..]);
         out
@@ -107,5 +121,18 @@ mod tests {
         edits.replace(0..1, |out| out.extend(b"1"));
         edits.replace(3..3, |out| out.extend(b"+"));
         assert_eq!(edits.apply(b"a\r\nb\xffcd."), b"1\r\n+b\xffc22.");
+    }
+
+    #[test]
+    fn what_is_taken_back_stays_as_it_was() {
+        let mut edits = Edits::default();
+        edits.replace(0..1, |out| out.extend(b"1"));
+        edits.replace(2..4, |out| out.extend(b"22"));
+        edits.replace(3..3, |out| out.extend(b"+"));
+        let mut more = Edits::default();
+        more.replace(5..6, |out| out.extend(b"333"));
+        edits.append(&more);
+        edits.take_back(&(2..4));
+        assert_eq!(edits.apply(b"abcdef"), b"1bc+de333");
     }
 }

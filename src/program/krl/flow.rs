@@ -190,6 +190,7 @@ impl Analysis<'_> {
         match statement.action {
             Action::Set(variable, given) => {
                 let at = super::places::slot_of(variable);
+                let given = self.world.notes.given[given as usize];
                 state.0[at] = self.slot(given, at, statement);
             }
             Action::Bas(bas) => self.bas(bas, place, &mut state),

@@ -101,6 +101,7 @@ impl<'a, 's> Moves<'a, 's> {
                     }
                 }
                 (Action::Relative { path, axes, by }, Some(state)) => {
+                    let by = by.map(|by| world.notes.offsets[by as usize]);
                     self.relative(statement, path, axes, by, state);
                 }
                 (Action::Call(_), _) => self.last = None,

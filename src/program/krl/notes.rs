@@ -251,11 +251,13 @@ pub enum Action {
     Relative {
         path: Path,
         axes: bool,
-        by: Option<([f64; 3], bool)>,
+        /// Index in [`Notes::offsets`].
+        by: Option<u32>,
     },
     Spline(u32),
     EndSpline,
-    Set(Variable, Given),
+    /// By index in [`Notes::given`].
+    Set(Variable, u32),
     Bas(Bas),
     Call(Symbol),
     Flow(Flow),
@@ -335,6 +337,9 @@ pub struct Notes {
     /// Bases that hang on another kinematic.
     pub moving_bases: Vec<u32>,
     pub statements: Vec<Statement>,
+    pub given: Vec<Given>,
+    /// Translations of relative moves, and whether they are in the tool's frame.
+    pub offsets: Vec<([f64; 3], bool)>,
     pub points: Vec<Point>,
     pub operands: Vec<Operand>,
     pub withs: Vec<With>,

@@ -112,6 +112,12 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
+    fn set(&mut self, first: Token, variable: Variable, given: Given) {
+        self.notes.given.push(given);
+        let given = index(self.notes.given.len() - 1);
+        self.push(first, Action::Set(variable, given));
+    }
+
     fn push(&mut self, first: Token, action: Action) {
         let routine = self.routine();
         let place = self.place(first);
@@ -234,6 +240,10 @@ impl<'a> Reader<'a, '_> {
                 by: None,
             }
         } else {
+            let by = by.map(|by| {
+                self.notes.offsets.push(by);
+                index(self.notes.offsets.len() - 1)
+            });
             Action::Relative { path, axes, by }
         };
         self.push(first, action);
@@ -398,7 +408,7 @@ impl<'a> Reader<'a, '_> {
         if !cursor.take(b'#') {
             // a command that only the running program knows
             for variable in [Variable::Tool, Variable::Base] {
-                self.push(first, Action::Set(variable, Given::Computed));
+                self.set(first, variable, Given::Computed);
             }
             return;
         }
@@ -449,7 +459,7 @@ impl<'a> Reader<'a, '_> {
             } else {
                 self.given(variable, &mut cursor)?
             };
-            self.push(first, Action::Set(variable, given));
+            self.set(first, variable, given);
             return Ok(());
         }
         if matches!(word, b"TOOL_DATA" | b"BASE_DATA") {
