@@ -2,9 +2,14 @@
 
 use super::{THESIS, joint_move, part, profile, rapid, run};
 use crate::support::{poseshift, repository, scratch};
+use poseshift::check::cell::Cell;
 use poseshift::check::{Check, Options};
+use poseshift::compensate::compensate;
 use poseshift::finding::Severity;
-use poseshift::model::Conditions;
+use poseshift::geometry::{norm, sub};
+use poseshift::model::{Conditions, Model};
+use poseshift::program::Source;
+use poseshift::program::rapid::Rapid;
 
 /// A straight move to where joints would bring the nominal arm, with configuration data.
 fn straight_to(q: [f64; 6], by_mm: [f64; 3], configuration: [i32; 4]) -> String {
@@ -258,5 +263,65 @@ ENDMODULE
     assert!(
         fine.matches("MoveC").count() > 2 && !fine.contains("MoveL"),
         "{fine}"
+    );
+}
+
+#[test]
+fn a_collision_that_only_compensation_makes_is_found_and_named() {
+    let profile = profile(THESIS);
+    let tool = profile.tool("artifact").expect("its tool");
+    let q = [0.0, 20.0, 10.0, 0.0, 30.0, 0.0];
+    let original = rapid(&joint_move(q));
+    let correct = poseshift::compensate::Options {
+        correct_joint_targets: true,
+        ..poseshift::compensate::Options::default()
+    };
+    let mut compensation = compensate(&Rapid, &original, &profile, &correct).expect("compensated");
+    let fake = compensation.targets[0].q.expect("it converged");
+    let edits = compensation.edits.remove(0);
+    let written = [Source::new("t.mod", edits.apply(&original[0].bytes))];
+    // the tool is where it should be, the forearm is not
+    let conditions = Conditions::default();
+    let real = profile.real_model(&tool, &conditions);
+    let forearm = |model: &Model, q: &[f64; 6]| model.link_frames(q, &conditions)[3].translation;
+    let radians = q.map(f64::to_radians);
+    let wanted = forearm(&profile.controller_model(&tool), &radians);
+    let (before, after) = (forearm(&real, &radians), forearm(&real, &fake));
+    let away = sub(after, wanted);
+    let gap_m = norm(away);
+    assert!(gap_m > 1e-4, "{gap_m}");
+    // a ball of 1 mm that one of 20 mm on the forearm touches by half the gap
+    let ball: [f64; 3] =
+        std::array::from_fn(|k| wanted[k] + away[k] / gap_m * (0.021 + 0.5 * gap_m));
+    assert!(norm(sub(before, ball)) > 0.021, "uncompensated it is clear");
+    let allowed: Vec<String> = (1..=6)
+        .flat_map(|link| {
+            ["ball", "bulge"].map(|body| format!("{{a: link{link}, b: {body}, allow: true}}"))
+        })
+        .collect();
+    let text = format!(
+        "poseshift: cell/1\nbodies:\n  - {{name: ball, sphere_mm: {{radius: 1}}, at: {{x_mm: {}, y_mm: {}, z_mm: {}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\nattached: [{{name: bulge, to: link3, sphere_mm: {{radius: 20}}}}]\npairs: [{}]\n",
+        1e3 * ball[0],
+        1e3 * ball[1],
+        1e3 * ball[2],
+        allowed.join(", ")
+    );
+    let cell = Cell::from_yaml(&text).expect("a cell");
+    let options = Options::default();
+    let found = run(&profile, Some(&cell), &original, None, &options);
+    assert_eq!(
+        (found.summary.collisions, found.summary.nominal_collisions),
+        (0, 0)
+    );
+    let found = run(&profile, Some(&cell), &written, Some(&original), &options);
+    assert_eq!(
+        (found.summary.collisions, found.summary.nominal_collisions),
+        (1, 0)
+    );
+    let told = found.findings.iter().find(|f| f.id == "collision");
+    let message = &told.expect("a finding").message;
+    assert!(
+        message.contains("the real arm's bulge touches ball"),
+        "{message}"
     );
 }
