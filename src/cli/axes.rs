@@ -1,6 +1,7 @@
 //! `axes`: base and tool from sweeps of single joints.
 
 use super::failure::Failure;
+use super::layout::{aligned, print_text, row};
 use super::page::ReportFile;
 use super::registration::sigma_json;
 use super::table::{JOINTS, POSE, Table};
@@ -94,7 +95,7 @@ impl Axes {
                 "joints": joints,
             }))?;
         } else {
-            print(&text(&axes, placed_base.as_ref(), placed_tool.as_ref()))?;
+            print_text(&text(&axes, placed_base.as_ref(), placed_tool.as_ref()))?;
             print(&self.report.told())?;
         }
         Ok(Answer::Yes)
@@ -204,34 +205,43 @@ fn joint_json(axis: &Axis) -> Value {
 
 fn text(axes: &[Axis], base: Option<&Placed>, tool: Option<&Placed>) -> String {
     let ok = "a string takes all text";
-    let mut text = String::from(
-        "joint   radius  tangential rms/max      radial rms/max      axial rms/max     backlash\n\
-         \x20            mm             mdeg                  mm                 mm         mdeg\n",
-    );
+    let mut rows = vec![
+        row([
+            "joint",
+            "radius",
+            "tangential",
+            "",
+            "radial",
+            "",
+            "axial",
+            "",
+            "backlash",
+            "",
+        ]),
+        row([
+            "", "mm", "rms mdeg", "max", "rms mm", "max", "rms mm", "max", "mdeg", "+/-",
+        ]),
+    ];
     for axis in axes {
-        let t = [
-            1e3 * rms(&axis.tangential_rad) / DEG,
-            1e3 * largest(&axis.tangential_rad) / DEG,
-        ];
-        let mm = |values: &[f64]| [mm_from_m(rms(values)), mm_from_m(largest(values))];
-        let (r, a) = (mm(&axis.radial_m), mm(&axis.axial_m));
-        let backlash = axis.backlash_rad.map_or("-".to_owned(), |b| {
-            format!("{:.2} +/- {:.2}", 1e3 * b.0 / DEG, 1e3 * b.1 / DEG)
-        });
-        writeln!(
-            text,
-            "{:5} {:8.2} {:9.2} {:7.2} {:11.4} {:7.4} {:10.4} {:7.4} {backlash:>14}",
-            axis.joint + 1,
-            mm_from_m(axis.radius_m),
-            t[0],
-            t[1],
-            r[0],
-            r[1],
-            a[0],
-            a[1]
-        )
-        .expect(ok);
+        let mdeg = |angle: f64| format!("{:.2}", 1e3 * angle / DEG);
+        let mm = |length: f64| format!("{:.4}", mm_from_m(length));
+        let (backlash, sigma) = axis
+            .backlash_rad
+            .map_or(("-".to_owned(), "-".to_owned()), |b| (mdeg(b.0), mdeg(b.1)));
+        rows.push(vec![
+            (axis.joint + 1).to_string(),
+            format!("{:.2}", mm_from_m(axis.radius_m)),
+            mdeg(rms(&axis.tangential_rad)),
+            mdeg(largest(&axis.tangential_rad)),
+            mm(rms(&axis.radial_m)),
+            mm(largest(&axis.radial_m)),
+            mm(rms(&axis.axial_m)),
+            mm(largest(&axis.axial_m)),
+            backlash,
+            sigma,
+        ]);
     }
+    let mut text = aligned(&rows);
     let entries = [
         ("base (world_from_base)", "1 and 2", base),
         ("tool (flange_from_tool)", "5 and 6", tool),
@@ -243,10 +253,12 @@ fn text(axes: &[Axis], base: Option<&Placed>, tool: Option<&Placed>) -> String {
         };
         let [x, y, z, rx, ry, rz] = placed.pose.xyz_rxryrz();
         let [x, y, z] = [x, y, z].map(mm_from_m);
-        let [rx, ry, rz] = [rx, ry, rz].map(|r| r / DEG);
+        // a zero has no sign
+        let [rx, ry, rz] = [rx, ry, rz].map(|r| (r / DEG * 1e5).round() / 1e5 + 0.0);
         write!(
             text,
-            "{what}\n  {{x_mm: {x:.4}, y_mm: {y:.4}, z_mm: {z:.4}, rx_deg: {rx:.5}, ry_deg: {ry:.5}, rz_deg: {rz:.5}}}\n"
+            "{what}\n  {{x_mm:\u{a0}{x:.4}, y_mm:\u{a0}{y:.4}, z_mm:\u{a0}{z:.4}, \
+             rx_deg:\u{a0}{rx:.5}, ry_deg:\u{a0}{ry:.5}, rz_deg:\u{a0}{rz:.5}}}\n"
         )
         .expect(ok);
         let p = placed.covariance.sigma_at_m(placed.covariance.centre_m);

@@ -1,10 +1,10 @@
 //! `calibrate`: measurements to a profile.
 
 use super::failure::Failure;
+use super::layout::{SPREAD_HEADER, aligned, print_text, spread_row};
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
 use super::page::ReportFile;
 use super::progress::Progress;
-use super::table::{SPREAD_HEADER, aligned, spread_row, width, wrapped};
 use super::{Answer, Output, files, print, print_json};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::calibration::{
@@ -153,7 +153,7 @@ impl Calibrate {
         }
         tell_findings(&identification::findings(&found.remarks, &name), output);
         if !output.quiet {
-            print(&text(&found, output.verbose))?;
+            print_text(&text(&found, output.verbose))?;
             if let Some(path) = &self.output {
                 print(&format!("\nwritten to {}\n", path.display()))?;
             }
@@ -300,13 +300,10 @@ fn text(found: &Calibration, all: bool) -> String {
         } else {
             format!("like {}", with.join(", "))
         };
-        out += &wrapped(
-            &format!(
-                "  {}: {}{why}",
-                names[dropped.parameter].key,
-                weak.unwrap_or_default()
-            ),
-            width(),
+        out += &format!(
+            "  {}: {}{why}\n",
+            names[dropped.parameter].key,
+            weak.unwrap_or_default()
         );
     }
     let strong = u.strong_correlations(STRONG_CORRELATION);

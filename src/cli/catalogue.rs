@@ -1,8 +1,8 @@
 //! `robots`, `effects`, `languages`: what is built in.
 
 use super::failure::Failure;
-use super::table::{width, wrapped_lines};
-use super::{Answer, Output, print, print_json};
+use super::layout::print_text;
+use super::{Answer, Output, print_json};
 use crate::model::effects::REGISTRY;
 use crate::model::profile::{Mounted, Profile, SHIPPED};
 use crate::program::LANGUAGES;
@@ -55,7 +55,7 @@ impl Robots {
                 );
             }
             text += "`poseshift profile new --robot NAME` starts a profile from one of them\n";
-            print(&text)?;
+            print_text(&text)?;
         }
         Ok(Answer::Yes)
     }
@@ -95,7 +95,7 @@ impl Effects {
                 }
                 text += &format!("  source: {}\n\n", d.source);
             }
-            print(&wrapped_lines(&text, width()))?;
+            print_text(&text)?;
         }
         Ok(Answer::Yes)
     }
@@ -125,7 +125,7 @@ impl Languages {
                     text.extend(items.iter().map(|item| format!("    {item}\n")));
                 }
             }
-            print(&wrapped_lines(&text, width()))?;
+            print_text(&text)?;
         }
         Ok(Answer::Yes)
     }

@@ -2,6 +2,7 @@
 
 use super::compensate::{common_language, explain, language_by_id, programs_in};
 use super::failure::Failure;
+use super::layout;
 use super::page::ReportFile;
 use super::{Answer, Output, files, json_text, print, values};
 use crate::check::cell::Cell;
@@ -256,18 +257,19 @@ impl Check {
         }
         let mut text = String::new();
         if output.verbose {
-            text.extend(notes.iter().map(|note| format!("note: {note}\n")));
+            let lines = notes.iter().map(|note| format!("note: {note}\n"));
+            text += &layout::fitted(&lines.collect::<String>());
         }
         let refused = found.is_refused();
         if !output.quiet || refused {
-            text += &report::findings::text(&found.findings, output.verbose);
+            text += &layout::findings(&found.findings, output.verbose);
         }
         if output.quiet {
             if let Some(comparison) = comparison.filter(|c| !c.worse.is_empty()) {
-                text += &baseline::text(comparison);
+                text += &layout::fitted(&baseline::text(comparison));
             }
         } else {
-            text += &report::check::text(header, found, comparison);
+            text += &layout::fitted(&report::check::text(header, found, comparison));
         }
         if let (Some(path), true) = (&self.baseline, self.update_baseline && !output.quiet) {
             text += &format!("stored as {}\n", path.display());

@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::files::same_file;
+use super::layout;
 use super::page::ReportFile;
 use super::way::Drawing;
 use super::{Answer, Output, files, json_text, print, values};
@@ -130,10 +131,10 @@ impl Compensate {
         let mut told = tell(&header, &compensation, output);
         let same_arm = profile.real_effects() == profile.controller_effects();
         if same_arm && compensation.summary.compensated == 0 && !output.json && !output.quiet {
-            told += &format!(
-                "nothing to correct: {} has no calibration that differs from the controller's model\n",
+            told += &layout::fitted(&format!(
+                "nothing to correct: {} has no calibration that differs from the controller's model",
                 self.profile.display()
-            );
+            ));
         }
         if refined.moves > 0 && !output.json && !output.quiet {
             told += &format!(
@@ -511,14 +512,16 @@ fn tell(
     let written = !header.outputs.is_empty();
     let mut text = String::new();
     if !output.quiet || !written {
-        text += &report::findings::text(&compensation.findings, output.verbose);
+        text += &layout::findings(&compensation.findings, output.verbose);
     }
     if !output.quiet {
-        text += &report::compensation::text(header, compensation);
+        text += &layout::fitted(&report::compensation::text(header, compensation));
     }
     match header.outputs.as_slice() {
         [] => {
-            text += "nothing is written: not every target could be compensated (--keep-going leaves those as they are)\n";
+            text += &layout::fitted(
+                "nothing is written: not every target could be compensated (--keep-going leaves those as they are)",
+            );
         }
         _ if output.quiet => {}
         [one] => text += &format!("written to {one}\n"),

@@ -1,10 +1,10 @@
 //! `diagnose`: where model and measurement disagree, and which effect is missing.
 
 use super::failure::Failure;
+use super::layout::{SPREAD_HEADER, aligned, print_text, spread_row};
 use super::measurements::{MeasurementFiles, identify_failure, picks, tell_findings};
 use super::page::ReportFile;
 use super::progress::Progress;
-use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -104,7 +104,7 @@ impl Diagnose {
         }
         tell_findings(&identification::findings(&found.remarks, &name), output);
         if !output.quiet {
-            print(&text(&found, output.verbose))?;
+            print_text(&text(&found, output.verbose))?;
             for (path, _) in &outputs {
                 print(&format!("\nwritten to {}\n", path.display()))?;
             }

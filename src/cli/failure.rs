@@ -1,5 +1,6 @@
 //! What is told when a command could not do its work: exit status 2.
 
+use super::layout;
 use crate::model::profile::ProfileError;
 use crate::program::Source;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
@@ -133,6 +134,7 @@ impl Failure {
             Self::Plain { message, hint } => (message, hint, None),
             Self::Excerpt(excerpt) => (&excerpt.message, &excerpt.hint, Some(excerpt)),
         };
+        let (message, hint) = (&broken(message, "error: "), &broken(hint, " = help: "));
         let title = Level::ERROR.primary_title(message);
         let group = match excerpt {
             None => annotate_snippets::Group::with_title(title),
@@ -157,6 +159,16 @@ impl Failure {
         } else {
             group.element(Level::HELP.message(hint))
         };
-        Renderer::styled().render(&[group])
+        Renderer::styled()
+            .term_width(layout::seen_of_errors().unwrap_or(140))
+            .render(&[group])
+    }
+}
+
+/// A text broken where somebody sees it, with room for what stands before it.
+fn broken(text: &str, before: &str) -> String {
+    match layout::seen_of_errors() {
+        Some(width) => layout::flush(text, width.saturating_sub(before.len())),
+        None => text.to_owned(),
     }
 }

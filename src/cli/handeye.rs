@@ -1,6 +1,7 @@
 //! `handeye`: where a camera is.
 
 use super::failure::Failure;
+use super::layout::{aligned, print_findings, print_text, row};
 use super::page::ReportFile;
 use super::registration::sigma_json;
 use super::table::{JOINTS, POSE, Table};
@@ -149,12 +150,9 @@ impl Handeye {
         if output.json {
             print_json(&as_json(&result))?;
         } else {
-            anstream::eprint!(
-                "{}",
-                report::findings::text(&result.findings, output.verbose)
-            );
+            print_findings(&result.findings, output.verbose);
             if !output.quiet {
-                print(&as_text(&result, output.verbose))?;
+                print_text(&as_text(&result, output.verbose))?;
                 print(&self.report.told())?;
             }
         }
@@ -429,23 +427,45 @@ fn as_text(result: &Outcome, every: bool) -> String {
         Setup::EyeToHand => ("base_from_camera", "flange_from_board"),
         Setup::EyeInHand => ("flange_from_camera", "base_from_board"),
     };
-    let pose = |pose: &Pose| {
+    let named = |name: &str, pose: &Pose| {
         let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
-        let [x, y, z] = [x, y, z].map(mm_from_m);
-        let [rx, ry, rz] = [rx, ry, rz].map(|r| r / DEG);
-        format!("{x:10.3} {y:10.3} {z:10.3} mm {rx:9.4} {ry:9.4} {rz:9.4} deg")
+        let mut cells = vec![format!("  {name}")];
+        cells.extend([x, y, z].map(|x| format!("{:.3}", mm_from_m(x))));
+        cells.extend([rx, ry, rz].map(|r| format!("{:.4}", r / DEG)));
+        cells
     };
-    let mut text = format!("{what} by {} poses\n", result.problem.count());
+    let mut rows = vec![row([
+        what, "x mm", "y mm", "z mm", "rx deg", "ry deg", "rz deg",
+    ])];
     for (method, found) in &result.by_method {
-        let told = found.as_ref().map_or("no solution".to_owned(), &pose);
-        writeln!(text, "  {:<12}{told}", method.id()).expect(ok);
+        rows.push(found.as_ref().map_or_else(
+            || row([&format!("  {}", method.id()), "-", "-", "-", "-", "-", "-"]),
+            |pose| named(method.id(), pose),
+        ));
     }
-    writeln!(text, "  {:<12}{}", "refined", pose(&refined.camera)).expect(ok);
+    rows.push(named("refined", &refined.camera));
     if let Some(corners) = &result.corners {
-        writeln!(text, "  {:<12}{}", "corners", pose(&corners.camera)).expect(ok);
+        rows.push(named("corners", &corners.camera));
+    }
+    let (_, sigma) = camera_of(result);
+    let mut cells = vec!["  sigma".to_owned()];
+    cells.extend(sigma.position_m.map(|m| format!("{:.4}", mm_from_m(m))));
+    cells.extend(sigma.rotation_rad.map(|r| format!("{:.5}", r / DEG)));
+    rows.push(cells);
+    rows.push(row([board]));
+    rows.push(named("refined", &refined.board));
+    let mut text = aligned(&rows);
+    writeln!(
+        text,
+        "{} poses; sigma of the turn about the axes of the {}",
+        result.problem.count(),
+        what.split('_').next().unwrap_or_default()
+    )
+    .expect(ok);
+    if let Some(corners) = &result.corners {
         writeln!(
             text,
-            "    corners {:.4} mm before, {:.4} mm after, {:.4} mm when left out: {}",
+            "corners {:.4} mm before, {:.4} mm after, {:.4} mm when left out: {}",
             mm_from_m(corners.before_m),
             mm_from_m(corners.after_m),
             mm_from_m(corners.left_out_m),
@@ -457,28 +477,10 @@ fn as_text(result: &Outcome, every: bool) -> String {
         )
         .expect(ok);
     }
-    let (_, sigma) = camera_of(result);
-    let (p, r) = (
-        sigma.position_m.map(mm_from_m),
-        sigma.rotation_rad.map(|r| r / DEG),
-    );
-    writeln!(
-        text,
-        "  sigma       {:10.4} {:10.4} {:10.4} mm {:9.5} {:9.5} {:9.5} deg about the axes of {}",
-        p[0],
-        p[1],
-        p[2],
-        r[0],
-        r[1],
-        r[2],
-        what.split('_').next().unwrap_or_default()
-    )
-    .expect(ok);
-    writeln!(text, "{board}\n  {:<12}{}", "refined", pose(&refined.board)).expect(ok);
     let (out_m, out_rad) = left_out(refined);
     writeln!(
         text,
-        "left over {:.4} mm, {:.5} deg; a row left out of the fit {:.4} mm, {:.5} deg",
+        "left over: {:.4} mm, {:.5} deg; left out of the fit: {:.4} mm, {:.5} deg",
         mm_from_m(refined.distance_m),
         refined.rotation_rad / DEG,
         mm_from_m(out_m),
@@ -486,19 +488,17 @@ fn as_text(result: &Outcome, every: bool) -> String {
     )
     .expect(ok);
     if every {
-        writeln!(text, "  row  residual mm       deg  left out mm       deg").expect(ok);
-        for (index, row) in refined.rows.iter().enumerate() {
-            writeln!(
-                text,
-                "{:5} {:12.4} {:9.5} {:12.4} {:9.5}",
-                index + 1,
-                mm_from_m(row.distance_m),
-                row.rotation_rad / DEG,
-                mm_from_m(row.out_distance_m),
-                row.out_rotation_rad / DEG
-            )
-            .expect(ok);
+        let mut rows = vec![row(["row", "residual mm", "deg", "left out mm", "deg"])];
+        for (index, one) in refined.rows.iter().enumerate() {
+            rows.push(vec![
+                (index + 1).to_string(),
+                format!("{:.4}", mm_from_m(one.distance_m)),
+                format!("{:.5}", one.rotation_rad / DEG),
+                format!("{:.4}", mm_from_m(one.out_distance_m)),
+                format!("{:.5}", one.out_rotation_rad / DEG),
+            ]);
         }
+        text += &aligned(&rows);
     }
     text
 }

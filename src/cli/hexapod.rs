@@ -1,32 +1,33 @@
 //! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot can measure.
 
 use super::failure::Failure;
+use super::layout::{aligned, print_text, row};
 use super::page::ReportFile;
 use super::registration::sigma_json;
 use super::table::{JOINTS, POSE, Row, Table, cell};
 use super::{Answer, Output, files, print, print_json, values};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::geometry::{Pose, Quaternion};
+use crate::geometry::{Pose, Quaternion, Vector};
 use crate::register::frame_file::{Frame, Sigma};
 use crate::register::hexapod::{
-    Design, Device, HexapodError, Lengths, NAMES, Solved, Spread, modes, near, reach,
+    BaseFrame, Design, Device, HexapodError, Lengths, NAMES, Solved, Spread, modes, near, reach,
     set_base_frame, solve, spread,
 };
 use crate::register::uncertainty::PoseCovariance;
 use crate::report;
-use crate::report::html::frames::{Left, Uncertain, frame_page};
+use crate::report::html::frames::{Left, Uncertain, frame_page, pose_text};
 use crate::report::html::page::Page;
+use crate::report::html::reach::page as reach_page;
 use clap::Args;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Turn ballbar lengths into tool poses with uncertainty
 #[derive(Args)]
 #[command(
-    after_help = "LENGTHS: design (e.g. 123/123), b12_mm,b23_mm,b31_mm,t12_mm,t23_mm,t31_mm,r11_mm,r21_mm,r31_mm,r12_mm,r22_mm,\
-r23_mm; optional mode (1 to 4) or a rough pose x_mm,y_mm,z_mm,qw,qx,qy,qz; q1_deg…q6_deg for -o.\nWith --taught: three points \
+    after_help = "LENGTHS: design (e.g. 123/123), b12_mm, b23_mm, b31_mm, t12_mm, t23_mm, t31_mm, r11_mm, r21_mm, r31_mm, \
+r12_mm, r22_mm, r23_mm; optional mode (1 to 4) or a rough pose x_mm, y_mm, z_mm, qw, qx, qy, qz; q1_deg…q6_deg for -o.\nWith --taught: three points \
 and --base-mm give the frame of the base balls. With --reach: the 72 measurable poses and the joints that go there."
 )]
 pub struct Hexapod {
@@ -86,13 +87,8 @@ impl Hexapod {
                 self.sigma_mm
             )));
         }
-        if self.report.is_wanted() && self.lengths.is_none() {
-            return Err(Failure::with_hint(
-                "--report goes with LENGTHS only",
-                "--taught and --reach have nothing to look at",
-            ));
-        }
         let read = self.lengths.iter().chain(&self.frame);
+        let read = read.chain(&self.taught).chain(&self.profile);
         let outputs = self.output.iter().map(PathBuf::as_path);
         self.report
             .refuse_over(read.map(PathBuf::as_path), outputs)?;
@@ -134,7 +130,7 @@ impl Hexapod {
                 &json!({"poseshift": "hexapod/1", "poses": poses, "sigma_mm": self.sigma_mm, "undecided": several}),
             )?;
         } else if !output.quiet {
-            print(&self.text(&settings, several))?;
+            print_text(&self.text(&settings, several))?;
             print(&self.report.told())?;
         }
         Ok(Answer::Yes)
@@ -211,38 +207,40 @@ impl Hexapod {
     }
 
     fn text(&self, settings: &[Setting], several: usize) -> String {
-        let ok = "a string takes all text";
-        let mut text = format!(
-            "poses in the frame of the base balls; sigma for {} mm a length\n  id    design  mode {:>9} {:>9} {:>9}  mm {:>8} {:>8} {:>8} deg {:>8} mm\n",
-            self.sigma_mm, "x", "y", "z", "rx", "ry", "rz", "sigma"
-        );
+        let mut rows = vec![
+            row([
+                "id", "design", "mode", "x", "y", "z", "rx", "ry", "rz", "sigma",
+            ]),
+            row(["", "", "", "mm", "mm", "mm", "deg", "deg", "deg", "mm"]),
+        ];
         for setting in settings {
             for (solved, spread) in &setting.found {
                 let [x, y, z, rx, ry, rz] = solved.pose.xyz_rxryrz();
-                let [x, y, z] = [x, y, z].map(mm_from_m);
-                let [rx, ry, rz] = [rx, ry, rz].map(|r| r / DEG);
                 let largest = spread
                     .points
                     .iter()
                     .map(|p| p.iter().map(|s| s * s).sum::<f64>().sqrt())
                     .fold(0.0, f64::max);
-                writeln!(
-                    text,
-                    "  {:<5} {} {:>5} {x:9.4} {y:9.4} {z:9.4}     {rx:8.4} {ry:8.4} {rz:8.4}     {:8.5}",
-                    setting.id,
+                let mut cells = vec![
+                    setting.id.clone(),
                     setting.design.name(),
-                    solved.mode,
-                    largest * self.sigma_mm
-                )
-                .expect(ok);
+                    solved.mode.to_string(),
+                ];
+                cells.extend([x, y, z].map(|x| format!("{:.4}", mm_from_m(x))));
+                cells.extend([rx, ry, rz].map(|r| format!("{:.4}", r / DEG)));
+                cells.push(format!("{:.5}", largest * self.sigma_mm));
+                rows.push(cells);
             }
         }
+        let mut text = format!(
+            "poses in the frame of the base balls; sigma for {} mm a length\n{}",
+            self.sigma_mm,
+            aligned(&rows)
+        );
         if several > 0 {
-            writeln!(
-                text,
-                "{several} rows have more than one mode: a column mode or a rough pose (x_mm … qz) chooses"
-            )
-            .expect(ok);
+            text += &format!(
+                "{several} rows have more than one mode: a column mode or a rough pose (x_mm … qz) chooses\n"
+            );
         }
         text
     }
@@ -310,9 +308,17 @@ impl Hexapod {
                 ("to".into(), name.to_string()),
             ]),
         };
-        if let Some(out) = &self.output {
-            files::write_all(&[(out.clone(), frame.to_yaml().into_bytes())])?;
+        let mut outputs = Vec::new();
+        outputs.extend(
+            self.output
+                .as_ref()
+                .map(|out| (out.clone(), frame.to_yaml().into_bytes())),
+        );
+        if self.report.is_wanted() {
+            let page = base_drawn(&found, taught, &name.to_string());
+            outputs.extend(self.report.output(Some(&page)));
         }
+        files::write_all(&outputs)?;
         if output.json {
             print_json(&json!({
                 "poseshift": "hexapod/1", "base": report::pose(&found.robot_from_base),
@@ -320,6 +326,8 @@ impl Hexapod {
             }))?;
         } else if !output.quiet {
             print(&frame.to_yaml())?;
+            // the frame file is what is printed: it stays one that can be read
+            anstream::eprint!("{}", self.report.told());
         }
         Ok(Answer::Yes)
     }
@@ -353,9 +361,18 @@ impl Hexapod {
                 );
             }
         }
-        if let Some(out) = &self.output {
-            files::write_all(&[(out.clone(), csv.into_bytes())])?;
+        let mut outputs = Vec::new();
+        outputs.extend(
+            self.output
+                .as_ref()
+                .map(|out| (out.clone(), csv.into_bytes())),
+        );
+        if self.report.is_wanted() {
+            let file = self.frame.as_ref().expect(missing).display().to_string();
+            let page = reach_page(&all, &device, &frame.to_from_from, &profile, &tool, &file);
+            outputs.extend(self.report.output(Some(&page)));
         }
+        files::write_all(&outputs)?;
         let count = all.iter().filter(|r| r.measurable).count();
         if output.json {
             let rows: Vec<Value> = all
@@ -376,26 +393,56 @@ impl Hexapod {
                 .collect();
             print_json(&json!({"poseshift": "hexapod/1", "measurable": count, "reach": rows}))?;
         } else if !output.quiet {
-            let mut text = String::from("  id  design  mode  postures  leg error mm\n");
+            let mut rows = vec![row(["id", "design", "mode", "postures", "leg error mm"])];
             for (number, r) in all.iter().enumerate() {
                 let told = match r.leg_error_m {
                     None => "out of reach".to_owned(),
                     Some(e) if r.measurable => format!("{:.4}", mm_from_m(e)),
-                    Some(e) => format!("{:.4}, beyond the ballbar", mm_from_m(e)),
+                    Some(e) => format!("beyond the ballbar: {:.4}", mm_from_m(e)),
                 };
-                text += &format!(
-                    "{:4}  {} {:>5} {:>9}  {told}\n",
-                    number + 1,
+                rows.push(vec![
+                    (number + 1).to_string(),
                     r.design.name(),
-                    r.solved.mode,
-                    r.postures.len()
-                );
+                    r.solved.mode.to_string(),
+                    r.postures.len().to_string(),
+                    told,
+                ]);
             }
+            let mut text = aligned(&rows);
             text += &format!("{count} of {} poses are measurable\n", all.len());
-            print(&text)?;
+            print_text(&text)?;
+            print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }
+}
+
+/// The page of --taught: what is left of the three points.
+fn base_drawn(found: &BaseFrame, taught: [Vector; 3], file: &str) -> Page {
+    let points = taught.iter().zip(found.left_m).zip(["B1", "B2", "B3"]);
+    frame_page(&report::html::frames::Frame {
+        title: "Base of the ballbar hexapod".into(),
+        lead: vec![format!(
+            "{file}: the base balls as the robot was taught them"
+        )],
+        answer: format!(
+            "The taught points agree with the exact distances to {:.4} mm (rmsd)",
+            mm_from_m(found.rms_m)
+        ),
+        facts: vec![(
+            "base balls' frame in the robot's".into(),
+            pose_text(&found.robot_from_base),
+        )],
+        points: points
+            .map(|((place_m, left_m), id)| Left {
+                id: id.into(),
+                place_m: *place_m,
+                left_m,
+                rejected: None,
+            })
+            .collect(),
+        ..report::html::frames::Frame::default()
+    })
 }
 
 /// Reads and solves a row.

@@ -3,11 +3,11 @@
 use super::failure::Failure;
 use super::points::Points;
 use super::register::{Register, note, refuse_identical};
-use super::registration::Registration;
+use super::registration::{Measured, Registration};
 use super::values;
 use crate::finding::Severity;
 use crate::geometry::units::{m_from_mm, mm_from_m};
-use crate::register::icp::{Doubt, Metric, Options, icp};
+use crate::register::icp::{Doubt, Left, Metric, Options, icp};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
@@ -79,6 +79,15 @@ impl IcpOptions {
             min_overlap: self.min_overlap,
             sigma_m: sigma_mm.map(m_from_mm),
         })
+    }
+}
+
+/// What is left at a point, for the page.
+fn left(one: &Left, from: &Points, kept: f64) -> Measured {
+    let measured = Measured::new(&from.rows[one.index].id, one.left_m).at(one.at_m);
+    Measured {
+        rejected: (!one.kept).then(|| format!("beyond the nearest {:.0} %", 100.0 * kept)),
+        ..measured
     }
 }
 
@@ -170,6 +179,11 @@ pub fn run(command: &Register, from: &Points, to: &Points) -> Result<Registratio
         sigma_given: options.sigma_m.is_some(),
         more,
         findings,
+        drawn: found
+            .left
+            .iter()
+            .map(|one| left(one, from, options.kept))
+            .collect(),
         ..Registration::default()
     })
 }

@@ -1,7 +1,8 @@
 //! `profile import-ur`: the factory calibration of a Universal Robots arm into its profile.
 
 use super::failure::Failure;
-use super::{Answer, Output, files, print, print_json};
+use super::layout::print_text;
+use super::{Answer, Output, files, print_json};
 use crate::model::effects::Kind;
 use crate::model::profile::{Profile, universal_robots, with_controller};
 use crate::program::Source;
@@ -82,7 +83,7 @@ impl ImportUr {
                 "deviation": {"mean_mm": deviation.mean_mm, "max_mm": deviation.max_mm, "postures": deviation.postures},
             }))?;
         } else if !output.quiet {
-            print(&format!(
+            print_text(&format!(
                 "written to {}: the controller's chain is {:.3} mm (mean), at most {:.3} mm, beside the nominal one over {} \
                  random postures\n",
                 self.output.display(),

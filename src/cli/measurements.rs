@@ -1,6 +1,7 @@
 //! What commands that read measurements share.
 
 use super::failure::Failure;
+use super::layout::print_findings;
 use super::{Output, files};
 use crate::finding::Finding;
 use crate::identify::IdentifyError;
@@ -80,15 +81,5 @@ pub fn tell_findings(findings: &[Finding], output: Output) {
     if output.quiet {
         return;
     }
-    for finding in findings {
-        let place = if finding.line > 0 {
-            format!("{}:{}", finding.file, finding.line)
-        } else {
-            finding.file.clone()
-        };
-        anstream::eprintln!("{place}: {} [{}]", finding.message, finding.id);
-        if !finding.hint.is_empty() {
-            anstream::eprintln!("  {}", finding.hint);
-        }
-    }
+    print_findings(findings, true);
 }

@@ -13,6 +13,7 @@ mod hexapod;
 mod icp;
 mod import_ur;
 mod kinematics;
+mod layout;
 mod measurements;
 mod page;
 mod plan;

@@ -1,10 +1,11 @@
 //! `plan`: which configurations to measure.
 
 use super::failure::Failure;
+use super::layout::{aligned, print_text};
 use super::measurements::{identify_failure, picks};
 use super::page::ReportFile;
 use super::progress::Progress;
-use super::table::{JOINTS, Table, aligned, cell};
+use super::table::{JOINTS, Table, cell};
 use super::{Answer, Output, files, print, print_json, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::parameters::{Level, Selection};
@@ -249,7 +250,7 @@ impl PlanCommand {
         if self.output.is_none() {
             print(&table)?;
         } else if !output.quiet {
-            print(&text(&found, self.sigma_mm))?;
+            print_text(&text(&found, self.sigma_mm))?;
             print(&self.report.told())?;
         }
         Ok(Answer::Yes)

@@ -1,6 +1,7 @@
 //! `profile`: make and inspect profiles.
 
 use super::failure::Failure;
+use super::layout::print_text;
 use super::{Answer, Output, files, print, print_json};
 use crate::inverse::Arm;
 use crate::model::Conditions;
@@ -143,7 +144,7 @@ impl FromUrdf {
             );
             told.extend(arm.notes.iter().map(|note| format!("note: {note}\n")));
             told += &format!("written to {}\n", path.display());
-            print(&told)?;
+            print_text(&told)?;
         }
         Ok(Answer::Yes)
     }
@@ -197,7 +198,7 @@ fn new(robot: &str, file: Option<&PathBuf>, output: Output) -> Result<Answer, Fa
                     &json!({"poseshift": "new-profile/1", "robot": name, "output": path.display().to_string()}),
                 )?;
             } else if !output.quiet {
-                print(&format!(
+                print_text(&format!(
                     "written to {}; set the serial number, the base and the tools\n",
                     path.display()
                 ))?;
@@ -257,6 +258,7 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
             text += &format!("\n{title}\n");
         }
         for (name, value) in rows {
+            let value = glued(&name, &value);
             text += &format!("  {}  {value}\n", name.strip_prefix(key).unwrap_or(&name));
         }
     }
@@ -268,8 +270,18 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
             deviation.mean_mm, deviation.max_mm, deviation.postures
         );
     }
-    print(&text)?;
+    print_text(&text)?;
     Ok(Answer::Yes)
+}
+
+/// A fact that is names and numbers in turn, so that a line breaks before a name only.
+fn glued(name: &str, value: &str) -> String {
+    if !(name.starts_with("joint ") || name.contains("effect ")) {
+        return value.to_owned();
+    }
+    let words: Vec<&str> = value.split(' ').collect();
+    let pairs: Vec<String> = words.chunks(2).map(|pair| pair.join("\u{a0}")).collect();
+    pairs.join(" ")
 }
 
 fn diff(a: &Profile, b: &Profile, output: Output) -> Result<Answer, Failure> {
@@ -292,10 +304,11 @@ fn diff(a: &Profile, b: &Profile, output: Output) -> Result<Answer, Failure> {
         let mut text = String::new();
         for key in &changed {
             text += &format!("{key}\n");
-            text.extend(a.get(*key).map(|value| format!("  - {value}\n")));
-            text.extend(b.get(*key).map(|value| format!("  + {value}\n")));
+            let line = |sign: char, value: &String| format!("  {sign} {}\n", glued(key, value));
+            text.extend(a.get(*key).map(|value| line('-', value)));
+            text.extend(b.get(*key).map(|value| line('+', value)));
         }
-        print(&text)?;
+        print_text(&text)?;
     }
     Ok(if changed.is_empty() {
         Answer::Yes

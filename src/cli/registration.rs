@@ -1,6 +1,7 @@
 //! What `register` tells and writes.
 
 use super::failure::Failure;
+use super::layout::{aligned, print_findings, print_text};
 use super::page::ReportFile;
 use super::{Answer, Output, files, print, print_json};
 use crate::finding::{Finding, Severity};
@@ -63,6 +64,8 @@ pub struct Registration {
     pub rmsd_m: Option<f64>,
     pub scale: Option<(f64, f64)>,
     pub rows: Vec<Measured>,
+    /// Points of the page alone: some of very many.
+    pub drawn: Vec<Measured>,
     pub features: Vec<Value>,
     /// More keys for the report, and lines for people.
     pub more: Vec<(&'static str, Value, String)>,
@@ -82,6 +85,7 @@ impl Default for Registration {
             rmsd_m: None,
             scale: None,
             rows: Vec::new(),
+            drawn: Vec::new(),
             features: Vec::new(),
             more: Vec::new(),
             findings: Vec::new(),
@@ -117,10 +121,9 @@ pub fn tell(
     if output.json {
         print_json(&as_json(found, at, written))?;
     } else {
-        let findings = report::findings::text(&found.findings, output.verbose);
-        anstream::eprint!("{findings}");
+        print_findings(&found.findings, output.verbose);
         if !output.quiet {
-            print(&as_text(found, at, written, output.verbose))?;
+            print_text(&as_text(found, at, written, output.verbose))?;
             print(&page.told())?;
         }
     }
@@ -152,7 +155,7 @@ fn drawn(found: &Registration, at: &[Vector]) -> Page {
             facts.push((what.to_owned(), value.to_owned()));
         }
     }
-    let points = found.rows.iter().filter_map(|row| {
+    let points = found.rows.iter().chain(&found.drawn).filter_map(|row| {
         Some(Left {
             id: row.id.clone(),
             place_m: row.place_m?,
@@ -355,29 +358,21 @@ fn as_text(found: &Registration, at: &[Vector], written: Option<&Path>, every: b
         order.truncate(SHOWN);
     }
     if !order.is_empty() {
-        writeln!(
-            text,
-            "  {:<14}{:>10}{:>10}{:>10}{:>10}  mm",
-            "point", "dx", "dy", "dz", "distance"
-        )
-        .expect(ok);
-    }
-    for row in order {
-        let d = row.left_m.map(mm_from_m);
-        let rejected = row
-            .rejected
-            .as_ref()
-            .map_or(String::new(), |why| format!("  left out: {why}"));
-        writeln!(
-            text,
-            "  {:<14}{:>10.4}{:>10.4}{:>10.4}{:>10.4}{rejected}",
-            row.id,
-            d[0],
-            d[1],
-            d[2],
-            mm_from_m(norm(row.left_m))
-        )
-        .expect(ok);
+        let mut rows = vec![
+            ["  point", "dx", "dy", "dz", "distance mm"]
+                .map(str::to_owned)
+                .to_vec(),
+        ];
+        let some_left_out = order.iter().any(|row| row.rejected.is_some());
+        rows[0].extend(some_left_out.then(|| "left out".to_owned()));
+        for row in order {
+            let mut cells = vec![format!("  {}", row.id)];
+            cells.extend(row.left_m.map(|d| format!("{:.4}", mm_from_m(d))));
+            cells.push(format!("{:.4}", mm_from_m(norm(row.left_m))));
+            cells.extend(row.rejected.clone());
+            rows.push(cells);
+        }
+        text += &aligned(&rows);
     }
     if let Some(path) = written {
         writeln!(text, "  wrote {}", path.display()).expect(ok);

@@ -1,10 +1,10 @@
 //! `validate`: what a profile is worth on measurements it has not seen.
 
 use super::failure::Failure;
+use super::layout::{SPREAD_HEADER, aligned, print_text, spread_row};
 use super::measurements::{MeasurementFiles, identify_failure};
 use super::page::ReportFile;
 use super::progress::Progress;
-use super::table::{SPREAD_HEADER, aligned, spread_row};
 use super::{Answer, Output, files, print, print_json};
 use crate::identify::measurements::Purpose;
 use crate::identify::validation::{Judged, Validation, validate_telling};
@@ -71,7 +71,7 @@ impl Validate {
             report["measurements_sha256"] = json!(hashes);
             print_json(&report)?;
         } else if !output.quiet {
-            print(&text(&found, output.verbose))?;
+            print_text(&text(&found, output.verbose))?;
             print(&self.report.told())?;
         }
         Ok(Answer::Yes)

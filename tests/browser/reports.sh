@@ -41,6 +41,12 @@ say register docs/measuring/nominal.csv docs/measuring/probed.csv --at 1000,0,0 
 say handeye docs/measuring/robot.csv docs/measuring/board.csv --setup eye-in-hand \
   --report "$out/handeye.html" --json > "$out/handeye.json"
 say hexapod docs/measuring/lengths.csv --report "$out/hexapod.html" --json > "$out/hexapod.json"
+say register docs/measuring/drawing.csv docs/measuring/scan.csv --icp \
+  --report "$out/icp.html" --json > "$out/icp.json"
+say hexapod --taught docs/measuring/taught.csv --base-mm 300.01,299.98,300.02 -o "$out/device.yaml" \
+  --report "$out/taught.html" --json > "$out/taught.json"
+say hexapod --reach --base-mm 300,300,300 --tool-mm 150,150,150 --frame "$out/device.yaml" --profile robots/fanuc_lrmate200ic.yaml \
+  --report "$out/reach.html" --json > "$out/reach.json"
 say axes docs/measuring/sweeps.csv --profile $profile --report "$out/axes.html" --json > "$out/axes.json"
 
 # names that are markup, and no target at all

@@ -39,6 +39,18 @@ const rowsOf = (page, label) => page.locator(`table[aria-label="${label}"]`).eva
   return [...table.querySelectorAll("tbody tr")].map((tr) => Object.fromEntries([...tr.children].map((td, k) => [heads[k], td.textContent])));
 });
 
+/** Waits until the view in space is drawn as it is at rest. */
+const atRest = (page) => page.waitForFunction(() => [...document.querySelectorAll(".stage canvas")].every((canvas) => canvas.dataset.drawn === "full"));
+
+/** Every chart of the page, drawn because it was scrolled to. */
+async function chartsOf(page) {
+  for (const box of await page.locator(".plot").all()) {
+    await box.scrollIntoViewIfNeeded();
+    await box.locator("svg[role=img]").waitFor({ timeout: 5000 });
+  }
+  return page.locator(".plot svg[role=img]").all();
+}
+
 const number = (text) => Number(text.replaceAll("\u2212", "-"));
 
 /** Agrees to the digits shown. */
@@ -49,7 +61,7 @@ function agrees(shown, value, what) {
 }
 
 test("there is a report of every kind", () => {
-  const wished = ["axes", "calibrate", "check", "compensate", "diagnose", "empty", "evil", "handeye", "hexapod", "krl", "many", "plan", "register", "validate"];
+  const wished = ["axes", "calibrate", "check", "compensate", "diagnose", "empty", "evil", "handeye", "hexapod", "icp", "krl", "many", "plan", "reach", "register", "taught", "validate"];
   assert.deepEqual(kinds.toSorted(), wished);
 });
 
@@ -60,13 +72,13 @@ for (const kind of kinds) {
         assert.equal(await page.evaluate(() => window.scrollY), 0, "the page opens at its top");
         for (const canvas of await page.locator(".stage canvas").all()) {
           await canvas.scrollIntoViewIfNeeded();
-          await page.waitForTimeout(150);
+          await atRest(page);
           const { colours, drawn } = await pixels(browser, await canvas.screenshot());
           const nothing = kind === "empty";
           assert.ok(nothing || (colours > 50 && drawn > 0.02), `view in space: ${colours} colours, ${drawn} drawn`);
         }
-        const plots = await page.locator(".plot svg[role=img]").all();
-        assert.ok(["empty", "hexapod"].includes(kind) || plots.length > 0, "no chart");
+        const plots = await chartsOf(page);
+        assert.ok(["empty", "hexapod", "taught"].includes(kind) || plots.length > 0, "no chart");
         for (const plot of plots) {
           const marks = await plot.locator("path, rect, circle, line").count();
           const title = await plot.getAttribute("aria-label");
@@ -86,6 +98,7 @@ for (const kind of kinds) {
       for (const figure of await page.locator("figure.chart").all()) {
         await figure.locator("summary").click();
         await figure.locator("tbody tr").first().waitFor({ timeout: 3000 });
+        assert.equal(await figure.getByRole("button", { name: "Save CSV" }).count(), 1);
       }
     });
   });
@@ -138,11 +151,11 @@ test("the slider moves the path and tells by how much", async () => {
     const canvas = page.locator(".stage canvas");
     await slider.focus();
     await page.keyboard.press("Home");
-    await page.waitForTimeout(200);
+    await atRest(page);
     assert.equal(await page.locator(".controls output").textContent(), "\u00d71");
     const small = await canvas.screenshot();
     for (let k = 0; k < 4; k += 1) await page.keyboard.press("ArrowRight");
-    await page.waitForTimeout(200);
+    await atRest(page);
     assert.equal(await page.locator(".controls output").textContent(), "\u00d720");
     const moved = await difference(browser, small, await canvas.screenshot());
     assert.ok(moved > 0.001, `${moved} of the pixels moved`);
@@ -155,7 +168,7 @@ test("arrow keys turn the view", async () => {
     const still = await canvas.screenshot();
     await canvas.focus();
     for (let k = 0; k < 5; k += 1) await page.keyboard.press("ArrowLeft");
-    await page.waitForTimeout(200);
+    await atRest(page);
     assert.ok((await difference(browser, still, await canvas.screenshot())) > 0.01);
   });
 });
@@ -228,6 +241,26 @@ test("tables agree with --json", async () => {
     const [, there] = await rowsOf(page, "Uncertainty, one standard deviation");
     agrees(there["longest half axis, mm"], report.at[0].half_axes_mm[0], "half axis");
   });
+  await inside("icp", {}, async (page) => {
+    const points = Number((await page.locator(".table", { has: page.locator('table[aria-label="Points"]') }).locator(".where").textContent()).split(" of ")[1]);
+    assert.ok(points > 50 && points <= 2000, `${points} points`);
+    const sizes = (await rowsOf(page, "Points")).map((row) => [row["dx, mm"], row["dy, mm"], row["dz, mm"], row["residual, mm"]].map(number));
+    for (const [dx, dy, dz, size] of sizes) assert.ok(Math.abs(Math.hypot(dx, dy, dz) - size) <= 1e-3 * size + 1e-9, `${dx} ${dy} ${dz} is not ${size}`);
+  });
+  await inside("taught", {}, async (page) => {
+    const residuals = json("taught").residuals_mm;
+    for (const [k, row] of (await rowsOf(page, "Points")).entries()) agrees(row["residual, mm"], Math.hypot(...residuals[k]), row.point);
+  });
+  await inside("reach", {}, async (page) => {
+    const { reach, measurable } = json("reach");
+    assert.ok((await page.locator(".verdict").textContent()).startsWith(`${measurable} of ${reach.length} `));
+    for (const row of await rowsOf(page, "Poses")) {
+      const one = reach[number(row.pose) - 1];
+      assert.equal(number(row.postures), one.postures.length);
+      assert.equal(row.state === "measurable", one.measurable);
+      if (one.leg_error_mm != null) agrees(row["largest error of a leg, mm"], one.leg_error_mm, "leg");
+    }
+  });
   await inside("plan", {}, async (page) => {
     const report = json("plan");
     const [row] = await rowsOf(page, "Configurations");
@@ -280,6 +313,32 @@ test("the policy stops a script that is not the page's and every request", async
   await context.close();
 });
 
+test("the residuals of every model are in space, each with its switch", async () => {
+  await inside("calibrate", {}, async (page) => {
+    const canvas = page.locator(".stage canvas");
+    await atRest(page);
+    for (const name of ["before", "frames only", "after"]) {
+      const box = page.locator(".controls label", { hasText: new RegExp(`^\\s*${name}$`) }).locator("input");
+      assert.equal(await box.isChecked(), true, name);
+      const [shown, parts] = [await canvas.screenshot(), await canvas.getAttribute("data-parts")];
+      await box.uncheck();
+      await page.waitForFunction((old) => document.querySelector(".stage canvas").dataset.parts !== old, parts);
+      if (name !== "after") assert.ok((await difference(browser, shown, await canvas.screenshot())) > 0.0001, `${name} is not seen`);
+      await box.check();
+      await page.waitForFunction((old) => document.querySelector(".stage canvas").dataset.parts === old, parts);
+    }
+  });
+});
+
+test("on paper is what has not been scrolled to", async () => {
+  await inside("calibrate", {}, async (page) => {
+    const drawn = () => page.evaluate(() => [...document.querySelectorAll(".plot")].map((box) => box.querySelector("svg") != null));
+    assert.ok((await drawn()).includes(false), "all charts are drawn at once");
+    await page.pdf();
+    assert.ok(!(await drawn()).includes(false), "a chart is missing on paper");
+  });
+});
+
 test("a page prints black on white, also from the dark", async () => {
   await inside("calibrate", { dark: true }, async (page) => {
     await page.emulateMedia({ media: "print" });
@@ -290,21 +349,29 @@ test("a page prints black on white, also from the dark", async () => {
 
 test("ten thousand targets stay small and open soon", async () => {
   const size = statSync(file("many")).size;
-  assert.ok(size <= 5_000_000, `${size} bytes`);
+  assert.ok(size <= 3_500_000, `${size} bytes`);
   await inside("many", {}, async (page, { milliseconds }) => {
     console.log(`10000 targets: ${(size / 1e6).toFixed(2)} MB, open in ${milliseconds} ms`);
     // two seconds are the aim; a busy machine that draws in software is given more
     assert.ok(milliseconds < 10_000, `${milliseconds} ms`);
-    const frames = await page.evaluate(async () => {
+    const parts = async () => Number(await page.locator(".stage canvas").getAttribute("data-parts"));
+    await atRest(page);
+    const full = await parts();
+    const [frames, drawn] = await page.evaluate(async () => {
       const canvas = document.querySelector(".stage canvas");
       const start = performance.now();
-      for (let k = 0; k < 10; k += 1) {
+      for (let k = 0; k < 20; k += 1) {
         canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
         await new Promise((done) => requestAnimationFrame(done));
       }
-      return (performance.now() - start) / 10;
+      return [(performance.now() - start) / 20, canvas.dataset.drawn];
     });
     console.log(`10000 targets: ${frames.toFixed(0)} ms a frame while turning, drawn in software`);
+    assert.equal(drawn, "turning");
+    const coarse = await parts();
+    assert.ok(coarse < 0.3 * full, `${coarse} parts while turning, ${full} at rest`);
+    await atRest(page);
+    assert.equal(await parts(), full);
   });
 });
 

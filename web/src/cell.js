@@ -1,6 +1,6 @@
 // A view in space with its list of items, what is known of the chosen one, and the slider that magnifies deviations.
 import { cell as valueOf, element, heading, rowsOf, text } from "./data.js";
-import { showChart } from "./charts.js";
+import { showChart, tone } from "./charts.js";
 import { View, ramp } from "./scene.js";
 import { behind, showTable } from "./table.js";
 
@@ -11,13 +11,14 @@ function startTimes(cell) {
   let [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   let most = 0;
   for (const path of cell.paths) {
-    for (let k = 0; k + 2 < path.at.length; k += 3) {
-      for (let axis = 0; axis < 3; axis += 1) {
-        low[axis] = Math.min(low[axis], path.at[k + axis]);
-        high[axis] = Math.max(high[axis], path.at[k + axis]);
+    if (path.like == null) {
+      for (let k = 0; k < path.at.length; k += 1) {
+        const [x, axis] = [path.at[k], k % 3];
+        if (x < low[axis]) low[axis] = x;
+        if (x > high[axis]) high[axis] = x;
       }
     }
-    most = Math.max(most, path.worst ?? 0);
+    if (!path.off) most = Math.max(most, path.worst ?? 0);
   }
   if (!cell.paths.length) {
     cell.points.at.forEach((x, k) => {
@@ -48,10 +49,11 @@ export function complete(cell) {
     }
     if (path.by) {
       path.worst = 0;
-      path.error = new Array(path.at.length / 3);
+      path.error = new Float64Array(path.at.length / 3);
       for (let k = 0; k < path.error.length; k += 1) {
-        path.error[k] = Math.hypot(path.by[3 * k], path.by[3 * k + 1], path.by[3 * k + 2]);
-        path.worst = Math.max(path.worst, path.error[k]);
+        const [x, y, z] = [path.by[3 * k], path.by[3 * k + 1], path.by[3 * k + 2]];
+        path.error[k] = Math.sqrt(x * x + y * y + z * z);
+        if (path.error[k] > path.worst) path.worst = path.error[k];
       }
     }
   }
@@ -66,22 +68,24 @@ function controls(view, cell) {
     const told = element("output", {});
     const slider = element("input", { type: "range", min: "0", max: String(TIMES.length - 1), step: "1", className: "magnify", "aria-label": "Magnify deviations" });
     slider.value = String(startTimes(cell));
-    apply = () => {
+    apply = (event) => {
       const times = TIMES[Number(slider.value)];
       told.textContent = `\u00d7${times}`;
       slider.setAttribute("aria-valuetext", `times ${times}`);
-      view?.magnify(times);
+      view?.magnify(times, event != null);
     };
     slider.addEventListener("input", apply);
     bar.append(element("label", {}, "Deviations ", slider, told));
   }
   if (view) {
     for (const shown of view.layers.paths) {
-      const box = element("input", { type: "checkbox", checked: true, onchange: () => {
+      shown.lines.visible = !shown.path.off;
+      const box = element("input", { type: "checkbox", checked: !shown.path.off, onchange: () => {
         shown.lines.visible = box.checked;
         view.draw();
       } });
-      bar.append(element("label", {}, box, ` ${shown.path.name}`));
+      const key = shown.path.graded ? null : element("i", { className: "key", style: `background:${tone(shown.path.tone)}` });
+      bar.append(element("label", {}, box, key, ` ${shown.path.name}`));
     }
     const toggles = [["robot", view.robot?.group], ["cell", cell.bodies.length ? view.solids : null], [cell.points.name, view.items]];
     for (const [name, object] of toggles) {
@@ -135,24 +139,38 @@ function detailOf(box, cell, table, findings) {
   };
 }
 
+/** The way along places, mm. */
+function way(at) {
+  let total = 0;
+  return Array.from({ length: at.length / 3 }, (_, k) => {
+    if (k > 0) total += Math.hypot(at[3 * k] - at[3 * k - 3], at[3 * k + 1] - at[3 * k - 2], at[3 * k + 2] - at[3 * k - 1]);
+    return Number(total.toFixed(2));
+  });
+}
+
 /** Error along the paths: against the way of the tool. */
 function along(cell, onselect) {
   const paths = cell.paths.filter((path) => path.by && path.items);
   if (!paths.length || cell.along === false) return null;
+  const longest = Math.max(...paths.map((path) => path.error.length));
+  // numbers are made when the chart or its table is seen
+  const column = (label, of) => {
+    let values = null;
+    return { label, unit: "mm", get values() {
+      if (!values) {
+        values = of();
+        while (values.length < longest) values.push(null);
+      }
+      return values;
+    } };
+  };
   const columns = [];
   const series = [];
-  const longest = Math.max(...paths.map((path) => path.error.length));
-  const filled = (values) => [...values, ...Array(longest - values.length).fill(null)];
   for (const path of paths) {
-    const way = new Array(path.error.length);
-    let total = 0;
-    for (let k = 0; k < way.length; k += 1) {
-      if (k > 0) total += Math.hypot(path.at[3 * k] - path.at[3 * k - 3], path.at[3 * k + 1] - path.at[3 * k - 2], path.at[3 * k + 2] - path.at[3 * k - 1]);
-      way[k] = Number(total.toFixed(2));
-    }
     const same = path.like != null && columns.length;
-    const x = same ? 0 : columns.push({ label: paths.length > 1 && columns.length ? `way (${path.name})` : "way of the tool", unit: "mm", values: filled(way) }) - 1;
-    const y = columns.push({ label: path.name, unit: "mm", values: filled(path.error.map((e) => Number(e.toPrecision(4)))) }) - 1;
+    const wayName = paths.length > 1 && columns.length ? `way (${path.name})` : "way of the tool";
+    const x = same ? 0 : columns.push(column(wayName, () => way(path.at))) - 1;
+    const y = columns.push(column(path.name, () => Array.from(path.error, (e) => Number(e.toPrecision(4))))) - 1;
     series.push({ kind: "line", x, y, name: path.name, tone: path.tone });
   }
   const items = paths[0].items;
@@ -193,6 +211,7 @@ export function showCell(cell, table, findings) {
     apply();
     if (rowsOf(table)) select(worst);
     view?.view([1, -1.2, 0.75]);
+    return view?.drawn;
   };
   return { node, select, start };
 }

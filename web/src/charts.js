@@ -73,19 +73,57 @@ function legend(series) {
   return element("ul", { className: "legend" }, ...entries);
 }
 
-/** Draws into a box again whenever its width changes. */
-function responsive(draw) {
-  const box = element("div", { className: "plot" });
+/** Boxes that have not been near the window yet. */
+const later = new Set();
+const near = new IntersectionObserver((entries) => {
+  for (const { target, isIntersecting } of entries) if (isIntersecting) target.dispatchEvent(new Event("near"));
+}, { rootMargin: "500px" });
+
+/** Draws what has not been seen: paper has all. */
+function drawAll() {
+  for (const box of [...later]) box.dispatchEvent(new Event("near"));
+}
+addEventListener("beforeprint", drawAll);
+matchMedia("print").addEventListener("change", (event) => event.matches && drawAll());
+
+/** Draws into a box of about a height, when it comes near the window and whenever its width changes. */
+function responsive(draw, height) {
+  const box = element("div", { className: "plot", style: `min-height:${height}px` });
   let last = 0;
   const redraw = () => {
     const width = Math.round(box.clientWidth);
     if (width > 0 && width !== last) {
       last = width;
       box.replaceChildren(draw(width));
+      box.style.minHeight = "";
     }
   };
-  new ResizeObserver(redraw).observe(box);
+  later.add(box);
+  near.observe(box);
+  box.addEventListener("near", () => {
+    if (!later.delete(box)) return;
+    near.unobserve(box);
+    new ResizeObserver(redraw).observe(box);
+    redraw();
+  });
   return box;
+}
+
+const pen = document.createElement("canvas").getContext("2d");
+
+/** Names that fit into so many pixels, and how many the longest takes: the middle of a longer one is left out, the table has it all. */
+function fitted(names, size, most) {
+  pen.font = `${size}px ${getComputedStyle(document.body).fontFamily}`;
+  const wide = (text) => pen.measureText(text).width;
+  const short = (name) => {
+    if (wide(name) <= most) return name;
+    let kept = name.length - 1;
+    const cut = () => `${name.slice(0, Math.ceil(kept / 2))}\u2026${name.slice(name.length - Math.floor(kept / 2))}`;
+    while (kept > 4 && wide(cut()) > most) kept -= 1;
+    return cut();
+  };
+  const shown = names.map(short);
+  return { shown: (index) => shown[index], widest: Math.max(20, ...shown.map(wide)) };
 }
 
 /** A chart of columns of a table, with its table behind it. `onselect(row)` is told when a point is clicked. */
@@ -108,15 +146,16 @@ export function showChart(chart, table, onselect) {
     const count = rowsOf(table);
     const counted = chart.series.find((series) => series.kind === "histogram");
     const highest = counted ? Math.max(...Array.from({ length: count }, (_, row) => cell(columns[counted.y], row))) : Infinity;
-    const longest = rows ? Math.max(4, ...Array.from({ length: count }, (_, row) => String(cell(columns[chart.series[0].x], row)).length)) : 0;
+    const names = rows || chart.bands ? Array.from({ length: count }, (_, row) => String(cell(columns[chart.series[0].x], row))) : [];
+    const labels = rows ? fitted(names, 12, width * 0.6) : null;
     const plot = Plot.plot({
       width,
       height: rows ? 60 + 20 * count : chart.height ?? 260,
-      marginLeft: rows ? Math.min(width * 0.62, 14 + 6.6 * longest) : 56,
+      marginLeft: rows ? labels.widest + 14 : 56,
       marginBottom: 46,
       style: { background: "transparent", fontSize: "12px", overflow: "visible" },
-      x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) : undefined },
-      y: rows ? { label: null, type: "band", domain: Array.from({ length: count }, (_, row) => cell(columns[chart.series[0].x], row)) } : { label: label(chart.y), grid: true, zero: true, nice: true, ticks: Math.min(highest, 5) },
+      x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? names : undefined },
+      y: rows ? { label: null, type: "band", domain: names, tickFormat: (_, index) => labels.shown(index) } : { label: label(chart.y), grid: true, zero: true, nice: true, ticks: Math.min(highest, 5) },
       marks,
     });
     plot.setAttribute("role", "img");
@@ -134,7 +173,7 @@ export function showChart(chart, table, onselect) {
     { className: chart.wide ? "chart wide" : "chart" },
     element("figcaption", {}, element("h3", {}, chart.title), chart.note ? element("p", {}, chart.note) : null),
     legend(chart.series),
-    responsive(draw),
+    responsive(draw, rows ? 60 + 20 * rowsOf(table) : 260),
     behind(() => table, chart.title),
   );
 }
@@ -149,9 +188,9 @@ export function showHeat(heat) {
       if (value != null) cells.push({ i, j, value });
     }
   }
-  const longest = Math.max(4, ...names.map((name) => name.length));
   const draw = (width) => {
-    const margin = Math.min(width * 0.35, 10 + 6 * longest);
+    const labels = fitted(names, 11, width * 0.35);
+    const margin = labels.widest + 12;
     const step = Math.max(6, Math.min(26, (width - margin - 10) / names.length));
     const small = step < 11;
     const plot = Plot.plot({
@@ -162,8 +201,8 @@ export function showHeat(heat) {
       marginRight: 10,
       marginBottom: 10,
       style: { background: "transparent", fontSize: small ? "8px" : "11px" },
-      x: { axis: "top", type: "band", domain: names.map((_, i) => i), tickFormat: (i) => names[i], tickRotate: -90, label: null, padding: 0.04 },
-      y: { type: "band", domain: names.map((_, i) => i), tickFormat: (i) => names[i], label: null, padding: 0.04 },
+      x: { axis: "top", type: "band", domain: names.map((_, i) => i), tickFormat: (i) => labels.shown(i), tickRotate: -90, label: null, padding: 0.04 },
+      y: { type: "band", domain: names.map((_, i) => i), tickFormat: (i) => labels.shown(i), label: null, padding: 0.04 },
       marks: [
         Plot.cell(cells, { x: "j", y: "i", fill: "none", stroke: "currentColor", strokeOpacity: 0.1 }),
         Plot.cell(cells, { x: "j", y: "i", fill: { value: (c) => tone(c.value < 0 ? "after" : "before"), scale: null }, fillOpacity: { value: (c) => Math.abs(c.value), scale: null } }),
@@ -190,7 +229,7 @@ export function showHeat(heat) {
     { className: "chart wide" },
     element("figcaption", {}, element("h3", {}, heat.title), heat.note ? element("p", {}, heat.note) : null),
     scale,
-    responsive(draw),
+    responsive(draw, 420),
     behind(table, heat.title),
   );
 }

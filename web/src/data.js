@@ -1,5 +1,13 @@
 // What the page's JSON holds, and how numbers are shown.
 
+/** The page's data: JSON, or much of it packed (zlib, base64). */
+export async function dataOf(node) {
+  if (node.type !== "application/zlib") return JSON.parse(node.textContent);
+  const packed = Uint8Array.from(atob(node.textContent), (letter) => letter.charCodeAt(0));
+  const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Response(unpacked).json();
+}
+
 /** The value of a cell: columns are arrays, or names with indices where few names repeat. */
 export function cell(column, row) {
   const values = column.values;

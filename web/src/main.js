@@ -1,5 +1,5 @@
 // Builds the page of its JSON.
-import { cell as valueOf, element, rowsOf } from "./data.js";
+import { cell as valueOf, dataOf, element, rowsOf } from "./data.js";
 import { showCell } from "./cell.js";
 import { showChart, showHeat } from "./charts.js";
 import { showTable } from "./table.js";
@@ -18,9 +18,9 @@ function findingsAt(findings) {
   return (fileName, lineNumber) => at.get(`${lineNumber} ${fileName}`) ?? [];
 }
 
-function main() {
-  const page = JSON.parse(document.getElementById("data").textContent);
+async function main() {
   const place = document.getElementById("page");
+  const page = await dataOf(document.getElementById("data"));
   const tables = page.tables ?? {};
   const found = findingsAt(tables.findings);
   const starts = [];
@@ -61,11 +61,15 @@ function main() {
         place.append(element("section", {}, element("h2", {}, section.title), ...section.lines.map((line) => element("p", {}, line))));
     }
   }
-  for (const start of starts) start();
-  // charts are drawn when their width is known: with the next frame
+  // views are drawn, and charts that are seen: those with the next frame, when their width is known
+  await Promise.all(starts.map((start) => start()));
   requestAnimationFrame(() => requestAnimationFrame(() => {
     document.documentElement.dataset.ready = "yes";
   }));
 }
 
-main();
+main().catch((error) => {
+  const told = "This browser cannot show the views, charts and long tables of this report; the numbers above are complete.";
+  document.getElementById("page").append(element("p", { className: "missing" }, told));
+  throw error;
+});

@@ -1,8 +1,8 @@
 // The robot: its chain, and what its links look like. Lengths in mm, z up.
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, CylinderGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  MeshLambertMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3,
+  BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, Group, Matrix4, Mesh, PlaneGeometry, Quaternion, SphereGeometry, Vector3,
 } from "three";
+import { lines, solid } from "./paint.js";
 
 const RAD = Math.PI / 180;
 const UP = new Vector3(0, 1, 0);
@@ -50,22 +50,20 @@ function geometryOf(form) {
 
 /** A body with a colour. */
 export function bodyOf(shape, colour, opacity = 1) {
-  const material = new MeshLambertMaterial({ color: colour, transparent: opacity < 1, opacity, side: 2, depthWrite: opacity > 0.5 });
-  const mesh = new Mesh(geometryOf(shape), material);
+  // what is closed hides its own inside
+  const bothSides = !["capsule", "box", "sphere", "cylinder"].includes(shape.form);
+  const mesh = new Mesh(geometryOf(shape), solid(new Color(colour), { opacity, bothSides }));
   mesh.applyMatrix4(matrix(shape.at));
   return mesh;
 }
 
 /** Three short lines along the axes of a frame. */
 export function triad(length) {
-  const corners = new Float32Array([0, 0, 0, length, 0, 0, 0, 0, 0, 0, length, 0, 0, 0, 0, 0, 0, length]);
-  const colours = new Float32Array([0.84, 0.2, 0.2, 0.84, 0.2, 0.2, 0.1, 0.6, 0.25, 0.1, 0.6, 0.25, 0.15, 0.4, 0.9, 0.15, 0.4, 0.9]);
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(corners, 3));
-  geometry.setAttribute("color", new BufferAttribute(colours, 3));
-  const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, depthTest: false }));
-  lines.renderOrder = 3;
-  return lines;
+  const corners = [0, 0, 0, length, 0, 0, 0, 0, 0, 0, length, 0, 0, 0, 0, 0, 0, length];
+  const tints = [0.84, 0.2, 0.2, 0.84, 0.2, 0.2, 0.1, 0.6, 0.25, 0.1, 0.6, 0.25, 0.15, 0.4, 0.9, 0.15, 0.4, 0.9];
+  const axes = lines(corners, tints, { onTop: true });
+  axes.renderOrder = 3;
+  return axes;
 }
 
 /** The frames of base and links at controller's joint angles in degrees. */
@@ -95,7 +93,7 @@ export function makeRobot(robot) {
     group.add(link);
   }
   const sticks = new Group();
-  const stick = new MeshLambertMaterial({ color: 0x8a94a3 });
+  const stick = solid(new Color(0x8a94a3));
   group.add(sticks);
   const hasShapes = robot.shapes.length > 0;
   for (const shape of robot.shapes) {

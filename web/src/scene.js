@@ -1,117 +1,106 @@
 // The view in space: robot, bodies, points that can be chosen, paths and vectors whose deviations are magnified.
 import { interpolateTurbo } from "d3-scale-chromatic";
-import {
-  AmbientLight, Box3, BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, DoubleSide, GridHelper, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Points, PointsMaterial, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer,
-} from "three";
+import { Box3, BufferAttribute, BufferGeometry, Color, ColorManagement, Group, LinearSRGBColorSpace, Matrix4, Mesh, PerspectiveCamera, Points, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { LineMaterial } from "three/addons/lines/LineMaterial.js";
-import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { dots, lines, paths, solid } from "./paint.js";
 import { bodyOf, makeRobot } from "./robot.js";
+
+// colours are those of the page, as they are
+ColorManagement.enabled = false;
 
 /** Error 0 to 1 as a colour; the ends of the ramp, too dark on both grounds, are left out. */
 export const ramp = (part) => interpolateTurbo(0.1 + 0.8 * Math.max(0, Math.min(1, part)));
 
+const SHADES = 256;
+let shades = null;
+
+/** The ramp's colour as three numbers. */
+function shade(part) {
+  shades ??= Array.from({ length: SHADES }, (_, k) => new Color(ramp(k / (SHADES - 1))).toArray());
+  return shades[Math.round((SHADES - 1) * Math.max(0, Math.min(1, part)))];
+}
+
 const css = (name) => new Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim() || "#888");
 
-/** Lines of a path that are drawn wide. */
-const MANY = 6000;
+/** Lines of a path and dots that are drawn while the view turns. */
+const WHILE_TURNING = 2500;
+/** So long after the last move the view is drawn in full, milliseconds. */
+const REST = 160;
+/** Pixels drawn for one of the page, across: at rest, and while the view turns, by how fast this machine draws. */
+const FINENESS = { rest: 2, turning: [1, 0.75, 0.5, 0.4] };
+/** A frame that takes longer than this, milliseconds, is too slow. */
+const SLOW = 34;
 
-/** Lines between neighbours of a path, each shifted by its deviation times a magnification. */
+/** Lines through the samples of a path, each shifted by its deviation times a magnification. */
 class Path {
-  constructor(path, colourOf, width) {
+  constructor(path, worst) {
     this.path = path;
-    const { at, by, starts } = path;
-    const count = at.length / 3;
-    const ends = new Set(starts);
-    this.pairs = [];
-    for (let k = 1; k < count; k += 1) if (!ends.has(k)) this.pairs.push(k);
-    this.ends = new Float32Array(this.pairs.length * 6);
-    const colours = new Float32Array(this.pairs.length * 6);
-    const colour = new Color();
-    this.pairs.forEach((k, n) => {
-      for (const [side, sample] of [[0, k - 1], [3, k]]) {
-        colour.set(colourOf(sample));
-        colour.toArray(colours, n * 6 + side);
-      }
-    });
-    // wide lines cost a little mesh each; many lines are dense enough when thin
-    this.wide = this.pairs.length <= MANY;
-    if (this.wide) {
-      this.geometry = new LineSegmentsGeometry();
-      this.geometry.setPositions(this.ends);
-      this.geometry.setColors(colours);
-      this.lines = new LineSegments2(this.geometry, new LineMaterial({ linewidth: width, vertexColors: true }));
-    } else {
-      this.geometry = new BufferGeometry();
-      this.geometry.setAttribute("position", new BufferAttribute(this.ends, 3));
-      this.geometry.setAttribute("color", new BufferAttribute(colours, 3));
-      this.lines = new LineSegments(this.geometry, new LineBasicMaterial({ vertexColors: true }));
-    }
+    const { at, by, error, graded, starts } = path;
+    const base = css(path.tone);
+    const tintOf = (k) => (by && graded ? shade(error[k] / worst) : base.toArray());
+    const { wide, narrow, place } = paths(at.length / 3, starts ?? [], (k) => tintOf(k).map((part) => 255 * part), WHILE_TURNING);
+    Object.assign(this, { wide, narrow, place, width: by ? 2.6 : 1.6 });
+    this.lines = new Group();
+    this.lines.add(wide, narrow);
     this.shift(by ? 1 : 0);
-    this.lines.frustumCulled = false;
   }
 
   shift(times) {
     const { at, by } = this.path;
-    this.pairs.forEach((k, n) => {
-      for (const [side, sample] of [[0, k - 1], [3, k]]) {
-        for (let axis = 0; axis < 3; axis += 1) {
-          const i = sample * 3 + axis;
-          this.ends[n * 6 + side + axis] = at[i] + (by ? times * by[i] : 0);
-        }
-      }
-    });
-    if (this.wide) {
-      const { data } = this.geometry.attributes.instanceStart;
-      data.array.set(this.ends);
-      data.needsUpdate = true;
-    } else {
-      this.geometry.attributes.position.needsUpdate = true;
-    }
+    this.place(by ? (k, axis) => at[3 * k + axis] + times * by[3 * k + axis] : (k, axis) => at[3 * k + axis]);
   }
-}
 
-/** A round dot for points. */
-function disc() {
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [32, 32];
-  const pen = canvas.getContext("2d");
-  pen.fillStyle = "#fff";
-  pen.beginPath();
-  pen.arc(16, 16, 15, 0, 2 * Math.PI);
-  pen.fill();
-  return new CanvasTexture(canvas);
+  fineness(coarse, screen, ratio) {
+    this.wide.visible = !coarse;
+    this.narrow.visible = coarse;
+    this.wide.material.uniforms.screen.value.copy(screen);
+    this.wide.material.uniforms.width.value = this.width * ratio;
+  }
 }
 
 /** Shows a cell. Throws where the browser has no WebGL. */
 export class View {
   constructor(box, cell, onpick) {
     this.cell = cell;
-    this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer = new WebGLRenderer({ antialias: false, alpha: true, stencil: false, preserveDrawingBuffer: true });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.renderer.debug.checkShaderErrors = false;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", `${cell.title}: arrow keys turn, plus and minus come nearer and go away`);
     box.append(this.canvas);
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(38, 1, 1, 1e5);
     this.camera.up.set(0, 0, 1);
-    const sun = new DirectionalLight(0xffffff, 2.2);
-    sun.position.set(1, -1.4, 2.4);
-    this.camera.add(sun);
-    this.scene.add(new AmbientLight(0xffffff, 1.6), this.camera);
     this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.addEventListener("change", () => this.draw());
+    this.byHand = false;
+    this.controls.addEventListener("start", () => { this.byHand = true; });
+    this.controls.addEventListener("end", () => { this.byHand = false; });
+    this.controls.addEventListener("change", () => (this.byHand ? this.turn() : this.draw()));
     this.layers = { paths: [] };
     this.magnification = 1;
+    this.turning = false;
+    // without a graphics card every pixel costs
+    this.level = /swiftshader|llvmpipe|software|basic render/i.test(this.nameOfCard()) ? 2 : 0;
     this.build();
     this.view([1, -1.2, 0.75]);
     this.listen(onpick);
     new ResizeObserver(() => this.resize(box)).observe(box);
     this.resize(box);
+    // shaders are compiled beside, while the rest of the page is made
+    this.drawn = new Promise((done) => { this.tellDrawn = done; });
+    const isBeside = this.renderer.getContext().getExtension("KHR_parallel_shader_compile");
+    (isBeside ? this.renderer.compileAsync(this.scene, this.camera) : Promise.resolve()).then(() => {
+      this.compiled = true;
+      this.draw();
+    });
+  }
+
+  nameOfCard() {
+    const gl = this.renderer.getContext();
+    const about = gl.getExtension("WEBGL_debug_renderer_info");
+    return String(gl.getParameter(about ? about.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
   }
 
   build() {
@@ -137,10 +126,7 @@ export class View {
     for (const body of cell.bodies) this.solids.add(bodyOf(body, 0x7d8fa8, body.form === "plane" ? 0.15 : 0.35));
     this.worst = Math.max(1e-12, ...cell.paths.map((path) => path.worst ?? 0));
     for (const path of cell.paths) {
-      const base = css(path.tone);
-      const size = (k) => Math.hypot(path.by[3 * k], path.by[3 * k + 1], path.by[3 * k + 2]);
-      const colourOf = path.by && path.graded ? (k) => ramp(size(k) / this.worst) : () => base;
-      const shown = new Path(path, colourOf, path.by ? 2.6 : 1.6);
+      const shown = new Path(path, this.worst);
       this.layers.paths.push(shown);
       this.scene.add(shown.lines);
     }
@@ -152,10 +138,12 @@ export class View {
   ground() {
     const reach = (this.cell.robot?.rows ?? []).reduce((sum, row) => sum + Math.abs(row[1]) + Math.abs(row[4]), 0);
     const size = 200 * 2 ** Math.ceil(Math.log2(Math.max(1, this.extent, reach) / 100));
-    const grid = new GridHelper(size, 16, 0x888888, 0x888888);
-    grid.material.transparent = true;
-    grid.material.opacity = 0.18;
-    grid.rotateX(Math.PI / 2);
+    const corners = [];
+    for (let k = 0; k <= 16; k += 1) {
+      const [at, end] = [size * (k / 16 - 0.5), size / 2];
+      corners.push(-end, at, 0, end, at, 0, at, -end, 0, at, end, 0);
+    }
+    const grid = lines(corners, corners.map(() => 0.53), { opacity: 0.3 });
     if (!this.cell.robot && !this.bounds.isEmpty()) {
       const middle = this.bounds.getCenter(new Vector3());
       grid.position.set(middle.x, middle.y, this.bounds.min.z - 0.05 * this.extent);
@@ -171,23 +159,25 @@ export class View {
     for (let row = 0; row < count; row += 1) if (at[3 * row] != null) this.rows.push(row);
     const geometry = new BufferGeometry();
     const [places, colours] = [new Float32Array(3 * this.rows.length), new Float32Array(3 * this.rows.length)];
-    const colour = new Color();
+    const plain = css("wanted").toArray();
     const { error } = this.cell.points;
     const most = (error ?? []).reduce((top, x) => Math.max(top, x ?? 0), 1e-12);
     this.rows.forEach((row, n) => {
       places.set(at.slice(3 * row, 3 * row + 3), 3 * n);
-      if (error?.[row] == null) colour.copy(css("wanted"));
-      else colour.set(ramp(error[row] / most));
-      colour.toArray(colours, 3 * n);
+      colours.set(error?.[row] == null ? plain : shade(error[row] / most), 3 * n);
     });
     geometry.setAttribute("position", new BufferAttribute(places, 3));
-    geometry.setAttribute("color", new BufferAttribute(colours, 3));
-    const size = (count > 2000 ? 3 : 5.5) * this.renderer.getPixelRatio();
-    this.items = new Points(geometry, new PointsMaterial({ size, sizeAttenuation: false, vertexColors: true, map: disc(), alphaTest: 0.5 }));
+    geometry.setAttribute("tint", new BufferAttribute(colours, 3));
+    this.dotSize = count > 2000 ? 3 : 5.5;
+    const every = Math.max(1, Math.ceil(this.rows.length / WHILE_TURNING));
+    const some = (step) => new BufferAttribute(Uint32Array.from({ length: Math.ceil(this.rows.length / step) }, (_, k) => k * step), 1);
+    this.allItems = some(1);
+    this.fewItems = every > 1 ? some(every) : this.allItems;
+    geometry.setIndex(this.allItems);
+    this.items = new Points(geometry, dots());
     this.items.frustumCulled = false;
     this.scene.add(this.items);
-    const ring = new MeshBasicMaterial({ color: 0xe6007e, transparent: true, opacity: 0.9, depthTest: false });
-    this.mark = new Mesh(new SphereGeometry(1, 20, 14), ring);
+    this.mark = new Mesh(new SphereGeometry(1, 20, 14), solid(new Color(0xe6007e), { opacity: 0.9, onTop: true, flat: true }));
     this.mark.renderOrder = 4;
     this.mark.visible = false;
     this.scene.add(this.mark);
@@ -195,7 +185,7 @@ export class View {
 
   placeEllipsoids() {
     this.ellipsoids = [];
-    const material = new MeshLambertMaterial({ color: css("after"), transparent: true, opacity: 0.4, side: DoubleSide, depthWrite: false });
+    const material = solid(css("after"), { opacity: 0.45 });
     for (const { at, axes } of this.cell.ellipsoids ?? []) {
       const mesh = new Mesh(new SphereGeometry(1, 24, 16), material);
       mesh.matrixAutoUpdate = false;
@@ -204,7 +194,7 @@ export class View {
     }
   }
 
-  magnify(times) {
+  magnify(times, byHand = false) {
     this.magnification = times;
     for (const path of this.layers.paths) if (path.path.by) path.shift(times);
     for (const { mesh, at, axes } of this.ellipsoids) {
@@ -212,7 +202,8 @@ export class View {
       mesh.matrix.set(u[0], v[0], w[0], at[0], u[1], v[1], w[1], at[1], u[2], v[2], w[2], at[2], 0, 0, 0, 1);
       mesh.matrixWorldNeedsUpdate = true;
     }
-    this.draw();
+    if (byHand) this.turn();
+    else this.draw();
   }
 
   select(row) {
@@ -287,6 +278,7 @@ export class View {
       else return;
       event.preventDefault();
       this.camera.position.copy(this.controls.target).add(away);
+      this.turn();
       this.controls.update();
     });
   }
@@ -311,19 +303,63 @@ export class View {
   resize(box) {
     const [width, height] = [box.clientWidth, box.clientHeight];
     if (!width || !height) return;
-    this.renderer.setSize(width, height);
+    this.size = new Vector2(width, height);
+    this.ratio = null;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.draw();
   }
 
+  /** The view moves under somebody's hand: it is drawn fast, and in full when it rests. */
+  turn() {
+    this.turning = true;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => {
+      this.turning = false;
+      this.last = null;
+      this.draw();
+    }, REST);
+    this.draw();
+  }
+
+  /** While the view turns frames follow each other: when they come too late the next ones are coarser, and finer again when there is time. */
+  pace(now) {
+    const took = this.turning && this.last ? now - this.last : null;
+    this.last = this.turning ? now : null;
+    if (took == null || took > 400) return;
+    this.late = took > SLOW ? (this.late ?? 0) + 1 : 0;
+    this.early = took < SLOW / 2 ? (this.early ?? 0) + 1 : 0;
+    if (this.late >= 3 && this.level + 1 < FINENESS.turning.length) [this.level, this.late] = [this.level + 1, 0];
+    if (this.early >= 40 && this.level > 0) [this.level, this.early] = [this.level - 1, 0];
+  }
+
   /** Draws with the next frame, however often it is asked. */
   draw() {
-    if (this.waiting) return;
+    if (this.waiting || !this.compiled) return;
     this.waiting = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now) => {
       this.waiting = false;
-      this.renderer.render(this.scene, this.camera);
+      this.pace(now);
+      this.render();
     });
+  }
+
+  render() {
+    const { renderer, turning, level } = this;
+    if (!this.size) return;
+    const ratio = turning ? FINENESS.turning[level] * Math.min(devicePixelRatio, 2) : Math.max(FINENESS.rest, Math.min(devicePixelRatio, 3));
+    if (ratio !== this.ratio) {
+      this.ratio = ratio;
+      renderer.setDrawingBufferSize(this.size.x, this.size.y, ratio);
+    }
+    const screen = this.size.clone().multiplyScalar(ratio);
+    const coarse = turning && (level > 0 || this.layers.paths.some(({ path }) => path.at.length / 3 > WHILE_TURNING));
+    for (const path of this.layers.paths) path.fineness(coarse, screen, ratio);
+    this.items.geometry.setIndex(turning ? this.fewItems : this.allItems);
+    this.items.material.uniforms.size.value = this.dotSize * ratio;
+    renderer.render(this.scene, this.camera);
+    const { triangles, lines: segments, points } = renderer.info.render;
+    Object.assign(this.canvas.dataset, { drawn: turning ? "turning" : "full", parts: String(triangles + segments + points) });
+    this.tellDrawn();
   }
 }

@@ -16,8 +16,8 @@ mod trust;
 use super::RegisterError;
 use super::uncertainty::PoseCovariance;
 use crate::geometry::units::mm_from_m;
-use crate::geometry::{Pose, Vector, add, norm, scale, sub};
-use pairs::step;
+use crate::geometry::{Pose, Vector, add, dot, norm, scale, sub};
+use pairs::{Pairing, pairings, step};
 use search::coarse_search;
 use surface::{Surface, along_curve};
 use trust::{doubt_rival, judge};
@@ -32,6 +32,8 @@ const MIDDLE: usize = 4000;
 const STEPS: usize = 300;
 /// Steps after which small steps back and forth are taken for standing still.
 const PATIENT: usize = 25;
+/// Points of which it is told what is left.
+const MOST_LEFT: usize = 2000;
 /// Points handed to a thread at a time.
 const CHUNK: usize = 4096;
 
@@ -146,6 +148,21 @@ pub struct Found {
     pub covariance: Option<PoseCovariance>,
     /// Why it is no success; empty if it is.
     pub doubts: Vec<Doubt>,
+    /// What is left at some points of FROM, evenly spread.
+    pub left: Vec<Left>,
+}
+
+/// What is left at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Left {
+    /// Its index in FROM.
+    pub index: usize,
+    /// Where it lies in TO, metres.
+    pub at_m: Vector,
+    /// From there to the nearest point of TO or, with [`Metric::PointToPlane`], to the plane there, metres.
+    pub left_m: Vector,
+    /// Whether it is among the nearest that are kept.
+    pub kept: bool,
 }
 
 /// Finds the motion that lays FROM on TO.
@@ -165,7 +182,8 @@ pub fn icp(
     let sorted = |points: &[Vector], order: &[usize]| -> Vec<Vector> {
         order.iter().map(|i| points[*i]).collect()
     };
-    let from = &sorted(from, &along_curve(from))[..];
+    let order_of_from = along_curve(from);
+    let from = &sorted(from, &order_of_from)[..];
     let order = along_curve(to);
     let normals = normals.map(|normals| sorted(normals, &order));
     let surface = Surface::of(&sorted(to, &order), normals.as_deref());
@@ -214,6 +232,7 @@ pub fn icp(
     }
     let mut found = judge(from, &surface, pose, options, extent);
     found.starts = starts;
+    found.left = left(from, &order_of_from, &surface, &pose, options);
     if !settled {
         found.doubts.push(Doubt::Moving {
             steps: steps.len(),
@@ -225,6 +244,42 @@ pub fn icp(
         doubt_rival(from, &surface, other, options, &extent, &mut found);
     }
     Ok(found)
+}
+
+/// What is left at every so many points.
+fn left(
+    from: &[Vector],
+    order: &[usize],
+    surface: &Surface,
+    pose: &Pose,
+    options: &Options,
+) -> Vec<Left> {
+    let step = from.len().div_ceil(MOST_LEFT).max(1);
+    let some: Vec<Vector> = from.iter().step_by(step).copied().collect();
+    let pairs = pairings(&some, surface, pose, options.metric);
+    let gap = |pair: &Pairing| sub(surface.points[pair.partner], pair.at);
+    let mut distances: Vec<f64> = pairs.iter().map(|pair| norm(gap(pair))).collect();
+    distances.sort_by(f64::total_cmp);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let last = (distances.len() as f64 * options.kept).round() as usize;
+    let limit = distances[last.clamp(1, distances.len()) - 1];
+    let one = |(pair, index): (&Pairing, &usize)| Left {
+        index: *index,
+        at_m: pair.at,
+        left_m: match options.metric {
+            Metric::PointToPoint => gap(pair),
+            Metric::PointToPlane => {
+                let normal = surface.normals[pair.partner];
+                scale(dot(normal, gap(pair)), normal)
+            }
+        },
+        kept: norm(gap(pair)) <= limit,
+    };
+    pairs
+        .iter()
+        .zip(order.iter().step_by(step))
+        .map(one)
+        .collect()
 }
 
 fn check(from: &[Vector], to: &[Vector]) -> Result<(), RegisterError> {

@@ -107,6 +107,7 @@ pub(super) fn judge(
         overlap,
         covariance,
         doubts,
+        left: Vec::new(),
     }
 }
 

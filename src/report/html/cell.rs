@@ -89,6 +89,9 @@ pub struct Path {
     pub tone: Tone,
     /// Its colour is the size of the deviation.
     pub graded: bool,
+    /// It is shown when it is asked for only.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub off: bool,
     /// x, y, z of each place; `None` where they are those of the path `like`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Vec<Number>>,
@@ -114,6 +117,7 @@ impl Path {
             name: name.into(),
             tone,
             graded: false,
+            off: false,
             at: Some(Vec::with_capacity(6 * places_m.len())),
             like: None,
             starts: (0..places_m.len()).map(|k| 2 * k).collect(),
@@ -224,6 +228,24 @@ fn matrix(pose: &Pose) -> Vec<Number> {
 }
 
 impl Solid {
+    /// A ball, metres.
+    #[must_use]
+    pub fn ball(name: &str, centre_m: Vector, radius_m: f64) -> Self {
+        Self {
+            name: name.into(),
+            link: None,
+            attached: false,
+            at: matrix(&Pose::from_translation(
+                centre_m[0],
+                centre_m[1],
+                centre_m[2],
+            )),
+            form: Drawn::Sphere {
+                radius: length(radius_m),
+            },
+        }
+    }
+
     fn of(name: &str, link: Option<usize>, shape: &Shape, meshes: &Meshes) -> Option<Self> {
         let form = match &shape.form {
             Form::Capsule {

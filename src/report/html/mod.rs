@@ -4,7 +4,7 @@
 //! tables as charts or in space. [`page`] writes it as HTML; what draws it in the browser is one script, built of `web/` at the top of the repository and
 //! kept built in `assets/`. One file for each kind of page: [`programs`], [`measurements`],
 //! [`diagnosis`], [`frames`],
-//! [`axes`].
+//! [`axes`], [`reach`].
 //!
 //! # Safety of what is shown
 //! Names come from files that anybody may have written. The template escapes them; the data are JSON in which no markup can
@@ -19,3 +19,4 @@ pub mod measurements;
 pub mod numbers;
 pub mod page;
 pub mod programs;
+pub mod reach;

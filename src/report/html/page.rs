@@ -4,12 +4,16 @@ use super::cell::Cell;
 use super::numbers::{Column, Number, Table};
 use crate::finding::{Finding, Severity};
 use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 use minijinja::value::{Serde, Value as Template};
 use minijinja::{Environment, context};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::io::Write as _;
 
 /// What draws the page.
 const SCRIPT: &str = include_str!("assets/report.js");
@@ -18,6 +22,9 @@ const TEMPLATE: &str = include_str!("assets/page.html");
 
 /// Findings that a page holds; of more it tells how many there are.
 pub const MOST_FINDINGS: usize = 5000;
+
+/// Bytes of data that stand in a page as they are; more are packed.
+const PLAIN: usize = 300_000;
 
 /// How the answer looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -394,13 +401,15 @@ impl Page {
             facts: &self.facts,
             summary: self.summary.as_ref(),
         };
+        let (kind, data) = stored(embedded(self));
         let values = context! {
             page => Serde(page),
             version => env!("CARGO_PKG_VERSION"),
             style => Template::from_safe_string(STYLE.into()),
             script => Template::from_safe_string(SCRIPT.into()),
             script_hash => Template::from_safe_string(hash(SCRIPT)),
-            data => Template::from_safe_string(embedded(self)),
+            kind => kind,
+            data => Template::from_safe_string(data),
         };
         environment
             .get_template("page.html")
@@ -412,8 +421,20 @@ impl Page {
 /// The hash by which a content security policy knows a script.
 fn hash(script: &str) -> String {
     let digest = Sha256::digest(script.as_bytes());
-    let text = base64::engine::general_purpose::STANDARD.encode(digest);
-    format!("sha256-{text}")
+    format!("sha256-{}", STANDARD.encode(digest))
+}
+
+/// Data as they stand in the page, with their kind: JSON, or much of it packed (zlib, base64).
+fn stored(json: String) -> (&'static str, String) {
+    if json.len() <= PLAIN {
+        return ("application/json", json);
+    }
+    let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
+    let packed = packer
+        .write_all(json.as_bytes())
+        .and_then(|()| packer.finish())
+        .expect("memory takes all bytes");
+    ("application/zlib", STANDARD.encode(packed))
 }
 
 /// JSON in which no markup begins or ends, to stand in a script element.
@@ -480,6 +501,20 @@ mod tests {
         assert!(!script.contains("</script"), "the script would end itself");
     }
 
+    /// The data of a page, whether they are packed or not.
+    fn data(html: &str) -> String {
+        let between = |from: &str| Some(html.split_once(from)?.1.split_once("</script>")?.0);
+        if let Some(json) = between(r#"<script type="application/json" id="data">"#) {
+            return json.to_owned();
+        }
+        let packed = between(r#"<script type="application/zlib" id="data">"#).expect("data");
+        let packed = STANDARD.decode(packed).expect("base64");
+        let mut json = String::new();
+        std::io::Read::read_to_string(&mut flate2::read::ZlibDecoder::new(&packed[..]), &mut json)
+            .expect("zlib");
+        json
+    }
+
     #[test]
     fn of_very_many_findings_the_worst_are_kept_and_all_are_counted() {
         let findings: Vec<Finding> = (0..100_000).map(finding).collect();
@@ -488,8 +523,22 @@ mod tests {
         let table = &page.tables["findings"];
         assert_eq!(table.rows(), MOST_FINDINGS);
         let html = page.html();
-        assert!(html.contains("50000 even, 50000 odd"));
-        assert!(html.contains("99999"), "the only error is listed");
-        assert!(html.len() < 2_500_000, "{}", html.len());
+        let data = data(&html);
+        assert!(data.contains("50000 even, 50000 odd"));
+        assert!(data.contains("99999"), "the only error is listed");
+        assert!(html.len() < 1_500_000, "{}", html.len());
+    }
+
+    #[test]
+    fn data_of_any_length_are_what_the_page_holds() {
+        for count in [1, 3000] {
+            let findings: Vec<Finding> = (0..count).map(finding).collect();
+            let mut page = Page::new("t".into(), Level::Error, "no".into());
+            page.findings(&findings);
+            let html = page.html();
+            assert_eq!(data(&html), embedded(&page));
+            assert_eq!(html.contains("application/zlib"), count > 1);
+            assert_eq!(html.matches("</script").count(), 2);
+        }
     }
 }

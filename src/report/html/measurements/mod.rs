@@ -17,6 +17,8 @@ use crate::identify::problem::Problem;
 use crate::identify::statistics::{Miss, Quality, Spread};
 use crate::model::profile::Profile;
 
+/// A model whose errors are so many times those of the best two is not shown before it is asked for: it would hide them.
+const FAR_OFF: f64 = 20.0;
 /// Points whose distances are compared; of more every so many.
 const MOST_POINTS: usize = 500;
 
@@ -159,8 +161,10 @@ fn show_rows(page: &mut Page, rows: &Rows, robot: &Profile) {
         .collect();
     let at: Vec<Vector> = seen.iter().map(|i| places[*i]).collect();
     let mut paths = Vec::new();
-    // what came before the frames were fitted may be metres away: it would hide the rest
-    for model in rows.models.iter().skip(rows.models.len().saturating_sub(2)) {
+    let worst = |model: &Judged| sizes(model).into_iter().fold(0.0, f64::max);
+    let fitted = rows.models.len().saturating_sub(2);
+    let near = rows.models[fitted..].iter().map(worst).fold(0.0, f64::max);
+    for model in &rows.models {
         let by: Vec<Vector> = seen
             .iter()
             .map(|i| {
@@ -171,6 +175,7 @@ fn show_rows(page: &mut Page, rows: &Rows, robot: &Profile) {
             .collect();
         let mut path = Path::vectors(model.name, model.tone, &at, &by);
         path.items = seen.iter().flat_map(|i| [*i, *i]).collect();
+        path.off = worst(model) > FAR_OFF * near;
         paths.push(path);
     }
     let tools: Vec<_> = rows

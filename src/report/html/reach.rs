@@ -1,0 +1,120 @@
+//! The page of `hexapod --reach`: which poses of the ballbar hexapod a robot can measure.
+
+use super::cell::{Along, Cell, Points, Robot, Solid};
+use super::numbers::{Column, Number, Table, significant};
+use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use crate::check::Meshes;
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::model::profile::{Mounted, Profile};
+use crate::register::hexapod::{Device, Reached};
+
+/// Radius of a ball where it is drawn, metres.
+const BALL_M: f64 = 0.006;
+
+/// The page.
+#[must_use]
+pub fn page(
+    all: &[Reached],
+    device: &Device,
+    world_from_base: &Pose,
+    profile: &Profile,
+    tool: &Mounted,
+    file: &str,
+) -> Page {
+    let count = all.iter().filter(|r| r.measurable).count();
+    let level = if count > 0 { Level::Good } else { Level::Error };
+    let answer = format!("{count} of {} poses are measurable", all.len());
+    let mut page = Page::new("Poses of the ballbar hexapod".into(), level, answer);
+    page.lead.push(file.to_owned());
+    page.lead.push(super::programs::robot_name(profile));
+    let reached = all.iter().filter(|r| !r.postures.is_empty()).count();
+    page.fact("poses within the joint limits", reached.to_string());
+    page.fact(
+        "ballbar",
+        format!(
+            "{:.1} \u{b1} {:.1} mm",
+            mm_from_m(device.leg_m),
+            mm_from_m(device.range_m)
+        ),
+    );
+    let state = |r: &Reached| match (r.measurable, r.leg_error_m) {
+        (true, _) => "measurable",
+        (_, Some(_)) => "beyond the ballbar",
+        _ => "out of reach",
+    };
+    let joint = |k: usize| {
+        let angle = move |r: &Reached| Some(significant(r.postures.first()?.1[k] / DEG, 6));
+        Column::numbers(&format!("joint {}", k + 1), "deg", all.iter().map(angle))
+    };
+    let range = vec![Number(mm_from_m(device.range_m)); all.len()];
+    let mut columns = vec![
+        Column::counts("pose", 1..=all.len()),
+        Column::texts("design", all.iter().map(|r| r.design.name())),
+        Column::counts("mode", all.iter().map(|r| r.solved.mode)),
+        Column::names("state", all.iter().map(state)),
+        Column::counts("postures", all.iter().map(|r| r.postures.len())),
+        Column::numbers(
+            "largest error of a leg",
+            "mm",
+            all.iter()
+                .map(|r| r.leg_error_m.map(|e| significant(mm_from_m(e), 4))),
+        ),
+        Column::numbers("range", "mm", range),
+    ];
+    columns.extend((0..6).map(joint));
+    page.tables.insert("poses".into(), Table { columns });
+    let mut points = Points {
+        name: "poses",
+        title: "Poses".into(),
+        ..Points::default()
+    };
+    let world = |p| world_from_base.transform(p);
+    for r in all {
+        let joints = r.postures.first().map(|(_, q)| *q);
+        points.push(Some(world(r.solved.pose.translation)), joints);
+    }
+    points.first = all.iter().position(|r| r.measurable).unwrap_or(0);
+    let [b12, b23, b31] = device.base_m;
+    // B1 is the origin, B2 on x, B3 in the plane of x and y
+    let x = (b12 * b12 + b31 * b31 - b23 * b23) / (2.0 * b12);
+    let y = (b31 * b31 - x * x).max(0.0).sqrt();
+    let balls = [[0.0; 3], [b12, 0.0, 0.0], [x, y, 0.0]];
+    let bodies = balls
+        .iter()
+        .zip(["B1", "B2", "B3"])
+        .map(|(place, name)| Solid::ball(name, world(*place), BALL_M));
+    page.sections.push(Section::Cell(Box::new(Cell {
+        title: "In the cell".into(),
+        note: "The origin of the tool's balls at each pose, above the three balls of the base; choose one to see the arm in its first posture.".into(),
+        table: "poses".into(),
+        robot: Some(Robot::of(profile, &[tool.flange_from_tool], None, &Meshes::default())),
+        bodies: bodies.collect(),
+        points,
+        paths: Vec::new(),
+        ellipsoids: Vec::new(),
+        along: Along::No(false),
+    })));
+    let mut chart = Chart::new(
+        "Largest error of a leg",
+        "poses",
+        Axis::new("pose", ""),
+        Axis::new("error", "mm"),
+    );
+    chart.note =
+        "Against the ballbar's nominal length; within its range a pose can be measured.".into();
+    chart.picks = true;
+    chart.wide = true;
+    chart
+        .series
+        .push(Series::new(Kind::Dots, 0, 5, "leg", Tone::One));
+    chart.series.push(Series::new(
+        Kind::Line,
+        0,
+        6,
+        "range of the ballbar",
+        Tone::Limit,
+    ));
+    page.sections.push(Section::Chart(chart));
+    page
+}
