@@ -1,10 +1,16 @@
 // What a screenshot shows, found in a page of its own: how many colours, and how much is not the ground.
 
+/** A page of its own, the same for all pictures of a browser. */
+const pages = new WeakMap();
+const blank = (browser) => {
+  if (!pages.has(browser)) pages.set(browser, browser.newPage());
+  return pages.get(browser);
+};
+
 /** Colours of a PNG and the part of its pixels that differ from the most frequent one. */
 export async function pixels(browser, png) {
-  const page = await browser.newPage();
-  try {
-    return await page.evaluate(async (base64) => {
+  const page = await blank(browser);
+  return page.evaluate(async (base64) => {
       const image = new Image();
       image.src = `data:image/png;base64,${base64}`;
       await image.decode();
@@ -20,17 +26,13 @@ export async function pixels(browser, png) {
       }
       const most = Math.max(...counts.values());
       return { colours: counts.size, drawn: 1 - most / (data.length / 4) };
-    }, png.toString("base64"));
-  } finally {
-    await page.close();
-  }
+  }, png.toString("base64"));
 }
 
 /** The part of pixels that differ between two PNGs of the same size. */
 export async function difference(browser, one, other) {
-  const page = await browser.newPage();
-  try {
-    return await page.evaluate(async (both) => {
+  const page = await blank(browser);
+  return page.evaluate(async (both) => {
       const read = async (base64) => {
         const image = new Image();
         image.src = `data:image/png;base64,${base64}`;
@@ -45,8 +47,5 @@ export async function difference(browser, one, other) {
       let differ = 0;
       for (let k = 0; k < a.length; k += 4) differ += Math.abs(a[k] - b[k]) + Math.abs(a[k + 1] - b[k + 1]) + Math.abs(a[k + 2] - b[k + 2]) > 24;
       return differ / (a.length / 4);
-    }, [one.toString("base64"), other.toString("base64")]);
-  } finally {
-    await page.close();
-  }
+  }, [one.toString("base64"), other.toString("base64")]);
 }

@@ -134,7 +134,10 @@ pub fn random_joints(
 
 /// The program under test.
 pub fn poseshift() -> assert_cmd::Command {
-    assert_cmd::Command::new(env!("CARGO_BIN_EXE_poseshift"))
+    let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_poseshift"));
+    // as wide as where nobody looks
+    command.env_remove("COLUMNS");
+    command
 }
 
 /// A new empty folder that is gone at the end of the test.

@@ -130,7 +130,8 @@ function detailOf(box, cell, table, findings) {
       shown.push(element("pre", { className: "code" }, number, valueOf(code, row)));
     }
     const { joints } = cell.points;
-    if (joints && joints[6 * row] != null) {
+    const listed = table.columns.some((column) => column.label === "joint 1");
+    if (!listed && joints && joints[6 * row] != null) {
       list.append(element("dt", {}, "joints, deg"), element("dd", {}, joints.slice(6 * row, 6 * row + 6).map((q) => text(q)).join("  ")));
     }
     const own = findings(row);
@@ -201,7 +202,7 @@ export function showCell(cell, table, findings) {
   const { bar, apply } = controls(view, cell);
   const parts = [element("h2", {}, cell.title)];
   if (cell.note) parts.push(element("p", {}, cell.note));
-  const scaled = view && cell.paths.some((path) => path.by && path.graded) ? scaleBar(view, "mm") : null;
+  const scaled = view && cell.paths.some((path) => path.graded && path.worst > 0) ? scaleBar(view, "mm") : null;
   parts.push(bar, element("div", { className: "cell" }, element("div", { className: "space" }, stage, scaled), detail), element("h3", {}, cell.points.title), list.node);
   const node = element("section", {}, ...parts);
   const chart = along(cell, (row) => select(row));

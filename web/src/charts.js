@@ -152,6 +152,7 @@ export function showChart(chart, table, onselect) {
       width,
       height: rows ? 60 + 20 * count : chart.height ?? 260,
       marginLeft: rows ? labels.widest + 14 : 56,
+      marginTop: 30,
       marginBottom: 46,
       style: { background: "transparent", fontSize: "12px", overflow: "visible" },
       x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? names : undefined },

@@ -128,5 +128,7 @@ export function makeRobot(robot) {
       }
     }
   }
+  // until an item is chosen
+  pose([0, 0, 0, 0, 0, 0], 0);
   return { group, pose };
 }

@@ -32,9 +32,13 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
   const back = element("button", { type: "button", onclick: () => turn(-1) }, "\u2039 Previous");
   const next = element("button", { type: "button", onclick: () => turn(1) }, "Next \u203a");
 
+  /** Numbers stand to the right, also where some are missing. */
+  const isNumeric = (column) => Array.isArray(column.values) && column.values.every((value) => value == null || typeof value === "number");
+  const numeric = new Map(columns.map((column) => [column, count > 0 && isNumeric(column)]));
+
   const heads = columns.map((column) => {
     const button = element("button", { type: "button", className: "sort", onclick: () => sortBy(column) }, heading(column));
-    return element("th", { scope: "col", className: count && typeof cell(column, 0) === "number" ? "number" : "" }, button);
+    return element("th", { scope: "col", className: numeric.get(column) ? "number" : "" }, button);
   });
 
   function turn(by) {
@@ -43,7 +47,7 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
   }
 
   function sortBy(column) {
-    descending = sorted === column ? !descending : typeof cell(column, 0) === "number";
+    descending = sorted === column ? !descending : numeric.get(column);
     sorted = column;
     arrange();
   }
@@ -74,8 +78,7 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
   function line(row) {
     const cells = columns.map((column) => {
       const value = cell(column, row);
-      const number = typeof value === "number";
-      const td = element("td", { className: number ? "number" : "" }, text(value));
+      const td = element("td", { className: numeric.get(column) ? "number" : "" }, text(value));
       if (typeof value === "string" && value.length > LONG) td.classList.add("long");
       if (column.label === "severity" && value) td.classList.add("severity", String(value));
       return td;
@@ -90,6 +93,8 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
   }
 
   function fill() {
+    // the last page is a full one, too
+    first = Math.max(0, Math.min(first, order.length - page));
     const shown = order.slice(first, first + page);
     body.replaceChildren(...shown.map(line));
     if (onselect && shown.length && !body.querySelector('tr[tabindex="0"]')) body.firstElementChild.tabIndex = 0;
@@ -149,7 +154,8 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
   if (many || count > 10) bar.append(where);
   bar.append(csvButton(table, slug(title ?? "table")));
   fill();
-  const node = element("div", { className: "table" }, element("div", { className: "rows" }, grid), bar);
+  const none = count ? null : element("p", { className: "where" }, "Nothing to list.");
+  const node = element("div", { className: "table" }, element("div", { className: "rows" }, grid), none, bar);
   return { node, select: (row) => choose(row, false) };
 }
 

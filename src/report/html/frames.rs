@@ -72,7 +72,8 @@ fn level(findings: &[Finding]) -> Level {
 pub fn pose_text(pose: &Pose) -> String {
     let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
     let [x, y, z] = [x, y, z].map(mm_from_m);
-    let [rx, ry, rz] = [rx, ry, rz].map(|r| r / DEG);
+    // a zero has no sign
+    let [rx, ry, rz] = [rx, ry, rz].map(|r| (r / DEG * 1e4).round() / 1e4 + 0.0);
     format!("{x:.3} {y:.3} {z:.3} mm, {rx:.4} {ry:.4} {rz:.4} deg")
 }
 
@@ -154,9 +155,16 @@ fn show_points(page: &mut Page, frame: &Frame) {
     } else {
         String::new()
     };
+    let what = match (worst > 0.0, frame.ellipsoids.is_empty()) {
+        (true, true) => "What is left at each point, magnified.",
+        (false, _) => "One standard deviation as an ellipsoid, magnified.",
+        _ => {
+            "What is left at each point, and one standard deviation as an ellipsoid, both magnified."
+        }
+    };
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "In space".into(),
-        note: format!("What is left at each point, and one standard deviation as an ellipsoid, both magnified.{thinned}"),
+        note: format!("{what}{thinned}"),
         table: "points".into(),
         robot: None,
         bodies: Vec::new(),

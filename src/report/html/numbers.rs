@@ -155,6 +155,13 @@ impl Column {
         Self::new(label, "", Values::Names { names, index })
     }
 
+    /// Charts draw it, tables do not show it.
+    #[must_use]
+    pub fn for_charts(mut self) -> Self {
+        self.hidden = true;
+        self
+    }
+
     /// It holds lines of a program.
     #[must_use]
     pub fn of_code(mut self) -> Self {

@@ -1,7 +1,7 @@
 //! The page of `hexapod --reach`: which poses of the ballbar hexapod a robot can measure.
 
 use super::cell::{Along, Cell, Points, Robot, Solid};
-use super::numbers::{Column, Number, Table, significant};
+use super::numbers::{Column, Number, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::check::Meshes;
 use crate::geometry::Pose;
@@ -58,9 +58,9 @@ pub fn page(
             "largest error of a leg",
             "mm",
             all.iter()
-                .map(|r| r.leg_error_m.map(|e| significant(mm_from_m(e), 4))),
+                .map(|r| r.leg_error_m.map(|e| fixed(mm_from_m(e), 6))),
         ),
-        Column::numbers("range", "mm", range),
+        Column::numbers("range", "mm", range).for_charts(),
     ];
     columns.extend((0..6).map(joint));
     page.tables.insert("poses".into(), Table { columns });
@@ -73,6 +73,10 @@ pub fn page(
     for r in all {
         let joints = r.postures.first().map(|(_, q)| *q);
         points.push(Some(world(r.solved.pose.translation)), joints);
+        // the cold end of the colours for what can be measured
+        points
+            .error
+            .push(Number(if r.measurable { 0.0 } else { 1.0 }));
     }
     points.first = all.iter().position(|r| r.measurable).unwrap_or(0);
     let [b12, b23, b31] = device.base_m;
@@ -86,7 +90,7 @@ pub fn page(
         .map(|(place, name)| Solid::ball(name, world(*place), BALL_M));
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "In the cell".into(),
-        note: "The origin of the tool's balls at each pose, above the three balls of the base; choose one to see the arm in its first posture.".into(),
+        note: "The origin of the tool's balls at each pose, above the three balls of the base; choose one to see the arm in its first posture. What cannot be measured is red.".into(),
         table: "poses".into(),
         robot: Some(Robot::of(profile, &[tool.flange_from_tool], None, &Meshes::default())),
         bodies: bodies.collect(),

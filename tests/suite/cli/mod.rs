@@ -6,3 +6,4 @@ mod identify;
 mod jobs_and_tables_of_poses;
 mod reports;
 mod tables;
+mod widths;

@@ -1,9 +1,10 @@
 //! What holds for the report of every command.
 
 use crate::support::{poseshift, repository, scratch};
+use std::path::Path;
 
 /// Commands in an order in which each finds what it needs, their status, and the kind of their report. `@` is the repository.
-const COMMANDS: &[(&str, i32, &str)] = &[
+pub const COMMANDS: &[(&str, i32, &str)] = &[
     (
         "plan --profile @robots/abb_irb120_thesis.yaml --count 40 -o joints.csv",
         0,
@@ -77,19 +78,27 @@ const COMMANDS: &[(&str, i32, &str)] = &[
     ),
 ];
 
+/// A command of a line in which `@` is the repository, to be run in a folder.
+pub fn given(line: &str, folder: &Path) -> assert_cmd::Command {
+    let mut command = poseshift();
+    command.current_dir(folder);
+    for word in line.split(' ') {
+        match word.strip_prefix('@') {
+            Some(path) => command.arg(repository(path)),
+            None => command.arg(word),
+        };
+    }
+    command
+}
+
 #[test]
 fn reports_begin_with_their_kind_and_are_alone_on_standard_output() {
     let folder = scratch();
     for (line, status, kind) in COMMANDS {
-        let mut command = poseshift();
-        command.current_dir(folder.path()).arg("--json");
-        for word in line.split(' ') {
-            match word.strip_prefix('@') {
-                Some(path) => command.arg(repository(path)),
-                None => command.arg(word),
-            };
-        }
-        let output = command.output().expect("the program starts");
+        let output = given(line, folder.path())
+            .arg("--json")
+            .output()
+            .expect("the program starts");
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(*status), "{line}: {told}");
         let report = String::from_utf8(output.stdout).expect("UTF-8");

@@ -63,7 +63,10 @@ pub fn compensate_page(of: &Compensated) -> Page {
     );
     page.fact(
         "largest residual",
-        format!("{:.1e} mm", mm_from_m(s.max_residual_m)),
+        match mm_from_m(s.max_residual_m) {
+            0.0 => "0 mm".into(),
+            residual => format!("{residual:.1e} mm"),
+        },
     );
     page.fact(
         "largest rounding",
