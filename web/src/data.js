@@ -3,7 +3,9 @@
 /** The page's data: JSON, or much of it packed (zlib, base64). */
 export async function dataOf(node) {
   if (node.type !== "application/zlib") return JSON.parse(node.textContent);
-  const packed = Uint8Array.from(atob(node.textContent), (letter) => letter.charCodeAt(0));
+  const letters = atob(node.textContent);
+  const packed = new Uint8Array(letters.length);
+  for (let k = 0; k < packed.length; k += 1) packed[k] = letters.charCodeAt(k);
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(unpacked).json();
 }

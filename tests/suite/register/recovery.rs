@@ -10,7 +10,7 @@ use poseshift::register::handeye::{HandEye, Setup, refine_by_corners};
 use poseshift::register::hexapod::{
     Design, Device, Lengths, legs_at, measurable, modes, near, set_base_frame, solve, spread,
 };
-use poseshift::register::icp::{Doubt, Metric, Options, icp};
+use poseshift::register::icp::{Doubt, Found, Metric, Options, icp};
 use poseshift::register::kabsch::kabsch;
 use poseshift::register::robust::robust;
 use poseshift::register::uncertainty::PoseCovariance;
@@ -176,6 +176,53 @@ fn clouds_are_laid_on_each_other_from_any_turn() {
             };
             assert!(error < limit, "{metric:?} {error}");
             assert!(found.overlap > 0.9, "{}", found.overlap);
+            left_is_what_the_pose_leaves(&found, &from, &to, metric);
+        }
+    }
+}
+
+/// Places and residuals of the points that are told, against the pose and all points.
+fn left_is_what_the_pose_leaves(found: &Found, from: &[Vector], to: &[Vector], metric: Metric) {
+    assert!(
+        (1000..=2000).contains(&found.left.len()),
+        "{}",
+        found.left.len()
+    );
+    let mut squares = 0.0;
+    for one in found.left.iter().filter(|one| one.kept) {
+        let at = found.to_from_from.transform(from[one.index]);
+        assert!(
+            norm(sub(at, one.at_m)) < 1e-12,
+            "{metric:?}: point {}",
+            one.index
+        );
+        squares += norm(one.left_m).powi(2);
+    }
+    let kept = found.left.iter().filter(|one| one.kept).count();
+    assert!(
+        kept * 10 >= found.left.len() * 8,
+        "{kept} of {}",
+        found.left.len()
+    );
+    let rms = (squares / kept as f64).sqrt();
+    if metric == Metric::PointToPlane {
+        assert!(
+            (0.8..1.25).contains(&(rms / found.rms_m)),
+            "{rms} is not {}",
+            found.rms_m
+        );
+    } else {
+        // the nearest of all points of TO, found one by one
+        for one in found.left.iter().step_by(100) {
+            let nearest = to
+                .iter()
+                .map(|p| norm(sub(*p, one.at_m)))
+                .fold(f64::INFINITY, f64::min);
+            assert!(
+                (nearest - norm(one.left_m)).abs() < 1e-12,
+                "point {}",
+                one.index
+            );
         }
     }
 }
