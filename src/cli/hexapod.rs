@@ -10,14 +10,14 @@ use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion, Vector};
 use crate::register::frame_file::{Frame, Sigma};
 use crate::register::hexapod::{
-    BaseFrame, Design, Device, HexapodError, Lengths, NAMES, Solved, Spread, modes, near, reach,
-    set_base_frame, solve, spread,
+    BaseFrame, Design, Device, HexapodError, Lengths, NAMES, Reached, Solved, Spread, modes, near,
+    reach, set_base_frame, solve, spread,
 };
 use crate::register::uncertainty::PoseCovariance;
 use crate::report;
 use crate::report::html::frames::{Left, Uncertain, frame_page, pose_text};
 use crate::report::html::page::Page;
-use crate::report::html::reach::page as reach_page;
+use crate::report::html::reach::{Ballbar, Reached as DrawnPose, page as reach_page};
 use clap::Args;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -369,7 +369,14 @@ impl Hexapod {
         );
         if self.report.is_wanted() {
             let file = self.frame.as_ref().expect(missing).display().to_string();
-            let page = reach_page(&all, &device, &frame.to_from_from, &profile, &tool, &file);
+            let world = frame.to_from_from;
+            let drawn: Vec<_> = all.iter().map(|one| reach_drawn(one, &world)).collect();
+            let ballbar = Ballbar {
+                length_m: device.leg_m,
+                range_m: device.range_m,
+                balls_m: device.base_balls_m().map(|p| world.transform(p)),
+            };
+            let page = reach_page(&drawn, &ballbar, &profile, &tool, &file);
             outputs.extend(self.report.output(Some(&page)));
         }
         files::write_all(&outputs)?;
@@ -414,6 +421,19 @@ impl Hexapod {
             print(&self.report.told())?;
         }
         Ok(Answer::Yes)
+    }
+}
+
+/// A pose of --reach for its page.
+fn reach_drawn(reached: &Reached, world_from_base: &Pose) -> DrawnPose {
+    DrawnPose {
+        design: reached.design.name(),
+        mode: reached.solved.mode,
+        place_m: world_from_base.transform(reached.solved.pose.translation),
+        postures: reached.postures.len(),
+        joints: reached.postures.first().map(|(_, q)| *q),
+        leg_error_m: reached.leg_error_m,
+        measurable: reached.measurable,
     }
 }
 

@@ -1,8 +1,8 @@
 //! The poses that the device can measure, and which of them a robot reaches.
 
-use super::solve::{Solved, legs_at, solve};
+use super::solve::{Solved, base_points, legs_at, solve};
 use super::{Design, HexapodError, Lengths};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vector};
 use crate::inverse::{Arm, Branch, Unsupported};
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
@@ -18,6 +18,14 @@ pub struct Device {
     pub leg_m: f64,
     /// How far from it the ballbar measures, to each side.
     pub range_m: f64,
+}
+
+impl Device {
+    /// Where the balls B1, B2, B3 are in the base's frame, metres.
+    #[must_use]
+    pub fn base_balls_m(&self) -> [Vector; 3] {
+        base_points(self.base_m).0
+    }
 }
 
 /// A measurable pose and how the robot stands there.

@@ -48,7 +48,7 @@ fn meet<S: Scalar>(p: [Vector<S>; 3], r: [S; 3], side: f64) -> (Vector<S>, S) {
 
 /// The base balls by their own names.
 #[inline(always)]
-fn base_points<S: Scalar>(b: [S; 3]) -> ([Vector<S>; 3], S) {
+pub(super) fn base_points<S: Scalar>(b: [S; 3]) -> ([Vector<S>; 3], S) {
     let (o, half) = (S::zero(), S::constant(0.5));
     let [b12, b23, b31] = b;
     let x = half * (b12 * b12 + b31 * b31 - b23 * b23) / b12;

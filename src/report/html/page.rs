@@ -408,7 +408,7 @@ impl Page {
             style => Template::from_safe_string(STYLE.into()),
             script => Template::from_safe_string(SCRIPT.into()),
             script_hash => Template::from_safe_string(hash(SCRIPT)),
-            kind => kind,
+            kind => Template::from_safe_string(kind.into()),
             data => Template::from_safe_string(data),
         };
         environment

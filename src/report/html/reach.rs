@@ -4,20 +4,48 @@ use super::cell::{Along, Cell, Points, Robot, Solid};
 use super::numbers::{Column, Number, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::check::Meshes;
-use crate::geometry::Pose;
+use crate::geometry::Vector;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{Mounted, Profile};
-use crate::register::hexapod::{Device, Reached};
 
 /// Radius of a ball where it is drawn, metres.
 const BALL_M: f64 = 0.006;
+
+/// A pose of the device, and how the robot stands there; metres and radians.
+#[derive(Clone, Debug)]
+pub struct Reached {
+    /// The order of the balls.
+    pub design: String,
+    /// The assembly mode.
+    pub mode: usize,
+    /// Where the origin of the tool's balls is in the world.
+    pub place_m: Vector,
+    /// Postures within the joint limits.
+    pub postures: usize,
+    /// The first of them.
+    pub joints: Option<[f64; 6]>,
+    /// Largest difference of a leg from the ballbar's nominal length.
+    pub leg_error_m: Option<f64>,
+    /// Whether the ballbar measures it.
+    pub measurable: bool,
+}
+
+/// The ballbar and the balls of the base, metres.
+#[derive(Clone, Copy, Debug)]
+pub struct Ballbar {
+    /// Its nominal length.
+    pub length_m: f64,
+    /// How far it measures to each side.
+    pub range_m: f64,
+    /// Where the balls B1, B2, B3 are in the world.
+    pub balls_m: [Vector; 3],
+}
 
 /// The page.
 #[must_use]
 pub fn page(
     all: &[Reached],
-    device: &Device,
-    world_from_base: &Pose,
+    ballbar: &Ballbar,
     profile: &Profile,
     tool: &Mounted,
     file: &str,
@@ -28,14 +56,14 @@ pub fn page(
     let mut page = Page::new("Poses of the ballbar hexapod".into(), level, answer);
     page.lead.push(file.to_owned());
     page.lead.push(super::programs::robot_name(profile));
-    let reached = all.iter().filter(|r| !r.postures.is_empty()).count();
+    let reached = all.iter().filter(|r| r.postures > 0).count();
     page.fact("poses within the joint limits", reached.to_string());
     page.fact(
         "ballbar",
         format!(
             "{:.1} \u{b1} {:.1} mm",
-            mm_from_m(device.leg_m),
-            mm_from_m(device.range_m)
+            mm_from_m(ballbar.length_m),
+            mm_from_m(ballbar.range_m)
         ),
     );
     let state = |r: &Reached| match (r.measurable, r.leg_error_m) {
@@ -44,16 +72,16 @@ pub fn page(
         _ => "out of reach",
     };
     let joint = |k: usize| {
-        let angle = move |r: &Reached| Some(significant(r.postures.first()?.1[k] / DEG, 6));
+        let angle = move |r: &Reached| Some(significant(r.joints?[k] / DEG, 6));
         Column::numbers(&format!("joint {}", k + 1), "deg", all.iter().map(angle))
     };
-    let range = vec![Number(mm_from_m(device.range_m)); all.len()];
+    let range = vec![Number(mm_from_m(ballbar.range_m)); all.len()];
     let mut columns = vec![
         Column::counts("pose", 1..=all.len()),
-        Column::texts("design", all.iter().map(|r| r.design.name())),
-        Column::counts("mode", all.iter().map(|r| r.solved.mode)),
+        Column::texts("design", all.iter().map(|r| r.design.clone())),
+        Column::counts("mode", all.iter().map(|r| r.mode)),
         Column::names("state", all.iter().map(state)),
-        Column::counts("postures", all.iter().map(|r| r.postures.len())),
+        Column::counts("postures", all.iter().map(|r| r.postures)),
         Column::numbers(
             "largest error of a leg",
             "mm",
@@ -69,25 +97,19 @@ pub fn page(
         title: "Poses".into(),
         ..Points::default()
     };
-    let world = |p| world_from_base.transform(p);
     for r in all {
-        let joints = r.postures.first().map(|(_, q)| *q);
-        points.push(Some(world(r.solved.pose.translation)), joints);
+        points.push(Some(r.place_m), r.joints);
         // the cold end of the colours for what can be measured
         points
             .error
             .push(Number(if r.measurable { 0.0 } else { 1.0 }));
     }
     points.first = all.iter().position(|r| r.measurable).unwrap_or(0);
-    let [b12, b23, b31] = device.base_m;
-    // B1 is the origin, B2 on x, B3 in the plane of x and y
-    let x = (b12 * b12 + b31 * b31 - b23 * b23) / (2.0 * b12);
-    let y = (b31 * b31 - x * x).max(0.0).sqrt();
-    let balls = [[0.0; 3], [b12, 0.0, 0.0], [x, y, 0.0]];
-    let bodies = balls
+    let bodies = ballbar
+        .balls_m
         .iter()
         .zip(["B1", "B2", "B3"])
-        .map(|(place, name)| Solid::ball(name, world(*place), BALL_M));
+        .map(|(place, name)| Solid::ball(name, *place, BALL_M));
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "In the cell".into(),
         note: "The origin of the tool's balls at each pose, above the three balls of the base; choose one to see the arm in its first posture. What cannot be measured is red.".into(),
