@@ -10,7 +10,7 @@ use crate::compensate::{CompensateError, Equipped};
 use crate::geometry::Jet;
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
-use crate::program::{Language, Motion, Source};
+use crate::program::{Language, Motion, Move, Source};
 
 /// Models of one tool, for plain numbers and for bounds.
 pub(super) struct Arms {
@@ -84,6 +84,10 @@ impl Walk {
             .map(|(equipped, tool)| Some(Arms::of(equipped.as_ref()?, profile, tool.as_ref()?)))
             .collect();
         Ok(Self { route, arms })
+    }
+
+    pub fn motion(&self, index: usize) -> &Move {
+        &self.route.program.moves[index]
     }
 
     pub fn arms(&self, stop: &Stop) -> &Arms {

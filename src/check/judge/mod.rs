@@ -23,19 +23,6 @@ pub(super) struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn finding(
-        &self,
-        motion: usize,
-        id: &'static str,
-        severity: Severity,
-        message: String,
-        hint: &str,
-    ) -> Finding {
-        let motion = &self.walk.route.program.moves[motion];
-        let source = &self.subject.sources[motion.file as usize];
-        source.finding(motion.offset as usize, id, severity, message, hint)
-    }
-
     /// What the move does, and what a person should look at.
     pub fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
         let mut findings = Vec::new();
@@ -154,8 +141,8 @@ impl Job<'_> {
         let Some(path) = &report.path else { return };
         if !path.certified {
             let message = "bounds between samples cannot be guaranteed here: the move passes near a singularity, or the controller's own chain is calibrated";
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "path-uncertified",
                 Severity::Note,
                 message.into(),
@@ -173,8 +160,8 @@ impl Job<'_> {
                 mm_from_m(path.sampled.distance_m),
                 100.0 * path.at
             );
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "path-error",
                 Severity::Error,
                 message,
