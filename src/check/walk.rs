@@ -109,6 +109,20 @@ impl Walk {
         }
     }
 
+    /// A stop alone, where it is unknown how the robot comes there.
+    pub fn standing(&self, stop: &Stop) -> Leg<'_> {
+        Leg {
+            branch: stop.branch,
+            equipped: self.equipped(stop),
+            course: Course::Joint {
+                from: stop.q,
+                to: stop.q,
+            },
+            start: stop.q,
+            conditions: self.conditions(stop),
+        }
+    }
+
     /// The move from the stop before, where both are known; arcs are one leg at their end.
     pub fn leg(&self, index: usize, turning: Turning) -> Option<Leg<'_>> {
         let moves = &self.route.program.moves;

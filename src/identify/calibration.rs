@@ -171,16 +171,23 @@ fn base_is_sought(selection: &Selection) -> bool {
 ///
 /// # Errors
 /// As [`calibrate`].
-#[allow(
-    clippy::missing_panics_doc,
-    reason = "what is expected holds by construction"
-)]
 pub fn fit_frames(
     profile: &Profile,
     measurements: &Measurements,
     shape: Shape,
     points_too: bool,
 ) -> Result<(Problem, Solution), IdentifyError> {
+    let (problem, begun) = begin_frames(profile, measurements, points_too)?;
+    let solution = solve(&problem, begun, shape, true)?;
+    Ok((problem, solution))
+}
+
+/// The problem that [`fit_frames`] solves, and where it starts.
+pub(super) fn begin_frames(
+    profile: &Profile,
+    measurements: &Measurements,
+    points_too: bool,
+) -> Result<(Problem, Estimate), IdentifyError> {
     let mut selection = Selection::level(Level::Frames);
     if points_too && measurements.rows.iter().any(|row| row.point.is_some()) {
         selection.identify =
@@ -200,8 +207,7 @@ pub fn fit_frames(
         begin(&problem, &mut estimate, guess);
         contact::start(&mut problem, &mut estimate)?;
     }
-    let solution = solve(&problem, estimate, shape, true)?;
-    Ok((problem, solution))
+    Ok((problem, estimate))
 }
 
 /// Identifies a robot's parameters from measurements.

@@ -3,7 +3,7 @@
 mod encounter;
 mod joints;
 
-use super::course::{Course, Leg, Piece};
+use super::course::{Leg, Piece};
 use super::deviation::{self, PathError, Wanted};
 use super::walk::{Arms, Walk};
 use super::{MoveReport, Options, Subject, limits, nominal};
@@ -69,25 +69,9 @@ impl Job<'_> {
             zone_m: pace.zone_m,
             cuts_corner: pace.cuts_corner(),
         };
-        // where the robot comes from is unknown: its posture alone
-        let standing;
-        let (leg, comes) = if let Some(leg) = self.walk.leg(index, self.options.turning) {
-            (leg, true)
-        } else {
-            standing = Course::Joint {
-                from: stop.q,
-                to: stop.q,
-            };
-            let equipped = self.walk.equipped(&stop);
-            let leg = Leg {
-                branch: stop.branch,
-                equipped,
-                course: standing,
-                start: stop.q,
-                conditions,
-            };
-            (leg, false)
-        };
+        let arriving = self.walk.leg(index, self.options.turning);
+        let comes = arriving.is_some();
+        let leg = arriving.unwrap_or_else(|| self.walk.standing(&stop));
         let pieces = leg.pieces();
         if comes {
             report.path = Some(self.path_error(&leg, &pieces, arms, index));
