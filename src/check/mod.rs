@@ -35,7 +35,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Separation};
 use crate::model::profile::Profile;
-use crate::program::{Language, Motion, Program, Source};
+use crate::program::{Language, Motion, Move, Program, Source};
 use collision::Clearance;
 use deviation::PathError;
 use judge::Job;
@@ -89,6 +89,20 @@ pub struct Subject<'a> {
     pub profile: &'a Profile,
     /// What stands around it.
     pub scene: &'a Scene,
+}
+
+impl Subject<'_> {
+    fn finding(
+        &self,
+        motion: &Move,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) -> Finding {
+        let source = &self.sources[motion.file as usize];
+        source.finding(motion.offset as usize, id, severity, message, hint)
+    }
 }
 
 /// Why nothing could be checked.

@@ -214,8 +214,8 @@ impl Job<'_> {
             );
             let hint = "--joint-targets correct shifts joint targets, too";
             let note = Severity::Note;
-            return change(What::Told(self.finding(
-                index,
+            return change(What::Told(self.subject.finding(
+                self.walk.motion(index),
                 "path-from-kept-target",
                 note,
                 message,
@@ -252,19 +252,6 @@ impl Job<'_> {
         change(What::Insert(insertion, count))
     }
 
-    fn finding(
-        &self,
-        motion: usize,
-        id: &'static str,
-        severity: Severity,
-        message: String,
-        hint: &str,
-    ) -> Finding {
-        let motion = &self.walk.route.program.moves[motion];
-        let source = &self.subject.sources[motion.file as usize];
-        source.finding(motion.offset as usize, id, severity, message, hint)
-    }
-
     /// No targets can be inserted where they are needed.
     fn failed(&self, motion: usize, whole_m: f64, why: &str) -> Finding {
         let message = format!(
@@ -273,7 +260,13 @@ impl Job<'_> {
             mm_from_m(self.limit_m)
         );
         let hint = "a larger --max-path-error, or shorter moves";
-        self.finding(motion, "path-not-refined", Severity::Error, message, hint)
+        self.subject.finding(
+            self.walk.motion(motion),
+            "path-not-refined",
+            Severity::Error,
+            message,
+            hint,
+        )
     }
 
     /// The real inverse of the wanted pose at `s`.

@@ -10,7 +10,7 @@ use crate::compensate::{CompensateError, Equipped};
 use crate::geometry::Jet;
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
-use crate::program::{Language, Motion, Source};
+use crate::program::{Language, Motion, Move, Source};
 
 /// Models of one tool, for plain numbers and for bounds.
 pub(super) struct Arms {
@@ -86,6 +86,10 @@ impl Walk {
         Ok(Self { route, arms })
     }
 
+    pub fn motion(&self, index: usize) -> &Move {
+        &self.route.program.moves[index]
+    }
+
     pub fn arms(&self, stop: &Stop) -> &Arms {
         self.arms[stop.tool]
             .as_ref()
@@ -102,6 +106,20 @@ impl Walk {
         Conditions {
             direction: stop.direction.map(f64::from),
             ..Conditions::default()
+        }
+    }
+
+    /// A stop alone, where it is unknown how the robot comes there.
+    pub fn standing(&self, stop: &Stop) -> Leg<'_> {
+        Leg {
+            branch: stop.branch,
+            equipped: self.equipped(stop),
+            course: Course::Joint {
+                from: stop.q,
+                to: stop.q,
+            },
+            start: stop.q,
+            conditions: self.conditions(stop),
         }
     }
 

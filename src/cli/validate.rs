@@ -6,8 +6,8 @@ use super::measurements::{MeasurementFiles, identify_failure};
 use super::page::ReportFile;
 use super::progress::Progress;
 use super::{Answer, Output, files, print, print_json};
-use crate::identify::measurements::Purpose;
-use crate::identify::validation::{Judged, Validation, validate_telling};
+use crate::identify::measurements::{Measurement, Purpose};
+use crate::identify::validation::{Judged, Refit, Validation, validate_telling};
 use crate::report::html::measurements::validate_page;
 use crate::report::identification;
 use clap::Args;
@@ -22,7 +22,8 @@ pub struct Validate {
     profile: PathBuf,
     #[command(flatten)]
     measurements: MeasurementFiles,
-    /// Fit base, tool and points to these rows first: the device or the tool was set up anew
+    /// Fit base, tool and points first, to the rows not marked for `validate` where there are both, else to those judged: the
+    /// device or the tool was set up anew
     #[arg(long)]
     refit_frames: bool,
     /// Identify the profile's effects again without each of so many parts of the configurations
@@ -41,27 +42,26 @@ impl Validate {
         let read = self.measurements.paths().chain([self.profile.as_path()]);
         self.report.refuse_over(read, [])?;
         let (mut measurements, hashes) = self.measurements.read()?;
-        let marked = measurements
-            .rows
-            .iter()
-            .any(|row| row.purpose == Some(Purpose::Validate));
-        if marked && !self.all_sets {
-            measurements = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
+        let is_for = |row: &Measurement| row.purpose == Some(Purpose::Validate);
+        let some = measurements.rows.iter().any(is_for) && !self.all_sets;
+        let refit = match self.refit_frames {
+            false => Refit::No,
+            true if some && !measurements.rows.iter().all(is_for) => Refit::Others,
+            true => Refit::Judged,
+        };
+        if some && refit != Refit::Others {
+            measurements = measurements.filtered(|_, row| is_for(row));
         }
         let name = self.measurements.name();
         let folds = self.folds.map(|n| n as usize);
         let progress = Progress::new(output, "validating");
-        let found = validate_telling(
-            &profile,
-            &measurements,
-            self.refit_frames,
-            folds,
-            &mut |done, of| progress.tell(done, of),
-        )
+        let found = validate_telling(&profile, &measurements, refit, folds, &mut |done, of| {
+            progress.tell(done, of)
+        })
         .map_err(|error| identify_failure(&name, &error))?;
         drop(progress);
         if self.report.is_wanted() {
-            let page = validate_page(&found, &measurements, &profile, &name);
+            let page = validate_page(&found, &profile, &name);
             let page = self.report.output(Some(&page));
             files::write_all(page.as_slice())?;
         }
@@ -88,7 +88,7 @@ fn models(found: &Validation) -> [(&'static str, &'static str, &Judged); 3] {
 
 fn report(found: &Validation) -> Value {
     let mut report = json!({
-        "poseshift": "validation/1", "rows": found.problem.rows.len(), "frames_refitted": found.refitted,
+        "poseshift": "validation/1", "rows": found.problem.rows.len(), "frames_refitted": found.refit != Refit::No,
         "normalised_rms": found.normalised_rms,
     });
     for (key, _, judged) in models(found) {
@@ -129,8 +129,8 @@ fn report(found: &Validation) -> Value {
 
 fn text(found: &Validation, all: bool) -> String {
     let mut out = format!("{} rows\n", found.problem.rows.len());
-    if found.refitted {
-        out += "base, tool and points were fitted to these rows first\n";
+    if let Some(told) = found.refit.told() {
+        out += &format!("{told}\n");
     }
     out.push('\n');
     let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];

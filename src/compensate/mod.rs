@@ -243,16 +243,7 @@ impl Job<'_> {
         hint: &str,
     ) -> Finding {
         let source = &self.sources[file as usize];
-        let (line, column) = source.line_column(offset as usize);
-        Finding {
-            id,
-            severity,
-            file: source.name.clone(),
-            line,
-            column,
-            message,
-            hint: hint.into(),
-        }
+        source.finding(offset as usize, id, severity, message, hint)
     }
 
     /// A finding at a target.
@@ -287,6 +278,13 @@ pub fn compensate(
     let mut program = language.read(sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
+    if program.targets.is_empty()
+        && let Some(source) = sources.first()
+    {
+        let message = "no target in this program: nothing is changed".to_owned();
+        let hint = "a program that calls others is compensated together with them";
+        findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
+    }
     placement::check_measured(&program, &options.given)?;
     let setting = Setting::of(language, &program, profile, &options.given);
     let mut job = Job {

@@ -1,9 +1,9 @@
 //! What a calibrated model is worth on measurements it has not seen.
 
-use super::calibration::{begin, fit_frames};
+use super::calibration::{begin, begin_frames};
 use super::contact;
 use super::error::IdentifyError;
-use super::measurements::Measurements;
+use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::robust::Shape;
@@ -56,10 +56,37 @@ pub struct Repeated {
     pub variation_mm: Option<f64>,
 }
 
+/// Which rows base, tool and points of the real model are fitted to before it is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refit {
+    /// None: they are the profile's.
+    No,
+    /// Those that it is judged on.
+    Judged,
+    /// Those not marked for `validate`; it is judged on the others.
+    Others,
+}
+
+impl Refit {
+    /// A sentence that says it.
+    #[must_use]
+    pub fn told(self) -> Option<&'static str> {
+        match self {
+            Self::No => None,
+            Self::Judged => Some("Base, tool and points were fitted to these rows first."),
+            Self::Others => {
+                Some("Base, tool and points were fitted to the rows not marked for `validate`.")
+            }
+        }
+    }
+}
+
 /// What a validation found.
 #[derive(Clone, Debug)]
 pub struct Validation {
-    /// The rows.
+    /// The rows that are judged, as they were measured.
+    pub measurements: Measurements,
+    /// The same rows for the real model.
     pub problem: Problem,
     /// The controller's model.
     pub controller: Judged,
@@ -67,8 +94,8 @@ pub struct Validation {
     pub frames_only: Judged,
     /// The real model.
     pub real: Judged,
-    /// Whether base and points were fitted to these rows for the real model too.
-    pub refitted: bool,
+    /// Which rows base, tool and points of the real model were fitted to.
+    pub refit: Refit,
     /// Errors of the real model by parts.
     pub parts: Vec<Part>,
     /// Repeated poses.
@@ -105,15 +132,15 @@ fn controller_profile(profile: &Profile) -> Profile {
 
 /// Compares measurements with a profile's models.
 ///
-/// `refit` fits base, tool and points of the real model to these rows first: the device or the tool was set up anew. With
-/// `folds` the effects of the profile are identified again without each part of the configurations in turn.
+/// Where base, tool and points of the real model are fitted (`refit`), the device or the tool was set up anew. With `folds` the
+/// effects of the profile are identified again without each part of the configurations in turn.
 ///
 /// # Errors
 /// As [`super::calibrate`]; points without coordinates where they are not to be fitted.
 pub fn validate(
     profile: &Profile,
     measurements: &Measurements,
-    refit: bool,
+    refit: Refit,
     folds: Option<usize>,
 ) -> Result<Validation, IdentifyError> {
     validate_telling(profile, measurements, refit, folds, &mut |_, _| ())
@@ -126,7 +153,7 @@ pub fn validate(
 pub fn validate_telling(
     profile: &Profile,
     measurements: &Measurements,
-    refit: bool,
+    refit: Refit,
     folds: Option<usize>,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Validation, IdentifyError> {
@@ -138,7 +165,7 @@ pub fn validate_telling(
                 .as_ref()
                 .is_some_and(|name| !profile.points.contains_key(name))
     });
-    if let Some(row) = unknown.filter(|_| !refit) {
+    if let Some(row) = unknown.filter(|_| refit == Refit::No) {
         return Err(IdentifyError::Suspicious {
             message: format!(
                 "line {}: where point `{}` is on the tool is neither in the file nor in the profile",
@@ -158,16 +185,24 @@ pub fn validate_telling(
     let mut controller_problem = problem.clone();
     controller_problem.features = bare.features;
     controller_problem.sort_rigs(&nominal.effects);
-    let (frames_problem, frames) = fit_frames(&controller, measurements, Shape::Squares, refit)?;
-    let mut frames_problem = frames_problem;
-    frames_problem.rows.clone_from(&problem.rows);
-    frames_problem.sort_rigs(&frames.estimate.effects);
-    let (real_problem, real) = if refit {
-        let (problem, solution) = fit_frames(profile, measurements, Shape::Squares, true)?;
-        (problem, solution.estimate)
-    } else {
-        (problem, own)
+    let is_for = |row: usize| measurements.rows[row].purpose == Some(Purpose::Validate);
+    let is_judged = |row: usize| refit != Refit::Others || is_for(row);
+    let is_fitted = |row: usize| refit != Refit::Others || !is_for(row);
+    let fitted = |profile: &Profile, points_too: bool| {
+        let (problem, begun) = begin_frames(profile, measurements, points_too)?;
+        let training = problem.with_rows(is_fitted);
+        let solution = solve(&training, begun, Shape::Squares, true)?;
+        Ok::<_, IdentifyError>((problem, solution.estimate))
     };
+    let (mut frames_problem, frames) = fitted(&controller, refit != Refit::No)?;
+    frames_problem.rows.clone_from(&problem.rows);
+    frames_problem.sort_rigs(&frames.effects);
+    let (real_problem, real) = match refit {
+        Refit::No => (problem, own),
+        Refit::Judged | Refit::Others => fitted(profile, true)?,
+    };
+    let real_problem = real_problem.with_rows(is_judged);
+    let judged_rows = measurements.filtered(|row, _| is_judged(row));
     let judged_real = judged(&real_problem, &real);
     let given = !real_problem.sigma_assumed;
     let squares = judged_real
@@ -176,18 +211,19 @@ pub fn validate_telling(
         .map(|m| m.normalised * m.normalised);
     let normalised = (squares.sum::<f64>() / judged_real.misses.len() as f64).sqrt();
     let folds = match folds {
-        Some(count) => Some(cross_validate(profile, measurements, count, tell)?),
+        Some(count) => Some(cross_validate(profile, &judged_rows, count, tell)?),
         None => None,
     };
     Ok(Validation {
-        controller: judged(&controller_problem, &nominal),
-        frames_only: judged(&frames_problem, &frames.estimate),
-        parts: parts(profile, measurements, &judged_real.misses),
-        repeated: repeated(measurements, &judged_real.misses),
+        controller: judged(&controller_problem.with_rows(is_judged), &nominal),
+        frames_only: judged(&frames_problem.with_rows(is_judged), &frames),
+        parts: parts(profile, &judged_rows, &judged_real.misses),
+        repeated: repeated(&judged_rows, &judged_real.misses),
         real: judged_real,
-        refitted: refit,
+        refit,
         normalised_rms: given.then_some(normalised),
         problem: real_problem,
+        measurements: judged_rows,
         folds,
     })
 }

@@ -1,6 +1,6 @@
 //! Moves put between those of a program: what languages share.
 
-use super::Number;
+use super::{Number, Source};
 use std::ops::Range;
 
 /// A target to be put between two of a program: the text of each number, in the order of [`super::Language::roles`].
@@ -124,6 +124,58 @@ pub(super) fn with_numbers(
     }
     out.extend_from_slice(&bytes[done..span.end]);
     Some(out)
+}
+
+/// An instruction that is written again for every target before its own.
+pub(super) struct Repeated<'a> {
+    /// The file it stands in.
+    pub source: &'a Source,
+    /// Its text.
+    pub span: Range<usize>,
+    /// The blanks before it.
+    pub blanks: &'a [u8],
+    /// Where the point on the way of an arc stands in it.
+    pub via: Option<Range<usize>>,
+    /// Where its target stands in it.
+    pub end: Range<usize>,
+    /// The longest line of the language in bytes.
+    pub longest: usize,
+}
+
+impl Repeated<'_> {
+    /// The instruction for each target, in lines before it; `written` makes a target of its numbers. `None` where one cannot
+    /// be written, or a line becomes too long.
+    pub fn insert(
+        &self,
+        insertion: &Insertion,
+        written: impl Fn(&[Vec<u8>]) -> Option<Vec<u8>>,
+    ) -> Option<Replacements> {
+        let (mut text, mut changes) = (Vec::new(), Vec::new());
+        for (number, Between { via, end }) in insertion.between.iter().enumerate() {
+            let through = match via {
+                Some(numbers) => Some((self.via.clone()?, written(numbers)?)),
+                None => None,
+            };
+            // the last part of an arc is the move itself with another point
+            if self.via.is_some() && number + 1 == insertion.between.len() {
+                changes.extend(through);
+                continue;
+            }
+            let here = written(end)?;
+            let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
+            parts.extend(through.iter().map(|(at, text)| (at.clone(), &text[..])));
+            parts.push((self.end.clone(), &here));
+            let line = spliced(&self.source.bytes, &self.span, &parts);
+            if line.len() + self.blanks.len() > self.longest {
+                return None;
+            }
+            text.extend(line);
+            text.extend_from_slice(self.source.line_end());
+            text.extend_from_slice(self.blanks);
+        }
+        changes.push((self.span.start..self.span.start, text));
+        Some(changes)
+    }
 }
 
 /// A part of a file with parts of it replaced, in the order of the text.

@@ -52,7 +52,13 @@ impl Job<'_> {
                 let (a, b) = scene.names_of(&scene.watched[pair]);
                 let message = format!("{a} is inside {b}");
                 let hint = "is the cell in the robot's world frame?";
-                findings.push(self.finding(index, "collision", Severity::Error, message, hint));
+                findings.push(self.subject.finding(
+                    self.walk.motion(index),
+                    "collision",
+                    Severity::Error,
+                    message,
+                    hint,
+                ));
             }
         }
         let alike = arms.real_is_nominal && self.original.is_none();
@@ -110,7 +116,10 @@ impl Job<'_> {
         } else {
             "`pairs` in the cell file allows what may touch"
         };
-        Some(self.finding(index, id, told.severity, message, hint))
+        Some(
+            self.subject
+                .finding(self.walk.motion(index), id, told.severity, message, hint),
+        )
     }
 
     /// The arm as the simulation believes it: in the original program where there is one.
@@ -124,8 +133,9 @@ impl Job<'_> {
         let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
         let part = self.parts.and_then(|parts| parts[index]);
         if let (Some(original), Some(part)) = (self.original, part) {
-            let leg = original.leg(part.motion, self.options.turning)?;
             let stop = original.route.stops[part.motion]?;
+            let arriving = original.leg(part.motion, self.options.turning);
+            let leg = arriving.unwrap_or_else(|| original.standing(&stop));
             let mover = original.arms(&stop).mover(Which::Controller);
             let pieces = leg.pieces();
             return Some(collision::clearance(scene, &mover, &leg, &pieces, horizon));

@@ -31,8 +31,8 @@ impl Job<'_> {
                 limits.joint + 1,
                 -limits.margin_rad / DEG
             );
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "joint-limit",
                 Severity::Error,
                 message,
@@ -44,7 +44,13 @@ impl Job<'_> {
                 limits.joint + 1,
                 limits.margin_rad / DEG
             );
-            findings.push(self.finding(index, "near-joint-limit", Severity::Warning, message, ""));
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
+                "near-joint-limit",
+                Severity::Warning,
+                message,
+                "",
+            ));
         }
         let margins = &limits.margins;
         let least = self.options.singularity_rad;
@@ -55,8 +61,8 @@ impl Job<'_> {
                     "this move passes {:.3} deg from the {name} singularity",
                     margin / DEG
                 );
-                findings.push(self.finding(
-                    index,
+                findings.push(self.subject.finding(
+                    self.walk.motion(index),
                     "near-singularity",
                     Severity::Warning,
                     message,
@@ -69,8 +75,8 @@ impl Job<'_> {
                 "this move passes {:.2} mm from the shoulder singularity",
                 mm_from_m(margins.shoulder_m)
             );
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "near-singularity",
                 Severity::Warning,
                 message,
@@ -88,8 +94,8 @@ impl Job<'_> {
                 i + 1,
                 turn / DEG
             );
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "large-turn",
                 Severity::Note,
                 message,
@@ -110,8 +116,8 @@ impl Job<'_> {
                     limits.rate_rad[i] / duration / DEG,
                     most / DEG
                 );
-                findings.push(self.finding(
-                    index,
+                findings.push(self.subject.finding(
+                    self.walk.motion(index),
                     "joint-speed",
                     Severity::Warning,
                     message,
@@ -135,8 +141,8 @@ impl Job<'_> {
                     "the straight or circular way is out of reach at {:.0} % of the move",
                     100.0 * s
                 );
-                findings.push(self.finding(
-                    index,
+                findings.push(self.subject.finding(
+                    self.walk.motion(index),
                     "path-out-of-reach",
                     Severity::Error,
                     message,
@@ -156,8 +162,8 @@ impl Job<'_> {
                 q[i] / DEG,
                 stop.q[i] / DEG
             );
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "configuration-change",
                 Severity::Error,
                 message,

@@ -3,7 +3,7 @@
 mod encounter;
 mod joints;
 
-use super::course::{Course, Leg, Piece};
+use super::course::{Leg, Piece};
 use super::deviation::{self, PathError, Wanted};
 use super::walk::{Arms, Walk};
 use super::{MoveReport, Options, Subject, limits, nominal};
@@ -23,19 +23,6 @@ pub(super) struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn finding(
-        &self,
-        motion: usize,
-        id: &'static str,
-        severity: Severity,
-        message: String,
-        hint: &str,
-    ) -> Finding {
-        let motion = &self.walk.route.program.moves[motion];
-        let source = &self.subject.sources[motion.file as usize];
-        source.finding(motion.offset as usize, id, severity, message, hint)
-    }
-
     /// What the move does, and what a person should look at.
     pub fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
         let mut findings = Vec::new();
@@ -82,25 +69,9 @@ impl Job<'_> {
             zone_m: pace.zone_m,
             cuts_corner: pace.cuts_corner(),
         };
-        // where the robot comes from is unknown: its posture alone
-        let standing;
-        let (leg, comes) = if let Some(leg) = self.walk.leg(index, self.options.turning) {
-            (leg, true)
-        } else {
-            standing = Course::Joint {
-                from: stop.q,
-                to: stop.q,
-            };
-            let equipped = self.walk.equipped(&stop);
-            let leg = Leg {
-                branch: stop.branch,
-                equipped,
-                course: standing,
-                start: stop.q,
-                conditions,
-            };
-            (leg, false)
-        };
+        let arriving = self.walk.leg(index, self.options.turning);
+        let comes = arriving.is_some();
+        let leg = arriving.unwrap_or_else(|| self.walk.standing(&stop));
         let pieces = leg.pieces();
         if comes {
             report.path = Some(self.path_error(&leg, &pieces, arms, index));
@@ -154,8 +125,8 @@ impl Job<'_> {
         let Some(path) = &report.path else { return };
         if !path.certified {
             let message = "bounds between samples cannot be guaranteed here: the move passes near a singularity, or the controller's own chain is calibrated";
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "path-uncertified",
                 Severity::Note,
                 message.into(),
@@ -173,8 +144,8 @@ impl Job<'_> {
                 mm_from_m(path.sampled.distance_m),
                 100.0 * path.at
             );
-            findings.push(self.finding(
-                index,
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
                 "path-error",
                 Severity::Error,
                 message,

@@ -1,8 +1,8 @@
 //! Moves between those of a program: the instruction again, with a position written out.
 
 use super::LONGEST_LINE;
-use crate::program::insert::{bracketed, indent, line_end, spliced, with_numbers};
-use crate::program::{Between, Insertion, Program, Replacements, Source, Target};
+use crate::program::insert::{Repeated, bracketed, indent, line_end, with_numbers};
+use crate::program::{Insertion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
 /// Moves whose way is told by their targets alone.
@@ -128,29 +128,13 @@ pub(super) fn insert(
         let bytes = &sources[target.file as usize].bytes;
         with_numbers(bytes, &held, program.numbers_of(target), numbers)
     };
-    let (mut text, mut changes) = (Vec::new(), Vec::new());
-    for (number, Between { via, end: here }) in insertion.between.iter().enumerate() {
-        let through = match via {
-            Some(numbers) => Some(written(numbers)?),
-            None => None,
-        };
-        // the last part of an arc is the move itself with another point
-        if is_arc && number + 1 == insertion.between.len() {
-            changes.push((spans[0].clone(), through?));
-            continue;
-        }
-        let here = written(here)?;
-        let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
-        parts.extend(through.iter().map(|text| (spans[0].clone(), &text[..])));
-        parts.push((spans[spans.len() - 1].clone(), &here));
-        let line = spliced(bytes, &(start..end), &parts);
-        if line.len() + blanks.len() > LONGEST_LINE {
-            return None;
-        }
-        text.extend(line);
-        text.extend_from_slice(source.line_end());
-        text.extend_from_slice(blanks);
-    }
-    changes.push((start..start, text));
-    Some(changes)
+    let repeated = Repeated {
+        source,
+        span: start..end,
+        blanks,
+        via: is_arc.then(|| spans[0].clone()),
+        end: spans[spans.len() - 1].clone(),
+        longest: LONGEST_LINE,
+    };
+    repeated.insert(insertion, written)
 }

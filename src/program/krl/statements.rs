@@ -173,14 +173,14 @@ impl<'a> Reader<'a, '_> {
                         present |= is_present(capitals(cursor.text(name), &mut buffer));
                         let at = cursor.brackets()?;
                         if matches!(cursor.blanks(), b'.' | b'(') {
-                            skip(cursor);
+                            cursor.skip();
                             Operand::Other
                         } else {
                             let symbol = self.symbol(cursor, name);
                             Operand::Named(symbol, self.element(at, cursor))
                         }
                     } else {
-                        skip(cursor);
+                        cursor.skip();
                         Operand::Other
                     }
                 }
@@ -276,7 +276,7 @@ impl<'a> Reader<'a, '_> {
                 b"$TOOL" => with.tool = Some(self.given(Variable::Tool, &mut cursor)?),
                 b"$BASE" => with.base = Some(self.given(Variable::Base, &mut cursor)?),
                 b"$IPO_MODE" => with.ipo = Some(self.given(Variable::Ipo, &mut cursor)?),
-                _ => skip(&mut cursor),
+                _ => cursor.skip(),
             }
             if !cursor.take(b',') {
                 break;
@@ -297,7 +297,7 @@ impl<'a> Reader<'a, '_> {
             // C_DIS behind the last WITH
             _ if cursor.peek().kind == Kind::Name => Ok(given),
             _ => {
-                skip(cursor);
+                cursor.skip();
                 Ok(Given::Computed)
             }
         }
@@ -341,7 +341,7 @@ impl<'a> Reader<'a, '_> {
             return Ok(self.of_fdat(variable, cursor));
         }
         if matches!(cursor.blanks(), b'.' | b'(') {
-            skip(cursor);
+            cursor.skip();
             let moving = (variable, word) == (Variable::Base, b"EK");
             return Ok(if moving {
                 Given::Moving
@@ -397,7 +397,7 @@ impl<'a> Reader<'a, '_> {
         if cursor.take(b')') {
             return given;
         }
-        skip(cursor);
+        cursor.skip();
         cursor.take(b')');
         Given::Computed
     }
@@ -580,23 +580,4 @@ fn is_present(word: &[u8]) -> bool {
 /// A whole number of a table.
 fn number_of(text: &[u8]) -> Option<u32> {
     std::str::from_utf8(text).ok()?.parse().ok()
-}
-
-/// Skips an expression, up to a comma or colon outside brackets, a bracket that closes, or the end of the line.
-fn skip(cursor: &mut Cursor) {
-    let mut depth = 0_u32;
-    loop {
-        let before = cursor.at;
-        let token = cursor.next();
-        match token.kind {
-            Kind::End => return,
-            Kind::Sign(b'(' | b'[' | b'{') => depth += 1,
-            Kind::Sign(b')' | b']' | b'}') if depth > 0 => depth -= 1,
-            Kind::Sign(b')' | b']' | b'}' | b',' | b':') if depth == 0 => {
-                cursor.at = before;
-                return;
-            }
-            _ => {}
-        }
-    }
 }

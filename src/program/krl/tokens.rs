@@ -198,6 +198,25 @@ impl<'a> Cursor<'a> {
         0
     }
 
+    /// Skips an expression, up to a comma or colon outside brackets, a bracket that closes, or the end of the line.
+    pub fn skip(&mut self) {
+        let mut depth = 0_u32;
+        loop {
+            let before = self.at;
+            let token = self.next();
+            match token.kind {
+                Kind::End => return,
+                Kind::Sign(b'(' | b'[' | b'{') => depth += 1,
+                Kind::Sign(b')' | b']' | b'}') if depth > 0 => depth -= 1,
+                Kind::Sign(b')' | b']' | b'}' | b',' | b':') if depth == 0 => {
+                    self.at = before;
+                    return;
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// The next token; a comment ends the line.
     pub fn next(&mut self) -> Token {
         let first = self.blanks();

@@ -1,7 +1,7 @@
 //! Moves between those of a program: the instruction again, with a target written out.
 
-use crate::program::insert::{arguments, bracketed, indent, spliced, with_numbers};
-use crate::program::{Between, Insertion, Program, Replacements, Source, Target};
+use crate::program::insert::{Repeated, arguments, bracketed, indent, with_numbers};
+use crate::program::{Insertion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
 /// Instructions that do nothing but go to their target, or go on with their process on the way. Others switch outputs, count
@@ -97,32 +97,13 @@ pub(super) fn insert(
     }
     let blanks = indent(bytes, span.start).unwrap_or_default();
     let written = |numbers: &[Vec<u8>]| aggregate(sources, program, target, numbers);
-    let (mut text, mut spans) = (Vec::new(), Vec::new());
-    for (
-        number,
-        Between {
-            via: through,
-            end: here,
-        },
-    ) in insertion.between.iter().enumerate()
-    {
-        let through = match through {
-            Some(numbers) => Some((via.clone()?, written(numbers)?)),
-            None => None,
-        };
-        // the last part of an arc is the move itself with another point
-        if is_arc && number + 1 == insertion.between.len() {
-            spans.extend(through);
-            continue;
-        }
-        let here = written(here)?;
-        let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
-        parts.extend(through.iter().map(|(at, text)| (at.clone(), &text[..])));
-        parts.push((end.clone(), &here));
-        text.extend(spliced(bytes, &span, &parts));
-        text.extend_from_slice(source.line_end());
-        text.extend_from_slice(blanks);
-    }
-    spans.push((span.start..span.start, text));
-    Some(spans)
+    let repeated = Repeated {
+        source,
+        span,
+        blanks,
+        via,
+        end,
+        longest: usize::MAX,
+    };
+    repeated.insert(insertion, written)
 }

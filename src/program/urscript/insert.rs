@@ -1,7 +1,7 @@
 //! Moves between those of a program: the call again, with a pose written out.
 
-use crate::program::insert::{arguments, bracketed, indent, spliced, with_numbers};
-use crate::program::{Between, Insertion, Program, Replacements, Source, Target, number};
+use crate::program::insert::{Repeated, arguments, bracketed, indent, with_numbers};
+use crate::program::{Insertion, Program, Replacements, Source, Target, number};
 use std::ops::Range;
 
 /// Place of the time of the whole way among the arguments: with it the speed is not obeyed.
@@ -106,32 +106,13 @@ pub(super) fn insert(
         text.retain(|b| !matches!(b, b'\n' | b'\r'));
         Some(text)
     };
-    let (mut text, mut changes) = (Vec::new(), Vec::new());
-    for (
-        number,
-        Between {
-            via: through,
-            end: here,
-        },
-    ) in insertion.between.iter().enumerate()
-    {
-        let through = match through {
-            Some(numbers) => Some((via.clone()?, written(numbers)?)),
-            None => None,
-        };
-        // the last part of an arc is the move itself with another point
-        if is_arc && number + 1 == insertion.between.len() {
-            changes.extend(through);
-            continue;
-        }
-        let here = written(here)?;
-        let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
-        parts.extend(through.iter().map(|(at, text)| (at.clone(), &text[..])));
-        parts.push((end.clone(), &here));
-        text.extend(spliced(bytes, &call, &parts));
-        text.extend_from_slice(source.line_end());
-        text.extend_from_slice(blanks);
-    }
-    changes.push((start..start, text));
-    Some(changes)
+    let repeated = Repeated {
+        source,
+        span: call,
+        blanks,
+        via,
+        end,
+        longest: usize::MAX,
+    };
+    repeated.insert(insertion, written)
 }

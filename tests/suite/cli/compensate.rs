@@ -387,6 +387,20 @@ fn a_profile_without_calibration_is_said_to_correct_nothing() {
 }
 
 #[test]
+fn a_program_without_targets_is_said_to_have_none() {
+    let folder = with_sample();
+    let text = "MODULE empty\n  PROC main()\n    SetDO do1, 1;\n  ENDPROC\nENDMODULE\n";
+    std::fs::write(folder.path().join("empty.mod"), text).expect("scratch");
+    let output = run(folder.path(), &["empty.mod", "-o", "out.mod"]);
+    assert_eq!(output.status.code(), Some(0));
+    let told = String::from_utf8(output.stdout).expect("UTF-8");
+    assert!(
+        told.contains("no-targets") && told.contains("empty.mod"),
+        "{told}"
+    );
+}
+
+#[test]
 fn orientations_rounded_away_are_told_with_their_size() {
     let folder = scratch();
     let program = "MODULE m

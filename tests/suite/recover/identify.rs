@@ -7,7 +7,7 @@ use poseshift::identify::measurements::{Measurements, Observed};
 use poseshift::identify::parameters::{Level, Pick, Selection};
 use poseshift::identify::robust::Shape;
 use poseshift::identify::simulate::{Command, Device, Session, simulate};
-use poseshift::identify::validation::validate;
+use poseshift::identify::validation::{Refit, validate};
 use poseshift::identify::{Calibration, IdentifyError};
 use poseshift::model::effects::{Effect, Kind, Site};
 use poseshift::model::profile::Profile;
@@ -130,7 +130,7 @@ pub(super) fn worst_mm(calibrated: &Profile, truth: &Profile, count: usize) -> (
     let mut random = StdRng::seed_from_u64(99);
     let check = commands(&mut random, truth, count);
     let seen = measure(truth, &check, &Session::default());
-    let found = validate(calibrated, &seen, false, None).expect("a validation");
+    let found = validate(calibrated, &seen, Refit::No, None).expect("a validation");
     let position = found.real.quality.position.expect("positions");
     (position.mean, position.max)
 }

@@ -6,7 +6,7 @@ use poseshift::identify::calibration::calibrate;
 use poseshift::identify::measurements::{Measurements, Observed};
 use poseshift::identify::parameters::Level;
 use poseshift::identify::simulate::Session;
-use poseshift::identify::validation::{REGIONS, validate};
+use poseshift::identify::validation::{REGIONS, Refit, validate};
 use poseshift::model::effects::{Effect, Kind, Site};
 use poseshift::model::profile::Profile;
 use rand::SeedableRng;
@@ -47,7 +47,7 @@ fn pose_accuracy_and_repeatability_are_those_worked_out_by_hand() {
         row.line = 100 + k;
         seen.rows.push(row);
     }
-    let found = validate(&profile, &seen, false, None).expect("a validation");
+    let found = validate(&profile, &seen, Refit::No, None).expect("a validation");
     let [repeated] = found.repeated.as_slice() else {
         panic!("{:?}", found.repeated);
     };
@@ -88,7 +88,7 @@ fn regions_hold_the_rows_at_their_distance_from_the_calibration() {
             *p = poseshift::geometry::add(*p, inward);
         }
     }
-    let found = validate(&profile, &seen, false, None).expect("a validation");
+    let found = validate(&profile, &seen, Refit::No, None).expect("a validation");
     let regions: Vec<_> = found.parts.iter().filter(|p| p.by == "region").collect();
     assert_eq!(regions.len(), REGIONS);
     for (ring, part) in regions.iter().enumerate() {
@@ -125,7 +125,7 @@ fn fifty_configurations_hold_on_9905_others_and_their_49_million_pairs() {
     let fit = measure(&truth, &commands(&mut random, &truth, 50), &session);
     let found = calibrate(&nominal(), &fit, &known_tool(Level::Compliance)).expect("an answer");
     let others = measure(&truth, &commands(&mut random, &truth, 9905), &session);
-    let judged = validate(&found.profile(), &others, false, None)
+    let judged = validate(&found.profile(), &others, Refit::No, None)
         .expect("a validation")
         .real;
     let position = judged.quality.position.expect("positions");

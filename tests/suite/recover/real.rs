@@ -4,7 +4,8 @@ use crate::support::repository;
 use poseshift::identify::calibration::{Options, calibrate};
 use poseshift::identify::measurements::{Measurements, Purpose};
 use poseshift::identify::parameters::{Level, Selection};
-use poseshift::identify::validation::validate;
+use poseshift::identify::statistics::Quality;
+use poseshift::identify::validation::{Refit, validate};
 use poseshift::model::profile::Profile;
 
 /// A set's profile and measurements; `None`, told, where the folder is not there.
@@ -22,48 +23,54 @@ fn read(set: &str, file: &str) -> Option<(Profile, Measurements)> {
     ))
 }
 
-/// Mean position error in mm on the other half, even configurations fitted.
-fn held_out(set: &str, level: Level, every: usize) -> Option<f64> {
+/// Mean position errors in mm of configurations that were not fitted: with the frames alone, and with a level identified.
+/// Fitted is every so many-th.
+fn held_out(set: &str, level: Level, every: usize) -> Option<(f64, f64)> {
     let (profile, mut measurements) = read(set, "fit.csv")?;
-    let configurations = measurements.configurations();
-    for (row, number) in measurements.rows.iter_mut().zip(configurations) {
-        row.purpose = Some(if number % every == 0 {
-            Purpose::Fit
-        } else {
-            Purpose::Validate
-        });
-    }
+    mark(&mut measurements, |number| number % every == 0);
     let options = Options {
         selection: Selection::level(level),
         ..Options::default()
     };
     let found = calibrate(&profile, &measurements, &options).expect("an answer");
     let (frames, full) = found.held_out.expect("rows for validation");
-    let (frames, full) = (
-        frames.position.expect("positions"),
-        full.position.expect("positions"),
-    );
-    println!(
-        "{set} {level:?} every {every}: {:.3} -> {:.3} mm (max {:.3})",
-        frames.mean, full.mean, full.max
-    );
-    Some(full.mean)
+    let (frames, full) = (mean(&frames), mean(&full));
+    println!("{set} {level:?} every {every}: {frames:.3} -> {full:.3} mm");
+    Some((frames, full))
+}
+
+/// Which configurations are for fitting; the others for validation.
+fn mark(measurements: &mut Measurements, is_for_fit: impl Fn(usize) -> bool) {
+    let configurations = measurements.configurations();
+    for (row, number) in measurements.rows.iter_mut().zip(configurations) {
+        row.purpose = Some(if is_for_fit(number) {
+            Purpose::Fit
+        } else {
+            Purpose::Validate
+        });
+    }
+}
+
+fn mean(quality: &Quality) -> f64 {
+    quality.position.expect("positions").mean
 }
 
 #[test]
 fn held_out_errors_meet_the_reference() {
-    for (set, every, geometry, compliance) in [
-        ("irb120_faro", 2, 0.192, 0.106),
-        ("irb120_faro", 12, 0.192, 0.110),
-        ("ur5_tracker", 2, 0.106, 0.097),
-        ("ma1400_leica", 2, 1.43, 0.505),
+    // mm; an independent fit of the same rows is within half a micrometre more, except the last of the MA1400
+    for (set, every, frames, geometry, compliance) in [
+        ("irb120_faro", 2, 0.729, 0.192, 0.105),
+        ("irb120_faro", 12, 0.734, 0.192, 0.109),
+        ("ur5_tracker", 2, 0.630, 0.105, 0.096),
+        ("ma1400_leica", 2, 1.907, 1.429, 0.505),
     ] {
-        let Some(mean) = held_out(set, Level::Geometry, every) else {
+        let Some((alone, full)) = held_out(set, Level::Geometry, every) else {
             return;
         };
-        assert!(mean < geometry + 5e-4, "{set} geometry: {mean}");
-        let mean = held_out(set, Level::Compliance, every).expect("the set is there");
-        assert!(mean < compliance + 5e-4, "{set} compliance: {mean}");
+        assert!(alone < frames + 5e-4, "{set} frames: {alone}");
+        assert!(full < geometry + 5e-4, "{set} geometry: {full}");
+        let (_, full) = held_out(set, Level::Compliance, every).expect("the set is there");
+        assert!(full < compliance + 5e-4, "{set} compliance: {full}");
     }
 }
 
@@ -72,30 +79,35 @@ fn folds_and_links_carried_over_meet_the_reference() {
     let Some((profile, fit)) = read("tx2_90l_tmac", "fit.csv") else {
         return;
     };
-    let (_, points) = read("tx2_90l_tmac", "points.csv").expect("it is beside");
-    for (level, folds, carried) in [
-        (Level::Geometry, 0.136, 0.0835),
-        (Level::Compliance, 0.058, 0.0560),
-    ] {
+    let (_, mut points) = read("tx2_90l_tmac", "points.csv").expect("it is beside");
+    let folded = |rows: &Measurements, level: Level, count: usize| {
         let options = Options {
             selection: Selection::level(level),
             ..Options::default()
         };
-        let found = calibrate(&profile, &fit, &options).expect("an answer");
-        let own = validate(&found.profile(), &fit, false, Some(8)).expect("a validation");
-        let (_, full, frames) = own.folds.expect("folds were asked for");
-        let (full, frames) = (
-            full.position.expect("positions"),
-            frames.position.expect("positions"),
-        );
-        println!(
-            "tx2_90l 8-fold {level:?}: {:.3} -> {:.3} mm",
-            frames.mean, full.mean
-        );
-        assert!(full.mean < folds, "{}", full.mean);
-        let others = validate(&found.profile(), &points, true, None).expect("a validation");
-        let real = others.real.quality.position.expect("positions");
-        println!("tx2_90l links carried over {level:?}: {:.3} mm", real.mean);
-        assert!(real.mean < carried, "{}", real.mean);
+        let found = calibrate(&profile, rows, &options).expect("an answer");
+        let judged = validate(&found.profile(), rows, Refit::No, Some(count)).expect("folds");
+        let (_, full, frames) = judged.folds.expect("folds were asked for");
+        let (frames, full) = (mean(&frames), mean(&full));
+        println!("tx2_90l {count}-fold {level:?}: {frames:.3} -> {full:.3} mm");
+        (found, full)
+    };
+    for (level, own, of_points, carried) in [
+        (Level::Geometry, 0.135, 0.069, 0.082),
+        (Level::Compliance, 0.057, 0.051, 0.055),
+    ] {
+        let (found, full) = folded(&fit, level, 8);
+        assert!(full < own + 5e-4, "{full}");
+        let (_, full) = folded(&points, level, 5);
+        assert!(full < of_points + 5e-4, "{full}");
+        // the device and the tool were set up anew between the files
+        mark(&mut points, |number| number % 5 == 0);
+        let others = validate(&found.profile(), &points, Refit::Others, None).expect("judged");
+        assert_eq!(others.measurements.rows.len(), 240);
+        let real = mean(&others.real.quality);
+        let frames = mean(&others.frames_only.quality);
+        println!("tx2_90l links carried over {level:?}: {frames:.3} -> {real:.3} mm");
+        assert!(real < carried + 5e-4, "{real}");
+        points.rows.iter_mut().for_each(|row| row.purpose = None);
     }
 }

@@ -1,7 +1,6 @@
 //! The page of `validate`.
 
 use super::{Judged, Rows, robot_lead, show_rows, summary};
-use crate::identify::measurements::Measurements;
 use crate::identify::statistics::Quality;
 use crate::identify::validation::Validation;
 use crate::model::profile::Profile;
@@ -10,12 +9,7 @@ use crate::report::html::page::{Level, Page, Tone};
 
 /// The page of `validate`.
 #[must_use]
-pub fn validate_page(
-    found: &Validation,
-    measurements: &Measurements,
-    profile: &Profile,
-    files: &str,
-) -> Page {
+pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page {
     let mean = |q: &Quality| q.main().map_or(f64::NAN, |s| s.mean);
     let (controller, real) = (mean(&found.controller.quality), mean(&found.real.quality));
     let level = if real <= controller {
@@ -28,10 +22,7 @@ pub fn validate_page(
     );
     let mut page = Page::new("Validation".into(), level, answer);
     robot_lead(&mut page, files, profile);
-    if found.refitted {
-        page.lead
-            .push("Base, tool and points were fitted to these rows first.".into());
-    }
+    page.lead.extend(found.refit.told().map(Into::into));
     page.fact("rows", found.problem.rows.len().to_string());
     if let Some(pairs) = found.real.distance {
         page.fact("distances between points", pairs.pairs.to_string());
@@ -57,7 +48,7 @@ pub fn validate_page(
     });
     let rows = Rows {
         problem: &found.problem,
-        measurements,
+        measurements: &found.measurements,
         models: vec![
             Judged {
                 name: "controller",
