@@ -13,6 +13,12 @@ const browser = await launch();
 for (const { kind, name, from, to } of pictures) {
   const { page, context, wrong } = await open(browser, join(process.env.REPORTS, `${kind}.html`), { width });
   if (wrong.length) throw new Error(wrong.join("\n"));
+  // charts are drawn when they are seen
+  for (const box of await page.locator(".plot").all()) {
+    await box.scrollIntoViewIfNeeded();
+    await box.locator("svg").first().waitFor();
+  }
+  await page.evaluate(() => scrollTo(0, 0));
   await page.waitForTimeout(400);
   const [top, end] = [await page.locator(from).first().boundingBox(), await page.locator(to).first().boundingBox()];
   const y = Math.max(0, top.y - 12);
