@@ -264,7 +264,8 @@ mod tests {
     #[test]
     fn colours_take_no_room_and_spaces_that_do_not_break_do_not() {
         let line = "\x1b[1;31merror\x1b[0m[id]: a word and another";
-        assert_eq!(wrapped(line, 28), format!("{line}\n"));
+        assert_eq!(wrapped(line, 29), format!("{line}\n"));
+        assert_eq!(wrapped(line, 28).lines().count(), 2);
         assert_eq!(wrapped("aaaa bb\u{a0}cc dd", 9), "aaaa\n  bb cc\n  dd\n");
     }
 

@@ -537,7 +537,7 @@ mod tests {
             page.findings(&findings);
             let html = page.html();
             assert_eq!(data(&html), embedded(&page));
-            assert_eq!(html.contains("application/zlib"), count > 1);
+            assert_eq!(html.contains(r#"type="application/zlib""#), count > 1);
             assert_eq!(html.matches("</script").count(), 2);
         }
     }
