@@ -292,7 +292,7 @@ fn text(found: &Calibration, all: bool) -> String {
             as_prior.len(),
             as_prior.join(", ")
         );
-        out += &format!("\n{}", wrapped(&told, width()));
+        out += &format!("\n{told}\n");
     }
     let names = &found.problem.parameters;
     if !found.solution.identifiable.dropped.is_empty() {
