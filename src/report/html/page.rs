@@ -531,7 +531,7 @@ mod tests {
 
     #[test]
     fn data_of_any_length_are_what_the_page_holds() {
-        for count in [1, 3000] {
+        for count in [1, MOST_FINDINGS] {
             let findings: Vec<Finding> = (0..count).map(finding).collect();
             let mut page = Page::new("t".into(), Level::Error, "no".into());
             page.findings(&findings);
