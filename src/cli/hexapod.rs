@@ -92,7 +92,8 @@ impl Hexapod {
                 "--taught and --reach have nothing to look at",
             ));
         }
-        let read = self.lengths.iter().chain(&self.frame);
+        let given = self.taught.iter().chain(&self.profile);
+        let read = self.lengths.iter().chain(&self.frame).chain(given);
         let outputs = self.output.iter().map(PathBuf::as_path);
         self.report
             .refuse_over(read.map(PathBuf::as_path), outputs)?;

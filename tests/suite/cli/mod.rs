@@ -4,5 +4,6 @@ mod compensate;
 mod fuzzed;
 mod identify;
 mod jobs_and_tables_of_poses;
+mod outputs;
 mod reports;
 mod tables;
