@@ -30,6 +30,7 @@ mod fault;
 mod pairs;
 pub mod screening;
 pub mod statistics;
+pub mod sweeps;
 pub mod uncertainty;
 pub mod validation;
 

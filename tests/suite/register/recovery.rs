@@ -484,11 +484,12 @@ fn base_tool_and_backlash_come_out_of_sweeps() {
         base_chi.push(chi_squared(
             &found.pose,
             &world_from_base,
-            &found.covariance,
+            &found.covariance.expect("many rows"),
         ));
         let placed = tool(&sweeps[2], &sweeps[3], &nominal).expect("a tool");
         let gap = placed.pose.separation(&flange_from_tool);
-        let sigma = norm(placed.covariance.sigma_at_m(placed.pose.translation));
+        let covariance = placed.covariance.expect("many rows");
+        let sigma = norm(covariance.sigma_at_m(placed.pose.translation));
         tool_errors.push(gap.distance_m / sigma);
         assert!(gap.angle_rad < 1e-3, "{gap:?}");
         let second = axis(&sweeps[1], &nominal).expect("an axis");
