@@ -22,12 +22,14 @@ pub mod solver;
 pub mod start;
 
 pub mod calibration;
+mod candidates;
 pub mod contact;
 mod contact_cells;
 mod error;
 mod exchange;
 mod fault;
 mod pairs;
+pub mod route;
 pub mod screening;
 pub mod statistics;
 pub mod sweeps;

@@ -5,5 +5,6 @@ mod fuzzed;
 mod identify;
 mod jobs_and_tables_of_poses;
 mod outputs;
+mod planning;
 mod reports;
 mod tables;
