@@ -37,6 +37,12 @@ impl MeasurementFiles {
                 )
             })?;
             hashes.push(files::sha256(&source.bytes));
+            // lines of several files are told apart by the rows' names
+            if self.measurements.len() > 1 {
+                for row in &mut read.rows {
+                    row.id = format!("{}:{}", path.display(), row.id);
+                }
+            }
             match &mut all {
                 None => all = Some(read),
                 Some(all) => {

@@ -25,6 +25,7 @@ pub mod calibration;
 mod candidates;
 pub mod contact;
 mod contact_cells;
+pub mod csv_doubts;
 mod error;
 mod exchange;
 mod fault;
