@@ -8,3 +8,4 @@ mod outputs;
 mod planning;
 mod reports;
 mod tables;
+mod validating;
