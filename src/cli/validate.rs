@@ -68,7 +68,8 @@ impl Validate {
                 parameters,
             } => Failure::with_hint(
                 format!(
-                    "{name}: {rows} rows give {numbers} numbers; base and tool alone, which the comparison fits, take {parameters}"
+                    "{name}: {rows} rows give {numbers} numbers; base and tool, which the comparison fits, have {parameters} unknowns: more \
+                     numbers are needed"
                 ),
                 "validate on more configurations: 20 and more tell something of the workspace",
             ),

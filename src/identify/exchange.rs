@@ -446,3 +446,43 @@ impl Chooser<'_> {
         (best, set, exchanges)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn determinants_of_all_candidates_are_those_of_their_matrices() {
+        let mut random = Random::new(9);
+        for height in [3, 6, 9] {
+            let size = triangle(height) * LANES;
+            let all: Vec<DMatrix<f64>> = (0..2 * LANES)
+                .map(|_| {
+                    let j = DMatrix::from_fn(height, height, |_, _| random.between(-1.0, 1.0));
+                    &j * j.transpose()
+                })
+                .collect();
+            let mut grams = vec![0.0_f32; 2 * size];
+            for (candidate, gram) in all.iter().enumerate() {
+                let block = &mut grams[candidate / LANES * size..];
+                let cells = (0..height).flat_map(|r| (r..height).map(move |t| (r, t)));
+                for (index, (r, t)) in cells.enumerate() {
+                    #[allow(clippy::cast_possible_truncation)]
+                    let value = gram[(r, t)] as f32;
+                    block[index * LANES + candidate % LANES] = value;
+                }
+            }
+            let mut out = vec![0.0_f32; 2 * LANES];
+            Arch::new().dispatch(Determinants {
+                height,
+                grams: &grams,
+                out: &mut out,
+            });
+            for (gram, found) in all.iter().zip(out) {
+                let exact = (DMatrix::identity(height, height) + gram).determinant();
+                let gap = (f64::from(found) / exact - 1.0).abs();
+                assert!(gap < 1e-4, "{height}: {found} and {exact}");
+            }
+        }
+    }
+}
