@@ -67,7 +67,8 @@ pub struct Calibrate {
     /// 0 frames alone; 1 and joint offsets and scales; 2 and link geometry; 3 and joint compliance
     #[arg(long, value_name = "0..3", value_parser = clap::value_parser!(u8).range(0..=3))]
     level: Option<u8>,
-    /// Identify these effects as well: `joint_compliance:2-6,joint_harmonic:6:1`
+    /// Identify these effects, with --level as well as that, else beside base and tool alone:
+    /// `joint_compliance:2-6,joint_harmonic:6:1`
     #[arg(long, value_name = "LIST")]
     identify: Option<String>,
     /// Leave these as they are: `tool_frame,link_geometry:6.theta_deg`
@@ -92,6 +93,10 @@ pub struct Calibrate {
 impl Calibrate {
     fn options(&self) -> Result<Options, Failure> {
         let identify = picks("--identify", self.identify.as_deref())?;
+        if self.identify.is_some() && identify.is_empty() {
+            let hint = "`poseshift effects` lists them; without --identify the --level says which";
+            return Err(Failure::with_hint("--identify names no effect", hint));
+        }
         // a list without a level is meant alone
         let level = match (self.level, &self.identify) {
             (Some(0), _) | (None, Some(_)) => Level::Frames,
@@ -189,6 +194,15 @@ impl Calibrate {
     }
 }
 
+/// A number with digits enough to tell it from none.
+fn digits(x: f64) -> String {
+    if x.abs() < 1e-2 && x != 0.0 {
+        format!("{x:.3e}")
+    } else {
+        format!("{x:.5}")
+    }
+}
+
 /// The report for people.
 fn text(found: &Calibration, all: bool) -> String {
     let mut out = format!(
@@ -232,6 +246,12 @@ fn text(found: &Calibration, all: bool) -> String {
         "\nresiduals are {:.2} times the {given} standard deviations; sigmas below are scaled by {:.2}\n",
         u.sigma_factor, u.applied_factor
     );
+    if let Some(expected_m) = found.expected_m {
+        out += &format!(
+            "expected error over the joint limits, by these sigmas: {:.4} mm rms\n",
+            mm_from_m(expected_m)
+        );
+    }
     let o = &found.observability;
     out += &format!(
         "O1 {:.4}, condition number {:.3e}, rank {}\n\n",
@@ -245,13 +265,6 @@ fn text(found: &Calibration, all: bool) -> String {
     for (parameter, value, sigma) in found.parameters() {
         let unit = parameter.unit.in_si();
         if let Some(sigma) = sigma {
-            let digits = |x: f64| {
-                if x.abs() < 1e-2 && x != 0.0 {
-                    format!("{x:.3e}")
-                } else {
-                    format!("{x:.5}")
-                }
-            };
             rows.push(vec![
                 parameter.key.clone(),
                 digits(value / unit),
@@ -290,13 +303,13 @@ fn text(found: &Calibration, all: bool) -> String {
         let weak = dropped.weak.map(|w| {
             let p = &names[dropped.parameter];
             format!(
-                "sigma would be {:.3} {}; ",
-                w * p.scale / p.unit.in_si(),
+                "sigma would be {} {}; ",
+                digits(w * p.scale / p.unit.in_si()),
                 p.unit.symbol()
             )
         });
         let why = if with.is_empty() {
-            "does nothing to what was measured".to_owned()
+            "does not show in what was measured".to_owned()
         } else {
             format!("like {}", with.join(", "))
         };

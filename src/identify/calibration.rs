@@ -2,9 +2,11 @@
 
 use super::contact;
 use super::error::IdentifyError;
+use super::expectation::expected_error_m;
 use super::identifiability::{Observability, observability, singular_values};
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
+use super::plausibility;
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
 use super::screening::{self, Remark};
@@ -16,6 +18,7 @@ use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::effects::Kind;
 use crate::model::profile::Profile;
+use nalgebra::DMatrix;
 
 /// A row is an outlier whose residual is beyond this many times the limit of normal ones.
 pub const OUTLIER: f64 = 1.6;
@@ -94,6 +97,8 @@ pub struct Calibration {
     pub base_replaced: bool,
     /// How well it is known.
     pub uncertainty: Uncertainty,
+    /// Error of position that is to be expected over the joint limits, root mean square, metres.
+    pub expected_m: Option<f64>,
     /// How well the configurations show the parameters.
     pub observability: Observability,
     /// The profile as it was, on the measurements.
@@ -160,11 +165,10 @@ pub(super) fn begin(problem: &Problem, estimate: &mut Estimate, start: &Start) {
     }
 }
 
-fn base_is_sought(selection: &Selection) -> bool {
-    !selection
-        .fix
-        .iter()
-        .any(|pick| pick.kind == Some(Kind::BaseFrame) && pick.key.is_none())
+/// Whether a frame is to stay wholly where it is.
+fn is_fixed(selection: &Selection, frame: Kind) -> bool {
+    let mut fixed = selection.fix.iter();
+    fixed.any(|pick| pick.kind == Some(frame) && pick.key.is_none())
 }
 
 /// Fits base, tool and points of a model to measurements and leaves its arm as it is.
@@ -220,6 +224,20 @@ pub fn calibrate(
     measurements: &Measurements,
     options: &Options,
 ) -> Result<Calibration, IdentifyError> {
+    let found = identify(profile, measurements, options)?;
+    let missed = |found: &Calibration| misses(&found.problem, &found.solution.estimate);
+    plausibility::doubt_touches(measurements, &missed(&found), |other| {
+        Ok(missed(&identify(profile, other, options)?))
+    })?;
+    Ok(found)
+}
+
+/// As [`calibrate`], without asking whether touches are meant otherwise.
+fn identify(
+    profile: &Profile,
+    measurements: &Measurements,
+    options: &Options,
+) -> Result<Calibration, IdentifyError> {
     let fit = measurements.filtered(|_, row| row.purpose != Some(Purpose::Validate));
     if fit.rows.is_empty() {
         return Err(IdentifyError::NothingToFit);
@@ -228,24 +246,22 @@ pub fn calibrate(
     let found = start::find(profile, &fit);
     if let Some(found) = &found {
         remarks.extend(screening::doubt_start(profile, &fit, found)?);
+        if is_fixed(&options.selection, Kind::ToolFrame) {
+            screening::doubt_fixed_tool(profile, found)?;
+        }
     }
-    let sought = base_is_sought(&options.selection);
+    let sought = !is_fixed(&options.selection, Kind::BaseFrame);
     let guess = match found {
         Some(found) if sought => found,
-        _ => Start {
-            world_from_base: profile.world_from_base,
-            points_on_flange_m: Vec::new(),
-            rms_m: 0.0,
-            believed_rms_m: None,
-            turned: Vec::new(),
-        },
+        _ => Start::at(profile.world_from_base),
     };
     let moved_base = guess.world_from_base != profile.world_from_base;
     let (mut problem, mut estimate) =
         Problem::new(profile, &fit, &options.selection, guess.world_from_base)?;
-    if problem.numbers() <= problem.parameters.len() {
+    let numbers = problem.distinct_numbers();
+    if numbers <= problem.parameters.len() {
         return Err(IdentifyError::TooFew {
-            numbers: problem.numbers(),
+            numbers,
             rows: problem.rows.len(),
             parameters: problem.parameters.len(),
         });
@@ -296,7 +312,8 @@ pub fn calibrate(
         solve(&frames, start, options.shape, sought)
             .map_err(|error| screening::doubt_rest(error, &guess))?
     };
-    let frames_only_quality = Quality::of(&problem.rows, &misses(&problem, &frames_only.estimate));
+    let frames_only_misses = misses(&problem, &frames_only.estimate);
+    let frames_only_quality = Quality::of(&problem.rows, &frames_only_misses);
     let mut solution = solve(
         &problem,
         frames_only.estimate.clone(),
@@ -318,13 +335,32 @@ pub fn calibrate(
     );
     let after_misses = misses(&problem, &solution.estimate);
     let after = Quality::of(&problem.rows, &after_misses);
-    remarks.extend(screening::doubt_fit(&after, &frames_only_quality)?);
+    remarks.extend(plausibility::doubt_fit(
+        &problem,
+        &after_misses,
+        &frames_only_misses,
+    )?);
+    remarks.extend(plausibility::doubt_values(
+        &solution.parameters,
+        &solution.estimate,
+        &uncertainty.sigma,
+        frames_only_quality.main().map_or(0.0, |spread| spread.rms),
+    )?);
     let configurations = fit.configurations().last().map_or(0, |last| last + 1);
     let values = solution
         .normal
         .factor()
-        .map(|r| singular_values(&r))
+        .map(|r| singular_values(&in_si(r, &problem, &solution.parameters)))
         .unwrap_or_default();
+    let expected_m = expected_error_m(
+        &problem,
+        &solution.estimate,
+        solution.loss,
+        uncertainty.applied_factor,
+    );
+    remarks.extend(plausibility::doubt_reach(expected_m, &after_misses));
+    let compliance = options.selection.level == Level::Compliance;
+    remarks.extend(screening::doubt_masses(&problem, compliance));
     let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
     let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
@@ -342,6 +378,7 @@ pub fn calibrate(
         start: guess,
         frames_only,
         base_replaced,
+        expected_m,
         uncertainty,
         before,
         before_misses,
@@ -352,6 +389,16 @@ pub fn calibrate(
         remarks,
         solution,
     })
+}
+
+/// `R` of the Jacobian in metres and radians by the parameters in SI units, for rows of one standard deviation: their mean.
+fn in_si(mut r: DMatrix<f64>, problem: &Problem, parameters: &[Parameter]) -> DMatrix<f64> {
+    let logs = problem.rows.iter().map(|row| row.sigma_m.ln());
+    let sigma_m = (logs.sum::<f64>() / problem.rows.len().max(1) as f64).exp();
+    for (i, parameter) in parameters.iter().enumerate() {
+        r.column_mut(i).scale_mut(sigma_m / parameter.scale);
+    }
+    r
 }
 
 /// Quality of an estimate on other measurements of the same set-up.

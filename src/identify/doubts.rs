@@ -39,11 +39,9 @@ pub(super) fn before(
     let mut remarks = match look(profile, measurements) {
         Ok(remarks) => remarks,
         // one pose or one line may be what is to be judged
-        Err(IdentifyError::Suspicious { message, .. }) => vec![warning(
-            "little-variety",
-            message,
-            "such rows tell the repeatability, and nothing of the workspace",
-        )],
+        Err(IdentifyError::Suspicious { message, hint }) => {
+            vec![warning("little-variety", message, &hint)]
+        }
         Err(other) => return Err(other),
     };
     // nothing is identified

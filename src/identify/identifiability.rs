@@ -35,7 +35,8 @@ pub struct Identifiable {
 
 /// Finds redundant columns in the order of the parameters, earlier ones are kept: a Cholesky factorisation of the scaled
 /// normal matrix that leaves out every column whose pivot vanishes. With the residuals' size `noise` in standard
-/// deviations, a column is left out as well whose parameter the data would tell less well than [`WEAK`] times its typical size.
+/// deviations, those are left out as well, the least known first, whose standard deviation beside all that is kept would be more
+/// than [`WEAK`] typical sizes.
 ///
 /// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it, the limit is
 /// [`REDUNDANT`] squared.
@@ -61,10 +62,7 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter], noise: Option<f64
             row.push((normal.matrix[(j, *other)] - known) / factor[k][k]);
         }
         let left = length - row.iter().map(|x| x * x).sum::<f64>();
-        let known = noise.map_or(0.0, |noise| noise / left.max(0.0).sqrt());
-        let weak = parameters[j].rank >= FIRST_PHYSICAL && known > WEAK;
-        let redundant = left <= REDUNDANT * REDUNDANT * length;
-        if !redundant && !weak {
+        if left > REDUNDANT * REDUNDANT * length {
             row.push(left.sqrt());
             factor.push(row);
             found.kept.push(j);
@@ -78,26 +76,68 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter], noise: Option<f64
                 weights[l] -= factor[k][l] * weights[k];
             }
         }
-        let mut parts: Vec<(f64, usize)> = found
-            .kept
-            .iter()
-            .zip(&weights)
-            .map(|(other, w)| {
-                (
-                    w.abs() * (normal.matrix[(*other, *other)] / length).sqrt(),
-                    *other,
-                )
-            })
-            .filter(|(part, _)| *part > NAMED)
-            .collect();
-        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let others = found.kept.iter().copied().zip(weights);
+        let confounded_with = explained_by(normal, j, others);
         found.dropped.push(Dropped {
             parameter: j,
-            confounded_with: parts.into_iter().map(|(_, other)| other).collect(),
-            weak: (!redundant).then_some(known),
+            confounded_with,
+            weak: None,
         });
     }
+    if let Some(noise) = noise {
+        leave_out_weak(normal, parameters, noise, &mut found);
+    }
     found
+}
+
+/// The columns that explain one, strongest first: those whose weight times their length is a good part of its own.
+fn explained_by(
+    normal: &Normal,
+    column: usize,
+    others: impl Iterator<Item = (usize, f64)>,
+) -> Vec<usize> {
+    let length = normal.matrix[(column, column)];
+    let mut parts: Vec<(f64, usize)> = others
+        .map(|(other, weight)| {
+            let part = weight.abs() * (normal.matrix[(other, other)] / length).sqrt();
+            (part, other)
+        })
+        .filter(|(part, _)| *part > NAMED)
+        .collect();
+    parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    parts.into_iter().map(|(_, other)| other).collect()
+}
+
+/// Leaves out what is kept but hardly known, one after another: without one the others are known better.
+fn leave_out_weak(normal: &Normal, parameters: &[Parameter], noise: f64, found: &mut Identifiable) {
+    let Some(factor) = normal.part(&found.kept).matrix.cholesky() else {
+        return;
+    };
+    let mut covariance = factor.inverse();
+    loop {
+        let physical = |at: &usize| parameters[found.kept[*at]].rank >= FIRST_PHYSICAL;
+        let sigma = |at: usize| noise * covariance[(at, at)].max(0.0).sqrt();
+        let worst = (0..found.kept.len())
+            .filter(physical)
+            .max_by(|a, b| sigma(*a).total_cmp(&sigma(*b)));
+        let Some(at) = worst.filter(|at| sigma(*at) > WEAK) else {
+            return;
+        };
+        let own = covariance[(at, at)];
+        let others = found.kept.iter().copied().enumerate();
+        let others = others.filter(|(k, _)| *k != at);
+        let others = others.map(|(k, other)| (other, covariance[(at, k)] / own));
+        let confounded_with = explained_by(normal, found.kept[at], others);
+        found.dropped.push(Dropped {
+            parameter: found.kept.remove(at),
+            confounded_with,
+            weak: Some(sigma(at)),
+        });
+        // the others' covariance once this one is not sought
+        let column = covariance.column(at) / own.sqrt();
+        covariance -= &column * column.transpose();
+        covariance = covariance.remove_row(at).remove_column(at);
+    }
 }
 
 /// Singular values of a square matrix by one-sided Jacobi rotations, largest first.

@@ -1,7 +1,7 @@
 //! Which parameters are identified, in which order they are kept where the data cannot tell them apart.
 
 use super::error::SelectionError;
-use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site, Unit};
+use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site, Unit};
 use crate::model::profile::Profile;
 use crate::model::{JOINTS, Slot};
 
@@ -9,6 +9,8 @@ use crate::model::{JOINTS, Slot};
 const PARALLEL: f64 = 0.1;
 /// Parameters of this rank and above have a typical size; base, tool and points may be anywhere.
 pub const FIRST_PHYSICAL: u32 = 2;
+/// The number that the base has among joints.
+const BASE_NUMBER: u32 = BASE as u32 + 1;
 /// How far a measured point may be from where it is believed, one standard deviation, metres.
 const POINT_SIGMA_M: f64 = 0.01;
 
@@ -173,7 +175,7 @@ impl Pick {
                 .all(|((a, b), n)| (*a..=*b).contains(&n))
     }
 
-    /// The effects this means, at zero.
+    /// The effects this means, as they are begun with.
     fn effects(&self) -> Vec<Effect> {
         let Some(kind) = self.kind else {
             return Vec::new();
@@ -187,6 +189,7 @@ impl Pick {
         for (n, place) in counted.enumerate() {
             let default = match place {
                 Place::Order | Place::Row => (1, 1),
+                Place::JointOrBase => (BASE_NUMBER, BASE_NUMBER),
                 _ => (1, 6),
             };
             let (low, high) = self.places.get(n).copied().unwrap_or(default);
@@ -197,13 +200,34 @@ impl Pick {
         }
         let on = kind.definition().site.contains(&Place::On);
         sites.retain(|site| !on || site.index != site.on);
-        let zero = |site| Effect {
+        let begun = |site| Effect {
             kind,
             site,
-            parameters: [0.0; MOST_PARAMETERS],
+            parameters: first_values(kind),
         };
-        sites.into_iter().map(zero).collect()
+        sites.into_iter().map(begun).collect()
     }
+}
+
+/// What an effect begins with: nothing but a typical time constant, which only shows once there is a drift.
+fn first_values(kind: Kind) -> [f64; MOST_PARAMETERS] {
+    let mut values = [0.0; MOST_PARAMETERS];
+    for (value, parameter) in values.iter_mut().zip(kind.definition().parameters) {
+        if parameter.unit == Unit::Second {
+            *value = parameter.prior_sigma * parameter.unit.in_si();
+        }
+    }
+    values
+}
+
+/// Whether a number of an effect means something at its place: a joint drifts by an angle, the base by lengths.
+fn means_something(effect: &Effect, key: &str) -> bool {
+    effect.kind != Kind::WarmUpDrift
+        || match key {
+            "angle_deg" => effect.site.index != BASE,
+            "x_mm" | "y_mm" | "z_mm" => effect.site.index == BASE,
+            _ => true,
+        }
 }
 
 fn number(effect: &Effect, place: Place) -> Option<u32> {
@@ -407,7 +431,7 @@ pub(super) fn choose(
                 effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
             }
             want(&mut effects, &mut wanted, &effect, &|key| {
-                pick.holds(&effect, key)
+                pick.holds(&effect, key) && means_something(&effect, key)
             });
         }
     }

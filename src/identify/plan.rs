@@ -5,13 +5,14 @@ pub use super::candidates::{Box3, Breach, Constraints, Guard, candidates};
 use super::candidates::candidates_where;
 use super::error::IdentifyError;
 use super::exchange::{Chooser, Rows};
+use super::expectation::slopes;
 use super::identifiability::{
     Identifiable, Observability, identifiable, observability, singular_values,
 };
 use super::measurements::{Measurement, Measurements, Observed};
 use super::normal::Normal;
 use super::parameters::{Parameter, Selection, Subject};
-use super::problem::{Estimate, Problem};
+use super::problem::{DEFAULT_SIGMA_M, Estimate, Problem};
 use super::random::Random;
 use super::robust::Loss;
 use crate::geometry::Pose;
@@ -140,20 +141,12 @@ fn jacobians(
                 let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
                 let seen = problem.observe(estimate, row, pose);
                 let weights = seen.weights();
-                let mut motion = motions.iter();
-                for (column, parameter) in parameters.iter().enumerate() {
-                    let slope = match parameter.subject {
-                        Subject::Effect(_) => motion.next().map_or([0.0; 6], |m| seen.slope(m)),
-                        Subject::Point { point, axis } => seen.slope_of_point(point, axis),
-                        Subject::Feature { feature, value } => {
-                            seen.slope_of_feature(feature, value)
-                        }
-                    };
+                let by = weights.map(|weight| weight * row.sigma_m / sigma_m);
+                slopes(&seen, &motions, parameters, |column, slope| {
                     for k in 0..row.observed.count() {
-                        let by = weights[k] * row.sigma_m / sigma_m;
-                        matrix[(top + k, column)] = slope[k] * by * parameter.scale;
+                        matrix[(top + k, column)] = slope[k] * by[k];
                     }
-                }
+                });
                 top += row.observed.count();
             }
             matrix
@@ -230,7 +223,11 @@ pub fn plan_telling(
     let every = problem.rows.len().div_ceil(SAMPLE * each).max(1);
     let sample = problem.with_rows(|i| (i / each).is_multiple_of(every));
     let normal = Normal::of(&sample, &estimate, &problem.parameters, Loss::squares());
-    let known = identifiable(&normal, &problem.parameters, None);
+    // standard deviations of as many random configurations as are asked for
+    let sampled = (sample.rows.len() / each) as f64;
+    let planned = (request.count + request.given.len()) as f64;
+    let noise = request.sigma_m / DEFAULT_SIGMA_M * (sampled / planned).sqrt();
+    let known = identifiable(&normal, &problem.parameters, Some(noise));
     let parameters: Vec<Parameter> = known
         .kept
         .iter()
@@ -375,8 +372,7 @@ mod tests {
                 .factor()
                 .expect("full rank");
             for (i, p) in kept.iter().enumerate() {
-                r.column_mut(i)
-                    .scale_mut(super::super::problem::DEFAULT_SIGMA_M / p.scale);
+                r.column_mut(i).scale_mut(DEFAULT_SIGMA_M / p.scale);
             }
             observability(singular_values(&r), 20).o1
         };

@@ -6,7 +6,7 @@ use super::measurements::{Measurement, Measurements, Observed};
 use super::observation::Observation;
 use super::parameters::{Parameter, Seen, Selection, Subject, choose};
 use crate::geometry::{Pose, Vector};
-use crate::model::effects::{Effect, Need};
+use crate::model::effects::{Effect, Kind, Need};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Mechanism, Sensitivity, Slot};
 use std::collections::BTreeMap;
@@ -323,7 +323,14 @@ impl Problem {
             let Subject::Effect(slot) = parameter.subject else {
                 continue;
             };
-            let definition = effects[slot.effect].definition();
+            let effect = &effects[slot.effect];
+            let definition = effect.definition();
+            if effect.kind == Kind::ComplianceKnee && effect.parameters[0] == 0.0 {
+                return Err(IdentifyError::Missing {
+                    id: definition.id,
+                    need: "a torque_n_m in the profile to begin with (`poseshift diagnose` searches it)",
+                });
+            }
             let asked = selection
                 .identify
                 .iter()
@@ -448,6 +455,37 @@ impl Problem {
     #[must_use]
     pub fn numbers(&self) -> usize {
         self.rows.iter().map(|row| row.observed.count()).sum()
+    }
+
+    /// How many numbers were measured in different ways: what is repeated tells of the noise, not of the arm.
+    #[must_use]
+    pub fn distinct_numbers(&self) -> usize {
+        let mut known = std::collections::HashSet::new();
+        let each = self.rows.iter().map(|row| {
+            let c = &row.conditions;
+            let from = match row.observed {
+                Observed::Distance { from_m, .. } => from_m,
+                _ => [0.0; 3],
+            };
+            let other = [c.temperature_c, c.time_s].map(|x| x.unwrap_or(0.0));
+            let numbers = row.q.iter().chain(&c.direction).chain(&c.force_n);
+            let key: Vec<u64> = numbers
+                .chain(&other)
+                .chain(&from)
+                .map(|x| x.to_bits())
+                .collect();
+            let point = match row.point {
+                PointRef::Known(p) => p.map(f64::to_bits),
+                PointRef::Named(point) => [point as u64, 0, 0],
+            };
+            let is_new = known.insert((key, row.tool, point, row.touched.map(|(at, _)| at)));
+            if is_new || row.touched.is_some() {
+                row.observed.count()
+            } else {
+                0
+            }
+        });
+        each.sum()
     }
 
     /// The same problem with some of its rows.

@@ -2,29 +2,54 @@
 
 use super::error::IdentifyError;
 use super::measurements::{Measurements, Observed};
-use super::start::{Carriers, Sight, Start, bare_arm, sights, solve, spreads};
-use super::statistics::Quality;
+use super::problem::Problem;
+use super::readings::{Reading, readings};
+use super::start::{self, Start, spreads};
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::geometry::{Vector, norm, sub};
-use crate::model::Conditions;
+use crate::geometry::{Vector, dot, norm, sub};
 use crate::model::profile::Profile;
 
-/// A first guess that misses by less is not doubted, metres.
-const GOOD_START_M: f64 = 0.02;
-/// Another reading of the file must be better by this factor to be suggested.
-const BETTER: f64 = 4.0;
+/// A first guess that misses by less is not doubted, metres, if it is also less than [`GOOD_PART`].
+const GOOD_START_M: f64 = 0.003;
+/// Of how far the measurements spread.
+const GOOD_PART: f64 = 0.02;
+/// A first guess that misses by more is of no arm, metres.
+const BAD_START_M: f64 = 0.02;
+/// Another reading of the file must miss by less than this part of the spread, and than [`BAD_START_M`].
+const FITS_PART: f64 = 0.1;
+/// And be better by this factor to be suggested; by twice as much where the file as it is may be of an uncalibrated arm.
+pub(super) const BETTER: f64 = 4.0;
+/// Readings that fit as well but for this factor are named as well.
+const AS_WELL: f64 = 1.5;
+/// Orientations further from each other than this are not of one tool, radians.
+const TURNED_RAD: f64 = 3.0 * DEG;
+/// An axis 1 this far from where the profile has it is told, radians: gravity acts along the world's z.
+const TILTED_RAD: f64 = 3.0 * DEG;
 /// Joints that move less than this over all rows stand still, radians.
 const STILL_RAD: f64 = 0.5 * DEG;
-/// A fit that misses by more is not of this robot, mm.
-const HOPELESS_MM: f64 = 20.0;
-/// A fit that misses by more is worth a warning, mm.
-const POOR_MM: f64 = 2.0;
+/// A tool that is fixed this far from where it was measured contradicts the measurements, metres.
+const CONTRADICTED_TOOL_M: f64 = 0.02;
 /// A tool this far from where the profile has it is worth a warning, metres.
 const WRONG_TOOL_M: f64 = 0.005;
 /// The way out where nothing fits.
-const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong";
+pub(super) const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong";
 /// Rows that are enough to try other readings of the file.
-const TRIED_ROWS: usize = 200;
+const TRIED_ROWS: usize = 150;
+
+/// What was asked for and cannot be.
+#[must_use]
+pub fn doubt_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark> {
+    let masses =
+        !problem.profile.bodies.is_empty() || problem.tools.iter().any(|t| t.load.is_some());
+    (compliance_asked && !masses).then(|| {
+        remark(
+            "no-masses",
+            0,
+            "the profile has no masses: compliance of the joints is not identified".into(),
+            "give `bodies` and the tool's mass, or --level 2 if the arm is light and stiff",
+        )
+    })
+}
 
 /// Something about the measurements that a person should look at.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,7 +66,7 @@ pub struct Remark {
     pub hint: String,
 }
 
-fn remark(id: &'static str, line: usize, message: String, hint: &str) -> Remark {
+pub(super) fn remark(id: &'static str, line: usize, message: String, hint: &str) -> Remark {
     Remark {
         id,
         warning: true,
@@ -51,7 +76,7 @@ fn remark(id: &'static str, line: usize, message: String, hint: &str) -> Remark 
     }
 }
 
-fn suspicious(message: String, hint: &str) -> IdentifyError {
+pub(super) fn suspicious(message: String, hint: &str) -> IdentifyError {
     IdentifyError::Suspicious {
         message,
         hint: hint.into(),
@@ -141,6 +166,15 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
             "check the order and the unit of the joint columns, and the limits in the profile",
         ));
     }
+    if rows.len() > 2 && still.len() < 3 && same_orientation(measurements) {
+        return Err(suspicious(
+            format!(
+                "all {} rows have the same orientation though the joints move",
+                rows.len()
+            ),
+            "leave qw,qx,qy,qz out where the device measures positions only",
+        ));
+    }
     let points: Vec<Vector> = rows.iter().filter_map(|r| r.observed.point_m()).collect();
     if points.len() == rows.len() && points.len() >= 3 {
         let [long, wide, _] = spreads(&points);
@@ -158,168 +192,132 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
     Ok(remarks)
 }
 
-/// Another reading of the file: what it supposes, and the way out.
-struct Reading {
-    supposes: String,
-    hint: String,
-    sights: Vec<Sight>,
+fn same_orientation(measurements: &Measurements) -> bool {
+    let mut first = None;
+    measurements.rows.iter().all(|row| match row.observed {
+        Observed::Pose(pose) => *first.get_or_insert(pose.rotation) == pose.rotation,
+        _ => false,
+    })
 }
 
-fn reread(
-    profile: &Profile,
-    measurements: &Measurements,
-    known: &[Sight],
-    joints: impl Fn(&[f64; 6]) -> [f64; 6],
-    seen: impl Fn(usize, Vector) -> Vector,
-) -> Vec<Sight> {
-    let arm = bare_arm(profile);
-    let rows = measurements
-        .rows
-        .iter()
-        .filter(|r| r.observed.point_m().is_some());
-    rows.zip(known)
-        .enumerate()
-        .map(|(i, (row, sight))| Sight {
-            flange: arm.forward(&joints(&row.q), &Conditions::default()),
-            seen: seen(i, sight.seen),
-            carrier: sight.carrier,
-        })
-        .collect()
+/// How a reading of the file fits the drawing of the robot.
+struct Fit {
+    reading: Reading,
+    start: Start,
 }
 
-fn readings(profile: &Profile, measurements: &Measurements, known: &[Sight]) -> Vec<Reading> {
-    let mut all = Vec::new();
-    let same = |q: &[f64; 6]| *q;
-    let here = |_: usize, p: Vector| p;
-    let mut add = |supposes: String, hint: String, sights: Vec<Sight>| {
-        all.push(Reading {
-            supposes,
-            hint,
-            sights,
-        });
-    };
-    let read = |joints: &dyn Fn(&[f64; 6]) -> [f64; 6], seen: &dyn Fn(usize, Vector) -> Vector| {
-        reread(profile, measurements, known, joints, seen)
-    };
-    add(
-        "the joint angles are radians, not degrees".into(),
-        "q1_deg…q6_deg are degrees".into(),
-        read(&|q| q.map(|q| q / DEG), &here),
-    );
-    add(
-        "the lengths are metres, not millimetres".into(),
-        "x_mm,y_mm,z_mm are millimetres".into(),
-        read(&same, &|_, p| p.map(|x| x * 1000.0)),
-    );
-    for (factor, name) in [(25.4, "inches"), (0.001, "micrometres")] {
-        add(
-            format!("the lengths are {name}, not millimetres"),
-            "x_mm,y_mm,z_mm are millimetres".into(),
-            read(&same, &|_, p| p.map(|x| x * factor)),
-        );
+impl Fit {
+    /// What is missed as a part of how far the measurements spread.
+    fn part(start: &Start) -> f64 {
+        start.rms_m / start.spread_m.max(1e-9)
     }
-    for (a, b) in [(0, 1), (0, 2), (1, 2)] {
-        let names = ["x_mm", "y_mm", "z_mm"];
-        add(
-            format!("the columns {} and {} are swapped", names[a], names[b]),
-            "or one of the axes points the other way: the device's frame must be right-handed"
-                .into(),
-            read(&same, &|_, mut p| {
-                p.swap(a, b);
-                p
-            }),
-        );
+
+    /// Cosine of the angle between axis 1 and where the profile has it: devices are level more often than not.
+    fn upright(&self, profile: &Profile) -> f64 {
+        let axis = |rotation: &crate::geometry::Rotation| rotation.axis(2);
+        let base = &self.start.world_from_base.rotation;
+        dot(axis(base), axis(&profile.world_from_base.rotation))
     }
-    for a in 0..6 {
-        for b in a + 1..6 {
-            add(
-                format!("the columns q{}_deg and q{}_deg are swapped", a + 1, b + 1),
-                "check the order of the joint columns".into(),
-                read(
-                    &|q| {
-                        let mut q = *q;
-                        q.swap(a, b);
-                        q
-                    },
-                    &here,
-                ),
-            );
-        }
-        add(
-            format!("joint {} counts the other way", a + 1),
-            format!(
-                "negate q{}_deg, or set the sign of joint {} in the profile",
-                a + 1,
-                a + 1
-            ),
-            read(
-                &|q| {
-                    let mut q = *q;
-                    q[a] = -q[a];
-                    q
-                },
-                &here,
-            ),
-        );
-    }
-    let count = known.len();
-    for by in [1, count - 1] {
-        let word = if by == 1 {
-            "one row later"
-        } else {
-            "one row earlier"
-        };
-        add(
-            format!("the measured points belong to the joint angles {word}"),
-            "check that joints and points are in the same order and none is missing".into(),
-            read(&same, &|i, _| known[(i + by) % count].seen),
-        );
-    }
-    add(
-        "the measured points stand in the opposite order".into(),
-        "check that joints and points are in the same order".into(),
-        read(&same, &|i, _| known[count - 1 - i].seen),
-    );
-    all
 }
 
 /// Doubts a first guess that misses by far: tries other readings of the file, and says which one fits.
 ///
 /// # Errors
-/// Another reading fits much better; or none fits at all.
+/// Another reading fits much better; orientations that are not of one tool.
 pub fn doubt_start(
     profile: &Profile,
     measurements: &Measurements,
     start: &Start,
 ) -> Result<Vec<Remark>, IdentifyError> {
-    if start.rms_m < GOOD_START_M {
-        return Ok(moved_tools(profile, start));
+    let own = Fit::part(start);
+    if start.rms_m > GOOD_START_M || own > GOOD_PART {
+        doubt_reading(profile, measurements)?;
     }
-    let sample = measurements.filtered(|i, _| i < TRIED_ROWS);
-    let (known, _, carriers): (_, _, Carriers) = sights(profile, &sample);
-    if known.len() < 4 {
-        return Ok(Vec::new());
-    }
-    let as_is = solve(&known, &carriers).rms_m;
-    let mut best: Option<(f64, Reading)> = None;
-    for reading in readings(profile, &sample, &known) {
-        let rms = solve(&reading.sights, &carriers).rms_m;
-        if best.as_ref().is_none_or(|(other, _)| rms < *other) {
-            best = Some((rms, reading));
-        }
-    }
-    if let Some((rms, reading)) = best.filter(|(rms, _)| *rms * BETTER < as_is) {
+    if let Some(apart) = start.turned_apart_rad.filter(|apart| *apart > TURNED_RAD)
+        && start.rms_m < BAD_START_M
+    {
         return Err(suspicious(
             format!(
-                "the measurements do not fit the robot: {:.1} mm rms with the best base and tool; if {}, {:.1} mm",
-                mm_from_m(as_is),
-                reading.supposes,
-                mm_from_m(rms)
+                "the orientations do not fit the positions: half of them are more than {:.1} deg from any one orientation of the tool on the flange, and positions fit to {:.1} mm",
+                apart / DEG,
+                mm_from_m(start.rms_m)
             ),
-            &reading.hint,
+            "qw,qx,qy,qz turn the tool into the world's frame, the scalar first; without these columns positions alone count",
         ));
     }
-    Ok(moved_tools(profile, start))
+    let mut remarks = moved_tools(profile, start);
+    let axis = |pose: &crate::geometry::Pose| pose.rotation.axis(2);
+    let cosine = dot(axis(&start.world_from_base), axis(&profile.world_from_base));
+    let tilt = cosine.clamp(-1.0, 1.0).acos();
+    if tilt > TILTED_RAD && start.fixed_points.is_none() {
+        remarks.push(remark(
+            "base-tilted",
+            0,
+            format!(
+                "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame",
+                tilt / DEG
+            ),
+            "gravity acts along the world's z by the profile: level the device's frame, or set kinematics.base and gravity",
+        ));
+    }
+    if let Some(count) = start.fixed_points.filter(|count| *count < 3) {
+        remarks.push(remark(
+            "base-not-determined",
+            0,
+            format!(
+                "distances from {count} fixed point{} do not tell how the base is turned: it is as in the profile, and its place follows from that",
+                if count == 1 { "" } else { "s" }
+            ),
+            "believe the arm's own values only; distances from three fixed points, or some positions, determine the base",
+        ));
+    }
+    Ok(remarks)
+}
+
+fn doubt_reading(profile: &Profile, measurements: &Measurements) -> Result<(), IdentifyError> {
+    let sample = measurements.filtered(|i, _| i < TRIED_ROWS);
+    if sample.rows.len() < 4 {
+        return Ok(());
+    }
+    let Some(start) = start::find(profile, &sample) else {
+        return Ok(());
+    };
+    let mut fits: Vec<Fit> = readings(&sample)
+        .into_iter()
+        .filter_map(|reading| {
+            let start = start::find(profile, &reading.measurements)?;
+            Some(Fit { reading, start })
+        })
+        .filter(|fit| fit.start.rms_m < BAD_START_M && Fit::part(&fit.start) < FITS_PART)
+        .collect();
+    let part = |fit: &Fit| Fit::part(&fit.start);
+    let Some(least) = fits.iter().map(part).min_by(f64::total_cmp) else {
+        return Ok(());
+    };
+    let own = Fit::part(&start);
+    let sure = start.rms_m > BAD_START_M || own > FITS_PART;
+    let factor = if sure { BETTER } else { 2.0 * BETTER };
+    if least * factor > own {
+        return Ok(());
+    }
+    fits.retain(|fit| part(fit) <= AS_WELL * least);
+    fits.sort_by(|a, b| b.upright(profile).total_cmp(&a.upright(profile)));
+    let best = &fits[0];
+    let mut as_well = String::new();
+    for other in fits.iter().skip(1).take(2) {
+        as_well += &format!("; as well if {}", other.reading.supposes);
+    }
+    Err(suspicious(
+        format!(
+            "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, where they spread {:.1} mm; if {}, {:.1} of {:.1} mm{as_well}",
+            mm_from_m(start.rms_m),
+            mm_from_m(start.spread_m),
+            best.reading.supposes,
+            mm_from_m(best.start.rms_m),
+            mm_from_m(best.start.spread_m)
+        ),
+        &best.reading.hint,
+    ))
 }
 
 /// Tools that are elsewhere than the profile says.
@@ -345,17 +343,46 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
                     "the point measured on tool `{name}` is {:.1} mm from where the profile has it",
                     mm_from_m(gap)
                 ),
-                "is it the tool of the profile? its deviation is identified as tool_frame",
+                "is it the tool of the profile? where tool_frame is identified its deviation is found",
             ));
         }
     }
     remarks
 }
 
+/// Doubts a tool that is to stay where the profile has it and was measured elsewhere.
+///
+/// # Errors
+/// It is far away.
+pub fn doubt_fixed_tool(profile: &Profile, start: &Start) -> Result<(), IdentifyError> {
+    let Some(believed) = start
+        .believed_rms_m
+        .filter(|rms| *rms > CONTRADICTED_TOOL_M)
+    else {
+        return Ok(());
+    };
+    if start.rms_m * BETTER > believed {
+        return Ok(());
+    }
+    let told: Vec<String> = moved_tools(profile, start)
+        .into_iter()
+        .map(|remark| remark.message)
+        .collect();
+    Err(suspicious(
+        format!(
+            "with the tool where the profile has it the measurements miss the robot by {:.1} mm rms, else by {:.1} mm: {}",
+            mm_from_m(believed),
+            mm_from_m(start.rms_m),
+            told.join("; ")
+        ),
+        "correct the tool in the profile, or do not --fix tool_frame",
+    ))
+}
+
 /// Doubts measurements from which no fit comes to rest: where even the best base and tool miss by far, they are not of this
 /// robot, and which parameters are identified does not matter.
 pub fn doubt_rest(error: IdentifyError, start: &Start) -> IdentifyError {
-    if !matches!(error, IdentifyError::NotConverged { .. }) || start.rms_m < GOOD_START_M {
+    if !matches!(error, IdentifyError::NotConverged { .. }) || start.rms_m < BAD_START_M {
         return error;
     }
     suspicious(
@@ -365,35 +392,4 @@ pub fn doubt_rest(error: IdentifyError, start: &Start) -> IdentifyError {
         ),
         NOT_OF_THIS_ROBOT,
     )
-}
-
-/// Doubts a fit that misses by far more than any calibrated arm.
-///
-/// # Errors
-/// The measurements are not of this robot.
-pub fn doubt_fit(after: &Quality, frames_only: &Quality) -> Result<Vec<Remark>, IdentifyError> {
-    let (Some(after), Some(frames)) = (after.main(), frames_only.main()) else {
-        return Ok(Vec::new());
-    };
-    if after.rms > HOPELESS_MM {
-        return Err(suspicious(
-            format!(
-                "the fitted model misses by {:.1} mm rms (base and tool alone fitted: {:.1} mm): no arm is that far from its drawing",
-                after.rms, frames.rms
-            ),
-            NOT_OF_THIS_ROBOT,
-        ));
-    }
-    if after.rms > POOR_MM {
-        return Ok(vec![remark(
-            "poor-fit",
-            0,
-            format!(
-                "the fitted model misses by {:.3} mm rms, more than a calibrated arm does",
-                after.rms
-            ),
-            "look at the outliers, the tool and the masses; `poseshift diagnose` looks for what is missing",
-        )]);
-    }
-    Ok(Vec::new())
 }

@@ -12,7 +12,7 @@ use nalgebra::DVector;
 
 /// Passes over the data before parameters that are hardly seen are looked for.
 const FIRST_PASSES: usize = 12;
-/// Passes over the data before the iteration counts as failed.
+/// Passes over the data with one loss and choice of parameters before the iteration counts as failed.
 const MOST_PASSES: usize = 60;
 /// A step below this part of every parameter's typical size ends the iteration.
 pub const STEP_LIMIT: f64 = 1e-7;
@@ -26,6 +26,12 @@ const SAMPLE_FROM: usize = 2000;
 const SAMPLE: usize = 600;
 /// A robust scale that changes by less ends the re-weighting.
 const SCALE_LIMIT: f64 = 0.01;
+/// A robust scale is not smaller: measurements without noise fit exactly.
+const LEAST_SCALE: f64 = 1e-9;
+/// How often the loss or the choice of parameters may change.
+const MOST_ROUNDS: usize = 14;
+/// How often parameters that were left out may come back.
+const MOST_RETURNS: usize = 3;
 
 /// Why the iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,11 +170,80 @@ impl Iteration<'_> {
     }
 }
 
+/// Parameters that the data determine, and the normal equations of those, while they are being found.
+struct Chosen {
+    known: Identifiable,
+    normal: Normal,
+}
+
+impl Chosen {
+    /// Chooses among all parameters of a problem at an estimate.
+    fn of(problem: &Problem, estimate: &Estimate, loss: Loss) -> Self {
+        let all = &problem.parameters;
+        let normal = Normal::of(problem, estimate, all, loss);
+        let known = identifiable(&normal, all, None);
+        let normal = normal.part(&known.kept);
+        Self { known, normal }
+    }
+
+    fn parameters(&self, problem: &Problem) -> Vec<Parameter> {
+        picked(problem, &self.known.kept)
+    }
+
+    /// Those that were left out because too little was known of them; what others do as well stays out.
+    fn may_return(&self) -> Vec<usize> {
+        let dropped = self.known.dropped.iter();
+        let unseen = dropped.filter(|d| d.weak.is_some() || d.confounded_with.is_empty());
+        unseen.map(|d| d.parameter).collect()
+    }
+
+    /// Chooses again among some parameters, of which `normal` has the normal equations; those left out go back to their origin.
+    /// Whether the choice is another one.
+    fn choose_again(
+        &mut self,
+        problem: &Problem,
+        (among, normal): (&[usize], &Normal),
+        noise: f64,
+        (estimate, origin): (&mut Estimate, &Estimate),
+    ) -> bool {
+        let parameters = picked(problem, among);
+        let left = problem.numbers().saturating_sub(parameters.len()).max(1);
+        let noise = noise * (problem.numbers() as f64 / left as f64).sqrt();
+        let again = identifiable(normal, &parameters, Some(noise));
+        let kept: Vec<usize> = again.kept.iter().map(|i| among[*i]).collect();
+        let is_other = kept != self.known.kept;
+        self.known.dropped.retain(|d| !among.contains(&d.parameter));
+        for mut dropped in again.dropped {
+            dropped.parameter = among[dropped.parameter];
+            for other in &mut dropped.confounded_with {
+                *other = among[*other];
+            }
+            let subject = problem.parameters[dropped.parameter].subject;
+            *estimate.value_mut(subject) = origin.value(subject);
+            self.known.dropped.push(dropped);
+        }
+        self.known.kept = kept;
+        is_other
+    }
+}
+
+fn picked(problem: &Problem, indices: &[usize]) -> Vec<Parameter> {
+    let each = indices.iter().map(|i| problem.parameters[*i].clone());
+    each.collect()
+}
+
+/// The scale of the residuals in their standard deviations.
+fn noise_of(problem: &Problem, normal: &Normal) -> f64 {
+    let counts = problem.rows.iter().map(|row| row.observed.count());
+    scale_of(&normal.squares, counts)
+}
+
 /// Solves a problem from a start.
 ///
 /// Gauss–Newton steps on the normal equations; a step that does not lower the loss is damped (Levenberg–Marquardt). Where
 /// there are many rows a sample of them comes first. The scale of a robust loss is the residuals' median and is found again
-/// until it rests. With `free_base` the deviation of the base goes into [`Estimate::world_from_base`].
+/// until it rests; parameters that were left out before that are tried once more. With `free_base` the deviation of the base goes into
+/// [`Estimate::world_from_base`].
 ///
 /// # Errors
 /// Too few numbers for the parameters that the data determine; no rest within 60 passes.
@@ -183,19 +258,12 @@ pub fn solve(
     if free_base {
         absorb_base(&mut estimate);
     }
-    let all = &problem.parameters;
-    let found = |problem: &Problem, estimate: &Estimate, loss: Loss| {
-        let normal = Normal::of(problem, estimate, all, loss);
-        (identifiable(&normal, all, None), normal)
-    };
-    let pick = |kept: &[usize]| kept.iter().map(|i| all[*i].clone()).collect::<Vec<_>>();
     let mut loss = Loss::squares();
-    let mut passes = 0;
     if problem.rows.len() > SAMPLE_FROM {
         let every = problem.rows.len() / SAMPLE;
         let sample = problem.with_rows(|i| i % every == 0);
-        let (known, _) = found(&sample, &estimate, loss);
-        let parameters = pick(&known.kept);
+        let mut chosen = begin(&sample, &estimate, shape, &mut loss);
+        let parameters = chosen.parameters(&sample);
         let mut iteration = Iteration {
             problem: &sample,
             parameters: &parameters,
@@ -203,23 +271,20 @@ pub fn solve(
             passes: 0,
             free_base,
         };
-        let mut normal = iteration.normal(&estimate);
         // what the sample cannot settle, all rows may
-        let _ = iteration.run(&mut estimate, &mut normal, FIRST_PASSES);
+        let _ = iteration.run(&mut estimate, &mut chosen.normal, FIRST_PASSES);
         if shape != Shape::Squares {
-            let counts = sample.rows.iter().map(|row| row.observed.count());
-            loss = Loss {
-                shape: Shape::Huber,
-                scale: scale_of(&normal.squares, counts),
-            };
+            loss.scale = noise_of(&sample, &chosen.normal).max(LEAST_SCALE);
         }
     }
-    let (mut known, first) = found(problem, &estimate, loss);
-    passes += 1;
-    let mut normal = first.part(&known.kept);
-    let mut rounds = 0;
+    let mut chosen = if loss.shape == Shape::Squares {
+        begin(problem, &estimate, shape, &mut loss)
+    } else {
+        Chosen::of(problem, &estimate, loss)
+    };
+    let (mut passes, mut rounds, mut returns) = (1, 0, 0);
     loop {
-        let parameters = pick(&known.kept);
+        let parameters = chosen.parameters(problem);
         if problem.numbers() <= parameters.len() {
             return Err(IdentifyError::TooFew {
                 numbers: problem.numbers(),
@@ -234,74 +299,85 @@ pub fn solve(
             passes,
             free_base,
         };
-        let most = if rounds == 0 {
+        let own = if rounds == 0 {
             FIRST_PASSES
         } else {
             MOST_PASSES
         };
-        let rested = iteration.run(&mut estimate, &mut normal, most);
+        let rested = iteration.run(&mut estimate, &mut chosen.normal, passes + own);
         passes = iteration.passes;
         // far from the start columns may have become redundant; and only now the noise is known
-        let counts = problem.rows.iter().map(|row| row.observed.count());
-        let noise = scale_of(&normal.squares, counts);
-        let again = identifiable(&normal, &parameters, Some(noise));
+        let noise = noise_of(problem, &chosen.normal);
+        let (kept, normal) = (chosen.known.kept.clone(), chosen.normal.clone());
+        let fewer = chosen.choose_again(problem, (&kept, &normal), noise, (&mut estimate, &origin));
         let stop = match rested {
             Ok(stop) => stop,
-            Err(_) if rounds == 0 => {
-                if again.kept.len() == known.kept.len() {
-                    rounds += 1;
-                    continue;
-                }
-                Stop::Step(f64::NAN)
+            Err(error) if rounds > 0 => return Err(error),
+            Err(_) if !fewer => {
+                rounds += 1;
+                continue;
             }
-            Err(error) => return Err(error),
+            Err(_) => Stop::Step(f64::NAN),
         };
-        if again.kept.len() < known.kept.len() && rounds < 10 {
-            let back = &known.kept.clone();
-            for mut dropped in again.dropped {
-                dropped.parameter = back[dropped.parameter];
-                for other in &mut dropped.confounded_with {
-                    *other = back[*other];
-                }
-                known.kept.retain(|i| *i != dropped.parameter);
-                // it may have wandered: back to where it was
-                let subject = all[dropped.parameter].subject;
-                *estimate.value_mut(subject) = origin.value(subject);
-                known.dropped.push(dropped);
-            }
-            normal = Normal::of(problem, &estimate, &pick(&known.kept), loss);
+        if fewer && rounds < MOST_ROUNDS {
+            let parameters = chosen.parameters(problem);
+            chosen.normal = Normal::of(problem, &estimate, &parameters, loss);
             passes += 1;
             rounds += 1;
             continue;
         }
-        if shape != Shape::Squares && rounds < 10 {
-            let counts = problem.rows.iter().map(|row| row.observed.count());
-            let scale = scale_of(&normal.squares, counts).max(1e-9);
+        if shape != Shape::Squares && rounds < MOST_ROUNDS {
+            let scale = noise.max(LEAST_SCALE);
             let settled = loss.shape == shape && (scale / loss.scale - 1.0).abs() < SCALE_LIMIT;
             if !settled {
-                // the biweight needs a start that outliers have not bent
-                let next = if loss.shape == Shape::Squares {
-                    Shape::Huber
-                } else {
-                    shape
-                };
-                loss = Loss { shape: next, scale };
+                loss = Loss { shape, scale };
                 rounds += 1;
                 passes += 1;
-                normal = Normal::of(problem, &estimate, &parameters, loss);
+                chosen.normal = Normal::of(problem, &estimate, &parameters, loss);
+                continue;
+            }
+        }
+        let mut among = chosen.may_return();
+        if !among.is_empty() && returns < MOST_RETURNS && rounds < MOST_ROUNDS {
+            // what was left out when less was known
+            among.extend(&chosen.known.kept);
+            among.sort_unstable();
+            let normal = Normal::of(problem, &estimate, &picked(problem, &among), loss);
+            passes += 1;
+            let values = (&mut estimate, &origin);
+            if chosen.choose_again(problem, (&among, &normal), noise, values) {
+                let parameters = chosen.parameters(problem);
+                chosen.normal = Normal::of(problem, &estimate, &parameters, loss);
+                passes += 1;
+                returns += 1;
+                rounds += 1;
                 continue;
             }
         }
         return Ok(Solution {
             estimate,
-            identifiable: known,
+            identifiable: chosen.known,
             parameters,
-            normal,
+            normal: chosen.normal,
             loss,
             passes,
             stop,
         });
     }
+}
+
+/// What is identified first. Of a robust loss the scale is that of the residuals at the start, so that gross errors do not bend
+/// the first steps.
+fn begin(problem: &Problem, estimate: &Estimate, shape: Shape, loss: &mut Loss) -> Chosen {
+    let first = Chosen::of(problem, estimate, *loss);
+    if shape == Shape::Squares {
+        return first;
+    }
+    *loss = Loss {
+        shape: Shape::Huber,
+        scale: noise_of(problem, &first.normal).max(LEAST_SCALE),
+    };
+    Chosen::of(problem, estimate, *loss)
 }
 
 /// Whether a parameter is one of an effect of this kind.

@@ -1,7 +1,7 @@
 //! Where the base stands, in closed form, wherever the measuring device is.
 
 use super::measurements::{Measurements, Observed};
-use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, dot, norm, scale, sub};
+use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, cross, dot, norm, scale, sub};
 use crate::model::effects::Kind;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
@@ -13,6 +13,14 @@ const ALTERNATIONS: usize = 30;
 const FLAT: f64 = 1e-6;
 /// Where the points of the profile fit so well, metres, they are believed.
 const BELIEVED_M: f64 = 0.02;
+/// A row that misses by this many times what half of the rows do is left out of the guess.
+const GROSS: f64 = 4.0;
+/// And the part of the rows that must remain.
+const MOST_KEPT: f64 = 0.7;
+/// How often rows are left out.
+const CLEANINGS: usize = 6;
+/// Rows whose orientation is tried as that of all.
+const TRIED_ORIENTATIONS: usize = 5;
 
 /// One reading reduced to what the start needs.
 #[derive(Clone, Copy, Debug)]
@@ -37,12 +45,35 @@ pub struct Start {
     pub world_from_base: Pose,
     /// Each measured point on the flange, metres, by `(tool, point)`.
     pub points_on_flange_m: Vec<((String, Option<String>), Vector)>,
-    /// Root mean square of the distances left, metres.
+    /// Root mean square of the distances left, without gross errors, metres.
     pub rms_m: f64,
     /// The same with the tool and points as the profile has them; `None` where it does not have them all.
     pub believed_rms_m: Option<f64>,
+    /// How far what was measured spreads, metres.
+    pub spread_m: f64,
     /// Orientation of each tool on the flange, where poses were measured.
     pub turned: Vec<(String, Rotation)>,
+    /// The angle between measured orientations and those, half of the rows are below it, radians.
+    pub turned_apart_rad: Option<f64>,
+    /// Number of fixed points that distances were measured from, where only such tell where the base is.
+    pub fixed_points: Option<usize>,
+}
+
+impl Start {
+    /// A base that is known, and nothing else.
+    #[must_use]
+    pub fn at(world_from_base: Pose) -> Self {
+        Self {
+            world_from_base,
+            points_on_flange_m: Vec::new(),
+            rms_m: 0.0,
+            believed_rms_m: None,
+            spread_m: 0.0,
+            turned: Vec::new(),
+            turned_apart_rad: None,
+            fixed_points: None,
+        }
+    }
 }
 
 /// The nominal arm with its base at the origin, to the flange.
@@ -299,8 +330,56 @@ pub(super) fn solve(sights: &[Sight], carriers: &Carriers) -> Placed {
     }
 }
 
+/// As [`solve`], without the rows that are far beyond the others.
+fn solve_without_gross(sights: &[Sight], carriers: &Carriers) -> Placed {
+    let mut kept = sights.to_vec();
+    let mut placed = solve(&kept, carriers);
+    for _ in 0..CLEANINGS {
+        let gap = |s: &Sight| {
+            let expected = s.flange.transform(placed.points[s.carrier]);
+            norm(sub(placed.base.transform(expected), s.seen))
+        };
+        let mut gaps: Vec<f64> = sights.iter().map(gap).collect();
+        let largest = gaps.iter().copied().fold(0.0, f64::max);
+        let middle = gaps.len() / 2;
+        let limit = GROSS * *gaps.select_nth_unstable_by(middle, f64::total_cmp).1;
+        if largest < BELIEVED_M || largest < GROSS * limit {
+            break;
+        }
+        let next: Vec<Sight> = sights.iter().filter(|s| gap(s) <= limit).copied().collect();
+        let all_seen = (0..carriers.len()).all(|c| next.iter().any(|s| s.carrier == c));
+        if next.len() == kept.len()
+            || (next.len() as f64) < MOST_KEPT * sights.len() as f64
+            || !all_seen
+        {
+            break;
+        }
+        placed = solve(&next, carriers);
+        kept = next;
+    }
+    placed
+}
+
+/// The standard deviation of some numbers.
+fn deviation(numbers: &[f64]) -> f64 {
+    let count = numbers.len().max(1) as f64;
+    let mean = numbers.iter().sum::<f64>() / count;
+    (numbers.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt()
+}
+
+/// The least rotation between two directions.
+fn least_rotation(from: Vector, to: Vector) -> Rotation {
+    let (from, to) = (scale(norm(from).recip(), from), scale(norm(to).recip(), to));
+    let axis = cross(from, to);
+    let sine = norm(axis);
+    if sine < 1e-12 {
+        return Rotation::identity();
+    }
+    Rotation::from_vector(scale(sine.atan2(dot(from, to)) / sine, axis))
+}
+
 /// A device's fixed points in the base's frame by their distances, then the base by aligning them.
-fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> Option<Pose> {
+fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> Option<Start> {
     let mut fixed: Vec<(Vector, Vec<(Vector, f64)>)> = Vec::new();
     for row in &measurements.rows {
         let Observed::Distance { distance_m, from_m } = row.observed else {
@@ -343,19 +422,42 @@ fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> 
         pairs.push(([f[0], f[1], f[2]], *from));
     }
     let world: Vec<Vector> = pairs.iter().map(|(_, b)| *b).collect();
-    if pairs.is_empty() {
-        return None;
+    let world_from_base = match pairs[..] {
+        [] => return None,
+        [_, _, _, ..] if spreads(&world)[1] > 1e-3 => align(pairs.iter().copied()),
+        // too few fixed points for a rotation: the profile's, turned as little as two of them ask for
+        _ => {
+            let mut rotation = profile.world_from_base.rotation;
+            if let [(a, b), (c, d), ..] = pairs[..]
+                && norm(sub(c, a)) > 1e-3
+            {
+                rotation = least_rotation(rotation * sub(c, a), sub(d, b)) * rotation;
+            }
+            let shifts = pairs.iter().map(|(a, b)| sub(*b, rotation * *a));
+            let sum = shifts.fold([0.0; 3], add);
+            Pose {
+                rotation,
+                translation: scale(1.0 / pairs.len() as f64, sum),
+            }
+        }
+    };
+    let (mut gaps, mut distances) = (Vec::new(), Vec::new());
+    for (from, all) in &fixed {
+        for (at, distance_m) in all {
+            gaps.push(norm(sub(world_from_base.transform(*at), *from)) - distance_m);
+            distances.push(*distance_m);
+        }
     }
-    if pairs.len() >= 3 && spreads(&world)[1] > 1e-3 {
-        return Some(align(pairs.iter().copied()));
-    }
-    // too few fixed points for a rotation: the profile's
-    let rotation = profile.world_from_base.rotation;
-    let shifts = pairs.iter().map(|(a, b)| sub(*b, rotation * *a));
-    let sum = shifts.fold([0.0; 3], add);
-    Some(Pose {
-        rotation,
-        translation: scale(1.0 / pairs.len() as f64, sum),
+    let squares: f64 = gaps.iter().map(|gap| gap * gap).sum();
+    Some(Start {
+        rms_m: (squares / gaps.len() as f64).sqrt(),
+        spread_m: deviation(&distances),
+        fixed_points: measurements
+            .rows
+            .iter()
+            .all(|row| row.contact.is_none())
+            .then_some(pairs.len()),
+        ..Start::at(world_from_base)
     })
 }
 
@@ -425,37 +527,66 @@ pub fn find(profile: &Profile, measurements: &Measurements) -> Option<Start> {
     let seen: Vec<Vector> = sights.iter().map(|s| s.seen).collect();
     let spread = spreads(&seen);
     if sights.len() < 3 || spread[1] < FLAT * spread[0].max(1e-3) {
-        let base = by_distances(profile, &bare_arm(profile), measurements)?;
-        return Some(Start {
-            world_from_base: base,
-            points_on_flange_m: Vec::new(),
-            rms_m: 0.0,
-            believed_rms_m: None,
-            turned: Vec::new(),
-        });
+        return by_distances(profile, &bare_arm(profile), measurements);
     }
-    let placed = solve(&sights, &carriers);
-    let mut turned: Vec<(String, Rotation)> = Vec::new();
+    let placed = solve_without_gross(&sights, &carriers);
+    let (turned, turned_apart_rad) = orientations(measurements, &sights, &names, &placed.base);
+    Some(Start {
+        points_on_flange_m: names.into_iter().zip(placed.points).collect(),
+        rms_m: placed.rms_m,
+        believed_rms_m: placed.believed_rms_m,
+        spread_m: norm(spread),
+        turned,
+        turned_apart_rad,
+        ..Start::at(placed.base)
+    })
+}
+
+/// The orientation of each tool on the flange by poses, and how far they are from it: of some rows that which fits the others best.
+fn orientations(
+    measurements: &Measurements,
+    sights: &[Sight],
+    names: &[CarrierName],
+    base: &Pose,
+) -> (Vec<(String, Rotation)>, Option<f64>) {
+    let mut by_tool: Vec<(String, Vec<Rotation>)> = Vec::new();
     let rows = measurements
         .rows
         .iter()
         .filter(|row| row.observed.point_m().is_some());
-    for (row, sight) in rows.zip(&sights) {
+    for (row, sight) in rows.zip(sights) {
         if let Observed::Pose(pose) = row.observed {
             let tool = &names[sight.carrier].0;
-            let frame = (placed.base * sight.flange).rotation.transpose() * pose.rotation;
-            if turned.iter().all(|(name, _)| name != tool) {
-                turned.push((tool.clone(), frame));
+            let frame = (*base * sight.flange).rotation.transpose() * pose.rotation;
+            match by_tool.iter_mut().find(|(name, _)| name == tool) {
+                Some((_, all)) => all.push(frame),
+                None => by_tool.push((tool.clone(), vec![frame])),
             }
         }
     }
-    Some(Start {
-        world_from_base: placed.base,
-        points_on_flange_m: names.into_iter().zip(placed.points).collect(),
-        rms_m: placed.rms_m,
-        believed_rms_m: placed.believed_rms_m,
-        turned,
-    })
+    let mut apart: Option<f64> = None;
+    let turned = by_tool.into_iter().map(|(tool, frames)| {
+        let angle_to = |own: &Rotation| {
+            let mut angles: Vec<f64> = frames
+                .iter()
+                .map(|other| (own.transpose() * *other).angle())
+                .collect();
+            let middle = angles.len() / 2;
+            *angles.select_nth_unstable_by(middle, f64::total_cmp).1
+        };
+        let every = (frames.len() / TRIED_ORIENTATIONS).max(1);
+        let tried = frames
+            .iter()
+            .step_by(every)
+            .map(|own| (angle_to(own), *own));
+        let (angle, own) = tried
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .expect("a tool has rows");
+        apart = Some(apart.map_or(angle, |before| before.max(angle)));
+        (tool, own)
+    });
+    let turned = turned.collect();
+    (turned, apart)
 }
 
 /// Distance of the two places of the base, metres, and the angle between, radians.

@@ -157,6 +157,7 @@ pub fn calibration(calibration: &Calibration, file: &str) -> Value {
         "degrees_of_freedom": u.degrees_of_freedom,
         "sigma_factor": u.sigma_factor,
         "sigma_assumed": calibration.problem.sigma_assumed,
+        "expected_error_mm": calibration.expected_m.map(mm_from_m),
         "base": crate::report::pose(&calibration.solution.estimate.world_from_base),
         "base_replaced": calibration.base_replaced,
         "passes": calibration.solution.passes,

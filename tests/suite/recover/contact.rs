@@ -469,3 +469,19 @@ fn files_of_touches_are_calibrated_validated_and_refused_by_command() {
     assert!(told.contains(&format!("bad.csv:{place}:")), "{told}");
     assert!(!at.join("found.yaml").exists());
 }
+
+#[test]
+fn a_diameter_for_a_radius_and_a_normal_the_other_way_are_refused() {
+    let mut cell = Cell::new(75);
+    let text = all_kinds(&mut cell, 30);
+    let probe = PROBE_M * 1e3;
+    let thicker = text.replace(&format!(",{probe},"), &format!(",{},", 2.0 * probe));
+    let (up, down) = (cells(FLOOR.1, 1.0), cells(scale(-1.0, FLOOR.1), 1.0));
+    for bad in [thicker, text.replace(&up, &down)] {
+        assert_ne!(bad, text);
+        match calibrate(&nominal(), &read(&bad), &options()) {
+            Err(error) => assert!(error.to_string().contains("touches miss"), "{error}"),
+            Ok(found) => panic!("believed with {:?}", found.after),
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! Hidden truths found again.
 
 mod contact;
+mod doubts;
 mod identify;
 mod judged;
 mod kinds;

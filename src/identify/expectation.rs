@@ -1,0 +1,93 @@
+//! What the uncertainties of the parameters mean for the arm elsewhere.
+
+use super::normal::Normal;
+use super::observation::Observation;
+use super::parameters::{FIRST_PHYSICAL, Parameter, Subject};
+use super::problem::{Estimate, Problem, Row};
+use super::random::Random;
+use super::robust::Loss;
+use crate::model::{Conditions, Motion};
+use nalgebra::{DMatrix, DVector};
+
+/// Random postures within the joint limits.
+pub const POSTURES: usize = 300;
+/// Base, tool and points are believed to be within so many of their typical sizes where the data do not tell.
+const ANYWHERE: f64 = 100.0;
+
+/// Derivatives of what is observed of a row by the parameters, in their scales and in standard deviations of the row.
+pub(super) fn slopes(
+    seen: &Observation,
+    motions: &[Motion],
+    parameters: &[Parameter],
+    mut each: impl FnMut(usize, [f64; 6]),
+) {
+    let mut motion = motions.iter();
+    for (column, parameter) in parameters.iter().enumerate() {
+        let slope = match parameter.subject {
+            Subject::Effect(_) => motion.next().map_or([0.0; 6], |m| seen.slope(m)),
+            Subject::Point { point, axis } => seen.slope_of_point(point, axis),
+            Subject::Feature { feature, value } => seen.slope_of_feature(feature, value),
+        };
+        each(column, slope.map(|x| x * parameter.scale));
+    }
+}
+
+/// Root mean square of the position error that is to be expected of the first measured point over the joint limits, metres.
+///
+/// The parameters' covariance from the measurements (`loss` as they were weighted, standard deviations of the rows times
+/// `factor`), where values that the data do not tell vary as those of other arms do: each has its typical size as a prior. `None`
+/// where the measurements are touches only.
+pub fn expected_error_m(
+    problem: &Problem,
+    estimate: &Estimate,
+    loss: Loss,
+    factor: f64,
+) -> Option<f64> {
+    let parameters = &problem.parameters;
+    let mut information =
+        Normal::of(problem, estimate, parameters, loss).matrix / (factor * factor).max(1e-12);
+    for (i, parameter) in parameters.iter().enumerate() {
+        let sigma = if parameter.rank >= FIRST_PHYSICAL {
+            1.0
+        } else {
+            ANYWHERE
+        };
+        information[(i, i)] += (sigma * sigma).recip();
+    }
+    let covariance = information.cholesky()?.inverse();
+    let like = problem
+        .rows
+        .iter()
+        .find(|row| row.observed.point_m().is_some() || row.observed.count() == 1)
+        .filter(|row| row.touched.is_none())?;
+    let mut random = Random::new(1);
+    let joints = &problem.profile.mechanism.joints;
+    let mut elsewhere = problem.clone();
+    elsewhere.rows = (0..POSTURES)
+        .map(|_| Row {
+            q: std::array::from_fn(|i| random.between(joints[i].min_rad, joints[i].max_rad)),
+            observed: super::measurements::Observed::Position([0.0; 3]),
+            conditions: Conditions::default(),
+            sigma_m: 1.0,
+            ..like.clone()
+        })
+        .collect();
+    elsewhere.sort_rigs(&estimate.effects);
+    let models = elsewhere.models(estimate, parameters);
+    let effects = parameters
+        .iter()
+        .filter(|p| matches!(p.subject, Subject::Effect(_)))
+        .count();
+    let mut motions = vec![Motion::default(); effects];
+    let mut jacobian = DMatrix::zeros(3, parameters.len());
+    let mut sum = 0.0;
+    for row in &elsewhere.rows {
+        let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
+        let seen = elsewhere.observe(estimate, row, pose);
+        slopes(&seen, &motions, parameters, |column, slope| {
+            jacobian.set_column(column, &DVector::from_column_slice(&slope[..3]));
+        });
+        sum += (&jacobian * &covariance * jacobian.transpose()).trace();
+    }
+    Some((sum / POSTURES as f64).sqrt())
+}

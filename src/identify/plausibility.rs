@@ -1,0 +1,265 @@
+//! A fit that no calibrated arm has, found before its values are believed.
+
+use super::contact::Contact;
+use super::error::IdentifyError;
+use super::measurements::{Measurements, Observed};
+use super::parameters::{FIRST_PHYSICAL, Parameter, Subject};
+use super::problem::{Estimate, Problem};
+use super::screening::{BETTER, NOT_OF_THIS_ROBOT, Remark, remark, suspicious};
+use super::statistics::{Miss, quantile};
+use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::model::effects::Kind;
+use std::collections::BTreeSet;
+
+/// A fit that misses by more is not of this robot, metres.
+const HOPELESS_M: f64 = 20.0 * MM;
+/// A fit that misses by more is worth a warning, metres.
+const POOR_M: f64 = 2.0 * MM;
+/// The same of orientations, radians.
+const HOPELESS_RAD: f64 = 3.0 * DEG;
+/// And worth a warning.
+const POOR_RAD: f64 = 0.5 * DEG;
+/// The part of the rows that a fit is judged by: gross errors are outliers, not the fit.
+const JUDGED: f64 = 0.9;
+/// A value this many times its typical size is of no arm,
+const ABSURD: f64 = 100.0;
+/// and beyond this many worth a warning.
+const UNUSUAL: f64 = 20.0;
+/// Residuals beyond this many of their stated standard deviations, or below one over it, are told.
+const SIGMA_FACTOR: f64 = 3.0;
+/// Touches that miss by more than this many are read in other ways.
+const TOUCH_FACTOR: f64 = 5.0;
+/// An expected error elsewhere is told from here on, metres.
+const FAR_OFF_M: f64 = 0.3 * MM;
+/// A compliance is negative that is so by this many standard deviations.
+const SURELY: f64 = 3.0;
+
+/// Root mean square of the sizes without the largest tenth of them.
+fn usual(sizes: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut sizes: Vec<f64> = sizes.collect();
+    sizes.sort_by(f64::total_cmp);
+    let limit = quantile(&sizes, JUDGED);
+    let count = sizes.iter().take_while(|size| **size <= limit).count();
+    (count > 0).then(|| {
+        let squares: f64 = sizes[..count].iter().map(|size| size * size).sum();
+        (squares / count as f64).sqrt()
+    })
+}
+
+/// Doubts a fit that misses by far more than any calibrated arm.
+///
+/// # Errors
+/// The measurements are not of this robot.
+pub fn doubt_fit(
+    problem: &Problem,
+    after: &[Miss],
+    frames_only: &[Miss],
+) -> Result<Vec<Remark>, IdentifyError> {
+    let length = |misses: &[Miss]| usual(misses.iter().map(|miss| miss.length_m)).unwrap_or(0.0);
+    let (missed, frames) = (length(after), length(frames_only));
+    if missed > HOPELESS_M {
+        return Err(suspicious(
+            format!(
+                "the fitted model misses by {:.1} mm rms (base and tool alone fitted: {:.1} mm): no arm is that far from its drawing",
+                mm_from_m(missed),
+                mm_from_m(frames)
+            ),
+            NOT_OF_THIS_ROBOT,
+        ));
+    }
+    let angle = usual(after.iter().filter_map(|miss| miss.angle_rad)).unwrap_or(0.0);
+    if angle > HOPELESS_RAD {
+        return Err(suspicious(
+            format!(
+                "the fitted model misses orientations by {:.1} deg rms, and positions by {:.3} mm",
+                angle / DEG,
+                mm_from_m(missed)
+            ),
+            "qw,qx,qy,qz turn the tool into the world's frame, the scalar first; without these columns positions alone count",
+        ));
+    }
+    let mut remarks = Vec::new();
+    if missed > POOR_M || angle > POOR_RAD {
+        remarks.push(remark(
+            "poor-fit",
+            0,
+            format!(
+                "the fitted model misses by {:.3} mm and {:.3} deg rms, more than a calibrated arm does",
+                mm_from_m(missed),
+                angle / DEG
+            ),
+            "look at the outliers, the tool and the masses; `poseshift diagnose` looks for what is missing",
+        ));
+    }
+    remarks.extend(doubt_sigma(problem, after));
+    Ok(remarks)
+}
+
+/// How many of their standard deviations most residuals are.
+fn times_sigma(misses: &[Miss]) -> Option<f64> {
+    usual(misses.iter().map(|miss| miss.normalised))
+}
+
+/// Doubts touches that miss by far more than the probe's repeatability, where they fit if its ball or a plane is meant otherwise.
+/// `again` gives what the model misses of other measurements.
+///
+/// # Errors
+/// They fit if the radius is a diameter, or a normal points the other way.
+pub fn doubt_touches(
+    measurements: &Measurements,
+    after: &[Miss],
+    again: impl Fn(&Measurements) -> Result<Vec<Miss>, IdentifyError>,
+) -> Result<(), IdentifyError> {
+    let touches = measurements
+        .rows
+        .iter()
+        .filter_map(|row| row.contact.as_ref());
+    let planes: BTreeSet<&str> = touches
+        .clone()
+        .filter(|contact| contact.normal.is_some())
+        .map(|contact| contact.feature.as_str())
+        .collect();
+    let Some(times) = times_sigma(after).filter(|times| *times > TOUCH_FACTOR) else {
+        return Ok(());
+    };
+    if touches.count() == 0 {
+        return Ok(());
+    }
+    let with = |change: &dyn Fn(&mut Contact)| {
+        let mut other = measurements.clone();
+        for row in &mut other.rows {
+            let Some(contact) = &mut row.contact else {
+                continue;
+            };
+            let before = contact.probe_radius_m;
+            change(contact);
+            // a known sphere is a distance from its centre
+            if let Observed::Distance { distance_m, .. } = &mut row.observed {
+                *distance_m += contact.probe_radius_m - before;
+            }
+        }
+        other
+    };
+    let mut tried = vec![
+        (
+            "probe_radius_mm is the ball's diameter".to_owned(),
+            with(&|c| c.probe_radius_m *= 0.5),
+        ),
+        (
+            "probe_radius_mm is half the ball's radius".to_owned(),
+            with(&|c| c.probe_radius_m *= 2.0),
+        ),
+    ];
+    for plane in planes {
+        let flipped = with(&|c| {
+            if c.feature == plane {
+                c.normal = c.normal.map(|normal| normal.map(|x| -x));
+            }
+        });
+        tried.push((
+            format!("the normal of plane `{plane}` points the other way, out of the material"),
+            flipped,
+        ));
+    }
+    for (supposes, other) in tried {
+        let Ok(misses) = again(&other) else { continue };
+        if let Some(then) = times_sigma(&misses).filter(|then| BETTER * then < times) {
+            return Err(suspicious(
+                format!(
+                    "the touches miss by {times:.1} times their standard deviation; if {supposes}, {then:.1} times"
+                ),
+                "probe_radius_mm is the radius of the probe's ball; nx,ny,nz point out of the material",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Residuals against the stated standard deviations.
+fn doubt_sigma(problem: &Problem, after: &[Miss]) -> Option<Remark> {
+    let times = times_sigma(after)?;
+    if problem.sigma_assumed || (SIGMA_FACTOR.recip()..=SIGMA_FACTOR).contains(&times) {
+        return None;
+    }
+    let hint = if times < 0.01 || times > 300.0 {
+        "is sigma_mm in millimetres?"
+    } else if times > 1.0 {
+        "the arm does more than the model knows, or sigma_mm is too small; `poseshift diagnose` looks for what is missing"
+    } else {
+        "is sigma_mm one standard deviation of a coordinate?"
+    };
+    let message = format!("residuals are {times:.3} times the stated standard deviations");
+    Some(remark("sigma-doubtful", 0, message, hint))
+}
+
+/// Doubts that the measurements tell of the arm elsewhere.
+#[must_use]
+pub fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
+    let missed = usual(after.iter().map(|miss| miss.length_m))?;
+    let expected = expected_m.filter(|e| *e > FAR_OFF_M && *e > SIGMA_FACTOR * missed)?;
+    let message = format!(
+        "the fitted model misses these rows by {:.3} mm rms, and postures elsewhere within the joint limits by {:.2} mm as it is to be expected",
+        mm_from_m(missed),
+        mm_from_m(expected)
+    );
+    let hint = "measure configurations over the whole workspace: `poseshift plan` chooses them";
+    Some(remark("hardly-determined", 0, message, hint))
+}
+
+/// Doubts identified values that no arm has.
+///
+/// # Errors
+/// A value a hundred times its typical size.
+pub fn doubt_values(
+    parameters: &[Parameter],
+    estimate: &Estimate,
+    sigma: &[f64],
+    frames_rms_mm: f64,
+) -> Result<Vec<Remark>, IdentifyError> {
+    let mut remarks = Vec::new();
+    let value = |p: &Parameter| estimate.value(p.subject);
+    let physical = parameters.iter().zip(sigma);
+    let physical = physical.filter(|(p, _)| p.rank >= FIRST_PHYSICAL && p.prior.is_none());
+    let in_unit = |p: &Parameter, x: f64| format!("{:.4} {}", x / p.unit.in_si(), p.unit.symbol());
+    let mut unusual: Vec<(f64, &Parameter)> = physical
+        .clone()
+        .map(|(p, sigma)| ((value(p).abs() - SURELY * sigma) / p.scale, p))
+        .filter(|(times, _)| *times > UNUSUAL)
+        .collect();
+    unusual.sort_by(|a, b| b.0.total_cmp(&a.0));
+    if let Some((times, p)) = unusual.first() {
+        let message = format!(
+            "{} comes out as {}, {:.0} times its typical size ({} values are beyond {UNUSUAL} times); base and tool alone leave {frames_rms_mm:.1} mm",
+            p.key,
+            in_unit(p, value(p)),
+            value(p).abs() / p.scale,
+            unusual.len(),
+        );
+        if *times > ABSURD {
+            return Err(suspicious(message, NOT_OF_THIS_ROBOT));
+        }
+        remarks.push(remark("unusual-value", 0, message, NOT_OF_THIS_ROBOT));
+    }
+    let negative = physical.clone().find(|(p, sigma)| {
+        let kind = match p.subject {
+            Subject::Effect(slot) => Some(estimate.effects[slot.effect].kind),
+            _ => None,
+        };
+        matches!(
+            kind,
+            Some(Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance)
+        ) && value(p) < -SURELY * **sigma
+    });
+    if let Some((p, sigma)) = negative {
+        let message = format!(
+            "{} is negative, {} ± {}: no joint springs against its load",
+            p.key,
+            in_unit(p, value(p)),
+            in_unit(p, *sigma)
+        );
+        let hint =
+            "it imitates another effect: `poseshift diagnose` looks for it; are the masses right?";
+        remarks.push(remark("negative-compliance", 0, message, hint));
+    }
+    Ok(remarks)
+}
