@@ -72,7 +72,13 @@ impl MeasurementFiles {
 
 /// A failed identification with its way out.
 pub fn identify_failure(name: &str, error: &IdentifyError) -> Failure {
-    Failure::with_hint(format!("{name}: {error}"), error.hint())
+    let several = matches!(error, IdentifyError::Missing { .. }) && name.contains(", ");
+    let hint = if several {
+        "of several files, each must have the columns that an effect needs".into()
+    } else {
+        error.hint()
+    };
+    Failure::with_hint(format!("{name}: {error}"), hint)
 }
 
 /// Words of `--identify` and `--fix`.

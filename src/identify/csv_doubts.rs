@@ -76,7 +76,7 @@ pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
         .find(|(separator, ..)| count(header, *separator) > 0)?;
     let decimal = first.is_some_and(|line| line.split(|b| *b == separator).any(has_decimal_comma));
     let (and, points) = if decimal {
-        (" and decimals are written with a comma", "s/,/./g; ")
+        (", and decimals are written with a comma", "s/,/./g; ")
     } else {
         ("", "")
     };

@@ -1,5 +1,9 @@
 //! In which order configurations are driven to.
 
+use std::collections::HashMap;
+
+/// Configurations that are tried as the first one.
+const STARTS: usize = 8;
 /// Turns of looking for a better place of what cannot be reached.
 const REPAIRS: usize = 4;
 
@@ -11,67 +15,85 @@ fn far(a: &[f64; 6], b: &[f64; 6]) -> f64 {
 }
 
 /// An order of configurations, each left for where the next one is approached from by a move that is `free`, as far as there is
-/// one: always on to the nearest that can be reached, and what is left over is put in between where it fits.
+/// one: always on to the nearest that can be reached, and what is left over is put in between where it fits; the best of some
+/// beginnings.
 #[must_use]
 pub fn order(
     joints: &[[f64; 6]],
     approach: &dyn Fn(&[f64; 6]) -> [f64; 6],
     free: &dyn Fn(&[f64; 6], &[f64; 6]) -> bool,
 ) -> Vec<usize> {
-    let mut known: std::collections::HashMap<(usize, usize), bool> =
-        std::collections::HashMap::new();
+    let mut known: HashMap<(usize, usize), bool> = HashMap::new();
     let mut leads = |from: usize, to: usize| {
         *known
             .entry((from, to))
             .or_insert_with(|| free(&joints[from], &approach(&joints[to])))
     };
-    let mut left: Vec<usize> = (0..joints.len()).collect();
     let zero = [0.0; 6];
-    let Some(first) = left
-        .iter()
-        .copied()
-        .min_by(|a, b| far(&joints[*a], &zero).total_cmp(&far(&joints[*b], &zero)))
-    else {
-        return Vec::new();
-    };
-    left.retain(|i| *i != first);
-    let mut order = vec![first];
-    let mut over = Vec::new();
-    while !left.is_empty() {
-        let at = *order.last().expect("it has the first");
-        left.sort_by(|a, b| {
-            far(&joints[*a], &joints[at]).total_cmp(&far(&joints[*b], &joints[at]))
-        });
-        if let Some(next) = left.iter().position(|to| leads(at, *to)) {
-            order.push(left.remove(next));
-        } else {
-            over = std::mem::take(&mut left);
+    let mut starts: Vec<usize> = (0..joints.len()).collect();
+    starts.sort_by(|a, b| far(&joints[*a], &zero).total_cmp(&far(&joints[*b], &zero)));
+    let mut best: Option<(usize, Vec<usize>)> = None;
+    for start in starts.into_iter().take(STARTS) {
+        let (mut order, mut over) = onward(joints, start, &mut leads);
+        for _ in 0..REPAIRS {
+            over = put_between(&mut order, over, &mut leads);
         }
-    }
-    for _ in 0..REPAIRS {
-        let mut again = Vec::new();
-        for one in over {
-            if leads(one, order[0]) {
-                order.insert(0, one);
-                continue;
-            }
-            let behind = (0..order.len()).find(|k| {
-                let next = order.get(k + 1).copied();
-                leads(order[*k], one) && next.is_none_or(|next| leads(one, next))
-            });
-            match behind {
-                Some(k) => order.insert(k + 1, one),
-                None => again.push(one),
-            }
+        // what no move leads to comes last, and is told
+        let missed = over.len();
+        order.extend(over);
+        if best.as_ref().is_none_or(|(least, _)| missed < *least) {
+            best = Some((missed, order));
         }
-        over = again;
-        if over.is_empty() {
+        if missed == 0 {
             break;
         }
     }
-    // what no move leads to comes last, and is told
-    order.extend(over);
-    order
+    best.map_or_else(Vec::new, |(_, order)| order)
+}
+
+/// From one configuration always on to the nearest that can be reached; and what is left over.
+fn onward(
+    joints: &[[f64; 6]],
+    start: usize,
+    leads: &mut dyn FnMut(usize, usize) -> bool,
+) -> (Vec<usize>, Vec<usize>) {
+    let mut left: Vec<usize> = (0..joints.len()).filter(|i| *i != start).collect();
+    let mut order = vec![start];
+    let mut at = start;
+    loop {
+        left.sort_by(|a, b| {
+            far(&joints[*a], &joints[at]).total_cmp(&far(&joints[*b], &joints[at]))
+        });
+        let Some(next) = left.iter().position(|to| leads(at, *to)) else {
+            return (order, left);
+        };
+        at = left.remove(next);
+        order.push(at);
+    }
+}
+
+/// Puts what is left over where free moves lead to it and on; what fits nowhere is given back.
+fn put_between(
+    order: &mut Vec<usize>,
+    over: Vec<usize>,
+    leads: &mut dyn FnMut(usize, usize) -> bool,
+) -> Vec<usize> {
+    let mut again = Vec::new();
+    for one in over {
+        if leads(one, order[0]) {
+            order.insert(0, one);
+            continue;
+        }
+        let behind = (0..order.len()).find(|k| {
+            let next = order.get(k + 1).copied();
+            leads(order[*k], one) && next.is_none_or(|next| leads(one, next))
+        });
+        match behind {
+            Some(k) => order.insert(k + 1, one),
+            None => again.push(one),
+        }
+    }
+    again
 }
 
 #[cfg(test)]
