@@ -194,15 +194,6 @@ impl Calibrate {
     }
 }
 
-/// A number with digits enough to tell it from none.
-fn digits(x: f64) -> String {
-    if x.abs() < 1e-2 && x != 0.0 {
-        format!("{x:.3e}")
-    } else {
-        format!("{x:.5}")
-    }
-}
-
 /// The report for people.
 fn text(found: &Calibration, all: bool) -> String {
     let mut out = format!(
@@ -263,12 +254,11 @@ fn text(found: &Calibration, all: bool) -> String {
             .to_vec(),
     ];
     for (parameter, value, sigma) in found.parameters() {
-        let unit = parameter.unit.in_si();
         if let Some(sigma) = sigma {
             rows.push(vec![
                 parameter.key.clone(),
-                digits(value / unit),
-                digits(sigma / unit),
+                parameter.digits(value),
+                parameter.digits(sigma),
                 parameter.unit.symbol().into(),
             ]);
         }
@@ -289,6 +279,21 @@ fn text(found: &Calibration, all: bool) -> String {
         }
         out.push('\n');
     }
+    let as_prior: Vec<&str> = found
+        .parameters()
+        .filter(
+            |(p, _, sigma)| matches!((p.prior, sigma), (Some((_, own)), Some(s)) if *s > 0.7 * own),
+        )
+        .map(|(p, _, _)| p.key.as_str())
+        .collect();
+    if !as_prior.is_empty() {
+        let told = format!(
+            "the data tell hardly more than the prior of {} of these: {}",
+            as_prior.len(),
+            as_prior.join(", ")
+        );
+        out += &format!("\n{}", wrapped(&told, width()));
+    }
     let names = &found.problem.parameters;
     if !found.solution.identifiable.dropped.is_empty() {
         out += "\nnot determined by these data, left as they were\n";
@@ -304,7 +309,7 @@ fn text(found: &Calibration, all: bool) -> String {
             let p = &names[dropped.parameter];
             format!(
                 "sigma would be {} {}; ",
-                digits(w * p.scale / p.unit.in_si()),
+                p.digits(w * p.scale),
                 p.unit.symbol()
             )
         });

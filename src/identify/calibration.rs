@@ -363,6 +363,7 @@ fn identify(
     remarks.extend(screening::doubt_masses(&problem, compliance));
     let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
+    remarks.extend(plausibility::doubt_rows(&outliers));
     let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
     let held_out = if held.rows.is_empty() {
         None

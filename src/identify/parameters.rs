@@ -52,6 +52,19 @@ pub struct Parameter {
     pub prior: Option<(f64, f64)>,
 }
 
+impl Parameter {
+    /// A value of it in the unit of reports, with digits enough to tell it from none.
+    #[must_use]
+    pub fn digits(&self, si: f64) -> String {
+        let x = si / self.unit.in_si();
+        if x.abs() < 1e-2 && x != 0.0 {
+            format!("{x:.3e}")
+        } else {
+            format!("{x:.5}")
+        }
+    }
+}
+
 /// Parameters by the words of the command line: `link_geometry`, `joint_compliance:2-6`, `joint_harmonic:6:2`,
 /// `link_geometry:3.beta_deg`, `points`.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! A fit that no calibrated arm has, found before its values are believed.
 
+use super::calibration::Outlier;
 use super::contact::Contact;
 use super::error::IdentifyError;
 use super::measurements::{Measurements, Observed};
@@ -206,6 +207,22 @@ pub fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
     Some(remark("hardly-determined", 0, message, hint))
 }
 
+/// Rows that do not fit the others: they are told, whatever the loss makes of them.
+#[must_use]
+pub fn doubt_rows(outliers: &[Outlier]) -> Option<Remark> {
+    let worst = outliers.iter().max_by(|a, b| a.times.total_cmp(&b.times))?;
+    let message = format!(
+        "{} row{} not fit the others, the worst misses by {:.3} mm, {:.1} times the typical residual (limit {:.1})",
+        outliers.len(),
+        if outliers.len() == 1 { " does" } else { "s do" },
+        mm_from_m(worst.length_m),
+        worst.times,
+        worst.limit
+    );
+    let hint = "was the beam lost, the reflector not seated, the robot still moving? leave wrong rows out; `--loss tukey` ignores them";
+    Some(remark("outliers", worst.line, message, hint))
+}
+
 /// Doubts identified values that no arm has.
 ///
 /// # Errors
@@ -220,7 +237,7 @@ pub fn doubt_values(
     let value = |p: &Parameter| estimate.value(p.subject);
     let physical = parameters.iter().zip(sigma);
     let physical = physical.filter(|(p, _)| p.rank >= FIRST_PHYSICAL && p.prior.is_none());
-    let in_unit = |p: &Parameter, x: f64| format!("{:.4} {}", x / p.unit.in_si(), p.unit.symbol());
+    let in_unit = |p: &Parameter, x: f64| format!("{} {}", p.digits(x), p.unit.symbol());
     let mut unusual: Vec<(f64, &Parameter)> = physical
         .clone()
         .map(|(p, sigma)| ((value(p).abs() - SURELY * sigma) / p.scale, p))

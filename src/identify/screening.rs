@@ -257,7 +257,7 @@ pub fn doubt_start(
                 "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame",
                 tilt / DEG
             ),
-            "gravity acts along the world's z by the profile: level the device's frame, or set kinematics.base and gravity",
+            "right where the robot is mounted so and the device is level; else gravity, which the profile has in the device's frame, acts wrongly",
         ));
     }
     if let Some(count) = start.fixed_points.filter(|count| *count < 3) {
