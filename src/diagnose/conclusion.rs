@@ -33,7 +33,7 @@ const TIE: f64 = 1.0;
 const TELLING: usize = 12;
 /// A row is an outlier beyond this many times the length that 99.7 % of normal rows stay below.
 const OUTLIER: f64 = 1.6;
-/// So many functions of one joint's angle, two of them harmonics, are the series of another.
+/// So many functions of one joint's angle, a harmonic among them, are the series of another.
 const SERIES: usize = 3;
 /// Repeated poses tell the noise from so many degrees of freedom on.
 const REPEATS: usize = 10;
@@ -295,7 +295,7 @@ fn imitated(found: &[Found]) -> Option<(usize, usize)> {
         };
         let harmonics = of(Kind::JointHarmonic);
         let count = harmonics + of(Kind::JointScale) + of(Kind::LinkGeometry);
-        (harmonics >= 2 && count >= SERIES).then_some((joint + 1, count))
+        (harmonics >= 1 && count >= SERIES).then_some((joint + 1, count))
     })
 }
 

@@ -6,6 +6,7 @@
 //! that is trusted in part; G. Schwarz (1978) for the information criterion.
 
 mod attempt;
+pub mod beside;
 pub mod candidates;
 pub mod chances;
 mod conclusion;
@@ -14,6 +15,7 @@ pub mod fit;
 pub mod poses;
 mod proof;
 pub mod refit;
+mod scan;
 pub mod search;
 pub mod session;
 pub mod table;

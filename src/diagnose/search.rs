@@ -2,6 +2,7 @@
 
 use super::candidates::{Candidate, Candidates};
 use super::fit::{Fit, Gain, Held};
+use super::scan::View;
 use super::table::{Column, Layout};
 use crate::identify::parameters::Pick;
 use crate::model::effects::{Kind, REGISTRY};
@@ -16,10 +17,24 @@ const FEW_EFFECTS: usize = 4;
 const MOST_TURNS: usize = 4;
 /// Another effect takes the place of one found where it is better by this.
 const BETTER: f64 = 0.3;
-/// Rows on both sides of a row from which on an effect holds.
-const ROWS_BESIDE: usize = 5;
 /// Rows from which on effects hold are the same where they are this near.
 const SAME_ROW: u32 = 3;
+/// Odds of an effect that every arm has in some measure against one that only some have.
+const ODDS: f64 = 5.0;
+
+/// Effects that only some arms have: a structure that bends, a gear with two stiffnesses, a load that is not what was
+/// stated, axes that take each other along. Frames, geometry, the gears' ratio, stiffness, play and waves are in every arm,
+/// and what needs a column of its own (time, temperature, order) is told from them by that.
+const fn rare(kind: Kind) -> bool {
+    matches!(
+        kind,
+        Kind::LinkCompliance
+            | Kind::BaseCompliance
+            | Kind::ComplianceKnee
+            | Kind::PayloadError
+            | Kind::JointCoupling
+    )
+}
 
 /// Everything that the search looks at.
 #[derive(Clone, Copy, Debug)]
@@ -97,7 +112,7 @@ fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 }
 
 /// Sought twice: the same place and a parameter in common.
-fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
+pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
     let listed = matches!(
         a.effect.kind,
         Kind::ComplianceKnee | Kind::WarmUpDrift | Kind::ThermalGrowth
@@ -111,14 +126,19 @@ impl World<'_> {
         used.map(|row| self.layout.row(row).len()).sum::<usize>() as f64
     }
 
-    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`, and the choice among
-    /// its peers and among all kinds.
-    fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
+    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`, the choice among its
+    /// peers and among all kinds, and the odds against a rare one.
+    pub(super) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
         let parameters = (count + candidate.chosen) as f64;
         let kinds = REGISTRY.len() as f64;
         parameters * self.numbers().ln()
             + 2.0 * (candidate.peers as f64).ln()
             + 2.0 * kinds.ln()
+            + if rare(candidate.effect.kind) {
+                2.0 * ODDS.ln()
+            } else {
+                0.0
+            }
             + MARGIN
     }
 
@@ -148,11 +168,13 @@ impl World<'_> {
             .map(|(column, share)| Held {
                 column,
                 share: *share,
+                sought: false,
             });
-        let own = chosen
-            .iter()
-            .flat_map(|c| &c.columns)
-            .map(|column| Held { column, share: 1.0 });
+        let own = chosen.iter().flat_map(|c| &c.columns).map(|column| Held {
+            column,
+            share: 1.0,
+            sought: true,
+        });
         held.chain(own).collect()
     }
 
@@ -166,51 +188,6 @@ impl World<'_> {
             &self.held(chosen),
             self.floor,
         )
-    }
-
-    /// Every candidate beside a fit, best first; those in `taken` are left out.
-    #[must_use]
-    pub fn scan(&self, fit: &Fit, taken: &[&Candidate]) -> Vec<Scored> {
-        let projections = fit.projections(&self.candidates.columns);
-        let mut all = Vec::new();
-        for (index, candidate) in self.candidates.list.iter().enumerate() {
-            if candidate.row.is_some() {
-                let columns: Vec<&Column> = candidate
-                    .columns
-                    .iter()
-                    .map(|i| &self.candidates.columns[*i])
-                    .collect();
-                for (row, gain) in fit.gains_from_rows(self.layout, &columns, ROWS_BESIDE) {
-                    let row = u32::try_from(row + 1).ok();
-                    if taken.iter().any(|other| overlaps(candidate, row, other)) {
-                        continue;
-                    }
-                    let cost = self.cost(candidate, gain.count);
-                    all.push(Scored {
-                        index,
-                        row,
-                        gain,
-                        cost,
-                    });
-                }
-                continue;
-            }
-            if taken.iter().any(|other| overlaps(candidate, None, other)) {
-                continue;
-            }
-            let group: Vec<_> = candidate.columns.iter().map(|i| &projections[*i]).collect();
-            if let Some(gain) = fit.gain(&group, &candidate.least) {
-                let cost = self.cost(candidate, gain.count);
-                all.push(Scored {
-                    index,
-                    row: None,
-                    gain,
-                    cost,
-                });
-            }
-        }
-        all.sort_by(|a, b| b.merit().total_cmp(&a.merit()));
-        all
     }
 
     /// An effect of a scan, ready to be in the model.
@@ -241,7 +218,7 @@ impl World<'_> {
 
     /// Looks at every effect in the model: exchanges it where another is better in its place, removes it where it is
     /// needless. Whether anything changed.
-    fn revise(&self, chosen: &mut Vec<Chosen>) -> bool {
+    fn revise(&self, chosen: &mut Vec<Chosen>, view: &mut View) -> bool {
         let mut changed = false;
         let mut i = 0;
         while i < chosen.len() {
@@ -249,16 +226,9 @@ impl World<'_> {
                 i += 1;
                 continue;
             }
-            let full = self.fit(chosen);
-            let others: Vec<Chosen> = chosen
-                .iter()
-                .enumerate()
-                .filter(|(k, _)| *k != i)
-                .map(|(_, c)| c.clone())
-                .collect();
-            let without = full.with_held(self.layout, self.residual, &self.held(&others));
-            let taken: Vec<&Candidate> = others.iter().map(|c| &c.candidate).collect();
-            let scored = self.scan(&without, &taken);
+            view.show(self, chosen);
+            let keep: Vec<bool> = (0..chosen.len()).map(|k| k != i).collect();
+            let scored = view.scan(self, chosen, &keep);
             let current = &chosen[i].candidate;
             let is_current = |s: &Scored| {
                 let other = &self.candidates.list[s.index];
@@ -267,21 +237,16 @@ impl World<'_> {
                     && current.columns.iter().all(|c| other.columns.contains(c))
                     && other.effect.parameters == current.effect.parameters
             };
-            let own = scored
-                .iter()
-                .filter(|s| is_current(s))
-                .map(Scored::merit)
-                .next();
+            let own = scored.iter().find(|s| is_current(s));
             let Some(best) = scored.first() else { break };
             match own {
-                Some(own) if best.merit() <= own + BETTER || is_current(best) => {
-                    let own_scored = scored.iter().find(|s| is_current(s)).expect("it was found");
-                    if own <= 0.0 {
+                Some(own) if best.merit() <= own.merit() + BETTER || is_current(best) => {
+                    if own.merit() <= 0.0 {
                         chosen.remove(i);
                         changed = true;
                         continue;
                     }
-                    let mut renewed = self.chosen(own_scored);
+                    let mut renewed = self.chosen(own);
                     let rivals = scored
                         .iter()
                         .filter(|s| !same(&self.candidates.list[s.index], s.row, current));
@@ -310,7 +275,7 @@ impl World<'_> {
     }
 
     /// The effects that a person wants, each as well as it fits.
-    fn first(&self) -> Vec<Chosen> {
+    fn first(&self, view: &mut View) -> Vec<Chosen> {
         let mut chosen: Vec<Chosen> = Vec::new();
         for pick in self.accepted {
             // one effect is wanted whatever the evidence; of several, those that the search finds
@@ -325,9 +290,7 @@ impl World<'_> {
             if sites.len() != 1 {
                 continue;
             }
-            let fit = self.fit(&chosen);
-            let taken: Vec<&Candidate> = chosen.iter().map(|c| &c.candidate).collect();
-            let scored = self.scan(&fit, &taken);
+            let scored = view.best(self, &chosen);
             let best = scored.iter().find(|s| {
                 pick.means(&self.candidates.list[s.index].effect)
                     || self.candidates.list[s.index].row.is_some()
@@ -339,32 +302,21 @@ impl World<'_> {
     }
 
     /// Puts one effect in the place of two where it is better. Whether anything changed.
-    fn merge(&self, chosen: &mut Vec<Chosen>) -> bool {
+    fn merge(&self, chosen: &mut Vec<Chosen>, view: &mut View) -> bool {
         if chosen.len() < 2 || chosen.len() > FEW_EFFECTS {
             return false;
         }
-        let full = self.fit(chosen);
+        view.show(self, chosen);
         for i in 0..chosen.len() {
             for j in i + 1..chosen.len() {
                 if self.wanted(&chosen[i].candidate) || self.wanted(&chosen[j].candidate) {
                     continue;
                 }
-                let others: Vec<Chosen> = chosen
-                    .iter()
-                    .enumerate()
-                    .filter(|(k, _)| *k != i && *k != j)
-                    .map(|(_, c)| c.clone())
-                    .collect();
-                let without = full.with_held(self.layout, self.residual, &self.held(&others));
-                let both = (without.deviance - full.deviance) / full.scale.powi(2)
-                    - chosen[i].cost
-                    - chosen[j].cost;
-                let taken: Vec<&Candidate> = others.iter().map(|c| &c.candidate).collect();
-                if let Some(best) = self
-                    .scan(&without, &taken)
-                    .first()
-                    .filter(|s| s.merit() > both + BETTER)
-                {
+                let keep: Vec<bool> = (0..chosen.len()).map(|k| k != i && k != j).collect();
+                let both = view.loss(&keep) - chosen[i].cost - chosen[j].cost;
+                let scored = view.scan(self, chosen, &keep);
+                let better = |s: &&Scored| s.merit() > both + BETTER;
+                if let Some(best) = scored.first().filter(better) {
                     let one = self.chosen(best);
                     chosen.remove(j);
                     chosen[i] = one;
@@ -378,8 +330,9 @@ impl World<'_> {
     /// The effects that explain the residuals, in the order found, beginning with `first`.
     #[must_use]
     pub fn search(&self, first: Vec<Chosen>) -> Vec<Chosen> {
+        let mut view = View::of(self);
         let mut chosen = if first.is_empty() {
-            self.first()
+            self.first(&mut view)
         } else {
             first
         };
@@ -391,8 +344,8 @@ impl World<'_> {
                 MOST_TURNS
             };
             for _ in 0..turns {
-                let revised = self.revise(&mut chosen);
-                if !revised && !self.merge(&mut chosen) {
+                let revised = self.revise(&mut chosen, &mut view);
+                if !revised && !self.merge(&mut chosen, &mut view) {
                     break;
                 }
             }
@@ -404,10 +357,7 @@ impl World<'_> {
                 break;
             }
             seen.push(state);
-            let fit = self.fit(&chosen);
-            let taken: Vec<&Candidate> = chosen.iter().map(|c| &c.candidate).collect();
-            let scored = self.scan(&fit, &taken);
-            match scored.first() {
+            match view.best(self, &chosen).first() {
                 Some(best) if best.merit() > 0.0 => chosen.push(self.chosen(best)),
                 _ => break,
             }
