@@ -53,6 +53,19 @@ impl Attempt {
             && self.louder.is_none()
     }
 
+    /// The median of the rows' standard deviations, metres.
+    pub fn sigma_m(&self) -> f64 {
+        let mut sigmas: Vec<f64> = self
+            .session
+            .problem
+            .rows
+            .iter()
+            .map(|r| r.sigma_m)
+            .collect();
+        sigmas.sort_by(f64::total_cmp);
+        sigmas[sigmas.len() / 2]
+    }
+
     /// Its merit with residuals of this variance: less is better.
     pub fn merit_at(&self, variance: f64) -> f64 {
         let fit = &self.refit.fit;

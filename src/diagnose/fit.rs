@@ -325,6 +325,18 @@ impl Fit {
         rest
     }
 
+    /// How much of each row's own numbers its expectation follows: near 1, its residual says nothing of it.
+    #[must_use]
+    pub fn leverage(&self, layout: &Layout) -> Vec<f64> {
+        let of = |row: usize| {
+            let range = layout.row(row);
+            let along = self.basis.iter().zip(&self.shares);
+            let followed = along.map(|(q, s)| s * dot(&q[range.clone()], &q[range.clone()]));
+            followed.sum::<f64>() / range.len().max(1) as f64
+        };
+        (0..layout.rows()).map(of).collect()
+    }
+
     /// The weighted column and its parts along the basis.
     fn parts_of(&self, column: &[f64]) -> (Column, Vec<f64>) {
         let column = weighted(column, &self.roots);

@@ -18,6 +18,7 @@ pub mod refit;
 mod scan;
 pub mod search;
 pub mod session;
+pub mod stand_ins;
 pub mod table;
 pub mod unknown;
 pub mod whereabouts;

@@ -2,9 +2,10 @@
 
 use super::beside::{Beside, Group};
 use super::candidates::Candidate;
-use super::fit::{Fit, Projection};
+use super::fit::{Fit, Gain, Projection};
 use super::search::{Chosen, Scored, World, overlaps};
 use super::table::Column;
+use crate::model::effects::Kind;
 use rayon::prelude::*;
 
 /// Rows on both sides of a row from which on an effect holds.
@@ -23,11 +24,27 @@ struct Seen {
 pub struct View {
     seen: Seen,
     full: Fit,
+    side: Side,
+    /// Columns of the effects that are shown.
+    shown: Vec<Vec<Column>>,
+}
+
+/// The effects of a model, and what every candidate has in common with them.
+#[derive(Debug)]
+struct Side {
     beside: Beside,
     /// Products of each candidate's columns with those of the effects.
     cross: Vec<Vec<f64>>,
-    /// Columns of the effects that are shown.
-    shown: Vec<Vec<Column>>,
+}
+
+impl Side {
+    fn of(seen: &Seen, full: &Fit, chosen: &[Chosen]) -> Self {
+        let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
+        let beside = Beside::of(&seen.base, full, &effects);
+        let projections = seen.projections.par_iter();
+        let cross = projections.map(|p| beside.cross(p)).collect();
+        Self { beside, cross }
+    }
 }
 
 impl Seen {
@@ -53,13 +70,10 @@ impl View {
     pub fn of(world: &World) -> Self {
         let full = world.fit(&[]);
         let seen = Seen::of(world, &full);
-        let beside = Beside::of(&seen.base, &full, &[]);
-        let cross = vec![Vec::new(); seen.projections.len()];
         Self {
+            side: Side::of(&seen, &full, &[]),
             seen,
             full,
-            beside,
-            cross,
             shown: Vec::new(),
         }
     }
@@ -74,11 +88,7 @@ impl View {
         if self.seen.base.roots != self.full.roots {
             self.seen = Seen::of(world, &self.full);
         }
-        let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
-        let beside = Beside::of(&self.seen.base, &self.full, &effects);
-        let projections = self.seen.projections.par_iter();
-        self.cross = projections.map(|p| beside.cross(p)).collect();
-        self.beside = beside;
+        self.side = Side::of(&self.seen, &self.full, chosen);
         self.shown = chosen.iter().map(|c| c.columns.clone()).collect();
     }
 
@@ -91,18 +101,71 @@ impl View {
     /// How much chi-squared rises without the effects that are not kept.
     #[must_use]
     pub fn loss(&self, keep: &[bool]) -> f64 {
-        let all = self.beside.kept(&vec![true; keep.len()]);
-        let kept = self.beside.kept(keep);
-        (self.beside.deviance(&kept) - self.beside.deviance(&all)) / self.full.scale.powi(2)
+        let beside = &self.side.beside;
+        let all = beside.kept(&vec![true; keep.len()]);
+        (beside.deviance(&beside.kept(keep)) - beside.deviance(&all)) / self.full.scale.powi(2)
     }
 
     /// Every candidate beside those of the effects shown that are kept, best first.
     #[must_use]
     pub fn scan(&self, world: &World, chosen: &[Chosen], keep: &[bool]) -> Vec<Scored> {
+        self.scan_side(world, &self.side, chosen, keep)
+    }
+
+    /// Every candidate beside other effects than those shown, with the weights and the scale of those shown.
+    #[must_use]
+    pub fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
+        let side = Side::of(&self.seen, &self.full, others);
+        self.scan_side(world, &side, others, &vec![true; others.len()])
+    }
+
+    /// What all of a kind would gain together beside the effects shown: one for each place, those at their bound left out.
+    #[must_use]
+    pub fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
+        let list = &world.candidates.list;
+        let own = |i: &usize| {
+            list[*i].effect.kind == kind
+                && list[*i].columns.len() == 1
+                && !(chosen.iter()).any(|c| overlaps(&list[*i], None, &c.candidate))
+        };
+        let own: Vec<usize> = (0..list.len()).filter(own).collect();
+        let columns: Vec<usize> = own.iter().map(|i| list[*i].columns[0]).collect();
+        let least: Vec<Option<f64>> = own.iter().map(|i| list[*i].least[0]).collect();
+        let seen = columns.iter().map(|c| &self.seen.projections[*c]);
+        let group = Group::of(&self.seen.base, &seen.collect::<Vec<_>>());
+        let cross = columns.iter().map(|c| self.side.cross[*c].as_slice());
+        let kept = self.side.beside.kept(&vec![true; chosen.len()]);
+        let cross: Vec<&[f64]> = cross.collect();
+        let Some(gain) = self.side.beside.gain(&group, &cross, &kept, &least) else {
+            return Vec::new();
+        };
+        let live: Vec<usize> = (0..own.len()).filter(|k| gain.values[*k] != 0.0).collect();
+        // the gain belongs to all of them: each has its part
+        let part = gain.gain / live.len().max(1) as f64;
+        let one = |k: usize| Scored {
+            index: own[k],
+            row: None,
+            gain: Gain {
+                gain: part,
+                values: vec![gain.values[k]],
+                count: 1,
+            },
+            cost: world.cost(&list[own[k]], 1),
+        };
+        live.into_iter().map(one).collect()
+    }
+
+    fn scan_side(
+        &self,
+        world: &World,
+        side: &Side,
+        chosen: &[Chosen],
+        keep: &[bool],
+    ) -> Vec<Scored> {
         let with: Vec<&Chosen> = (chosen.iter().zip(keep))
             .filter_map(|(c, keep)| keep.then_some(c))
             .collect();
-        let kept = self.beside.kept(keep);
+        let kept = side.beside.kept(keep);
         let columns: Vec<&Column> = with.iter().flat_map(|c| &c.columns).collect();
         let any_row = world.candidates.list.iter().any(|c| c.row.is_some());
         let fit = any_row.then(|| self.seen.base.seeking(&columns, &self.full));
@@ -110,7 +173,7 @@ impl View {
             with.iter().any(|c| overlaps(candidate, row, &c.candidate))
         };
         let scored = |(index, candidate): (usize, &Candidate)| -> Vec<Scored> {
-            let of = |row, gain: super::fit::Gain| Scored {
+            let of = |row, gain: Gain| Scored {
                 index,
                 row,
                 cost: world.cost(candidate, gain.count),
@@ -130,9 +193,9 @@ impl View {
                 return Vec::new();
             }
             let own = candidate.columns.iter();
-            let cross: Vec<&[f64]> = own.map(|i| self.cross[*i].as_slice()).collect();
+            let cross: Vec<&[f64]> = own.map(|i| side.cross[*i].as_slice()).collect();
             let group = &self.seen.groups[index];
-            let gain = self.beside.gain(group, &cross, &kept, &candidate.least);
+            let gain = side.beside.gain(group, &cross, &kept, &candidate.least);
             gain.map(|gain| of(None, gain)).into_iter().collect()
         };
         let list = world.candidates.list.par_iter().enumerate();

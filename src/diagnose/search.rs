@@ -268,7 +268,7 @@ impl World<'_> {
         changed
     }
 
-    fn wanted(&self, candidate: &Candidate) -> bool {
+    pub(super) fn wanted(&self, candidate: &Candidate) -> bool {
         self.accepted
             .iter()
             .any(|pick| pick.means(&candidate.effect))
@@ -357,9 +357,17 @@ impl World<'_> {
                 break;
             }
             seen.push(state);
-            match view.best(self, &chosen).first() {
-                Some(best) if best.merit() > 0.0 => chosen.push(self.chosen(best)),
-                _ => break,
+            let best = view.best(self, &chosen).into_iter().next();
+            let Some(best) = best.filter(|best| best.merit() > 0.0) else {
+                break;
+            };
+            // the springs of a robot come as a set: a load bends all joints at once
+            let springs = view.all_of(self, &chosen, Kind::JointCompliance);
+            let together: f64 = springs.iter().map(Scored::merit).sum();
+            if springs.len() > 1 && together > best.merit() {
+                chosen.extend(springs.iter().map(|s| self.chosen(s)));
+            } else {
+                chosen.push(self.chosen(&best));
             }
         }
         chosen
@@ -367,23 +375,39 @@ impl World<'_> {
 }
 
 impl World<'_> {
-    /// What explains most first, then what explains most beside it, and so on.
+    /// The kind that explains most first, in it the place that explains most, then what explains most beside those, and so
+    /// on.
     #[must_use]
     pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
         let mut ordered: Vec<Chosen> = Vec::new();
-        while chosen.len() > 1 {
+        while !chosen.is_empty() {
             let fit = self.fit(&ordered);
-            let gain = |one: &Chosen| {
-                let projections = fit.projections(&one.columns);
+            let gain = |wanted: &dyn Fn(&Chosen) -> bool| {
+                let own = chosen.iter().filter(|c| wanted(c));
+                let columns: Vec<Column> = own.flat_map(|c| c.columns.iter().cloned()).collect();
+                let projections = fit.projections(&columns);
                 let group: Vec<_> = projections.iter().collect();
                 fit.gain(&group, &vec![None; group.len()])
                     .map_or(0.0, |gain| gain.gain)
             };
-            let gains: Vec<f64> = chosen.iter().map(gain).collect();
-            let most = (0..gains.len()).max_by(|i, j| gains[*i].total_cmp(&gains[*j]));
-            ordered.push(chosen.remove(most.unwrap_or(0)));
+            let last = ordered.last().map(|c| c.candidate.effect.kind);
+            let more = |kind: Kind| chosen.iter().any(|c| c.candidate.effect.kind == kind);
+            let of_kind = |kind: Kind| gain(&|c| c.candidate.effect.kind == kind);
+            let kinds = chosen.iter().map(|c| c.candidate.effect.kind);
+            let Some(kind) = last
+                .filter(|kind| more(*kind))
+                .or_else(|| kinds.max_by(|a, b| of_kind(*a).total_cmp(&of_kind(*b))))
+            else {
+                break;
+            };
+            let own = (0..chosen.len()).filter(|i| chosen[*i].candidate.effect.kind == kind);
+            let label = |i: usize| chosen[i].candidate.effect.label();
+            let of_one = |i: usize| gain(&|c| c.candidate.effect.label() == label(i));
+            let Some(most) = own.max_by(|i, j| of_one(*i).total_cmp(&of_one(*j))) else {
+                break;
+            };
+            ordered.push(chosen.remove(most));
         }
-        ordered.append(&mut chosen);
         ordered
     }
 }
