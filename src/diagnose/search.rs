@@ -36,6 +36,16 @@ const fn rare(kind: Kind) -> bool {
     )
 }
 
+/// Kinds of one cause: a gear that gives way, a structure that bends, something that moved; each other kind is its own.
+const fn cause(kind: Kind) -> Kind {
+    match kind {
+        Kind::ComplianceKnee => Kind::JointCompliance,
+        Kind::BaseCompliance => Kind::LinkCompliance,
+        Kind::ToolSlip => Kind::FrameShift,
+        other => other,
+    }
+}
+
 /// Everything that the search looks at.
 #[derive(Clone, Copy, Debug)]
 pub struct World<'a> {
@@ -375,8 +385,8 @@ impl World<'_> {
 }
 
 impl World<'_> {
-    /// The kind that explains most first, in it the place that explains most, then what explains most beside those, and so
-    /// on.
+    /// The cause that explains most first, in it the effect that explains most, then what explains most beside those, and
+    /// so on.
     #[must_use]
     pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
         let mut ordered: Vec<Chosen> = Vec::new();
@@ -390,17 +400,18 @@ impl World<'_> {
                 fit.gain(&group, &vec![None; group.len()])
                     .map_or(0.0, |gain| gain.gain)
             };
-            let last = ordered.last().map(|c| c.candidate.effect.kind);
-            let more = |kind: Kind| chosen.iter().any(|c| c.candidate.effect.kind == kind);
-            let of_kind = |kind: Kind| gain(&|c| c.candidate.effect.kind == kind);
-            let kinds = chosen.iter().map(|c| c.candidate.effect.kind);
+            let of = |c: &Chosen| cause(c.candidate.effect.kind);
+            let last = ordered.last().map(of);
+            let more = |kind: Kind| chosen.iter().any(|c| of(c) == kind);
+            let of_kind = |kind: Kind| gain(&|c| of(c) == kind);
+            let kinds = chosen.iter().map(of);
             let Some(kind) = last
                 .filter(|kind| more(*kind))
                 .or_else(|| kinds.max_by(|a, b| of_kind(*a).total_cmp(&of_kind(*b))))
             else {
                 break;
             };
-            let own = (0..chosen.len()).filter(|i| chosen[*i].candidate.effect.kind == kind);
+            let own = (0..chosen.len()).filter(|i| of(&chosen[*i]) == kind);
             let label = |i: usize| chosen[i].candidate.effect.label();
             let of_one = |i: usize| gain(&|c| c.candidate.effect.label() == label(i));
             let Some(most) = own.max_by(|i, j| of_one(*i).total_cmp(&of_one(*j))) else {

@@ -9,9 +9,9 @@ use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, Place, REGISTRY};
 
 /// Others compete where they explain this part of what the group explains.
-const PART: f64 = 0.4;
+const PART: f64 = 0.25;
 /// At most so many are told.
-const MOST: usize = 4;
+const MOST: usize = 6;
 
 /// Effects that compete with a group of those found.
 #[derive(Clone, Debug)]
@@ -140,9 +140,21 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
         }
     }
     found.sort_by(|a, b| b.part.total_cmp(&a.part));
+    // of one kind in the place of another the nearest
+    let kinds = |f: &Found| {
+        let last = &f.others[f.others.len() - 1];
+        let own = &chosen[f.group[0]];
+        (own.candidate.effect.kind, last.candidate.effect.kind)
+    };
+    let mut told: Vec<(Kind, Kind)> = Vec::new();
+    found.retain(|f| {
+        let is_new = !told.contains(&kinds(f));
+        told.push(kinds(f));
+        is_new
+    });
     found.truncate(MOST);
     let session = &attempt.session;
-    let told = |f: Found| {
+    let answer = |f: Found| {
         let refitted = refit(
             &session.problem,
             &session.layout,
@@ -169,5 +181,5 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
             estimate: refitted.estimate,
         }
     };
-    found.into_iter().map(told).collect()
+    found.into_iter().map(answer).collect()
 }
