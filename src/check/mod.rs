@@ -20,6 +20,7 @@ mod judge;
 pub mod limits;
 pub mod mesh;
 mod nominal;
+pub mod posture;
 mod query;
 pub mod refine;
 mod scene;
@@ -137,6 +138,8 @@ pub struct MoveReport {
     pub kind: Motion,
     /// Name of its target in the program.
     pub target: Option<String>,
+    /// Whether the target is given in joints, which compensation leaves as they are unless it is asked to shift them.
+    pub in_joints: bool,
     /// Where the controller believes the tool to be at its end, in the world.
     pub commanded: Pose,
     /// How far from the wanted pose the real tool ends.

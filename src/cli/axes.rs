@@ -2,14 +2,21 @@
 
 use super::failure::Failure;
 use super::layout::{aligned, print_text, row};
+use super::measurements::{identify_failure, tell_findings};
 use super::page::ReportFile;
 use super::registration::sigma_json;
 use super::table::{JOINTS, POSE, Table};
 use super::{Answer, Output, files, print, print_json};
+use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Quaternion, norm};
-use crate::register::axes::{Axis, Placed, Row, Sweep, axis, base, tool};
+use crate::identify::sweeps::{doubt, point_on_flange};
+use crate::model::profile::{Mounted, Profile};
+use crate::register::axes::outliers::without_outliers;
+use crate::register::axes::sag::{Arm, Frame, Sag, sag};
+use crate::register::axes::{AxesError, Axis, Placed, Row, Sweep, axis, base, tool};
 use crate::register::frame_file::Sigma;
+use crate::register::uncertainty::PoseCovariance;
 use crate::report;
 use crate::report::html::axes as page;
 use clap::Args;
@@ -44,26 +51,58 @@ impl Axes {
         self.report
             .refuse_over([self.profile.as_path(), self.sweeps.as_path()], [])?;
         let (profile, _) = files::read_profile(&self.profile)?;
-        let sweeps = self.read()?;
         let name = self.sweeps.display();
-        let fail = |error: &dyn std::fmt::Display| Failure::new(format!("{name}: {error}"));
+        let fail = |error: &AxesError| Failure::new(format!("{name}: {error}"));
+        let mut findings = Vec::new();
+        let mut sweeps = Vec::new();
+        for (sweep, lines) in self.read()? {
+            let (kept, outliers) =
+                without_outliers(&sweep, &profile).map_err(|error| fail(&error))?;
+            sweeps.push(kept);
+            findings.extend(outliers.iter().map(|outlier| Finding {
+                id: "outlier",
+                severity: Severity::Warning,
+                file: name.to_string(),
+                line: lines[outlier.row],
+                column: 1,
+                message: format!(
+                    "left out: {:.3} mm from where the other rows of joint {}'s sweep have it; they are off by {:.4} mm (rms)",
+                    mm_from_m(outlier.off_m),
+                    sweep.joint + 1,
+                    mm_from_m(outlier.others_m)
+                ),
+                hint: "measure it again".into(),
+            }));
+        }
         let axes = sweeps
             .iter()
             .map(|sweep| axis(sweep, &profile).map_err(|error| fail(&error)))
             .collect::<Result<Vec<_>, _>>()?;
         let of = |joint: usize| sweeps.iter().find(|sweep| sweep.joint == joint);
-        let placed_base = match (of(0), of(1)) {
-            (Some(first), Some(second)) => {
-                Some(base(first, second, &profile).map_err(|error| fail(&error))?)
-            }
-            _ => None,
-        };
-        let placed_tool = match (of(4), of(5)) {
-            (Some(fifth), Some(sixth)) => {
-                Some(tool(fifth, sixth, &profile).map_err(|error| fail(&error))?)
-            }
-            _ => None,
-        };
+        let mut found = Frames::default();
+        if let (Some(first), Some(second)) = (of(0), of(1)) {
+            found.base = Some(base(first, second, &profile).map_err(|error| fail(&error))?);
+        }
+        if let (Some(fifth), Some(sixth)) = (of(4), of(5)) {
+            found.tool = Some(tool(fifth, sixth, &profile).map_err(|error| fail(&error))?);
+        }
+        let pose = |placed: &Option<Placed>| placed.as_ref().map(|placed| placed.pose);
+        let (base_pose, tool_pose) = (pose(&found.base), pose(&found.tool));
+        let remarks = doubt(
+            &profile,
+            &sweeps,
+            &axes,
+            base_pose.as_ref(),
+            tool_pose.as_ref(),
+        )
+        .map_err(|error| identify_failure(&name.to_string(), &error))?;
+        findings.extend(report::identification::findings(
+            &remarks,
+            &name.to_string(),
+        ));
+        found
+            .add_sag(&sweeps, &profile)
+            .map_err(|error| fail(&error))?;
         if self.report.is_wanted() {
             let drawn: Vec<_> = axes
                 .iter()
@@ -78,37 +117,47 @@ impl Axes {
                     backlash_rad: axis.backlash_rad,
                 })
                 .collect();
-            let pose = |placed: &Option<Placed>| placed.as_ref().map(|placed| placed.pose);
-            let (base, tool) = (pose(&placed_base), pose(&placed_tool));
-            let page = page::page(&drawn, base.as_ref(), tool.as_ref(), &name.to_string());
+            let page = page::page(
+                &drawn,
+                base_pose.as_ref(),
+                tool_pose.as_ref(),
+                &name.to_string(),
+            );
             files::write_all(self.report.output(Some(&page)).as_slice())?;
         }
         if output.json {
             let joints: Vec<Value> = axes.iter().map(joint_json).collect();
             print_json(&json!({
                 "poseshift": "axes/1",
-                "base": placed_base.as_ref().map(|p| report::pose(&p.pose)),
-                "base_sigma": placed_base.as_ref().map(sigma),
-                "tool": placed_tool.as_ref().map(|p| report::pose(&p.pose)),
-                "tool_sigma": placed_tool.as_ref().map(sigma),
-                "tool_oriented": placed_tool.as_ref().map(|p| p.oriented),
+                "base": base_pose.as_ref().map(report::pose),
+                "base_sigma": sigma(found.base.as_ref(), found.base_sag.as_ref()),
+                "base_sag": found.base_sag.as_ref().map(sag_json),
+                "tool": tool_pose.as_ref().map(report::pose),
+                "tool_sigma": sigma(found.tool.as_ref(), found.tool_sag.as_ref()),
+                "tool_sag": found.tool_sag.as_ref().map(sag_json),
+                "tool_oriented": found.tool.as_ref().map(|p| p.oriented),
                 "joints": joints,
+                "findings": findings,
             }))?;
         } else {
-            print_text(&text(&axes, placed_base.as_ref(), placed_tool.as_ref()))?;
-            print(&self.report.told())?;
+            tell_findings(&findings, output);
+            if !output.quiet {
+                print_text(&text(&axes, &found))?;
+                print(&self.report.told())?;
+            }
         }
         Ok(Answer::Yes)
     }
 
-    fn read(&self) -> Result<Vec<Sweep>, Failure> {
+    /// The sweeps by joint, and the lines of their rows.
+    fn read(&self) -> Result<Vec<(Sweep, Vec<usize>)>, Failure> {
         let table = Table::read(&self.sweeps)?;
         table.require(&JOINTS)?;
         table.require(&POSE[..3])?;
         table.require(&["sweep"])?;
         let has_poses = POSE.iter().all(|c| table.has(c));
         let mut points = std::collections::BTreeSet::new();
-        let mut sweeps: Vec<Sweep> = Vec::new();
+        let mut sweeps: Vec<(Sweep, Vec<usize>)> = Vec::new();
         for row in table.rows() {
             let point = row.text("point").unwrap_or_default();
             if self.point.as_deref().is_some_and(|name| name != point) {
@@ -142,12 +191,15 @@ impl Axes {
                 rotation,
                 direction,
             };
-            match sweeps.iter_mut().find(|sweep| sweep.joint == joint) {
-                Some(sweep) => sweep.rows.push(measured),
-                None => sweeps.push(Sweep {
-                    joint,
-                    rows: vec![measured],
-                }),
+            match sweeps.iter_mut().find(|(sweep, _)| sweep.joint == joint) {
+                Some((sweep, lines)) => {
+                    sweep.rows.push(measured);
+                    lines.push(row.line);
+                }
+                None => {
+                    let rows = vec![measured];
+                    sweeps.push((Sweep { joint, rows }, vec![row.line]));
+                }
             }
         }
         if points.len() > 1 {
@@ -164,16 +216,73 @@ impl Axes {
         if sweeps.is_empty() {
             return Err(Failure::new(format!("{}: no rows", self.sweeps.display())));
         }
-        sweeps.sort_by_key(|sweep| sweep.joint);
+        sweeps.sort_by_key(|(sweep, _)| sweep.joint);
         Ok(sweeps)
     }
 }
 
-fn sigma(placed: &Placed) -> Value {
-    sigma_json(&Sigma {
-        position_m: placed.covariance.sigma_at_m(placed.covariance.centre_m),
-        rotation_rad: placed.covariance.rotation_sigma_rad(),
-    })
+/// The frames, and what the arm's sag is worth in each.
+#[derive(Default)]
+struct Frames {
+    base: Option<Placed>,
+    base_sag: Option<Sag>,
+    tool: Option<Placed>,
+    tool_sag: Option<Sag>,
+}
+
+impl Frames {
+    fn add_sag(&mut self, sweeps: &[Sweep], profile: &Profile) -> Result<(), AxesError> {
+        let world_from_base = self
+            .base
+            .as_ref()
+            .map_or(profile.world_from_base, |base| base.pose);
+        let mut tools = profile.tools.keys();
+        let only = tools.next().filter(|_| tools.next().is_none());
+        let mounted = only.and_then(|name| profile.tool(name));
+        let mounted = mounted.unwrap_or_else(Mounted::flange);
+        let arm = Arm {
+            world_from_base,
+            mounted: &mounted,
+            point_m: self.tool.as_ref().map_or_else(
+                || point_on_flange(profile, sweeps, &world_from_base),
+                |tool| tool.pose.translation,
+            ),
+        };
+        let pair = |joints: [usize; 2]| -> Option<[&Sweep; 2]> {
+            let of = |joint: usize| sweeps.iter().find(|sweep| sweep.joint == joint);
+            Some([of(joints[0])?, of(joints[1])?])
+        };
+        if let (Some(base), Some(pair)) = (&self.base, pair([0, 1])) {
+            self.base_sag = sag(Frame::Base, pair, base, profile, &arm)?;
+        }
+        if let (Some(tool), Some(pair)) = (&self.tool, pair([5, 4])) {
+            self.tool_sag = sag(Frame::Tool, pair, tool, profile, &arm)?;
+        }
+        Ok(())
+    }
+}
+
+/// Noise and sag together; `None` where the noise is not known.
+fn whole(placed: &Placed, sag: Option<&Sag>) -> Option<PoseCovariance> {
+    let noise = placed.covariance?;
+    Some(sag.map_or(noise, |sag| noise.and(&sag.covariance)))
+}
+
+fn as_sigma(covariance: &PoseCovariance) -> Sigma {
+    Sigma {
+        position_m: covariance.sigma_at_m(covariance.centre_m),
+        rotation_rad: covariance.rotation_sigma_rad(),
+    }
+}
+
+fn sigma(placed: Option<&Placed>, sag: Option<&Sag>) -> Option<Value> {
+    Some(sigma_json(&as_sigma(&whole(placed?, sag)?)))
+}
+
+fn sag_json(sag: &Sag) -> Value {
+    let mut value = sigma_json(&as_sigma(&sag.covariance));
+    value["from"] = json!(if sag.typical { "typical" } else { "profile" });
+    value
 }
 
 fn rms(values: &[f64]) -> f64 {
@@ -199,11 +308,11 @@ fn joint_json(axis: &Axis) -> Value {
         "max_radial_mm": mm_from_m(largest(&axis.radial_m)), "max_axial_mm": mm_from_m(largest(&axis.axial_m)),
         "rows": {"tangential_deg": axis.tangential_rad.iter().map(|t| t / DEG).collect::<Vec<_>>(),
                  "radial_mm": mm(&axis.radial_m), "axial_mm": mm(&axis.axial_m)},
-        "noise_mm": mm_from_m(axis.noise_m),
+        "noise_mm": axis.noise_m.map(mm_from_m),
     })
 }
 
-fn text(axes: &[Axis], base: Option<&Placed>, tool: Option<&Placed>) -> String {
+fn text(axes: &[Axis], found: &Frames) -> String {
     let ok = "a string takes all text";
     let mut rows = vec![
         row([
@@ -243,10 +352,20 @@ fn text(axes: &[Axis], base: Option<&Placed>, tool: Option<&Placed>) -> String {
     }
     let mut text = aligned(&rows);
     let entries = [
-        ("base (world_from_base)", "1 and 2", base),
-        ("tool (flange_from_tool)", "5 and 6", tool),
+        (
+            "base (world_from_base)",
+            "1 and 2",
+            &found.base,
+            &found.base_sag,
+        ),
+        (
+            "tool (flange_from_tool)",
+            "5 and 6",
+            &found.tool,
+            &found.tool_sag,
+        ),
     ];
-    for (what, joints, placed) in entries {
+    for (what, joints, placed, sag) in entries {
         let Some(placed) = placed else {
             writeln!(text, "{what}: needs the sweeps of joints {joints}").expect(ok);
             continue;
@@ -261,17 +380,52 @@ fn text(axes: &[Axis], base: Option<&Placed>, tool: Option<&Placed>) -> String {
              rx_deg:\u{a0}{rx:.5}, ry_deg:\u{a0}{ry:.5}, rz_deg:\u{a0}{rz:.5}}}\n"
         )
         .expect(ok);
-        let p = placed.covariance.sigma_at_m(placed.covariance.centre_m);
-        let r = placed.covariance.rotation_sigma_rad().map(|r| r / DEG);
-        let turn = if placed.oriented && norm(r) > 0.0 {
-            format!("; {:.5} {:.5} {:.5} deg", r[0], r[1], r[2])
-        } else if placed.oriented {
-            String::new()
-        } else {
-            "; orientation not measured, the flange's is told".to_owned()
+        let numbers = |covariance: &PoseCovariance| {
+            let sigma = as_sigma(covariance);
+            let [x, y, z] = sigma.position_m.map(mm_from_m);
+            let [rx, ry, rz] = sigma.rotation_rad.map(|r| r / DEG);
+            let turn = if placed.oriented && norm([rx, ry, rz]) > 0.0 {
+                format!("; {rx:.5} {ry:.5} {rz:.5} deg")
+            } else {
+                String::new()
+            };
+            format!("{x:.4} {y:.4} {z:.4} mm{turn}")
         };
-        let p = p.map(mm_from_m);
-        writeln!(text, "  sigma {:.4} {:.4} {:.4} mm{turn}", p[0], p[1], p[2]).expect(ok);
+        match whole(placed, sag.as_ref()) {
+            Some(covariance) => writeln!(text, "  sigma {}", numbers(&covariance)),
+            None => writeln!(
+                text,
+                "  sigma not known: three rows a sweep leave nothing to tell the noise by"
+            ),
+        }
+        .expect(ok);
+        if let Some(sag) = sag {
+            let whose = if sag.typical {
+                "as much as an arm of typical stiffness"
+            } else {
+                "by the profile's compliance"
+            };
+            let share = if placed.covariance.is_some() {
+                "of it sag"
+            } else {
+                "sag alone"
+            };
+            writeln!(
+                text,
+                "  {share} under gravity, {whose}: {}",
+                numbers(&sag.covariance)
+            )
+            .expect(ok);
+        } else {
+            writeln!(
+                text,
+                "  sag under gravity is not in it: the profile has no masses"
+            )
+            .expect(ok);
+        }
+        if !placed.oriented {
+            writeln!(text, "  orientation not measured, the flange's is told").expect(ok);
+        }
     }
     text
 }

@@ -96,10 +96,18 @@ impl Compensate {
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let found = self.find_programs(asked)?;
         let inputs = found.iter().map(|job| job.input.as_path());
-        self.report.refuse_over(
-            inputs.chain([self.profile.as_path()]),
-            found.iter().map(|job| job.output.as_path()),
-        )?;
+        let read = [&self.profile].into_iter().chain(&self.work_offset);
+        let placed = self.wobjs.iter().filter_map(|text| text.split_once('='));
+        let placed = placed.map(|(_, file)| Path::new(file.trim()));
+        let read = read.map(PathBuf::as_path).chain(placed);
+        let outputs = || found.iter().map(|job| job.output.as_path());
+        // in place, every program is its own output
+        if self.in_place {
+            self.report.refuse_over(inputs, [])?;
+            self.report.refuse_over(read, outputs())?;
+        } else {
+            self.report.refuse_over(inputs.chain(read), outputs())?;
+        }
         let sources = found
             .iter()
             .map(|job| {
@@ -277,15 +285,7 @@ impl Compensate {
             }
             jobs.push(Job { input, output });
         }
-        let mut outputs: Vec<_> = jobs.iter().map(|job| &job.output).collect();
-        outputs.sort();
-        match outputs.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => Err(Failure::new(format!(
-                "two programs would be written to {}",
-                pair[0].display()
-            ))),
-            None => Ok(jobs),
-        }
+        Ok(jobs)
     }
 }
 

@@ -47,6 +47,7 @@ impl Diagnose {
             accept: picks("--accept", Some(&self.accept.join(",")))?,
             reject: picks("--reject", Some(&self.reject.join(",")))?,
             quick: self.quick,
+            steps: self.report.is_wanted(),
         };
         let (profile, profile_hash) = files::read_profile(&self.profile)?;
         let read = self.measurements.paths().chain([self.profile.as_path()]);
@@ -216,13 +217,19 @@ fn text(found: &Diagnosis, all: bool) -> String {
                 r.behind
             );
         }
-        if let Some(t) = found.telling.first() {
-            out += &format!(
-                "  {} poses tell them apart, by up to {:.3} mm: --poses FILE writes them\n",
-                found.telling.len(),
-                mm_from_m(t.apart_m)
-            );
+    }
+    if !found.stand_ins.is_empty() {
+        out += "\ncompete with several of the effects found\n";
+        for s in &found.stand_ins {
+            out += &report::wrapped(&report::competes(s, found), "  ", "    ");
         }
+    }
+    if let Some(most) = found.telling.iter().map(|t| t.apart_m).reduce(f64::max) {
+        out += &format!(
+            "\n{} poses tell alternatives apart, by up to {:.3} mm: --poses FILE writes them\n",
+            found.telling.len(),
+            mm_from_m(most)
+        );
     }
     if !found.cannot_test.is_empty() {
         out += "\ncould not be tested\n";
@@ -242,6 +249,15 @@ fn text(found: &Diagnosis, all: bool) -> String {
                 mm_from_m(o.length_m),
                 o.times
             );
+        }
+    }
+    if !found.followed.is_empty() {
+        out += &format!(
+            "\n{} rows decide alone what the model says of them: no evidence for it\n",
+            found.followed.len()
+        );
+        for f in found.followed.iter().take(most) {
+            out += &format!("  line {}: leverage {:.2}\n", f.line, f.leverage);
         }
     }
     out

@@ -65,6 +65,46 @@ pub fn same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
+/// Where a file is or would be, whatever name leads there.
+fn place(path: &Path) -> PathBuf {
+    let folder = || {
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        let folder = std::fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    std::fs::canonicalize(path)
+        .ok()
+        .or_else(folder)
+        .unwrap_or_else(|| path.to_owned())
+}
+
+/// An output must not take the place of what is read, nor of another output.
+pub fn refuse_over<'a>(
+    inputs: impl IntoIterator<Item = &'a Path>,
+    outputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), Failure> {
+    let outputs: Vec<(&Path, PathBuf)> = outputs.into_iter().map(|o| (o, place(o))).collect();
+    for input in inputs {
+        if let Some((output, _)) = outputs.iter().find(|(output, _)| same_file(input, output)) {
+            return Err(Failure::with_hint(
+                format!("{} is read and would be written over", output.display()),
+                "name another file for what is written",
+            ));
+        }
+    }
+    for (number, (output, at)) in outputs.iter().enumerate() {
+        if outputs[..number].iter().any(|(_, other)| other == at) {
+            return Err(Failure::with_hint(
+                format!("two outputs would be written to {}", output.display()),
+                "name another file for one of them",
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// Writes all files or none: each is written beside its place, and only when all are on disk they are renamed into it.
 pub fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
     let mut waiting = Vec::with_capacity(files.len());

@@ -38,6 +38,12 @@ impl MeasurementFiles {
                 )
             })?;
             hashes.push(files::sha256(&source.bytes));
+            // lines of several files are told apart by the rows' names
+            if self.measurements.len() > 1 {
+                for row in &mut read.rows {
+                    row.id = format!("{}:{}", path.display(), row.id);
+                }
+            }
             match &mut all {
                 None => all = Some(read),
                 Some(all) => {
@@ -67,7 +73,13 @@ impl MeasurementFiles {
 
 /// A failed identification with its way out.
 pub fn identify_failure(name: &str, error: &IdentifyError) -> Failure {
-    Failure::with_hint(format!("{name}: {error}"), error.hint())
+    let several = matches!(error, IdentifyError::Missing { .. }) && name.contains(", ");
+    let hint = if several {
+        "of several files, each must have the columns that an effect needs".into()
+    } else {
+        error.hint()
+    };
+    Failure::with_hint(format!("{name}: {error}"), hint)
 }
 
 /// Words of `--identify` and `--fix`.

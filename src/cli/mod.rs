@@ -6,6 +6,7 @@ mod catalogue;
 mod check;
 mod compensate;
 mod diagnose;
+mod driving;
 mod failure;
 mod files;
 mod handeye;

@@ -1,7 +1,7 @@
 //! `--report FILE.html`: a page beside what a command tells.
 
 use super::failure::Failure;
-use super::files::same_file;
+use super::files;
 use crate::report::html::page::Page;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -20,34 +20,14 @@ impl ReportFile {
         self.file.is_some()
     }
 
-    /// A report must not take the place of what is read, nor of what else is written.
+    /// Neither the report nor another output may take the place of what is read, nor of one another.
     pub fn refuse_over<'a>(
-        &self,
+        &'a self,
         inputs: impl IntoIterator<Item = &'a Path>,
         outputs: impl IntoIterator<Item = &'a Path>,
     ) -> Result<(), Failure> {
-        let Some(file) = &self.file else {
-            return Ok(());
-        };
-        if inputs.into_iter().any(|input| same_file(input, file)) {
-            return Err(Failure::with_hint(
-                format!(
-                    "--report {} would be written over what is read",
-                    file.display()
-                ),
-                "name another file",
-            ));
-        }
-        if outputs
-            .into_iter()
-            .any(|output| output == file || same_file(output, file))
-        {
-            return Err(Failure::new(format!(
-                "the report and another output would both be written to {}",
-                file.display()
-            )));
-        }
-        Ok(())
+        let own = self.file.iter().map(PathBuf::as_path);
+        files::refuse_over(inputs, outputs.into_iter().chain(own))
     }
 
     /// The page as one more output.

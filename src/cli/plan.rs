@@ -1,13 +1,16 @@
 //! `plan`: which configurations to measure.
 
+use super::driving::Driving;
 use super::failure::Failure;
 use super::layout::{aligned, print_text};
-use super::measurements::{identify_failure, picks};
+use super::measurements::{identify_failure, picks, tell_findings};
 use super::page::ReportFile;
 use super::progress::Progress;
 use super::table::{JOINTS, Table, cell};
 use super::{Answer, Output, files, print, print_json, values};
+use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm};
+use crate::identify::measurements::DIRECTION_COLUMNS;
 use crate::identify::parameters::{Level, Selection};
 use crate::identify::plan::{Constraints, Plan, Request, plan_telling};
 use crate::report::html::frames::plan_page;
@@ -70,10 +73,10 @@ pub struct PlanCommand {
     /// Every joint arrives from so far below
     #[arg(long, value_name = "DEG", default_value_t = 5.0)]
     approach_deg: f64,
-    /// The tool stays inside this box of the world: x0,y0,z0,x1,y1,z1 in mm
+    /// The tool is inside this box of the world wherever it is measured and approached from: x0,y0,z0,x1,y1,z1 in mm
     #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
     inside_mm: Option<String>,
-    /// Tool, wrist and elbow stay outside this box; may be given again
+    /// Tool, wrist and elbow are outside this box wherever it is measured and approached from; may be given again
     #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
     keep_out_mm: Vec<String>,
     /// Where the device stands: x,y,z in mm; the tool's z axis points to it within --cone-deg
@@ -175,6 +178,22 @@ impl PlanCommand {
         })
     }
 
+    /// Joint angles and, where each configuration is approached from below, the directions that the joints arrive in.
+    fn table(&self, found: &Plan) -> String {
+        let approached = self.approach_deg > 0.0;
+        let mut header = vec!["id"];
+        header.extend(JOINTS);
+        header.extend(DIRECTION_COLUMNS.iter().filter(|_| approached));
+        let mut table = header.join(",") + "\n";
+        for (i, q) in found.joints.iter().enumerate() {
+            let mut cells = vec![(i + 1).to_string()];
+            cells.extend(q.iter().map(|q| cell(q / DEG)));
+            cells.extend((0..6).filter(|_| approached).map(|_| "1".to_owned()));
+            table += &(cells.join(",") + "\n");
+        }
+        table
+    }
+
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let request = self.request()?;
         let read = self.given.iter().chain([&self.profile]);
@@ -196,16 +215,26 @@ impl PlanCommand {
         };
         let name = self.profile.display().to_string();
         let progress = Progress::new(output, "choosing");
-        let found = plan_telling(&profile, &tool, &selection, &request, &mut |done, of| {
-            progress.tell(done, of);
-        })
+        let driving = Driving::new(&profile, &self.profile, &tool, &request.constraints)?;
+        let mut found = plan_telling(
+            &profile,
+            &tool,
+            &selection,
+            &request,
+            &|q| driving.stands(q),
+            &mut |done, of| progress.tell(done, of),
+        )
         .map_err(|error| identify_failure(&name, &error))?;
         drop(progress);
-        let mut table = format!("id,{}\n", JOINTS.join(","));
-        for (i, q) in found.joints.iter().enumerate() {
-            let cells: Vec<String> = q.iter().map(|q| cell(q / DEG)).collect();
-            table += &format!("{},{}\n", i + 1, cells.join(","));
+        let given = request.given.len();
+        let order = driving.order(&found.joints[given..]);
+        let (joints, chosen) = (found.joints.clone(), found.chosen.clone());
+        for (to, from) in order.into_iter().enumerate() {
+            found.joints[given + to] = joints[given + from];
+            found.chosen[to] = chosen[from];
         }
+        let table = self.table(&found);
+        let mut findings = Vec::new();
         let mut written = Vec::new();
         if let Some(path) = &self.output {
             written.push((path.clone(), table.clone().into_bytes()));
@@ -231,6 +260,7 @@ impl PlanCommand {
                     ),
                 )
             })?;
+            findings = driving.findings(language, path, &text, &found.joints);
             written.push((path.clone(), text.into_bytes()));
         }
         if self.report.is_wanted() {
@@ -245,9 +275,15 @@ impl PlanCommand {
                 .map(|(p, _)| p.display().to_string())
                 .collect();
             report["output"] = json!(names);
+            report["findings"] = json!(findings);
             return print_json(&report).map(|()| Answer::Yes);
         }
+        tell_findings(&shown(findings, output), output);
         if self.output.is_none() {
+            // the table is the answer; what it is worth stands beside it
+            if !output.quiet {
+                anstream::eprint!("{}", text(&found, self.sigma_mm));
+            }
             print(&table)?;
         } else if !output.quiet {
             print_text(&text(&found, self.sigma_mm))?;
@@ -255,6 +291,34 @@ impl PlanCommand {
         }
         Ok(Answer::Yes)
     }
+}
+
+/// Findings of one name that are told before the rest is only counted.
+const SHOWN: usize = 5;
+
+/// What is told of many findings: notes with `--verbose` only, and of each name the first.
+fn shown(findings: Vec<Finding>, output: Output) -> Vec<Finding> {
+    let mut counts: std::collections::BTreeMap<&str, usize> = std::collections::BTreeMap::new();
+    let mut told = Vec::new();
+    for mut finding in findings {
+        let count = counts.entry(finding.id).or_default();
+        *count += 1;
+        if *count > 1 {
+            finding.hint.clear();
+        }
+        if output.verbose || (finding.severity > Severity::Note && *count <= SHOWN) {
+            told.push(finding);
+        }
+    }
+    for (id, count) in counts {
+        if let Some(last) = told.iter_mut().rev().find(|finding| finding.id == id)
+            && !output.verbose
+            && count > SHOWN
+        {
+            last.hint = format!("and {} more: -v or --json tells all", count - SHOWN);
+        }
+    }
+    told
 }
 
 fn report(found: &Plan) -> Value {

@@ -9,7 +9,7 @@ use crate::model::profile::{ControllerModel, Mounted, Profile, SHIPPED};
 use crate::report::profile::{facts, typical_deviation};
 use crate::urdf::{Choice, UrdfArm, UrdfError, profile_text};
 use clap::{Args, Subcommand};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -208,6 +208,73 @@ fn new(robot: &str, file: Option<&PathBuf>, output: Output) -> Result<Answer, Fa
     Ok(Answer::Yes)
 }
 
+/// What a calibrated profile says of where its effects come from and what they are worth, a line each.
+fn worth(profile: &Profile) -> Vec<String> {
+    let mut lines = Vec::new();
+    let said = |key: &str| profile.provenance.as_ref()?.get(key);
+    let word = |value: &Value| {
+        let text = value.as_str().map(str::to_owned);
+        text.unwrap_or_else(|| value.to_string())
+    };
+    for (name, key) in [
+        ("date", "date"),
+        ("program", "program"),
+        ("rows", "rows"),
+        ("temperature, C", "temperature_c"),
+        ("measurements, SHA-256", "measurements_sha256"),
+    ] {
+        let Some(value) = said(key) else { continue };
+        match value.as_array() {
+            Some(list) => lines.extend(list.iter().map(|v| format!("{name}  {}", word(v)))),
+            None => lines.push(format!("{name}  {}", word(value))),
+        }
+    }
+    for (name, key) in [
+        ("error before", "before"),
+        ("error with base and tool fitted", "frames_only"),
+        ("error after", "after"),
+    ] {
+        let kinds = [("position", "mm"), ("orientation", "deg"), ("range", "mm")];
+        for (kind, unit) in kinds {
+            let spread = profile
+                .quality
+                .as_ref()
+                .and_then(|quality| quality.get(key)?.get(kind));
+            let number = |what: &str| spread?.get(format!("{what}_{unit}"))?.as_f64();
+            if let (Some(mean), Some(max)) = (number("mean"), number("max")) {
+                lines.push(format!(
+                    "{name}, {kind}  mean {mean:.4} {unit}, at most {max:.4} {unit}"
+                ));
+            }
+        }
+    }
+    lines
+}
+
+/// The standard deviations that a calibrated profile tells, by the keys of its parameters.
+fn sigmas(profile: &Profile) -> BTreeMap<String, f64> {
+    let list = profile
+        .quality
+        .as_ref()
+        .and_then(|quality| quality.get("parameters")?.as_array());
+    let one = |entry: &Value| {
+        let key = entry.get("key")?.as_str()?.to_owned();
+        Some((key, entry.get("sigma")?.as_f64()?))
+    };
+    list.into_iter().flatten().filter_map(one).collect()
+}
+
+/// Values of an effect with their standard deviations where they are told: `a_mm 0.134 ± 0.003`.
+fn with_sigmas(effect: &str, values: &str, sigmas: &BTreeMap<String, f64>) -> String {
+    let words: Vec<&str> = values.split(' ').collect();
+    let pairs = words.chunks(2).map(|pair| {
+        let told = sigmas.get(&format!("{effect} {}", pair[0]));
+        let told = told.map_or_else(String::new, |sigma| format!(" ± {sigma:.2e}"));
+        pair.join(" ") + &told
+    });
+    pairs.collect::<Vec<_>>().join("  ")
+}
+
 fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
     let inverse = Arm::of(&profile.geometry(&Mounted::flange()), &profile.mechanism);
     let inverse = inverse.as_ref().map_or_else(ToString::to_string, |arm| {
@@ -219,6 +286,7 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
         print_json(&json!({
             "poseshift": "profile-facts/1", "facts": facts, "inverse": inverse,
             "deviation": {"mean_mm": deviation.mean_mm, "max_mm": deviation.max_mm, "postures": deviation.postures},
+            "worth": worth(profile), "sigmas": sigmas(profile),
         }))?;
         return Ok(Answer::Yes);
     }
@@ -235,6 +303,7 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
         profile.language.as_deref().unwrap_or("language not given"),
     );
     let facts = facts(profile);
+    let sigmas = sigmas(profile);
     let start = |key: &str| {
         facts
             .iter()
@@ -258,9 +327,19 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
             text += &format!("\n{title}\n");
         }
         for (name, value) in rows {
+            let value = if key == "effect " {
+                with_sigmas(name.strip_prefix(key).unwrap_or(&name), &value, &sigmas)
+            } else {
+                value
+            };
             let value = glued(&name, &value);
             text += &format!("  {}  {value}\n", name.strip_prefix(key).unwrap_or(&name));
         }
+    }
+    let worth = worth(profile);
+    if !worth.is_empty() {
+        text += "\ncalibration\n";
+        text.extend(worth.iter().map(|line| format!("  {line}\n")));
     }
     if profile.effects.is_empty() {
         text += "\nno calibration: compensation changes nothing\n";

@@ -126,6 +126,10 @@ impl Simulate {
 
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let session = self.session()?;
+        files::refuse_over(
+            [self.profile.as_path(), self.joints.as_path()],
+            self.output.as_deref(),
+        )?;
         let (profile, _) = files::read_profile(&self.profile)?;
         let tool = values::chosen_tool(self.tool.as_deref(), &profile)?;
         let table = Table::read(&self.joints)?;

@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::files;
+use crate::identify::csv_doubts::not_csv;
 use crate::program::Source;
 use std::path::Path;
 
@@ -24,6 +25,17 @@ impl Table {
     /// Reads a table; lines that start with `#` are comments.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let source = Source::new(path.display().to_string(), files::read(path)?);
+        if let Some(doubt) = not_csv(&source.bytes) {
+            let (line, column) = (doubt.line, doubt.column);
+            return Err(Failure::at(
+                &source,
+                line,
+                column,
+                None,
+                doubt.message,
+                doubt.hint,
+            ));
+        }
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)

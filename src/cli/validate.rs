@@ -2,12 +2,15 @@
 
 use super::failure::Failure;
 use super::layout::{SPREAD_HEADER, aligned, print_text, spread_row};
-use super::measurements::{MeasurementFiles, identify_failure};
+use super::measurements::{MeasurementFiles, identify_failure, tell_findings};
 use super::page::ReportFile;
 use super::progress::Progress;
 use super::{Answer, Output, files, print, print_json};
+use crate::finding::{Finding, Severity};
+use crate::identify::IdentifyError;
 use crate::identify::measurements::{Measurement, Purpose};
 use crate::identify::validation::{Judged, Refit, Validation, validate_telling};
+use crate::model::profile::Profile;
 use crate::report::html::measurements::validate_page;
 use crate::report::identification;
 use clap::Args;
@@ -58,8 +61,23 @@ impl Validate {
         let found = validate_telling(&profile, &measurements, refit, folds, &mut |done, of| {
             progress.tell(done, of)
         })
-        .map_err(|error| identify_failure(&name, &error))?;
+        .map_err(|error| match error {
+            IdentifyError::TooFew {
+                numbers,
+                rows,
+                parameters,
+            } => Failure::with_hint(
+                format!(
+                    "{name}: {rows} rows give {numbers} numbers; base and tool, which the comparison fits, have {parameters} unknowns: more \
+                     numbers are needed"
+                ),
+                "validate on more configurations: 20 and more tell something of the workspace",
+            ),
+            error => identify_failure(&name, &error),
+        })?;
         drop(progress);
+        let mut findings = seen_before(&profile, &found, &hashes, &name);
+        findings.extend(identification::findings(&found.remarks, &name));
         if self.report.is_wanted() {
             let page = validate_page(&found, &profile, &name);
             let page = self.report.output(Some(&page));
@@ -69,13 +87,50 @@ impl Validate {
             let mut report = report(&found);
             report["profile_sha256"] = json!(hash);
             report["measurements_sha256"] = json!(hashes);
+            report["findings"] = json!(findings);
             print_json(&report)?;
         } else if !output.quiet {
+            tell_findings(&findings, output);
             print_text(&text(&found, output.verbose))?;
             print(&self.report.told())?;
         }
         Ok(Answer::Yes)
     }
+}
+
+/// A warning where the profile was identified with the rows that it is judged by.
+fn seen_before(
+    profile: &Profile,
+    found: &Validation,
+    hashes: &[String],
+    name: &str,
+) -> Vec<Finding> {
+    let used = profile
+        .provenance
+        .as_ref()
+        .and_then(|provenance| provenance.get("measurements_sha256")?.as_array());
+    let is_used = |hash: &String| used.is_some_and(|used| used.iter().any(|u| u == hash));
+    let rows = &found.measurements.rows;
+    // `calibrate` leaves rows for `validate` out
+    let seen = rows
+        .iter()
+        .filter(|row| row.purpose != Some(Purpose::Validate));
+    let count = seen.count();
+    if count == 0 || !hashes.iter().any(is_used) {
+        return Vec::new();
+    }
+    vec![Finding {
+        id: "seen-before",
+        severity: Severity::Warning,
+        file: name.into(),
+        line: 0,
+        column: 0,
+        message: format!(
+            "the profile was calibrated with this file: {count} of {} rows are not news to it, and its error on them is too small",
+            rows.len()
+        ),
+        hint: "mark rows `validate` in the column `set` before calibrating, measure others, or use --folds".into(),
+    }]
 }
 
 fn models(found: &Validation) -> [(&'static str, &'static str, &Judged); 3] {
@@ -114,8 +169,19 @@ fn report(found: &Validation) -> Value {
         .iter()
         .map(|r| {
             json!({
-                "line": r.line, "count": r.count, "accuracy_mm": r.accuracy_mm, "repeatability_mm": r.repeatability_mm,
+                "line": r.line, "count": r.count, "accuracy_mm": r.accuracy_mm,
+                "commanded_accuracy_mm": r.commanded_accuracy_mm, "repeatability_mm": r.repeatability_mm,
                 "multidirectional_variation_mm": r.variation_mm,
+            })
+        })
+        .collect();
+    report["iso_9283_distances"] = found
+        .repeated_distances
+        .iter()
+        .map(|r| {
+            json!({
+                "lines": r.lines, "count": r.count, "distance_mm": r.distance_mm, "accuracy_mm": r.accuracy_mm,
+                "commanded_accuracy_mm": r.commanded_accuracy_mm, "repeatability_mm": r.repeatability_mm,
             })
         })
         .collect();
@@ -190,22 +256,57 @@ fn text(found: &Validation, all: bool) -> String {
     if let Some(rms) = found.normalised_rms {
         out += &format!("\nresiduals are {rms:.2} times the given standard deviations (rms)\n");
     }
-    if !found.repeated.is_empty() {
-        out += "\nrepeated poses, ISO 9283\n";
-        let header = ["line", "count", "AP mm", "RP mm", "vAP mm"];
-        let mut rows = vec![header.map(str::to_owned).to_vec()];
-        let shown = if all { found.repeated.len() } else { 20 };
-        for r in found.repeated.iter().take(shown) {
-            rows.push(vec![
-                r.line.to_string(),
-                r.count.to_string(),
-                format!("{:.4}", r.accuracy_mm),
-                format!("{:.4}", r.repeatability_mm),
-                r.variation_mm
-                    .map_or_else(|| "-".into(), |v| format!("{v:.4}")),
-            ]);
-        }
-        out += &aligned(&rows);
+    out += &iso_9283(found, if all { usize::MAX } else { 20 });
+    out
+}
+
+/// Repeated poses and the distances between them.
+fn iso_9283(found: &Validation, most: usize) -> String {
+    let mut out = String::new();
+    if found.repeated.is_empty() {
+        return out;
     }
+    let digits = |v: f64| format!("{v:.4}");
+    let table = |header: &[&str], rows: Vec<Vec<String>>| {
+        let header = header.iter().map(|name| (*name).to_owned()).collect();
+        let all: Vec<_> = std::iter::once(header).chain(rows).collect();
+        aligned(&all)
+    };
+    out += "\nrepeated poses, ISO 9283, mm; AP: the mean from the commanded pose, and from the real model's\n";
+    let rows = found.repeated.iter().take(most).map(|r| {
+        let variation = r.variation_mm.map_or_else(|| "-".into(), digits);
+        let [commanded, real, rp] =
+            [r.commanded_accuracy_mm, r.accuracy_mm, r.repeatability_mm].map(digits);
+        vec![
+            r.line.to_string(),
+            r.count.to_string(),
+            commanded,
+            real,
+            rp,
+            variation,
+        ]
+    });
+    out += &table(
+        &["line", "count", "AP", "AP real", "RP", "vAP"],
+        rows.collect(),
+    );
+    if found.repeated_distances.is_empty() {
+        return out;
+    }
+    out += "\ndistances of repeated poses, mm; AD: the mean from the commanded distance, and from the real model's\n";
+    let rows = found.repeated_distances.iter().take(most).map(|r| {
+        let mut row = vec![
+            format!("{} to {}", r.lines[0], r.lines[1]),
+            r.count.to_string(),
+            format!("{:.3}", r.distance_mm),
+        ];
+        let numbers = [r.commanded_accuracy_mm, r.accuracy_mm, r.repeatability_mm];
+        row.extend(numbers.map(digits));
+        row
+    });
+    out += &table(
+        &["lines", "count", "distance", "AD", "AD real", "RD"],
+        rows.collect(),
+    );
     out
 }

@@ -1,10 +1,12 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be doubted.
 
+use super::beside::{Beside, Kept};
 use super::diagnosis::Options;
 use super::fit::Fit;
 use super::refit::{Refit, refit, shrink};
 use super::search::{Chosen, World};
 use super::session::{Session, Trust, for_choice, session};
+use super::table::Column;
 use super::unknown::{Library, Likeness, Unknown, chance, likeness};
 use crate::identify::IdentifyError;
 use crate::identify::measurements::Measurements;
@@ -51,6 +53,19 @@ impl Attempt {
             && self.louder.is_none()
     }
 
+    /// The median of the rows' standard deviations, metres.
+    pub fn sigma_m(&self) -> f64 {
+        let mut sigmas: Vec<f64> = self
+            .session
+            .problem
+            .rows
+            .iter()
+            .map(|r| r.sigma_m)
+            .collect();
+        sigmas.sort_by(f64::total_cmp);
+        sigmas[sigmas.len() / 2]
+    }
+
     /// Its merit with residuals of this variance: less is better.
     pub fn merit_at(&self, variance: f64) -> f64 {
         let fit = &self.refit.fit;
@@ -67,15 +82,20 @@ fn outdone(
     fit: &Fit,
     refit: &Refit,
 ) -> Vec<(usize, Unknown)> {
+    let base = fit.with_held(&session.residual, &world.held(&[]));
+    let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
+    let beside = Beside::of(&base, fit, &effects);
+    let without = |i: usize| -> Vec<bool> { (0..chosen.len()).map(|k| k != i).collect() };
+    let kept: Vec<Kept> = (0..chosen.len())
+        .map(|i| beside.kept(&without(i)))
+        .collect();
+    let best = library.scan(&session.layout, &base, &beside, &kept);
     let mut outdone = Vec::new();
-    for (i, own) in chosen.iter().enumerate() {
-        let mut others = chosen.to_vec();
-        others.remove(i);
-        let without = fit.with_held(&session.layout, &session.residual, &world.held(&others));
-        let own_gain =
-            (without.deviance - refit.fit.deviance.min(fit.deviance)) / fit.scale.powi(2);
+    for ((i, own), best) in chosen.iter().enumerate().zip(best) {
+        let left = refit.fit.deviance.min(fit.deviance);
+        let own_gain = (beside.deviance(&kept[i]) - left) / fit.scale.powi(2);
         let parameters = own.values.len() + own.candidate.chosen;
-        if let Some(best) = library.scan(&session.layout, &without).into_iter().next() {
+        if let Some(best) = best.into_iter().next() {
             let fair = 3.0 * (best.count as f64 - parameters as f64).max(0.0);
             if best.gain - fair > own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER {
                 outdone.push((i, best));
@@ -157,7 +177,9 @@ pub(super) fn attempt(
     progress("looking for what no effect explains");
     let library = Library::of(&session.problem, &session.estimate);
     let fit = world.fit(&chosen);
-    let mut unknown = library.scan(&session.layout, &refit.fit);
+    let beside = Beside::of(&refit.fit, &refit.fit, &[]);
+    let left = library.scan(&session.layout, &refit.fit, &beside, &[beside.kept(&[])]);
+    let mut unknown = left.into_iter().next().unwrap_or_default();
     unknown.retain(|u| u.gain > library.cost(u.count));
     let rivalled = outdone(&session, &library, &world, &chosen, &fit, &refit);
     let likeness = likeness(&session.problem, &session.layout, &used, &refit.fit);

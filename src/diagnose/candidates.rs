@@ -2,7 +2,7 @@
 
 use super::table::{Column, table};
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
-use crate::identify::parameters::{Parameter, Subject};
+use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, Place, REGISTRY, Site};
 use crate::model::{JOINTS, Slot};
@@ -103,10 +103,12 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
     let all: Vec<usize> = (0..kind.definition().parameters.len()).collect();
     let plain = |list: &[&[usize]]| list.iter().map(|sought| (sought.to_vec(), None)).collect();
     match kind {
-        // the first link's are the base's, the last one's twist and length the tool's
-        Kind::LinkGeometry if site.index == 0 => Vec::new(),
-        Kind::LinkGeometry if site.index == 5 => plain(&[&[0], &[1]]),
-        Kind::LinkGeometry => plain(&[&[0], &[1], &[2], &[3], &[4], &[0, 1, 2, 3, 4]]),
+        Kind::LinkGeometry => {
+            let own = &tried.geometry[site.index];
+            let each = own.iter().map(|n| (vec![*n], None));
+            let together = (own.len() > 2).then(|| (own.clone(), None));
+            each.chain(together).collect()
+        }
         Kind::BaseFrame | Kind::FrameShift | Kind::ToolFrame => {
             plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]])
         }
@@ -152,6 +154,8 @@ pub struct Tried {
     pub constants: Vec<f64>,
     /// Reference temperatures, °C.
     pub references: Vec<f64>,
+    /// Parameters of each link's geometry that a complete and minimal model has: the others do what a neighbour's do.
+    pub geometry: [Vec<usize>; JOINTS],
 }
 
 impl Tried {
@@ -197,10 +201,21 @@ impl Tried {
             .and_then(|p| p["temperature_c"].as_f64());
         let mut references = vec![20.0, mean];
         references.extend(calibrated);
+        // the first link's are the base's, the last one's turn and offset the tool's
+        let keys = Kind::LinkGeometry.definition().parameters;
+        let geometry = std::array::from_fn(|link| {
+            let own = |n: &usize| match link {
+                0 => false,
+                5 => ["alpha_deg", "a_mm"].contains(&keys[*n].key),
+                _ => minimal(&problem.profile, link, keys[*n].key),
+            };
+            (0..keys.len()).filter(own).collect()
+        });
         Self {
             knees,
             constants,
             references,
+            geometry,
         }
     }
 }

@@ -2,12 +2,15 @@
 
 use super::attempt::{ALIKE, Attempt};
 use super::candidates::Candidate;
-use super::diagnosis::{Diagnosis, Found, NoiseSource, Options, OutlierRow, Rival, Verdict};
+use super::diagnosis::{
+    Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Rival, Verdict,
+};
 use super::poses::{Telling, telling};
 use super::proof::{Proof, held_out};
 use super::refit::refit;
 use super::search::{Chosen, Scored};
 use super::session::{Session, Trust, for_choice};
+use super::stand_ins::{StandIn, stand_ins};
 use super::table::{Layout, lengths_m};
 use super::unknown::chance;
 use super::whereabouts::spots;
@@ -19,8 +22,9 @@ use crate::identify::robust::limit;
 use crate::identify::screening::Remark;
 use crate::identify::statistics::Spread;
 use crate::model::JOINTS;
-use crate::model::effects::{Kind, REGISTRY};
+use crate::model::effects::{Effect, Kind, REGISTRY};
 use crate::model::profile::Profile;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Another effect explains the data nearly as well where it is worse by no more than this, twice a log likelihood.
@@ -33,8 +37,10 @@ const TIE: f64 = 1.0;
 const TELLING: usize = 12;
 /// A row is an outlier beyond this many times the length that 99.7 % of normal rows stay below.
 const OUTLIER: f64 = 1.6;
-/// So many functions of one joint's angle, two of them harmonics, are the series of another.
+/// So many functions of one joint's angle, a harmonic among them, are the series of another.
 const SERIES: usize = 3;
+/// A row is followed where so much of its own numbers is in its expectation.
+const FOLLOWED: f64 = 0.7;
 /// Repeated poses tell the noise from so many degrees of freedom on.
 const REPEATS: usize = 10;
 
@@ -69,15 +75,47 @@ pub(super) fn conclude(
     } else {
         Verdict::Explained
     };
+    // what competes with a group is told where the answer is in doubt; else only what explains nearly all
+    let world = session.world(&used, &options.accept);
+    let doubted = verdict == Verdict::Undetermined;
+    let stand_ins = stand_ins(attempt, &world, (!doubted).then_some(NEARLY_PART));
+    let again = |chosen: &[Chosen]| {
+        refit(
+            &session.problem,
+            &session.layout,
+            &session.estimate,
+            &session.shares,
+            chosen,
+            &used,
+            session.floor(),
+        )
+        .estimate
+    };
+    let each = 0..if options.steps {
+        attempt.chosen.len()
+    } else {
+        0
+    };
+    let without = each.into_par_iter().map(|i| {
+        let mut others = attempt.chosen.clone();
+        others.remove(i);
+        again(&others)
+    });
     let (noise_m, noise_source, left_m) = noise(attempt);
     let left_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
     Ok(Diagnosis {
         verdict,
         reasons,
-        telling: telling_poses(profile, attempt, options, &used, &found, &rivals)?,
+        telling: telling_poses(
+            profile, attempt, options, &used, &found, &rivals, &stand_ins,
+        )?,
+        without: without.collect(),
+        bare: options.steps.then(|| again(&[])),
+        followed: followed(attempt, measurements),
         found,
         rivals,
+        stand_ins,
         unknown: attempt.unknown.clone(),
         spots: spots(
             &session.problem,
@@ -133,9 +171,7 @@ fn repeats(problem: &Problem, layout: &Layout, residual: &[f64]) -> Option<f64> 
 /// Noise of a coordinate, where it comes from, and what is left of a coordinate, metres.
 fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
     let problem = &attempt.session.problem;
-    let mut sigmas: Vec<f64> = problem.rows.iter().map(|r| r.sigma_m).collect();
-    sigmas.sort_by(f64::total_cmp);
-    let sigma_m = sigmas[sigmas.len() / 2];
+    let sigma_m = attempt.sigma_m();
     let left_m = attempt.refit.fit.scale * sigma_m;
     if !problem.sigma_assumed {
         return (sigma_m, NoiseSource::Given, left_m);
@@ -295,7 +331,7 @@ fn imitated(found: &[Found]) -> Option<(usize, usize)> {
         };
         let harmonics = of(Kind::JointHarmonic);
         let count = harmonics + of(Kind::JointScale) + of(Kind::LinkGeometry);
-        (harmonics >= 2 && count >= SERIES).then_some((joint + 1, count))
+        (harmonics >= 1 && count >= SERIES).then_some((joint + 1, count))
     })
 }
 
@@ -320,6 +356,22 @@ fn outliers(attempt: &Attempt, measurements: &Measurements, left_m: &[f64]) -> V
     outliers
 }
 
+/// Rows that the model follows whatever they say, by their leverage.
+fn followed(attempt: &Attempt, measurements: &Measurements) -> Vec<FollowedRow> {
+    let leverage = attempt.refit.fit.leverage(&attempt.session.layout);
+    let rows = measurements.rows.iter().zip(leverage);
+    let mut followed: Vec<FollowedRow> = rows
+        .filter(|(_, leverage)| *leverage > FOLLOWED)
+        .map(|(m, leverage)| FollowedRow {
+            line: m.line,
+            id: m.id.clone(),
+            leverage,
+        })
+        .collect();
+    followed.sort_by(|a, b| b.leverage.total_cmp(&a.leverage));
+    followed
+}
+
 /// Configurations that tell the strongest rival from the effect found: the rival takes its place, everything is fitted
 /// again, and where the two models differ most tells.
 fn telling_poses(
@@ -329,40 +381,53 @@ fn telling_poses(
     used: &[bool],
     found: &[Found],
     rivals: &[Rival],
+    stand_ins: &[StandIn],
 ) -> Result<Vec<Telling>, IdentifyError> {
     let session = &attempt.session;
+    let mut all = Vec::new();
+    // half of them for each, where there are both
+    let count = |both: bool| if both { TELLING / 2 } else { TELLING };
+    let tell = |other: &Estimate, tells: (String, String), count: usize| {
+        let found = &attempt.refit.estimate;
+        telling(profile, &session.problem, found, other, &tells, count)
+    };
+    let labels = |effects: &mut dyn Iterator<Item = &Effect>| {
+        effects.map(Effect::label).collect::<Vec<_>>().join(" + ")
+    };
     let of_robot = |r: &&Rival| {
         !r.effect.definition().of_data() && !found[r.instead_of].effect.definition().of_data()
     };
-    let Some(rival) = rivals.iter().find(of_robot) else {
-        return Ok(Vec::new());
-    };
-    let mut scored = attempt.chosen[rival.instead_of].rivals.iter();
-    let Some(scored) = scored.find(|s| {
-        let other = &session.candidates.list[s.index].effect;
-        other.kind == rival.effect.kind && other.site == rival.effect.site
-    }) else {
-        return Ok(Vec::new());
-    };
-    let world = session.world(used, &options.accept);
-    let mut other = attempt.chosen.clone();
-    other[rival.instead_of] = world.chosen(scored);
-    let refitted = refit(
-        &session.problem,
-        &session.layout,
-        &session.estimate,
-        &session.shares,
-        &other,
-        used,
-        session.floor(),
-    );
-    telling(
-        profile,
-        &session.problem,
-        &attempt.refit.estimate,
-        &refitted.estimate,
-        TELLING,
-    )
+    let single = rivals.iter().find(of_robot).and_then(|rival| {
+        let scored = attempt.chosen[rival.instead_of].rivals.iter().find(|s| {
+            let other = &session.candidates.list[s.index].effect;
+            other.kind == rival.effect.kind && other.site == rival.effect.site
+        });
+        scored.map(|scored| (rival, scored))
+    });
+    if let Some((rival, scored)) = single {
+        let world = session.world(used, &options.accept);
+        let mut other = attempt.chosen.clone();
+        other[rival.instead_of] = world.chosen(scored);
+        let refitted = refit(
+            &session.problem,
+            &session.layout,
+            &session.estimate,
+            &session.shares,
+            &other,
+            used,
+            session.floor(),
+        );
+        let tells = (found[rival.instead_of].effect.label(), rival.effect.label());
+        all = tell(&refitted.estimate, tells, count(!stand_ins.is_empty()))?;
+    }
+    if let Some(stand_in) = stand_ins.first() {
+        let tells = (
+            labels(&mut stand_in.instead_of.iter().map(|i| &found[*i].effect)),
+            labels(&mut stand_in.effects.iter()),
+        );
+        all.extend(tell(&stand_in.estimate, tells, count(single.is_some()))?);
+    }
+    Ok(all)
 }
 
 fn rival_of(candidate: &Candidate, scored: &Scored, instead_of: usize, behind: f64) -> Rival {

@@ -5,6 +5,7 @@ use super::candidates::CannotTest;
 use super::conclusion::conclude;
 use super::poses::Telling;
 use super::session::{Trust, for_choice, is_nominal};
+use super::stand_ins::StandIn;
 use super::unknown::Unknown;
 use super::whereabouts::Spot;
 use crate::identify::IdentifyError;
@@ -28,6 +29,19 @@ pub struct Options {
     pub reject: Vec<Pick>,
     /// Leave out cross-validation.
     pub quick: bool,
+    /// Fit the model again without each effect found, for a report that shows what it changed.
+    pub steps: bool,
+}
+
+/// A row that decides parameters alone: its residual is small whatever it says, and no evidence for the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FollowedRow {
+    /// Line of the file.
+    pub line: usize,
+    /// Its id.
+    pub id: String,
+    /// How much of its own numbers the model follows, from 0 to 1.
+    pub leverage: f64,
 }
 
 /// The answer.
@@ -127,6 +141,14 @@ pub struct Diagnosis {
     pub telling: Vec<Telling>,
     /// Effects that explain the data nearly as well.
     pub rivals: Vec<Rival>,
+    /// Effects of one kind that compete with several of those found.
+    pub stand_ins: Vec<StandIn>,
+    /// Models fitted again without each of the effects found, where they were asked for.
+    pub without: Vec<Estimate>,
+    /// And without any of them.
+    pub bare: Option<Estimate>,
+    /// Rows that the model follows whatever they say.
+    pub followed: Vec<FollowedRow>,
     /// Functions outside the registry that explain more.
     pub unknown: Vec<Unknown>,
     /// Where the disagreement lies.

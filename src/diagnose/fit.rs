@@ -6,7 +6,7 @@ use crate::identify::robust::{limit, median_of_squares};
 use rayon::prelude::*;
 
 /// A column is redundant where less than this part of its square is left when earlier ones have explained the rest.
-const REDUNDANT: f64 = 1e-7;
+pub(super) const REDUNDANT: f64 = 1e-7;
 /// A column shows nothing where its parameter's typical size moves all numbers together by fewer standard deviations.
 const INVISIBLE: f64 = 0.1;
 /// Turns of re-weighting.
@@ -21,23 +21,32 @@ pub struct Held<'a> {
     pub column: &'a [f64],
     /// 1 for a free parameter; g/(1 + g) for one whose calibration is worth 1/g of these measurements (Zellner's prior).
     pub share: f64,
+    /// A parameter of an effect that is sought: fitted freely, on top of what the others can absorb.
+    pub sought: bool,
 }
 
-/// The fit: an orthonormal basis of everything fitted, robust weights, what is left.
+/// The fit: a basis of everything fitted, robust weights, what is left.
+///
+/// With the orthonormal basis Q of the columns that are held and their shares S, `M0 = I - Q S Qᵀ` is the precision of the
+/// residuals when those are integrated out. Columns E that are sought lower it to `M = M0 - U Uᵀ`, `U = M0 E L⁻ᵀ`,
+/// `L Lᵀ = Eᵀ M0 E`: generalised least squares. The prior of what is held stays the same whatever is sought.
 #[derive(Clone, Debug)]
 pub struct Fit {
     /// Roots of the weights of all numbers; zero for rows not used.
     pub roots: Column,
-    /// Orthonormal columns, weighted.
+    /// Columns of Q, then of U, weighted.
     basis: Vec<Column>,
+    /// One for each of the basis: those of S, then ones.
     shares: Vec<f64>,
     /// Which of the columns stands behind each of the basis.
     kept: Vec<usize>,
+    /// How many of the basis belong to Q.
+    base: usize,
     /// Triangle: `triangle[j]` are the parts of column `kept[j]` along the basis up to j.
     triangle: Vec<Vec<f64>>,
     /// Parts of the residual along the basis.
     parts: Vec<f64>,
-    /// `M r`, weighted: residual less the shares of its parts.
+    /// `M r`, weighted.
     pub left: Column,
     /// `rᵀ M r`: the deviance, before division by the scale squared.
     pub deviance: f64,
@@ -85,7 +94,7 @@ impl Fit {
         for row in (0..layout.rows()).filter(|row| used[*row]) {
             roots[layout.row(row)].fill(1.0);
         }
-        let mut fit = Self::weighted(layout, residual, held, roots);
+        let mut fit = Self::weighted(residual, held, roots);
         let mut last = f64::INFINITY;
         for _ in 0..TURNS {
             let rest = fit.unweighted_rest(residual, held);
@@ -108,7 +117,7 @@ impl Fit {
                 fit.scale = scale;
                 break;
             }
-            fit = Self::weighted(layout, residual, held, roots);
+            fit = Self::weighted(residual, held, roots);
             fit.scale = scale;
             if (scale / last - 1.0).abs() < 1e-3 {
                 break;
@@ -128,8 +137,8 @@ impl Fit {
 
     /// The same rows, weights and scale with other columns.
     #[must_use]
-    pub fn with_held(&self, layout: &Layout, residual: &[f64], held: &[Held]) -> Self {
-        let mut fit = Self::weighted(layout, residual, held, self.roots.clone());
+    pub fn with_held(&self, residual: &[f64], held: &[Held]) -> Self {
+        let mut fit = Self::weighted(residual, held, self.roots.clone());
         fit.scale = self.scale;
         fit.freedom = self.freedom;
         fit.floor = self.floor;
@@ -144,14 +153,14 @@ impl Fit {
         numbers as f64 - self.shares.iter().sum::<f64>()
     }
 
-    fn weighted(layout: &Layout, residual: &[f64], held: &[Held], roots: Column) -> Self {
-        let _ = layout;
+    fn weighted(residual: &[f64], held: &[Held], roots: Column) -> Self {
         let mut fit = Self {
             left: weighted(residual, &roots),
             roots,
             basis: Vec::new(),
             shares: Vec::new(),
             kept: Vec::new(),
+            base: 0,
             triangle: Vec::new(),
             parts: Vec::new(),
             deviance: 0.0,
@@ -162,7 +171,7 @@ impl Fit {
         };
         let mut whole = fit.left.clone();
         // free columns first: what they explain is no strain on the calibration
-        let mut order: Vec<usize> = (0..held.len()).collect();
+        let mut order: Vec<usize> = (0..held.len()).filter(|i| !held[*i].sought).collect();
         order.sort_by(|a, b| held[*b].share.total_cmp(&held[*a].share));
         for index in order {
             let mut column = weighted(held[index].column, &fit.roots);
@@ -193,25 +202,100 @@ impl Fit {
             let share = held[index].share;
             add_scaled(&mut fit.left, -share * part, &column);
             fit.deviance += (1.0 - share) * part * part;
-            if share < 1.0 {
-                fit.strain.0 += part * part;
-                fit.strain.1 += 1;
-            }
             fit.basis.push(column);
             fit.shares.push(share);
             fit.kept.push(index);
             fit.triangle.push(along);
             fit.parts.push(part);
         }
+        fit.base = fit.basis.len();
         fit.deviance += dot(&whole, &whole);
+        for index in (0..held.len()).filter(|i| held[*i].sought) {
+            fit.seek(index, held[index].column);
+        }
+        fit.strained();
         fit
+    }
+
+    /// Adds a column that is sought.
+    fn seek(&mut self, index: usize, column: &[f64]) {
+        let column = weighted(column, &self.roots);
+        let before = dot(&column, &column);
+        if before < INVISIBLE * INVISIBLE * 1e-4 {
+            return;
+        }
+        let mut along: Vec<f64> = self.basis.iter().map(|q| dot(q, &column)).collect();
+        let mut turned = column.clone();
+        for ((q, part), share) in self.basis.iter().zip(&along).zip(&self.shares) {
+            add_scaled(&mut turned, -share * part, q);
+        }
+        let after = dot(&column, &turned);
+        if after <= REDUNDANT * before {
+            return;
+        }
+        let length = after.sqrt();
+        for x in &mut turned {
+            *x /= length;
+        }
+        let part = dot(&column, &self.left) / length;
+        add_scaled(&mut self.left, -part, &turned);
+        self.deviance -= part * part;
+        along.push(length);
+        self.basis.push(turned);
+        self.shares.push(1.0);
+        self.kept.push(index);
+        self.triangle.push(along);
+        self.parts.push(part);
+    }
+
+    /// The same with columns that are sought beside those there are, at the scale of `full`.
+    #[must_use]
+    pub fn seeking(&self, columns: &[&Column], full: &Self) -> Self {
+        let mut fit = self.clone();
+        (fit.scale, fit.freedom, fit.floor) = (full.scale, full.freedom, full.floor);
+        let next = fit.kept.iter().max().map_or(0, |most| most + 1);
+        for (k, column) in columns.iter().enumerate() {
+            fit.seek(next + k, column);
+        }
+        fit.strained();
+        fit
+    }
+
+    /// Values of the columns that are sought, one for each of U.
+    fn sought(&self) -> Vec<f64> {
+        let mut solved = self.parts[self.base..].to_vec();
+        for j in (0..solved.len()).rev() {
+            solved[j] /= self.triangle[self.base + j][self.base + j];
+            for k in 0..j {
+                solved[k] -= self.triangle[self.base + j][self.base + k] * solved[j];
+            }
+        }
+        solved
+    }
+
+    /// Parts along Q of the residual less what the columns sought explain.
+    fn remaining(&self, sought: &[f64]) -> Vec<f64> {
+        let mut parts = self.parts[..self.base].to_vec();
+        for (j, value) in sought.iter().enumerate() {
+            for (part, along) in parts.iter_mut().zip(&self.triangle[self.base + j]) {
+                *part -= value * along;
+            }
+        }
+        parts
+    }
+
+    fn strained(&mut self) {
+        let parts = self.remaining(&self.sought());
+        let pulls = parts.iter().zip(&self.shares).filter(|(_, s)| **s < 1.0);
+        self.strain = pulls.fold((0.0, 0), |(sum, count), (p, _)| (sum + p * p, count + 1));
     }
 
     /// Values of the columns, in their parameters' scales; redundant ones are zero.
     #[must_use]
     pub fn values(&self, count: usize) -> Vec<f64> {
+        let sought = self.sought();
         let mut solved: Vec<f64> = self
-            .parts
+            .remaining(&sought)
             .iter()
             .zip(&self.shares)
             .map(|(p, s)| p * s)
@@ -223,7 +307,7 @@ impl Fit {
             }
         }
         let mut values = vec![0.0; count];
-        for (index, value) in self.kept.iter().zip(solved) {
+        for (index, value) in self.kept.iter().zip(solved.into_iter().chain(sought)) {
             values[*index] = value;
         }
         values
@@ -239,6 +323,18 @@ impl Fit {
             }
         }
         rest
+    }
+
+    /// How much of each row's own numbers its expectation follows: near 1, its residual says nothing of it.
+    #[must_use]
+    pub fn leverage(&self, layout: &Layout) -> Vec<f64> {
+        let of = |row: usize| {
+            let range = layout.row(row);
+            let along = self.basis.iter().zip(&self.shares);
+            let followed = along.map(|(q, s)| s * dot(&q[range.clone()], &q[range.clone()]));
+            followed.sum::<f64>() / range.len().max(1) as f64
+        };
+        (0..layout.rows()).map(of).collect()
     }
 
     /// The weighted column and its parts along the basis.
@@ -265,8 +361,18 @@ impl Fit {
             .collect()
     }
 
+    /// A weighted column times M.
+    #[must_use]
+    pub(super) fn turned(&self, seen: &Projection) -> Column {
+        let mut turned = seen.column.clone();
+        for ((q, part), share) in self.basis.iter().zip(&seen.parts).zip(&self.shares) {
+            add_scaled(&mut turned, -share * part, q);
+        }
+        turned
+    }
+
     /// Inner product of two columns after projection.
-    fn product(&self, a: &Projection, b: &Projection) -> f64 {
+    pub(super) fn product(&self, a: &Projection, b: &Projection) -> f64 {
         let along: f64 = (a.parts.iter().zip(&b.parts).zip(&self.shares))
             .map(|((x, y), s)| x * y * s)
             .sum();
@@ -274,7 +380,7 @@ impl Fit {
     }
 
     /// The square of one over a typical size, in numbers' units: the scale is that of the noise, not of what is missing.
-    fn ridge(&self) -> f64 {
+    pub(super) fn ridge(&self) -> f64 {
         let variance = self.scale * self.scale;
         let noise = variance.min((self.floor * self.floor).max(0.01 * variance));
         noise / (PRIOR_WIDTH * PRIOR_WIDTH)
@@ -380,10 +486,13 @@ impl Fit {
 /// A column seen from a fit.
 #[derive(Clone, Debug)]
 pub struct Projection {
-    column: Column,
+    /// Weighted.
+    pub(super) column: Column,
     parts: Vec<f64>,
-    slope: f64,
-    square: f64,
+    /// Inner product with what is left.
+    pub(super) slope: f64,
+    /// Inner product with itself, before projection.
+    pub(super) square: f64,
 }
 
 /// What a group of columns gains.
@@ -397,7 +506,7 @@ pub struct Gain {
     pub count: usize,
 }
 
-fn gain_of(
+pub(super) fn gain_of(
     gram: &[Vec<f64>],
     slopes: &[f64],
     squares: &[f64],

@@ -6,6 +6,7 @@
 //! that is trusted in part; G. Schwarz (1978) for the information criterion.
 
 mod attempt;
+pub mod beside;
 pub mod candidates;
 pub mod chances;
 mod conclusion;
@@ -14,8 +15,10 @@ pub mod fit;
 pub mod poses;
 mod proof;
 pub mod refit;
+mod scan;
 pub mod search;
 pub mod session;
+pub mod stand_ins;
 pub mod table;
 pub mod unknown;
 pub mod whereabouts;

@@ -14,12 +14,14 @@ const MARGIN_RAD: f64 = 0.02;
 const APART_RAD: f64 = 0.35;
 
 /// A configuration, and how far apart two models expect the tool there, metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Telling {
     /// Joint angles in the controller's sense, radians.
     pub q: [f64; 6],
     /// Distance of the two places of the tool, metres.
     pub apart_m: f64,
+    /// What it tells from what: effects found, and those in their place.
+    pub tells: (String, String),
 }
 
 /// The configurations inside the joint limits at which two estimates differ most, at most `count`.
@@ -31,6 +33,7 @@ pub fn telling(
     problem: &Problem,
     a: &Estimate,
     b: &Estimate,
+    tells: &(String, String),
     count: usize,
 ) -> Result<Vec<Telling>, IdentifyError> {
     let constraints = Constraints {
@@ -55,6 +58,7 @@ pub fn telling(
             Telling {
                 q,
                 apart_m: apart[0].max(apart[1]),
+                tells: tells.clone(),
             }
         })
         .collect();

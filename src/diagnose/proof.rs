@@ -9,6 +9,7 @@ use super::table::lengths_m;
 use crate::geometry::units::mm_from_m;
 use crate::identify::measurements::Measurements;
 use crate::identify::statistics::Spread;
+use rayon::prelude::*;
 
 /// From so many rows on, one part of them is left out, once.
 const MANY_ROWS: usize = 400;
@@ -105,15 +106,15 @@ pub(super) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
     let mut lengths = vec![Vec::new(); steps];
     let mut again = vec![(0, 0); attempt.chosen.len()];
     let present = lengths_m(&session.problem, &session.layout, &session.present);
-    for test in tests.into_iter().filter(|t| !t.is_empty()) {
+    let one = |test: &Vec<usize>| -> (Vec<Vec<f64>>, Vec<bool>) {
         let mut used = choice.clone();
-        for row in &test {
+        for row in test {
             used[*row] = false;
         }
         let world = session.world(&used, &options.accept);
         let mut own = world.search(Vec::new());
         keep_rows(&world, &attempt.chosen, &mut own);
-        lengths[0].extend(test.iter().map(|r| present[*r]));
+        let mut lengths = vec![test.iter().map(|r| present[*r]).collect()];
         for step in 0..=attempt.chosen.len() {
             let wanted = &attempt.chosen[..step];
             let kept: Vec<Chosen> = if step == attempt.chosen.len() {
@@ -127,11 +128,27 @@ pub(super) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
             let fit = world.fit(&kept);
             let rest = fit.unweighted_rest(&session.residual, &world.held(&kept));
             let all = lengths_m(&session.problem, &session.layout, &rest);
-            lengths[1 + step].extend(test.iter().map(|r| all[*r]));
+            lengths.push(test.iter().map(|r| all[*r]).collect());
         }
-        for (found, (times, of)) in attempt.chosen.iter().zip(&mut again) {
+        let again = attempt
+            .chosen
+            .iter()
+            .map(|found| own.iter().any(|c| like(&found.candidate, &c.candidate)));
+        (lengths, again.collect())
+    };
+    // what is left out does not depend on the other parts
+    let parts: Vec<_> = tests
+        .par_iter()
+        .filter(|t| !t.is_empty())
+        .map(one)
+        .collect();
+    for (own, found) in parts {
+        for (all, own) in lengths.iter_mut().zip(own) {
+            all.extend(own);
+        }
+        for ((times, of), found) in again.iter_mut().zip(found) {
             *of += 1;
-            *times += usize::from(own.iter().any(|c| like(&found.candidate, &c.candidate)));
+            *times += usize::from(found);
         }
     }
     Proof { lengths, again }

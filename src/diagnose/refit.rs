@@ -2,7 +2,7 @@
 
 use super::fit::{Fit, Held};
 use super::search::Chosen;
-use super::table::{Layout, table};
+use super::table::{Layout, add_scaled, table};
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Slot;
@@ -85,23 +85,20 @@ pub fn refit(
         .copied()
         .chain(owners.iter().map(|_| 1.0))
         .collect();
-    let held_of = |columns: &[Vec<f64>]| -> Vec<(usize, f64)> {
-        (0..columns.len()).map(|i| (i, shares[i])).collect()
-    };
     let mut turn = 0;
     loop {
         let (residual, columns) = table(problem, &estimate, &parameters);
-        let held: Vec<Held> = held_of(&columns)
-            .into_iter()
-            .map(|(i, share)| Held {
-                column: &columns[i],
-                share,
+        let held: Vec<Held> = (columns.iter().zip(&shares).enumerate())
+            .map(|(i, (column, share))| Held {
+                column,
+                share: *share,
+                sought: i >= problem.parameters.len(),
             })
             .collect();
         let fit = Fit::of(layout, used, &residual, &held, floor);
         if turn == TURNS {
             let others: Vec<Held> = held[..problem.parameters.len()].to_vec();
-            let without = fit.with_held(layout, &residual, &others);
+            let without = fit.with_held(&residual, &others);
             let projections = without.projections(&columns[problem.parameters.len()..]);
             let own = without.deviations(&projections.iter().collect::<Vec<_>>());
             let mut own = own
@@ -120,12 +117,22 @@ pub fn refit(
                 residual,
             };
         }
+        // what is held by its calibration stays: its prior stands at the profile's value. The effects are estimated with it
+        // integrated out, what is free then fits the rest
         let values = fit.values(held.len());
-        for ((parameter, value), share) in parameters.iter().zip(&values).zip(&shares) {
-            // what is held by its calibration stays: its prior stands at the profile's value
-            if *share == 1.0 {
-                *estimate.value_mut(parameter.subject) += value * parameter.scale;
+        let (mut rest, mut free) = (residual.clone(), Vec::new());
+        for (i, one) in held.iter().enumerate() {
+            if one.sought {
+                add_scaled(&mut rest, -values[i], one.column);
+                *estimate.value_mut(parameters[i].subject) += values[i] * parameters[i].scale;
+            } else if one.share == 1.0 {
+                free.push(i);
             }
+        }
+        let own: Vec<Held> = free.iter().map(|i| held[*i]).collect();
+        let values = fit.with_held(&rest, &own).values(own.len());
+        for (i, value) in free.into_iter().zip(values) {
+            *estimate.value_mut(parameters[i].subject) += value * parameters[i].scale;
         }
         turn += 1;
     }
@@ -148,10 +155,9 @@ pub fn shrink(problem: &Problem, shares: &[f64], refit: &mut Refit) {
     let values = refit
         .fit
         .values(shares.len() + refit.sigmas.iter().map(Vec::len).sum::<usize>());
-    for ((parameter, share), value) in problem.parameters.iter().zip(shares).zip(&values) {
-        if *share > 0.0 && *share < 1.0 {
-            *refit.estimate.value_mut(parameter.subject) +=
-                factor / share * value * parameter.scale;
-        }
+    // what is free goes along: it has fitted the residuals already, so that its values are what the others' take
+    let held = shares.iter().copied().find(|s| *s < 1.0).unwrap_or(1.0);
+    for (parameter, value) in problem.parameters.iter().zip(&values) {
+        *refit.estimate.value_mut(parameter.subject) += factor / held * value * parameter.scale;
     }
 }

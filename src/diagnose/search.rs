@@ -2,6 +2,7 @@
 
 use super::candidates::{Candidate, Candidates};
 use super::fit::{Fit, Gain, Held};
+use super::scan::View;
 use super::table::{Column, Layout};
 use crate::identify::parameters::Pick;
 use crate::model::effects::{Kind, REGISTRY};
@@ -16,10 +17,34 @@ const FEW_EFFECTS: usize = 4;
 const MOST_TURNS: usize = 4;
 /// Another effect takes the place of one found where it is better by this.
 const BETTER: f64 = 0.3;
-/// Rows on both sides of a row from which on an effect holds.
-const ROWS_BESIDE: usize = 5;
 /// Rows from which on effects hold are the same where they are this near.
 const SAME_ROW: u32 = 3;
+/// Odds of an effect that every arm has in some measure against one that only some have.
+const ODDS: f64 = 5.0;
+
+/// Effects that only some arms have: a structure that bends, a gear with two stiffnesses, a load that is not what was
+/// stated, axes that take each other along. Frames, geometry, the gears' ratio, stiffness, play and waves are in every arm,
+/// and what needs a column of its own (time, temperature, order) is told from them by that.
+const fn rare(kind: Kind) -> bool {
+    matches!(
+        kind,
+        Kind::LinkCompliance
+            | Kind::BaseCompliance
+            | Kind::ComplianceKnee
+            | Kind::PayloadError
+            | Kind::JointCoupling
+    )
+}
+
+/// Kinds of one cause: a gear that gives way, a structure that bends, something that moved; each other kind is its own.
+const fn cause(kind: Kind) -> Kind {
+    match kind {
+        Kind::ComplianceKnee => Kind::JointCompliance,
+        Kind::BaseCompliance => Kind::LinkCompliance,
+        Kind::ToolSlip => Kind::FrameShift,
+        other => other,
+    }
+}
 
 /// Everything that the search looks at.
 #[derive(Clone, Copy, Debug)]
@@ -97,7 +122,7 @@ fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 }
 
 /// Sought twice: the same place and a parameter in common.
-fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
+pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
     let listed = matches!(
         a.effect.kind,
         Kind::ComplianceKnee | Kind::WarmUpDrift | Kind::ThermalGrowth
@@ -111,14 +136,19 @@ impl World<'_> {
         used.map(|row| self.layout.row(row).len()).sum::<usize>() as f64
     }
 
-    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`, and the choice among
-    /// its peers and among all kinds.
-    fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
+    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`, the choice among its
+    /// peers and among all kinds, and the odds against a rare one.
+    pub(super) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
         let parameters = (count + candidate.chosen) as f64;
         let kinds = REGISTRY.len() as f64;
         parameters * self.numbers().ln()
             + 2.0 * (candidate.peers as f64).ln()
             + 2.0 * kinds.ln()
+            + if rare(candidate.effect.kind) {
+                2.0 * ODDS.ln()
+            } else {
+                0.0
+            }
             + MARGIN
     }
 
@@ -148,11 +178,13 @@ impl World<'_> {
             .map(|(column, share)| Held {
                 column,
                 share: *share,
+                sought: false,
             });
-        let own = chosen
-            .iter()
-            .flat_map(|c| &c.columns)
-            .map(|column| Held { column, share: 1.0 });
+        let own = chosen.iter().flat_map(|c| &c.columns).map(|column| Held {
+            column,
+            share: 1.0,
+            sought: true,
+        });
         held.chain(own).collect()
     }
 
@@ -166,51 +198,6 @@ impl World<'_> {
             &self.held(chosen),
             self.floor,
         )
-    }
-
-    /// Every candidate beside a fit, best first; those in `taken` are left out.
-    #[must_use]
-    pub fn scan(&self, fit: &Fit, taken: &[&Candidate]) -> Vec<Scored> {
-        let projections = fit.projections(&self.candidates.columns);
-        let mut all = Vec::new();
-        for (index, candidate) in self.candidates.list.iter().enumerate() {
-            if candidate.row.is_some() {
-                let columns: Vec<&Column> = candidate
-                    .columns
-                    .iter()
-                    .map(|i| &self.candidates.columns[*i])
-                    .collect();
-                for (row, gain) in fit.gains_from_rows(self.layout, &columns, ROWS_BESIDE) {
-                    let row = u32::try_from(row + 1).ok();
-                    if taken.iter().any(|other| overlaps(candidate, row, other)) {
-                        continue;
-                    }
-                    let cost = self.cost(candidate, gain.count);
-                    all.push(Scored {
-                        index,
-                        row,
-                        gain,
-                        cost,
-                    });
-                }
-                continue;
-            }
-            if taken.iter().any(|other| overlaps(candidate, None, other)) {
-                continue;
-            }
-            let group: Vec<_> = candidate.columns.iter().map(|i| &projections[*i]).collect();
-            if let Some(gain) = fit.gain(&group, &candidate.least) {
-                let cost = self.cost(candidate, gain.count);
-                all.push(Scored {
-                    index,
-                    row: None,
-                    gain,
-                    cost,
-                });
-            }
-        }
-        all.sort_by(|a, b| b.merit().total_cmp(&a.merit()));
-        all
     }
 
     /// An effect of a scan, ready to be in the model.
@@ -241,7 +228,7 @@ impl World<'_> {
 
     /// Looks at every effect in the model: exchanges it where another is better in its place, removes it where it is
     /// needless. Whether anything changed.
-    fn revise(&self, chosen: &mut Vec<Chosen>) -> bool {
+    fn revise(&self, chosen: &mut Vec<Chosen>, view: &mut View) -> bool {
         let mut changed = false;
         let mut i = 0;
         while i < chosen.len() {
@@ -249,16 +236,9 @@ impl World<'_> {
                 i += 1;
                 continue;
             }
-            let full = self.fit(chosen);
-            let others: Vec<Chosen> = chosen
-                .iter()
-                .enumerate()
-                .filter(|(k, _)| *k != i)
-                .map(|(_, c)| c.clone())
-                .collect();
-            let without = full.with_held(self.layout, self.residual, &self.held(&others));
-            let taken: Vec<&Candidate> = others.iter().map(|c| &c.candidate).collect();
-            let scored = self.scan(&without, &taken);
+            view.show(self, chosen);
+            let keep: Vec<bool> = (0..chosen.len()).map(|k| k != i).collect();
+            let scored = view.scan(self, chosen, &keep);
             let current = &chosen[i].candidate;
             let is_current = |s: &Scored| {
                 let other = &self.candidates.list[s.index];
@@ -267,21 +247,16 @@ impl World<'_> {
                     && current.columns.iter().all(|c| other.columns.contains(c))
                     && other.effect.parameters == current.effect.parameters
             };
-            let own = scored
-                .iter()
-                .filter(|s| is_current(s))
-                .map(Scored::merit)
-                .next();
+            let own = scored.iter().find(|s| is_current(s));
             let Some(best) = scored.first() else { break };
             match own {
-                Some(own) if best.merit() <= own + BETTER || is_current(best) => {
-                    let own_scored = scored.iter().find(|s| is_current(s)).expect("it was found");
-                    if own <= 0.0 {
+                Some(own) if best.merit() <= own.merit() + BETTER || is_current(best) => {
+                    if own.merit() <= 0.0 {
                         chosen.remove(i);
                         changed = true;
                         continue;
                     }
-                    let mut renewed = self.chosen(own_scored);
+                    let mut renewed = self.chosen(own);
                     let rivals = scored
                         .iter()
                         .filter(|s| !same(&self.candidates.list[s.index], s.row, current));
@@ -303,14 +278,14 @@ impl World<'_> {
         changed
     }
 
-    fn wanted(&self, candidate: &Candidate) -> bool {
+    pub(super) fn wanted(&self, candidate: &Candidate) -> bool {
         self.accepted
             .iter()
             .any(|pick| pick.means(&candidate.effect))
     }
 
     /// The effects that a person wants, each as well as it fits.
-    fn first(&self) -> Vec<Chosen> {
+    fn first(&self, view: &mut View) -> Vec<Chosen> {
         let mut chosen: Vec<Chosen> = Vec::new();
         for pick in self.accepted {
             // one effect is wanted whatever the evidence; of several, those that the search finds
@@ -325,9 +300,7 @@ impl World<'_> {
             if sites.len() != 1 {
                 continue;
             }
-            let fit = self.fit(&chosen);
-            let taken: Vec<&Candidate> = chosen.iter().map(|c| &c.candidate).collect();
-            let scored = self.scan(&fit, &taken);
+            let scored = view.best(self, &chosen);
             let best = scored.iter().find(|s| {
                 pick.means(&self.candidates.list[s.index].effect)
                     || self.candidates.list[s.index].row.is_some()
@@ -339,32 +312,21 @@ impl World<'_> {
     }
 
     /// Puts one effect in the place of two where it is better. Whether anything changed.
-    fn merge(&self, chosen: &mut Vec<Chosen>) -> bool {
+    fn merge(&self, chosen: &mut Vec<Chosen>, view: &mut View) -> bool {
         if chosen.len() < 2 || chosen.len() > FEW_EFFECTS {
             return false;
         }
-        let full = self.fit(chosen);
+        view.show(self, chosen);
         for i in 0..chosen.len() {
             for j in i + 1..chosen.len() {
                 if self.wanted(&chosen[i].candidate) || self.wanted(&chosen[j].candidate) {
                     continue;
                 }
-                let others: Vec<Chosen> = chosen
-                    .iter()
-                    .enumerate()
-                    .filter(|(k, _)| *k != i && *k != j)
-                    .map(|(_, c)| c.clone())
-                    .collect();
-                let without = full.with_held(self.layout, self.residual, &self.held(&others));
-                let both = (without.deviance - full.deviance) / full.scale.powi(2)
-                    - chosen[i].cost
-                    - chosen[j].cost;
-                let taken: Vec<&Candidate> = others.iter().map(|c| &c.candidate).collect();
-                if let Some(best) = self
-                    .scan(&without, &taken)
-                    .first()
-                    .filter(|s| s.merit() > both + BETTER)
-                {
+                let keep: Vec<bool> = (0..chosen.len()).map(|k| k != i && k != j).collect();
+                let both = view.loss(&keep) - chosen[i].cost - chosen[j].cost;
+                let scored = view.scan(self, chosen, &keep);
+                let better = |s: &&Scored| s.merit() > both + BETTER;
+                if let Some(best) = scored.first().filter(better) {
                     let one = self.chosen(best);
                     chosen.remove(j);
                     chosen[i] = one;
@@ -378,8 +340,9 @@ impl World<'_> {
     /// The effects that explain the residuals, in the order found, beginning with `first`.
     #[must_use]
     pub fn search(&self, first: Vec<Chosen>) -> Vec<Chosen> {
+        let mut view = View::of(self);
         let mut chosen = if first.is_empty() {
-            self.first()
+            self.first(&mut view)
         } else {
             first
         };
@@ -391,8 +354,8 @@ impl World<'_> {
                 MOST_TURNS
             };
             for _ in 0..turns {
-                let revised = self.revise(&mut chosen);
-                if !revised && !self.merge(&mut chosen) {
+                let revised = self.revise(&mut chosen, &mut view);
+                if !revised && !self.merge(&mut chosen, &mut view) {
                     break;
                 }
             }
@@ -404,12 +367,17 @@ impl World<'_> {
                 break;
             }
             seen.push(state);
-            let fit = self.fit(&chosen);
-            let taken: Vec<&Candidate> = chosen.iter().map(|c| &c.candidate).collect();
-            let scored = self.scan(&fit, &taken);
-            match scored.first() {
-                Some(best) if best.merit() > 0.0 => chosen.push(self.chosen(best)),
-                _ => break,
+            let best = view.best(self, &chosen).into_iter().next();
+            let Some(best) = best.filter(|best| best.merit() > 0.0) else {
+                break;
+            };
+            // the springs of a robot come as a set: a load bends all joints at once
+            let springs = view.all_of(self, &chosen, Kind::JointCompliance);
+            let together: f64 = springs.iter().map(Scored::merit).sum();
+            if springs.len() > 1 && together > best.merit() {
+                chosen.extend(springs.iter().map(|s| self.chosen(s)));
+            } else {
+                chosen.push(self.chosen(&best));
             }
         }
         chosen
@@ -417,23 +385,40 @@ impl World<'_> {
 }
 
 impl World<'_> {
-    /// What explains most first, then what explains most beside it, and so on.
+    /// The cause that explains most first, in it the effect that explains most, then what explains most beside those, and
+    /// so on.
     #[must_use]
     pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
         let mut ordered: Vec<Chosen> = Vec::new();
-        while chosen.len() > 1 {
+        while !chosen.is_empty() {
             let fit = self.fit(&ordered);
-            let gain = |one: &Chosen| {
-                let projections = fit.projections(&one.columns);
+            let gain = |wanted: &dyn Fn(&Chosen) -> bool| {
+                let own = chosen.iter().filter(|c| wanted(c));
+                let columns: Vec<Column> = own.flat_map(|c| c.columns.iter().cloned()).collect();
+                let projections = fit.projections(&columns);
                 let group: Vec<_> = projections.iter().collect();
                 fit.gain(&group, &vec![None; group.len()])
                     .map_or(0.0, |gain| gain.gain)
             };
-            let gains: Vec<f64> = chosen.iter().map(gain).collect();
-            let most = (0..gains.len()).max_by(|i, j| gains[*i].total_cmp(&gains[*j]));
-            ordered.push(chosen.remove(most.unwrap_or(0)));
+            let of = |c: &Chosen| cause(c.candidate.effect.kind);
+            let last = ordered.last().map(of);
+            let more = |kind: Kind| chosen.iter().any(|c| of(c) == kind);
+            let of_kind = |kind: Kind| gain(&|c| of(c) == kind);
+            let kinds = chosen.iter().map(of);
+            let Some(kind) = last
+                .filter(|kind| more(*kind))
+                .or_else(|| kinds.max_by(|a, b| of_kind(*a).total_cmp(&of_kind(*b))))
+            else {
+                break;
+            };
+            let own = (0..chosen.len()).filter(|i| of(&chosen[*i]) == kind);
+            let label = |i: usize| chosen[i].candidate.effect.label();
+            let of_one = |i: usize| gain(&|c| c.candidate.effect.label() == label(i));
+            let Some(most) = own.max_by(|i, j| of_one(*i).total_cmp(&of_one(*j))) else {
+                break;
+            };
+            ordered.push(chosen.remove(most));
         }
-        ordered.append(&mut chosen);
         ordered
     }
 }

@@ -1,7 +1,6 @@
 //! What a diagnosis starts from: the model's residuals and the parameters that are fitted along.
 
 use super::candidates::{Candidate, Candidates, Tried, columns_of};
-use super::fit::Held;
 use super::refit::refit;
 use super::search::{Chosen, World};
 use super::table::{Column, Layout, table};
@@ -283,17 +282,6 @@ pub fn session(
 }
 
 impl Session {
-    /// Columns held, with their shares.
-    #[must_use]
-    pub fn held(&self) -> Vec<Held<'_>> {
-        let both = self.columns.iter().zip(&self.shares);
-        both.map(|(column, share)| Held {
-            column,
-            share: *share,
-        })
-        .collect()
-    }
-
     /// What the search looks at, with the rows in use.
     #[must_use]
     pub fn world<'a>(&'a self, used: &'a [bool], accepted: &'a [Pick]) -> World<'a> {

@@ -26,6 +26,14 @@ impl Layout {
         Self { starts }
     }
 
+    /// Rows of equal length.
+    #[cfg(test)]
+    pub fn even(rows: usize, each: usize) -> Self {
+        Self {
+            starts: (0..=rows).map(|r| r * each).collect(),
+        }
+    }
+
     /// Numbers of a row.
     #[must_use]
     pub fn row(&self, row: usize) -> Range<usize> {

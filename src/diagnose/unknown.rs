@@ -1,9 +1,10 @@
 //! What no effect of the registry is: functions of the posture, the load, the motion and the time that may explain what is
 //! left. Where one of them does, or does it better than an effect that was named, the truth is not in the registry.
 
+use super::beside::{Beside, Group, Kept};
 use super::candidates::columns_of;
 use super::chances::{chi_squared_tail, normal_tail};
-use super::fit::Fit;
+use super::fit::{Fit, Gain};
 use super::table::{Column, Layout, dot};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::JOINTS;
@@ -374,40 +375,59 @@ impl Library {
         2.0 * (self.pairs().len() as f64).ln() + 3.0 * (count as f64 - 1.0) + MARGIN
     }
 
-    /// The functions that gain most beside a fit, best first, at most eight.
+    /// The functions that gain most, best first, at most eight, for each choice of effects beside a fit.
     #[must_use]
-    pub fn scan(&self, layout: &Layout, fit: &Fit) -> Vec<Unknown> {
-        let mut all: Vec<Unknown> = self
-            .pairs()
-            .into_par_iter()
-            .filter_map(|(m, f)| {
-                let (name, columns) = &self.motions[m];
-                let feature = &self.features[f];
+    pub fn scan(
+        &self,
+        layout: &Layout,
+        fit: &Fit,
+        beside: &Beside,
+        kept: &[Kept],
+    ) -> Vec<Vec<Unknown>> {
+        let pairs = self.pairs();
+        let each: Vec<Vec<Option<Gain>>> = pairs
+            .par_iter()
+            .map(|(m, f)| {
+                let (_, columns) = &self.motions[*m];
+                let values = &self.features[*f].values;
                 let columns: Vec<Column> = columns
                     .iter()
                     .map(|column| {
                         let mut own = column.clone();
-                        for (row, value) in feature.values.iter().enumerate() {
+                        for (row, value) in values.iter().enumerate() {
                             own[layout.row(row)].iter_mut().for_each(|x| *x *= value);
                         }
                         own
                     })
                     .collect();
                 let projections = fit.projections(&columns);
-                let group: Vec<_> = projections.iter().collect();
-                let gain = fit.gain(&group, &vec![None; group.len()])?;
-                Some(Unknown {
-                    name: format!("{name} by {}", feature.name),
-                    gain: gain.gain,
-                    count: gain.count,
-                })
+                let group = Group::of(fit, &projections.iter().collect::<Vec<_>>());
+                let cross: Vec<Vec<f64>> = projections.iter().map(|p| beside.cross(p)).collect();
+                let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
+                let free = vec![None; columns.len()];
+                let gain = |kept: &Kept| beside.gain(&group, &cross, kept, &free);
+                kept.iter().map(gain).collect()
             })
             .collect();
-        all.sort_by(|a, b| {
-            (b.gain - 3.0 * b.count as f64).total_cmp(&(a.gain - 3.0 * a.count as f64))
-        });
-        all.truncate(8);
-        all
+        (0..kept.len())
+            .map(|k| {
+                let merit = |gain: &Gain| gain.gain - 3.0 * gain.count as f64;
+                let mut all: Vec<(usize, &Gain)> = (each.iter().enumerate())
+                    .filter_map(|(i, gains)| Some((i, gains[k].as_ref()?)))
+                    .collect();
+                all.sort_by(|(_, a), (_, b)| merit(b).total_cmp(&merit(a)));
+                all.truncate(8);
+                let named = |(i, gain): (usize, &Gain)| Unknown {
+                    name: format!(
+                        "{} by {}",
+                        self.motions[pairs[i].0].0, self.features[pairs[i].1].name
+                    ),
+                    gain: gain.gain,
+                    count: gain.count,
+                };
+                all.into_iter().map(named).collect()
+            })
+            .collect()
     }
 }
 

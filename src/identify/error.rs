@@ -42,11 +42,21 @@ impl SelectionError {
     }
 }
 
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => "none".into(),
+        names => names.join(", "),
+    }
+}
+
 /// Why nothing was identified.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum IdentifyError {
     /// A row's tool is not in the profile.
-    #[error("line {line}: the profile has no tool `{tool}`; it has: {}", known.join(", "))]
+    #[error(
+        "line {line}: the profile has no tool `{tool}`; it has {}",
+        listed(known)
+    )]
     UnknownTool {
         /// Line of the file.
         line: usize,
@@ -130,6 +140,10 @@ impl IdentifyError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
+            Self::UnknownTool { tool, known, .. } if known.is_empty() => {
+                format!("write it under `tools` of the profile: `{tool}: {{frame: {{x_mm: …, rz_deg: …}}}}`; or leave the column tool out and points are on the flange")
+            }
+            Self::UnknownTool { .. } => "check the column tool, or `tools` of the profile".into(),
             Self::AmbiguousTool { .. } => "add a column tool".into(),
             Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or --fix".into(),
             Self::Suspicious { hint, .. } => hint.clone(),

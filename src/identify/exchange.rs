@@ -76,6 +76,7 @@ impl WithSimd for Update<'_> {
             (3, 3) => self.fixed::<S, 3, 3>(simd),
             (6, 6) => self.fixed::<S, 6, 6>(simd),
             (3, 1) => self.fixed::<S, 3, 1>(simd),
+            (6, 1) => self.fixed::<S, 6, 1>(simd),
             _ => self.any(),
         }
     }
@@ -173,6 +174,107 @@ impl Update<'_> {
     }
 }
 
+/// `det(1 + G_c)` of every candidate c, by elimination without exchanges of rows, which these matrices never need.
+struct Determinants<'a> {
+    height: usize,
+    grams: &'a [f32],
+    out: &'a mut [f32],
+}
+
+impl WithSimd for Determinants<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        match self.height {
+            3 => self.fixed::<S, 3>(simd),
+            6 => self.fixed::<S, 6>(simd),
+            _ => self.any(),
+        }
+    }
+}
+
+impl Determinants<'_> {
+    #[inline(always)]
+    fn fixed<S: Simd, const H: usize>(self, simd: S) {
+        let step = LANES / S::F32_LANES;
+        let one = simd.splat_f32s(1.0);
+        let blocks = self.grams.chunks_exact(triangle(H) * LANES);
+        for (grams, out) in blocks.zip(self.out.chunks_exact_mut(LANES)) {
+            let (grams, _) = S::as_simd_f32s(grams);
+            let (out, _) = S::as_mut_simd_f32s(out);
+            for part in 0..step {
+                let mut m = [[one; H]; H];
+                let mut index = 0;
+                for r in 0..H {
+                    for t in r..H {
+                        let cell = grams[index * step + part];
+                        m[r][t] = if r == t {
+                            simd.add_f32s(one, cell)
+                        } else {
+                            cell
+                        };
+                        index += 1;
+                    }
+                }
+                let mut product = one;
+                for k in 0..H {
+                    product = simd.mul_f32s(product, m[k][k]);
+                    let inverse = simd.div_f32s(one, m[k][k]);
+                    for r in k + 1..H {
+                        let factor = simd.neg_f32s(simd.mul_f32s(m[k][r], inverse));
+                        for t in r..H {
+                            m[r][t] = simd.mul_add_e_f32s(factor, m[k][t], m[r][t]);
+                        }
+                    }
+                }
+                out[part] = product;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn any(self) {
+        let height = self.height;
+        let size = triangle(height);
+        let mut m = vec![[0.0_f32; LANES]; size];
+        // where row r of the upper triangle starts, less r
+        let starts: Vec<usize> = (0..height).map(|r| r * height - r * (r + 1) / 2).collect();
+        let blocks = self.grams.chunks_exact(size * LANES);
+        for (grams, out) in blocks.zip(self.out.chunks_exact_mut(LANES)) {
+            for (cell, gram) in m.iter_mut().zip(grams.chunks_exact(LANES)) {
+                cell.copy_from_slice(gram);
+            }
+            for r in 0..height {
+                for cell in &mut m[starts[r] + r] {
+                    *cell += 1.0;
+                }
+            }
+            out.fill(1.0);
+            for k in 0..height {
+                let pivot = m[starts[k] + k];
+                for (out, pivot) in out.iter_mut().zip(pivot) {
+                    *out *= pivot;
+                }
+                for r in k + 1..height {
+                    let row = m[starts[k] + r];
+                    let mut factor = [0.0_f32; LANES];
+                    for l in 0..LANES {
+                        factor[l] = row[l] / pivot[l];
+                    }
+                    for t in r..height {
+                        let above = m[starts[k] + t];
+                        let into = &mut m[starts[r] + t];
+                        for l in 0..LANES {
+                            into[l] -= factor[l] * above[l];
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 pub(super) struct Chooser<'a> {
     /// One matrix a candidate: rows by parameters, in scales and standard deviations.
     pub jacobians: &'a [DMatrix<f64>],
@@ -231,11 +333,11 @@ impl Chooser<'_> {
         Some(())
     }
 
-    /// `det(1 + sign · G)` of one candidate.
-    fn ratio(&self, grams: &[f32], candidate: usize, sign: f32) -> f32 {
+    /// `det(1 − G)` of one candidate.
+    fn ratio_without(&self, grams: &[f32], candidate: usize) -> f32 {
         let height = self.rows.height;
         let block = &grams[candidate / LANES * triangle(height) * LANES..];
-        let at = |index: usize| sign * block[index * LANES + candidate % LANES];
+        let at = |index: usize| -block[index * LANES + candidate % LANES];
         if height == 3 {
             let (a, d, f) = (1.0 + at(0), 1.0 + at(3), 1.0 + at(5));
             let (b, c, e) = (at(1), at(2), at(4));
@@ -255,15 +357,14 @@ impl Chooser<'_> {
         m.determinant()
     }
 
-    /// The best of some candidates by [`Self::ratio`].
-    fn best(
+    /// The one of some candidates without which the determinant is largest.
+    fn least_missed(
         &self,
         grams: &[f32],
-        sign: f32,
         candidates: impl Iterator<Item = usize>,
     ) -> Option<usize> {
         candidates
-            .map(|i| (self.ratio(grams, i, sign), i))
+            .map(|i| (self.ratio_without(grams, i), i))
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, i)| i)
     }
@@ -300,9 +401,15 @@ impl Chooser<'_> {
                 );
             }
         }
+        let mut ratios = vec![0.0_f32; lanes];
         while exchanges < EXCHANGES {
+            self.arch.dispatch(Determinants {
+                height: self.rows.height,
+                grams: &grams,
+                out: &mut ratios,
+            });
             let free = (0..total).filter(|i| !used[*i]);
-            let Some(entering) = self.best(&grams, 1.0, free) else {
+            let Some(entering) = free.max_by(|a, b| ratios[*a].total_cmp(&ratios[*b])) else {
                 break;
             };
             if self
@@ -312,7 +419,7 @@ impl Chooser<'_> {
                 break;
             }
             let inside = set.iter().copied().chain([entering]);
-            let leaving = self.best(&grams, -1.0, inside).expect("one entered");
+            let leaving = self.least_missed(&grams, inside).expect("one entered");
             if leaving == entering
                 || self
                     .change(&mut inverse, &mut grams, leaving, -1.0)
@@ -337,5 +444,45 @@ impl Chooser<'_> {
             exchanges += 1;
         }
         (best, set, exchanges)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn determinants_of_all_candidates_are_those_of_their_matrices() {
+        let mut random = Random::new(9);
+        for height in [3, 6, 9] {
+            let size = triangle(height) * LANES;
+            let all: Vec<DMatrix<f64>> = (0..2 * LANES)
+                .map(|_| {
+                    let j = DMatrix::from_fn(height, height, |_, _| random.between(-1.0, 1.0));
+                    &j * j.transpose()
+                })
+                .collect();
+            let mut grams = vec![0.0_f32; 2 * size];
+            for (candidate, gram) in all.iter().enumerate() {
+                let block = &mut grams[candidate / LANES * size..];
+                let cells = (0..height).flat_map(|r| (r..height).map(move |t| (r, t)));
+                for (index, (r, t)) in cells.enumerate() {
+                    #[allow(clippy::cast_possible_truncation)]
+                    let value = gram[(r, t)] as f32;
+                    block[index * LANES + candidate % LANES] = value;
+                }
+            }
+            let mut out = vec![0.0_f32; 2 * LANES];
+            Arch::new().dispatch(Determinants {
+                height,
+                grams: &grams,
+                out: &mut out,
+            });
+            for (gram, found) in all.iter().zip(out) {
+                let exact = (DMatrix::identity(height, height) + gram).determinant();
+                let gap = (f64::from(found) / exact - 1.0).abs();
+                assert!(gap < 1e-4, "{height}: {found} and {exact}");
+            }
+        }
     }
 }

@@ -1,5 +1,7 @@
 //! What can be wrong with a file of measurements, and where.
 
+use super::csv_doubts::NotCsv;
+
 /// How far a quaternion's length may be from 1.
 pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
 
@@ -17,6 +19,20 @@ pub struct MeasurementError {
     pub fault: MeasurementFault,
 }
 
+impl From<NotCsv> for MeasurementError {
+    fn from(found: NotCsv) -> Self {
+        Self {
+            line: found.line,
+            column: found.column,
+            length: 0,
+            fault: MeasurementFault::Csv {
+                message: found.message,
+                hint: found.hint,
+            },
+        }
+    }
+}
+
 /// What is wrong with a file of measurements.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeasurementFault {
@@ -25,6 +41,8 @@ pub enum MeasurementFault {
     Csv {
         /// What the parser says.
         message: String,
+        /// The way out; may be empty.
+        hint: String,
     },
     /// Columns that must be there are not.
     #[error("columns are missing: {}", missing.join(", "))]
@@ -88,6 +106,7 @@ impl MeasurementError {
     #[must_use]
     pub fn hint(&self) -> String {
         match &self.fault {
+            MeasurementFault::Csv { hint, .. } => hint.clone(),
             MeasurementFault::MissingColumns { header, .. } => {
                 format!("the header has: {}", header.join(", "))
             }

@@ -5,6 +5,7 @@ use crate::geometry::{Pose, Quaternion, Vector};
 use crate::model::Conditions;
 
 use super::contact::{self, Contact, ContactKind};
+use super::csv_doubts::not_csv;
 
 pub use super::fault::{MeasurementError, MeasurementFault};
 
@@ -372,6 +373,9 @@ impl Measurements {
     /// # Errors
     /// Anything the format does not allow, with line and column.
     pub fn from_csv(bytes: &[u8]) -> Result<Self, MeasurementError> {
+        if let Some(found) = not_csv(bytes) {
+            return Err(found.into());
+        }
         let mut source = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
@@ -389,7 +393,10 @@ impl Measurements {
                 line: usize::try_from(line).unwrap_or(0),
                 column: 1,
                 length: 0,
-                fault: MeasurementFault::Csv { message },
+                fault: MeasurementFault::Csv {
+                    message,
+                    hint: String::new(),
+                },
             }
         };
         let header: Vec<String> = source

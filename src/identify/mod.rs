@@ -22,8 +22,11 @@ pub mod solver;
 pub mod start;
 
 pub mod calibration;
+mod candidates;
 pub mod contact;
 mod contact_cells;
+pub mod csv_doubts;
+mod doubts;
 mod error;
 mod exchange;
 pub mod expectation;
@@ -31,8 +34,11 @@ mod fault;
 mod pairs;
 mod plausibility;
 mod readings;
+mod repeated;
+pub mod route;
 pub mod screening;
 pub mod statistics;
+pub mod sweeps;
 pub mod uncertainty;
 pub mod validation;
 

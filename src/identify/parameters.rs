@@ -338,7 +338,8 @@ fn at(kind: Kind, index: usize) -> Effect {
 }
 
 /// The keys of one link's geometry that a complete and minimal model has.
-fn minimal(profile: &Profile, link: usize, key: &str) -> bool {
+#[must_use]
+pub fn minimal(profile: &Profile, link: usize, key: &str) -> bool {
     match key {
         "beta_deg" => nearly_parallel(profile, link),
         "d_mm" => link == 5 || !nearly_parallel(profile, link + 1),

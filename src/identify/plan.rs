@@ -1,5 +1,8 @@
 //! Which configurations to measure, before anything is measured.
 
+pub use super::candidates::{Box3, Breach, Constraints, Guard, candidates};
+
+use super::candidates::candidates_where;
 use super::error::IdentifyError;
 use super::exchange::{Chooser, Rows};
 use super::expectation::slopes;
@@ -12,7 +15,7 @@ use super::parameters::{Parameter, Selection, Subject};
 use super::problem::{DEFAULT_SIGMA_M, Estimate, Problem};
 use super::random::Random;
 use super::robust::Loss;
-use crate::geometry::{Pose, Vector, dot, norm, sub};
+use crate::geometry::Pose;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Motion};
 use nalgebra::DMatrix;
@@ -20,27 +23,10 @@ use pulp::Arch;
 
 /// Configurations that tell which parameters can be determined.
 const SAMPLE: usize = 1000;
-/// Draws for one candidate before the constraints count as impossible to meet.
-const DRAWS: usize = 2000;
-
-/// An axis-aligned box of the world, metres.
-pub type Box3 = [Vector; 2];
-
-/// What a configuration must meet.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Constraints {
-    /// Distance from the joint limits, radians. Room for the approach stands beside it.
-    pub margin_rad: f64,
-    /// Every joint arrives from so far below, radians; 0 without such an approach.
-    pub approach_rad: f64,
-    /// The tool must be inside.
-    pub inside: Option<Box3>,
-    /// The tool, the wrist and the elbow must be outside.
-    pub keep_out: Vec<Box3>,
-    /// Where the measuring device stands, metres, and how far the tool's z axis may point away from it, radians.
-    pub sight: Option<(Vector, f64)>,
-}
-
+/// Numbers of a pose.
+const POSE_NUMBERS: usize = 6;
+/// A part of a configuration's information below which there is none.
+const NOTHING: f64 = 1e-12;
 /// What to choose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
@@ -83,101 +69,6 @@ pub struct Plan {
     pub exchanges: usize,
     /// Part of the random configurations that met the constraints.
     pub admitted: f64,
-}
-
-fn within(box3: &Box3, p: Vector) -> bool {
-    (0..3).all(|k| box3[0][k] <= p[k] && p[k] <= box3[1][k])
-}
-
-/// Random configurations that meet the constraints. The second value is the part of draws that did.
-///
-/// # Errors
-/// Constraints that no draw meets.
-pub fn candidates(
-    profile: &Profile,
-    tool: &Mounted,
-    constraints: &Constraints,
-    count: usize,
-    seed: u64,
-) -> Result<(Vec<[f64; 6]>, f64), IdentifyError> {
-    let mut random = Random::new(seed);
-    let nothing = Conditions::default();
-    let to_tool = profile.real_model(tool, &nothing);
-    let mut range = [[0.0; 2]; 6];
-    for (i, joint) in profile.mechanism.joints.iter().enumerate() {
-        let low = joint.min_rad + constraints.margin_rad + constraints.approach_rad;
-        let high = joint.max_rad - constraints.margin_rad;
-        if low >= high {
-            return Err(IdentifyError::Suspicious {
-                message: format!(
-                    "joint {} has no room between its limits for the margin and the approach",
-                    i + 1
-                ),
-                hint: "a smaller --margin-deg or --approach-deg".into(),
-            });
-        }
-        range[i] = [low, high];
-    }
-    let checks = constraints.inside.is_some()
-        || !constraints.keep_out.is_empty()
-        || constraints.sight.is_some();
-    let mut found = Vec::with_capacity(count);
-    let mut draws = 0;
-    while found.len() < count {
-        draws += 1;
-        if draws > DRAWS * (found.len() + 1) {
-            return Err(IdentifyError::Suspicious {
-                message: format!(
-                    "of {draws} random configurations {} meet the constraints; {count} are needed",
-                    found.len()
-                ),
-                hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates".into(),
-            });
-        }
-        let q: [f64; 6] = std::array::from_fn(|i| random.between(range[i][0], range[i][1]));
-        if !checks
-            || admitted(
-                &to_tool.forward(&q, &nothing),
-                profile,
-                tool,
-                &q,
-                constraints,
-            )
-        {
-            found.push(q);
-        }
-    }
-    Ok((found, count as f64 / draws as f64))
-}
-
-fn admitted(
-    world_from_tool: &Pose,
-    profile: &Profile,
-    tool: &Mounted,
-    q: &[f64; 6],
-    constraints: &Constraints,
-) -> bool {
-    let tip = world_from_tool.translation;
-    if constraints.inside.is_some_and(|b| !within(&b, tip)) {
-        return false;
-    }
-    if let Some((device, most)) = constraints.sight {
-        let toward = sub(device, tip);
-        let cosine = dot(world_from_tool.rotation.axis(2), toward) / norm(toward).max(1e-9);
-        if cosine < most.cos() {
-            return false;
-        }
-    }
-    if constraints.keep_out.is_empty() {
-        return true;
-    }
-    let geometry = profile.geometry(tool);
-    let chain = crate::model::Chain::of(&geometry, &profile.mechanism);
-    let turns = crate::geometry::Turn::of_each(&profile.mechanism.commanded(q));
-    let places = chain.link_frames(&turns);
-    let arm = places[2..].iter().map(|frame| frame.translation);
-    arm.chain([tip])
-        .all(|p| constraints.keep_out.iter().all(|b| !within(b, p)))
 }
 
 /// A problem whose rows are these configurations, to take derivatives of.
@@ -263,6 +154,28 @@ fn jacobians(
         .collect()
 }
 
+/// The same information in fewer rows, where every configuration tells as much in [`POSE_NUMBERS`]: several known points on one
+/// tool say no more than its pose.
+fn fewer_rows(jacobians: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
+    let height = jacobians.first().map_or(0, DMatrix::nrows);
+    if height <= POSE_NUMBERS {
+        return jacobians;
+    }
+    let fewer = |j: &DMatrix<f64>| {
+        let eigen = (j * j.transpose()).symmetric_eigen();
+        let mut order: Vec<usize> = (0..height).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+        let (most, next) = (
+            eigen.eigenvalues[order[0]],
+            eigen.eigenvalues[order[POSE_NUMBERS]],
+        );
+        let directions = eigen.eigenvectors.select_columns(&order[..POSE_NUMBERS]);
+        (next <= NOTHING * most).then(|| directions.tr_mul(j))
+    };
+    let found: Option<Vec<_>> = jacobians.iter().map(fewer).collect();
+    found.unwrap_or(jacobians)
+}
+
 /// Chooses configurations that tell the parameters best: the largest determinant of the information matrix, which is the
 /// largest O1, by exchanges from random sets.
 ///
@@ -274,10 +187,11 @@ pub fn plan(
     selection: &Selection,
     request: &Request,
 ) -> Result<Plan, IdentifyError> {
-    plan_telling(profile, tool, selection, request, &mut |_, _| ())
+    plan_telling(profile, tool, selection, request, &|_| true, &mut |_, _| ())
 }
 
-/// As [`plan`]; `tell` hears how many of how many starts are done.
+/// As [`plan`]; configurations that are not `admitted`, as they are or where they are approached from, are not drawn; `tell`
+/// hears how many of how many starts are done.
 ///
 /// # Errors
 /// As [`plan`].
@@ -290,14 +204,16 @@ pub fn plan_telling(
     tool: &Mounted,
     selection: &Selection,
     request: &Request,
+    admitted: &dyn Fn(&[f64; 6]) -> bool,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Plan, IdentifyError> {
-    let (pool, admitted) = candidates(
+    let (pool, admitted) = candidates_where(
         profile,
         tool,
         &request.constraints,
         request.candidates,
         request.seed,
+        admitted,
     )?;
     let mut all = request.given.clone();
     all.extend(&pool);
@@ -328,6 +244,7 @@ pub fn plan_telling(
         });
     }
     let jacobians = jacobians(&problem, &estimate, &parameters, all.len(), request.sigma_m);
+    let jacobians = fewer_rows(jacobians);
     let (given, free) = jacobians.split_at(request.given.len());
     let width = parameters.len();
     let mut base = DMatrix::zeros(width, width);
@@ -400,6 +317,24 @@ pub fn plan_telling(
 mod tests {
     use super::*;
     use crate::identify::parameters::Level;
+
+    #[test]
+    fn several_points_on_one_tool_are_as_much_as_six_numbers() {
+        let mut random = Random::new(5);
+        let mut matrix =
+            |rows, columns| DMatrix::from_fn(rows, columns, |_, _| random.between(-1.0, 1.0));
+        let all: Vec<DMatrix<f64>> = (0..4).map(|_| matrix(9, 6) * matrix(6, 20)).collect();
+        let fewer = fewer_rows(all.clone());
+        for (j, k) in all.iter().zip(&fewer) {
+            assert_eq!(k.nrows(), 6);
+            let gap = (j.tr_mul(j) - k.tr_mul(k)).abs().max();
+            assert!(gap < 1e-10, "{gap}");
+        }
+        // where one tells more, all stay as they are
+        let mut mixed = all;
+        mixed[2] = matrix(9, 20);
+        assert!(fewer_rows(mixed).iter().all(|j| j.nrows() == 9));
+    }
 
     #[test]
     fn an_exchanged_set_is_better_than_random_ones_and_meets_the_limits() {

@@ -1,12 +1,16 @@
 //! What a calibrated model is worth on measurements it has not seen.
 
+pub use super::repeated::{Repeated, RepeatedDistance};
+
 use super::calibration::{begin, begin_frames};
 use super::contact;
 use super::error::IdentifyError;
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
+use super::repeated::{repeated, repeated_distances};
 use super::robust::Shape;
+use super::screening::Remark;
 use super::solver::solve;
 use super::start;
 use super::statistics::{Miss, Pairs, Quality, Spread, misses, pairs};
@@ -41,21 +45,6 @@ pub struct Part {
     pub spread: Spread,
 }
 
-/// Pose accuracy and repeatability of one configuration measured several times.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Repeated {
-    /// Line of its first row.
-    pub line: usize,
-    /// How often it was measured.
-    pub count: usize,
-    /// AP: distance of the mean of what was attained from what the real model expects, mm.
-    pub accuracy_mm: f64,
-    /// RP: mean plus three standard deviations of the distances from their mean, mm.
-    pub repeatability_mm: f64,
-    /// vAP: largest distance between the means of different approach directions, mm; `None` from one direction only.
-    pub variation_mm: Option<f64>,
-}
-
 /// Which rows base, tool and points of the real model are fitted to before it is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refit {
@@ -73,10 +62,12 @@ impl Refit {
     pub fn told(self) -> Option<&'static str> {
         match self {
             Self::No => None,
-            Self::Judged => Some("Base, tool and points were fitted to these rows first."),
-            Self::Others => {
-                Some("Base, tool and points were fitted to the rows not marked for `validate`.")
-            }
+            Self::Judged => Some(
+                "Base, tool and points were fitted to these rows first, of the controller's model too.",
+            ),
+            Self::Others => Some(
+                "Base, tool and points were fitted to the rows not marked for `validate`, of the controller's model too.",
+            ),
         }
     }
 }
@@ -88,7 +79,7 @@ pub struct Validation {
     pub measurements: Measurements,
     /// The same rows for the real model.
     pub problem: Problem,
-    /// The controller's model.
+    /// The controller's model; where frames are fitted, with fitted ones, which is `frames_only`.
     pub controller: Judged,
     /// The controller's model with base, tool and points fitted to these rows.
     pub frames_only: Judged,
@@ -100,6 +91,10 @@ pub struct Validation {
     pub parts: Vec<Part>,
     /// Repeated poses.
     pub repeated: Vec<Repeated>,
+    /// Distances of repeated poses.
+    pub repeated_distances: Vec<RepeatedDistance>,
+    /// What a person should look at.
+    pub remarks: Vec<Remark>,
     /// Root mean square of residuals in standard deviations; near one where the rows' sigmas are right.
     pub normalised_rms: Option<f64>,
     /// Errors of every row by a model that was identified without it, and the same for frames alone.
@@ -175,6 +170,7 @@ pub fn validate_telling(
             hint: "with --refit-frames base and points are fitted to these rows first".into(),
         });
     }
+    let mut remarks = super::doubts::before(profile, measurements, refit)?;
     let controller = controller_profile(profile);
     let at_rest = |profile: &Profile| {
         Problem::new(profile, measurements, &selection, profile.world_from_base)
@@ -201,6 +197,15 @@ pub fn validate_telling(
         Refit::No => (problem, own),
         Refit::Judged | Refit::Others => fitted(profile, true)?,
     };
+    // where the rows are in the frame of the calibration's device, whatever device measured them
+    let places = match refit {
+        Refit::No => None,
+        Refit::Judged | Refit::Others => {
+            let (problem, own) = at_rest(profile)?;
+            let expected = misses(&problem.with_rows(is_judged), &own);
+            Some(expected.iter().map(|m| m.expected_m).collect::<Vec<_>>())
+        }
+    };
     let real_problem = real_problem.with_rows(is_judged);
     let judged_rows = measurements.filtered(|row, _| is_judged(row));
     let judged_real = judged(&real_problem, &real);
@@ -214,11 +219,30 @@ pub fn validate_telling(
         Some(count) => Some(cross_validate(profile, &judged_rows, count, tell)?),
         None => None,
     };
+    let frames_only = judged(&frames_problem.with_rows(is_judged), &frames);
+    let controller = match refit {
+        Refit::No => judged(&controller_problem.with_rows(is_judged), &nominal),
+        Refit::Judged | Refit::Others => frames_only.clone(),
+    };
+    remarks.extend(super::doubts::after(
+        &judged_real.quality,
+        &frames_only.quality,
+        given.then_some(normalised),
+        refit,
+    ));
+    let by = [judged_real.misses.as_slice(), &controller.misses];
     Ok(Validation {
-        controller: judged(&controller_problem.with_rows(is_judged), &nominal),
-        frames_only: judged(&frames_problem.with_rows(is_judged), &frames),
-        parts: parts(profile, &judged_rows, &judged_real.misses),
-        repeated: repeated(&judged_rows, &judged_real.misses),
+        parts: parts(
+            profile,
+            &judged_rows,
+            &judged_real.misses,
+            places.as_deref(),
+        ),
+        repeated: repeated(&judged_rows, by),
+        repeated_distances: repeated_distances(&judged_rows, by),
+        remarks,
+        controller,
+        frames_only,
         real: judged_real,
         refit,
         normalised_rms: given.then_some(normalised),
@@ -228,13 +252,20 @@ pub fn validate_telling(
     })
 }
 
-fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec<Part> {
+/// `places`: where the rows are in the frame of the calibration's device; `None` where they were measured.
+fn parts(
+    profile: &Profile,
+    measurements: &Measurements,
+    misses: &[Miss],
+    places: Option<&[Vector]>,
+) -> Vec<Part> {
     let mut groups: BTreeMap<(&'static str, String), Vec<f64>> = BTreeMap::new();
-    let seen: Vec<Vector> = measurements
-        .rows
-        .iter()
-        .filter_map(|r| r.observed.point_m())
-        .collect();
+    let rows = &measurements.rows;
+    let place = |row: usize| {
+        let measured = rows[row].observed.point_m()?;
+        Some(places.map_or(measured, |places| places[row]))
+    };
+    let seen: Vec<Vector> = (0..rows.len()).filter_map(place).collect();
     let middle = calibration_middle(profile).unwrap_or_else(|| {
         let sum = seen
             .iter()
@@ -245,7 +276,7 @@ fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec
         .iter()
         .map(|p| norm(sub(*p, middle)))
         .fold(0.0, f64::max);
-    for (row, miss) in measurements.rows.iter().zip(misses) {
+    for (number, (row, miss)) in rows.iter().zip(misses).enumerate() {
         let error = mm_from_m(miss.length_m);
         let mut add = |by, name: String| groups.entry((by, name)).or_default().push(error);
         if let Some(point) = &row.point {
@@ -261,7 +292,7 @@ fn parts(profile: &Profile, measurements: &Measurements, misses: &[Miss]) -> Vec
         if let Some(purpose) = row.purpose {
             add("set", purpose.id().into());
         }
-        if let Some(point) = row.observed.point_m().filter(|_| far > 0.0) {
+        if let Some(point) = place(number).filter(|_| far > 0.0) {
             let width = far / REGIONS as f64;
             #[allow(
                 clippy::cast_possible_truncation,
@@ -299,59 +330,6 @@ fn calibration_middle(profile: &Profile) -> Option<Vector> {
         .collect();
     let [x, y, z]: [f64; 3] = numbers.try_into().ok()?;
     Some([x, y, z].map(crate::geometry::units::m_from_mm))
-}
-
-/// ISO 9283 figures of configurations measured at least three times.
-fn repeated(measurements: &Measurements, misses: &[Miss]) -> Vec<Repeated> {
-    type Key = (Vec<u64>, Option<String>);
-    let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
-    for (i, row) in measurements.rows.iter().enumerate() {
-        if row.observed.point_m().is_some() {
-            let key = (
-                row.q.iter().map(|q| q.to_bits()).collect(),
-                row.point.clone(),
-            );
-            groups.entry(key).or_default().push(i);
-        }
-    }
-    let mean = |of: &[Vector]| {
-        let sum = of
-            .iter()
-            .fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
-        sum.map(|x| x / of.len().max(1) as f64)
-    };
-    let mut found = Vec::new();
-    for rows in groups.values().filter(|rows| rows.len() >= 3) {
-        let gap =
-            |i: &usize| [misses[*i].gap[0], misses[*i].gap[1], misses[*i].gap[2]].map(mm_from_m);
-        let gaps: Vec<Vector> = rows.iter().map(gap).collect();
-        let middle = mean(&gaps);
-        let about: Vec<f64> = gaps.iter().map(|g| norm(sub(*g, middle))).collect();
-        let spread = Spread::of(&about).expect("at least three rows");
-        let mut ways: BTreeMap<Vec<i64>, Vec<Vector>> = BTreeMap::new();
-        for (i, g) in rows.iter().zip(&gaps) {
-            #[allow(clippy::cast_possible_truncation, reason = "-1, 0 or 1")]
-            let way = measurements.rows[*i]
-                .conditions
-                .direction
-                .map(|d| d as i64)
-                .to_vec();
-            ways.entry(way).or_default().push(*g);
-        }
-        let means: Vec<Vector> = ways.values().map(|g| mean(g)).collect();
-        let apart = means
-            .iter()
-            .flat_map(|a| means.iter().map(move |b| norm(sub(*a, *b))));
-        found.push(Repeated {
-            line: measurements.rows[rows[0]].line,
-            count: rows.len(),
-            accuracy_mm: norm(middle),
-            repeatability_mm: spread.mean_plus_3std(),
-            variation_mm: (means.len() > 1).then(|| apart.fold(0.0, f64::max)),
-        });
-    }
-    found.sort_by_key(|r| r.line);
-    found
 }
 
 /// Errors of every row by models that were identified without it: the profile's effects and frames, and frames alone.

@@ -15,6 +15,10 @@ use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub}
 use crate::model::profile::Profile;
 use nalgebra::{DMatrix, DVector};
 
+pub mod outliers;
+pub mod relations;
+pub mod sag;
+
 /// Joints that should stand still may move by so much, radians.
 const STILL_RAD: f64 = 1e-4;
 /// A sweep shorter than this says little about its axis, radians.
@@ -62,8 +66,8 @@ pub struct Axis {
     pub line: Line,
     /// Radius of the circle, metres.
     pub radius_m: f64,
-    /// Standard deviation of a coordinate off the circle, metres.
-    pub noise_m: f64,
+    /// Standard deviation of a coordinate off the circle, metres; `None` where three rows leave nothing to tell it by.
+    pub noise_m: Option<f64>,
     /// Angle on the circle minus the commanded one, mean taken off, radians.
     pub tangential_rad: Vec<f64>,
     /// Distance from the circle in its plane, metres.
@@ -79,8 +83,8 @@ pub struct Axis {
 pub struct Placed {
     /// Base: `world_from_base`. Tool: `flange_from_tool`.
     pub pose: Pose,
-    /// Its covariance, along the axes of the frame mapped into.
-    pub covariance: PoseCovariance,
+    /// What the noise of the points does to it, along the axes of the frame mapped into; `None` where the noise is not known.
+    pub covariance: Option<PoseCovariance>,
     /// Whether the orientation was measured (a base always is; a tool where rows have poses).
     pub oriented: bool,
 }
@@ -173,32 +177,40 @@ fn coupling_hint(coupled: bool) -> &'static str {
 /// # Errors
 /// If other joints move, the swept one hardly does, or the points are on no circle.
 pub fn axis(sweep: &Sweep, profile: &Profile) -> Result<Axis, AxesError> {
+    let found = fitted(sweep, profile)?;
+    let turned = mechanical(sweep, profile)?;
+    if span(&found.tangential_rad) > 0.1 * span(&turned) {
+        let points: Vec<Vector> = sweep.rows.iter().map(|row| row.point_m).collect();
+        let joint = sweep.joint + 1;
+        let circle =
+            features::circle(&points).map_err(|error| AxesError::Circle { joint, error })?;
+        return Err(AxesError::Unlike {
+            joint,
+            measured_deg: span(&angles(&circle, &points, &turned).0).to_degrees(),
+            commanded_deg: span(&turned).to_degrees(),
+        });
+    }
+    Ok(found)
+}
+
+/// Largest minus smallest.
+fn span(values: &[f64]) -> f64 {
+    let (low, high) = values
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(*x), b.max(*x)));
+    high - low
+}
+
+/// The axis of one sweep, whatever the angles on the circle are.
+fn fitted(sweep: &Sweep, profile: &Profile) -> Result<Axis, AxesError> {
     let joint = sweep.joint + 1;
     let turned = mechanical(sweep, profile)?;
     let points: Vec<Vector> = sweep.rows.iter().map(|row| row.point_m).collect();
     let circle = features::circle(&points).map_err(|error| AxesError::Circle { joint, error })?;
     let (angles, direction) = angles(&circle, &points, &turned);
     let left = tangential(&angles, &turned);
-    let span = |v: &[f64]| {
-        let (low, high) = v
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(*x), b.max(*x)));
-        high - low
-    };
-    let off = span(&left);
-    if off > 0.1 * span(&turned) {
-        return Err(AxesError::Unlike {
-            joint,
-            measured_deg: span(&angles).to_degrees(),
-            commanded_deg: span(&turned).to_degrees(),
-        });
-    }
     let radial = noise_of(&circle.residuals_m, 3);
     let axial = noise_of(&circle.axial_m, 3);
-    let noise_m = match (radial, axial) {
-        (Some(r), Some(a)) => (0.5 * (r * r + a * a)).sqrt(),
-        _ => 0.0,
-    };
     Ok(Axis {
         joint: sweep.joint,
         line: Line {
@@ -206,7 +218,9 @@ pub fn axis(sweep: &Sweep, profile: &Profile) -> Result<Axis, AxesError> {
             direction,
         },
         radius_m: circle.radius_m,
-        noise_m,
+        noise_m: radial
+            .zip(axial)
+            .map(|(r, a)| (0.5 * (r * r + a * a)).sqrt()),
         backlash_rad: backlash(sweep, &left, &turned),
         tangential_rad: left,
         radial_m: circle.residuals_m,
@@ -378,26 +392,61 @@ fn nominal(profile: &Profile, q: &[f64; 6]) -> ([Line; 6], Pose) {
     (lines, pose * profile.link6_from_flange)
 }
 
+/// A frame that two sweeps carry, from the points of both one after the other.
+type Construction = fn([&Sweep; 2], &[Vector], &Profile) -> Result<Pose, AxesError>;
+
+/// `world_from_base` from the sweeps of joints 1 and 2.
+fn base_of(sweeps: [&Sweep; 2], points: &[Vector], profile: &Profile) -> Result<Pose, AxesError> {
+    let (lines, _) = nominal(profile, &sweeps[1].rows[0].q);
+    let measured = lines_of(sweeps, points, profile)?;
+    let world = carried(&measured[0], &measured[1], [1, 2])?;
+    let base = carried(&lines[0], &lines[1], [1, 2])?;
+    Ok(world * base.inverse())
+}
+
+/// `flange_from_tool` from the sweeps of joints 6 and 5.
+fn tool_of(sweeps: [&Sweep; 2], points: &[Vector], profile: &Profile) -> Result<Pose, AxesError> {
+    let sixth = sweeps[0];
+    let measured = lines_of(sweeps, points, profile)?;
+    let world = carried(&measured[0], &measured[1], [6, 5])?;
+    let mut sum = [0.0; 3];
+    let mut turns = nalgebra::Matrix3::zeros();
+    let oriented = is_oriented(sixth);
+    for (row, point) in sixth.rows.iter().zip(points) {
+        let (lines, base_from_flange) = nominal(profile, &row.q);
+        let in_base = carried(&lines[5], &lines[4], [6, 5])?;
+        let world_from_flange = world * in_base.inverse() * base_from_flange;
+        let back = world_from_flange.inverse();
+        sum = add(sum, back.transform(*point));
+        if let Some(rotation) = row.rotation {
+            let turn = (back.rotation * rotation).0;
+            turns += nalgebra::Matrix3::from_fn(|i, j| turn[i][j]);
+        }
+    }
+    let rotation = if oriented {
+        nearest_rotation(&turns)
+    } else {
+        Rotation::identity()
+    };
+    #[allow(clippy::cast_precision_loss)]
+    let translation = scale(1.0 / sixth.rows.len() as f64, sum);
+    Ok(Pose {
+        rotation,
+        translation,
+    })
+}
+
+fn is_oriented(sweep: &Sweep) -> bool {
+    sweep.rows.iter().all(|row| row.rotation.is_some())
+}
+
 /// `world_from_base` from the sweeps of joints 1 and 2.
 ///
 /// # Errors
 /// As [`axis`]; or parallel axes.
 pub fn base(first: &Sweep, second: &Sweep, profile: &Profile) -> Result<Placed, AxesError> {
     let axes = [axis(first, profile)?, axis(second, profile)?];
-    let q = second.rows[0].q;
-    let build = |points: &[Vector]| -> Result<Pose, AxesError> {
-        let (lines, _) = nominal(profile, &q);
-        let measured = lines_of([first, second], points, profile)?;
-        let world = carried(&measured[0], &measured[1], [1, 2])?;
-        let base = carried(&lines[0], &lines[1], [1, 2])?;
-        Ok(world * base.inverse())
-    };
-    let (points, sigmas) = inputs([first, second], &axes);
-    Ok(Placed {
-        pose: build(&points)?,
-        covariance: propagate(&points, &sigmas, build)?,
-        oriented: true,
-    })
+    placed(base_of, [first, second], &axes, profile, true)
 }
 
 /// The measured point, and the tool's orientation where it was measured, in the flange frame, from the sweeps of joints 5
@@ -416,39 +465,33 @@ pub fn tool(fifth: &Sweep, sixth: &Sweep, profile: &Profile) -> Result<Placed, A
             gap_deg: (a[other] - b[other]).abs().to_degrees(),
         });
     }
-    let oriented = sixth.rows.iter().all(|row| row.rotation.is_some());
-    let build = |points: &[Vector]| -> Result<Pose, AxesError> {
-        let measured = lines_of([sixth, fifth], points, profile)?;
-        let world = carried(&measured[0], &measured[1], [6, 5])?;
-        let mut sum = [0.0; 3];
-        let mut turns = nalgebra::Matrix3::zeros();
-        for (row, point) in sixth.rows.iter().zip(points) {
-            let (lines, base_from_flange) = nominal(profile, &row.q);
-            let in_base = carried(&lines[5], &lines[4], [6, 5])?;
-            let world_from_flange = world * in_base.inverse() * base_from_flange;
-            let back = world_from_flange.inverse();
-            sum = add(sum, back.transform(*point));
-            if let Some(rotation) = row.rotation {
-                let turn = (back.rotation * rotation).0;
-                turns += nalgebra::Matrix3::from_fn(|i, j| turn[i][j]);
-            }
+    placed(tool_of, [sixth, fifth], &axes, profile, is_oriented(sixth))
+}
+
+/// The frame with what the noise of the points does to it.
+fn placed(
+    construct: Construction,
+    sweeps: [&Sweep; 2],
+    axes: &[Axis; 2],
+    profile: &Profile,
+    oriented: bool,
+) -> Result<Placed, AxesError> {
+    let points = points_of(sweeps);
+    let noise: Option<Vec<f64>> = axes.iter().map(|axis| axis.noise_m).collect();
+    let covariance = match noise {
+        None => None,
+        Some(noise) => {
+            let each = sweeps.iter().zip(noise);
+            let sigmas: Vec<f64> = each
+                .flat_map(|(sweep, noise)| std::iter::repeat_n(noise, sweep.rows.len()))
+                .collect();
+            let build = |points: &[Vector]| construct(sweeps, points, profile);
+            Some(propagate(&points, &sigmas, build)?)
         }
-        let rotation = if oriented {
-            nearest_rotation(&turns)
-        } else {
-            Rotation::identity()
-        };
-        #[allow(clippy::cast_precision_loss)]
-        let translation = scale(1.0 / sixth.rows.len() as f64, sum);
-        Ok(Pose {
-            rotation,
-            translation,
-        })
     };
-    let (points, sigmas) = inputs([sixth, fifth], &axes);
     Ok(Placed {
-        pose: build(&points)?,
-        covariance: propagate(&points, &sigmas, build)?,
+        pose: construct(sweeps, &points, profile)?,
+        covariance,
         oriented,
     })
 }
@@ -467,14 +510,10 @@ pub(super) fn nearest_rotation(sum: &nalgebra::Matrix3<f64>) -> Rotation {
     }))
 }
 
-/// The points of two sweeps one after the other with the noise of each.
-fn inputs(sweeps: [&Sweep; 2], axes: &[Axis; 2]) -> (Vec<Vector>, Vec<f64>) {
-    let (mut points, mut sigmas) = (Vec::new(), Vec::new());
-    for (sweep, axis) in sweeps.iter().zip(axes) {
-        points.extend(sweep.rows.iter().map(|row| row.point_m));
-        sigmas.extend(std::iter::repeat_n(axis.noise_m, sweep.rows.len()));
-    }
-    (points, sigmas)
+/// The points of two sweeps one after the other.
+fn points_of(sweeps: [&Sweep; 2]) -> Vec<Vector> {
+    let rows = sweeps.iter().flat_map(|sweep| &sweep.rows);
+    rows.map(|row| row.point_m).collect()
 }
 
 fn lines_of(

@@ -72,6 +72,7 @@ fn entry(header: &Header, report: &MoveReport) -> Value {
         "kind": kind(report.kind),
         "name": report.target,
         "target": target,
+        "joint_target": report.in_joints,
         "joints_deg": report.joints.map(|q| tidy(q / DEG)),
         "cuts_corner": report.cuts_corner,
         "zone_mm": report.zone_m.map(mm_from_m).map(tidy),
@@ -143,7 +144,6 @@ pub fn text(header: &Header, check: &Check, comparison: Option<&Comparison>) -> 
     let Summary {
         moves,
         unknown,
-        max_target_error,
         max_path_error,
         min_clearance_m,
         collisions,
@@ -151,30 +151,43 @@ pub fn text(header: &Header, check: &Check, comparison: Option<&Comparison>) -> 
         too_near,
         uncertified,
         with_zone,
+        ..
     } = check.summary;
     let mut lines = vec![format!("{} file(s), {moves} moves", header.inputs.len())];
     if unknown > 0 {
         lines.push(format!("  {unknown} moves could not be followed"));
     }
-    let worst = |of: &dyn Fn(&MoveReport) -> f64| {
-        let worst = check.moves.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
-        worst.map_or(String::new(), |report| {
-            let sigma = report.uncertainty_m.map(mm_from_m);
-            let sigma = sigma.map_or(String::new(), |s| format!(" \u{b1} {s:.3}"));
-            format!("{sigma} mm (line {})", report.line)
-        })
+    let told = |size_m: f64, report: &MoveReport| {
+        let sigma = report.uncertainty_m.map(mm_from_m);
+        let sigma = sigma.map_or(String::new(), |s| format!(" \u{b1} {s:.3}"));
+        format!("{:.3}{sigma} mm (line {})", mm_from_m(size_m), report.line)
     };
-    lines.push(format!(
-        "  at targets     the real tool is up to {:.3}{}",
-        mm_from_m(max_target_error.distance_m),
-        worst(&|report| report.target_error.distance_m)
-    ));
-    lines.push(format!(
-        "  along the way  never more than {:.3}{}, {:.3} deg",
-        mm_from_m(max_path_error.distance_m),
-        worst(&|report| report.path.map_or(0.0, |path| path.bound.distance_m)),
-        max_path_error.angle_rad / DEG
-    ));
+    let at_target = |in_joints: bool| {
+        let all = check.moves.iter().filter(|m| m.in_joints == in_joints);
+        let size = |m: &MoveReport| m.target_error.distance_m;
+        let worst = all.max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        Some(told(size(worst), worst))
+    };
+    if let Some(worst) = at_target(false) {
+        lines.push(format!("  at targets     the real tool is up to {worst}"));
+    }
+    if let Some(worst) = at_target(true) {
+        lines.push(format!(
+            "  joint targets  up to {worst}; compensate leaves them as they are"
+        ));
+    }
+    let bound = |m: &MoveReport| m.path.map_or(0.0, |path| path.bound.distance_m);
+    let worst = check
+        .moves
+        .iter()
+        .max_by(|a, b| bound(a).total_cmp(&bound(b)));
+    if let Some(worst) = worst {
+        lines.push(format!(
+            "  along the way  never more than {}, {:.3} deg",
+            told(bound(worst), worst),
+            max_path_error.angle_rad / DEG
+        ));
+    }
     if let Some(least) = min_clearance_m {
         lines.push(format!(
             "  clearance      never less than {:.3} mm; {collisions} moves touch something, {too_near} come too near",

@@ -1,6 +1,7 @@
 //! What a diagnosis found: JSON for programs, sentences for people.
 
 use super::identification::{findings, spread};
+use crate::diagnose::stand_ins::StandIn;
 use crate::diagnose::{Diagnosis, Found, NoiseSource, Rival, Verdict};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::JOINTS;
@@ -70,6 +71,21 @@ fn rival(r: &Rival, found: &[Found]) -> Value {
     Value::Object(map)
 }
 
+fn stand_in(s: &StandIn, found: &[Found]) -> Value {
+    let effect = |e: &Effect| {
+        let (mut map, parameters) = entry(e);
+        map.insert("parameters".into(), Value::Object(parameters));
+        Value::Object(map)
+    };
+    let labels = s.instead_of.iter().map(|i| found[*i].effect.label());
+    json!({
+        "effects": s.effects.iter().map(effect).collect::<Vec<_>>(),
+        "instead_of": labels.collect::<Vec<_>>(),
+        "chi_squared_fall": finite(s.gain), "part": finite(s.part), "behind": finite(s.behind),
+        "left_mm": finite(mm_from_m(s.left_m)),
+    })
+}
+
 /// The report `diagnosis/1`.
 #[must_use]
 pub fn diagnosis(d: &Diagnosis, file: &str) -> Value {
@@ -84,9 +100,10 @@ pub fn diagnosis(d: &Diagnosis, file: &str) -> Value {
             "part": finite(s.part), "p_value": finite(s.p_value),
         })).collect::<Vec<_>>(),
         "alternatives": d.rivals.iter().map(|r| rival(r, &d.found)).collect::<Vec<_>>(),
+        "alternative_groups": d.stand_ins.iter().map(|s| stand_in(s, &d.found)).collect::<Vec<_>>(),
         "unregistered": d.unknown.iter().map(|u| json!({"function": u.name, "chi_squared_fall": finite(u.gain)})).collect::<Vec<_>>(),
         "telling_poses": d.telling.iter().map(|t| json!({
-            "joints_deg": t.q.map(|q| q / DEG), "apart_mm": mm_from_m(t.apart_m),
+            "joints_deg": t.q.map(|q| q / DEG), "apart_mm": mm_from_m(t.apart_m), "tells": [t.tells.0, t.tells.1],
         })).collect::<Vec<_>>(),
         "cannot_test": d.cannot_test.iter().map(|c| json!({"effect": c.kind.definition().id, "missing": c.missing})).collect::<Vec<_>>(),
         "absorbed": absorbed(d),
@@ -100,6 +117,9 @@ pub fn diagnosis(d: &Diagnosis, file: &str) -> Value {
         "left_mm": finite(mm_from_m(d.left_m)),
         "outliers": d.outliers.iter().map(|o| json!({
             "line": o.line, "id": o.id, "residual_mm": mm_from_m(o.length_m), "times_noise": finite(o.times),
+        })).collect::<Vec<_>>(),
+        "leverage": d.followed.iter().map(|f| json!({
+            "line": f.line, "id": f.id, "leverage": finite(f.leverage),
         })).collect::<Vec<_>>(),
         "findings": findings(&d.remarks, file),
     })
@@ -221,11 +241,43 @@ pub fn sentence(effect: &Effect) -> String {
     format!("{text} ({}).", effect.definition().id)
 }
 
+/// Labels of effects with those of one kind together: `joint_harmonic joint 1 order 4, joint 2 order 1`.
+#[must_use]
+pub fn together<'a>(effects: impl Iterator<Item = &'a Effect>) -> String {
+    let mut words: Vec<String> = Vec::new();
+    let mut last = None;
+    for effect in effects {
+        let (label, id) = (effect.label(), effect.definition().id);
+        let place = label.strip_prefix(id).unwrap_or_default().trim();
+        match words.last_mut() {
+            Some(word) if last == Some(id) => *word += &format!(", {place}"),
+            _ => words.push(label.clone()),
+        }
+        last = Some(id);
+    }
+    words.join("; ")
+}
+
+/// A group of effects, those that compete with it, and what is left with either, in one sentence.
+#[must_use]
+pub fn competes(s: &StandIn, d: &Diagnosis) -> String {
+    format!(
+        "{} instead of {}: {:.0} % as much, {:.4} mm left instead of {:.4} mm (behind by {:.1})",
+        together(s.effects.iter()),
+        together(s.instead_of.iter().map(|i| &d.found[*i].effect)),
+        100.0 * s.part,
+        mm_from_m(s.left_m),
+        mm_from_m(d.left_m),
+        s.behind
+    )
+}
+
 /// Columns of a terminal.
 const WIDTH: usize = 80;
 
 /// Text in lines that a terminal shows whole, the first behind `first`, the others behind `others`.
-fn wrapped(text: &str, first: &str, others: &str) -> String {
+#[must_use]
+pub fn wrapped(text: &str, first: &str, others: &str) -> String {
     let mut out = first.to_owned();
     let mut width = first.chars().count();
     let mut is_start = true;

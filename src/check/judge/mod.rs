@@ -10,7 +10,7 @@ use super::{MoveReport, Options, Subject, limits, nominal};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{norm, scale, sub};
-use crate::program::Motion;
+use crate::program::{Motion, Shape};
 
 /// What every move is judged with.
 pub(super) struct Job<'a> {
@@ -53,6 +53,7 @@ impl Job<'_> {
                 .name
                 .as_deref()
                 .map(str::to_owned),
+            in_joints: program.targets[motion.target].layout.shape == Shape::Joints,
             commanded: stop.pose,
             target_error: landed.separation(&wanted_end),
             uncertainty_m: arms.spread.as_ref().map(|spread| {

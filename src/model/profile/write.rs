@@ -3,6 +3,7 @@
 use super::{Profile, ProfileError};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::model::effects::Effect;
 use serde_json::{Value, json};
 
 /// Why a profile could not be written.
@@ -89,15 +90,26 @@ fn flow(value: &Value) -> String {
     value.to_string()
 }
 
+/// The effects that a profile has: those of one session's measurements are none of the robot's.
+fn of_robot(profile: &Profile) -> impl Iterator<Item = &Effect> {
+    let all = profile.effects.iter();
+    all.filter(|effect| !effect.definition().of_data())
+}
+
+/// First line of a profile whose calibration is not that of the file it was made from.
+const IDENTIFIED: &str = "# Its calibration was identified by poseshift from measurements (quality and provenance below). The other comments are of the\n\
+     # profile that it started from: what they say of effects is not of this one.\n";
+
 /// The section `calibration`.
 fn calibration(profile: &Profile) -> String {
     let mut out = String::from("calibration:\n");
-    if profile.effects.is_empty() {
-        out += "  effects: []\n";
+    let mut effects = of_robot(profile).peekable();
+    out += if effects.peek().is_none() {
+        "  effects: []\n"
     } else {
-        out += "  effects:\n";
-    }
-    for effect in &profile.effects {
+        "  effects:\n"
+    };
+    for effect in effects {
         let entry: Vec<String> = effect
             .to_entry()
             .into_iter()
@@ -166,6 +178,10 @@ fn points(profile: &Profile) -> String {
 pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
     let original = Profile::from_yaml(text).map_err(|error| WriteError::Layout { error })?;
     let mut out = String::new();
+    let known = text.starts_with(IDENTIFIED);
+    if profile.provenance.is_some() && profile.effects != original.effects && !known {
+        out += IDENTIFIED;
+    }
     let (mut had_points, mut had_calibration) = (false, false);
     for (key, section) in sections(text) {
         match key.as_str() {
@@ -198,11 +214,11 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
     if gap.distance_m > 1e-9 || gap.angle_rad > 1e-9 {
         return differs("base");
     }
-    if back.effects.len() != profile.effects.len()
+    if back.effects.len() != of_robot(profile).count()
         || back
             .effects
             .iter()
-            .zip(&profile.effects)
+            .zip(of_robot(profile))
             .any(|(a, b)| !a.same_place(b))
     {
         return differs("effects");
@@ -221,7 +237,7 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
+    use crate::model::effects::{Kind, MOST_PARAMETERS, Site};
 
     #[test]
     fn comments_and_order_stay_and_the_calibration_is_read_back() {
@@ -249,6 +265,29 @@ mod tests {
             }
         }
         assert_eq!(rewritten(&out, &profile).expect("its own layout"), out);
+    }
+
+    #[test]
+    fn a_calibrated_profile_says_so_and_has_no_effect_of_the_data() {
+        let text = include_str!("../../../robots/abb_irb120_thesis.yaml");
+        let mut profile = Profile::from_yaml(text).expect("a shipped profile");
+        profile.provenance = Some(json!({"rows": 50}));
+        profile.effects[0].parameters[0] += 1e-4;
+        profile.effects.push(Effect {
+            kind: Kind::FrameShift,
+            site: Site {
+                order: 50,
+                ..Site::default()
+            },
+            parameters: [1e-3; MOST_PARAMETERS],
+        });
+        let out = rewritten(text, &profile).expect("a plain layout");
+        assert!(out.starts_with(IDENTIFIED) && !out.contains("frame_shift"));
+        // once is enough
+        let mut again = Profile::from_yaml(&out).expect("it was read back");
+        again.effects[0].parameters[0] += 1e-4;
+        let twice = rewritten(&out, &again).expect("its own layout");
+        assert_eq!(twice.matches(IDENTIFIED).count(), 1);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::geometry::{Vector, dot, scale, sub};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::{Miss, misses};
 use crate::model::effects::Kind as EffectKind;
-use crate::report::diagnosis::sentence;
+use crate::report::diagnosis::{sentence, together};
 use crate::report::identification;
 
 /// A joint whose turn moves the measured point by less than this, metres a radian, shows nothing of its angle.
@@ -201,33 +201,22 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
                 .map(|row| row.conditions.temperature_c)
                 .collect(),
         },
-        EffectKind::WarmUpDrift => Variable {
-            label: "time".into(),
-            unit: "s",
-            values: rows.iter().map(|row| row.conditions.time_s).collect(),
-        },
+        // a step in the session's order: by the clock where there is one
+        EffectKind::WarmUpDrift | EffectKind::FrameShift | EffectKind::ToolSlip
+            if rows.iter().all(|row| row.conditions.time_s.is_some()) =>
+        {
+            Variable {
+                label: "time".into(),
+                unit: "s",
+                values: rows.iter().map(|row| row.conditions.time_s).collect(),
+            }
+        }
         _ => Variable {
             label: "row".into(),
             unit: "",
             values: (1..=rows.len()).map(|k| Some(k as f64)).collect(),
         },
     }
-}
-
-/// The values with an effect as it was before it was found.
-fn without(found: &Diagnosis, one: &Found) -> Estimate {
-    let mut estimate = found.estimate.clone();
-    let alike =
-        |e: &&crate::model::effects::Effect| e.kind == one.effect.kind && e.site == one.effect.site;
-    let known = found.problem.profile.effects.iter().find(alike);
-    for effect in &mut estimate.effects {
-        if effect.kind == one.effect.kind && effect.site == one.effect.site {
-            for n in &one.sought {
-                effect.parameters[*n] = known.map_or(0.0, |known| known.parameters[*n]);
-            }
-        }
-    }
-    estimate
 }
 
 /// How far each row's expected point moves with a joint, metres a radian.
@@ -251,7 +240,10 @@ fn as_angle(miss: &Miss, arm: Vector) -> Option<f64> {
 /// The residual before and after an effect, against what gave it away.
 fn show_effect(page: &mut Page, found: &Diagnosis, number: usize, one: &Found) {
     let problem = &found.problem;
-    let before = misses(problem, &without(found, one));
+    let Some(without) = found.without.get(number) else {
+        return;
+    };
+    let before = misses(problem, without);
     let after = misses(problem, &found.estimate);
     let against = variable(problem, &found.estimate, one);
     let site = one.effect.site.index;
@@ -307,7 +299,10 @@ fn show_effect(page: &mut Page, found: &Diagnosis, number: usize, one: &Found) {
         Axis::new(&against.label, against.unit),
         Axis::new(&label, unit),
     );
-    chart.note = format!("{} Everything else is as found.", sentence(&one.effect));
+    chart.note = format!(
+        "{} Without it: everything else fitted again.",
+        sentence(&one.effect)
+    );
     chart
         .series
         .push(Series::new(Kind::Dots, 0, 1, "without it", Tone::Before));
@@ -435,21 +430,12 @@ fn show_residuals(page: &mut Page, found: &Diagnosis, lines: &[usize]) {
     };
     let mut paths = Vec::new();
     if seen {
-        let mut bare = found.estimate.clone();
-        for one in &found.found {
-            let less = without(found, one);
-            for (effect, other) in bare.effects.iter_mut().zip(&less.effects) {
-                if effect.kind == one.effect.kind && effect.site == one.effect.site {
-                    effect.parameters = other.parameters;
-                }
-            }
-        }
-        if !found.found.is_empty() {
+        if let Some(bare) = found.bare.as_ref().filter(|_| !found.found.is_empty()) {
             paths.push(Path::vectors(
                 "without the effects found",
                 Tone::Before,
                 &at,
-                &vectors(&misses(problem, &bare)),
+                &vectors(&misses(problem, bare)),
             ));
         }
         paths.push(Path::vectors("left", Tone::After, &at, &vectors(&after)));
@@ -524,6 +510,36 @@ fn show_lists(page: &mut Page, found: &Diagnosis) {
             "alternatives",
             "What explains the measurements nearly as well",
             "",
+            table,
+        );
+    }
+    if !found.stand_ins.is_empty() {
+        let list = &found.stand_ins;
+        let table = Table {
+            columns: vec![
+                Column::texts("effects", list.iter().map(|s| together(s.effects.iter()))),
+                Column::texts(
+                    "instead of",
+                    list.iter()
+                        .map(|s| together(s.instead_of.iter().map(|i| &found.found[*i].effect))),
+                ),
+                Column::numbers("part", "%", list.iter().map(|s| fixed(100.0 * s.part, 1))),
+                Column::numbers(
+                    "left of a coordinate",
+                    "mm",
+                    list.iter().map(|s| significant(mm_from_m(s.left_m), 4)),
+                ),
+                Column::numbers(
+                    "behind by",
+                    "",
+                    list.iter().map(|s| significant(s.behind, 3)),
+                ),
+            ],
+        };
+        page.show(
+            "groups",
+            "What competes with several of the effects found",
+            "The part of the fall of chi squared that they have in common.",
             table,
         );
     }

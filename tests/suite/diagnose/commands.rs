@@ -331,3 +331,71 @@ fn where_a_column_is_missing_the_effects_that_need_it_are_listed() {
         );
     }
 }
+
+#[test]
+fn measurements_of_another_robot_get_no_confident_name() {
+    // cases alternate between two robots
+    let mut case = case(group("clean"), 0, 3, 60);
+    let other = crate::trial::case(group("clean"), 1, 3, 60);
+    case.csv = other.csv;
+    let (status, out, error) = diagnosed(&case, &["--quick"]);
+    assert_ne!(status, 0, "{out}{error}");
+    assert!(
+        out.is_empty() || out.starts_with("It cannot be told"),
+        "{out}"
+    );
+}
+
+#[test]
+fn another_tool_is_called_a_tool_or_nothing() {
+    let mut case = case(group("clean"), 0, 3, 80);
+    // the profile's tool is longer than the one that was measured
+    case.profile_text = case.profile_text.replace("z_mm: 100", "z_mm: 160");
+    let (status, out, error) = diagnosed(&case, &["--json", "--quick"]);
+    if status == 2 {
+        assert!(!error.is_empty());
+        return;
+    }
+    let report: Value = serde_json::from_str(&out).expect("JSON");
+    let names: Vec<&str> = report["effects"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|e| e["effect"].as_str())
+        .collect();
+    assert!(
+        report["verdict"] == "undetermined" || names == ["tool_frame"],
+        "{names:?} {}",
+        report["verdict"]
+    );
+}
+
+#[test]
+fn without_a_noise_to_judge_by_nothing_is_named() {
+    // a drawing: frames, geometry and compliance take nearly all that 14 rows say, and there is no sigma_mm
+    let mut case = case(group("nominal"), 0, 3, 14);
+    let rows = case.csv.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        cells[..cells.len() - 1].join(",")
+    });
+    case.csv = rows.collect::<Vec<_>>().join("\n") + "\n";
+    assert!(!case.csv.contains("sigma_mm"));
+    let (status, out, error) = diagnosed(&case, &[]);
+    assert_eq!((status, out.as_str()), (2, ""));
+    assert!(error.contains("too few"), "{error}");
+}
+
+#[test]
+fn the_page_shows_each_step_against_the_clock_or_the_joint() {
+    let number = (0..64)
+        .find(|n| case(group("calibrated"), *n, 3, 30).what == "frame_shift")
+        .expect("every kind is hidden");
+    let case = case(group("calibrated"), number, 3, 150);
+    let folder = scratch();
+    let page = folder.path().join("page.html");
+    let (status, _, error) = diagnosed(&case, &["--quick", "--report", &page.to_string_lossy()]);
+    assert_eq!(status, 0, "{error}");
+    let text = std::fs::read_to_string(&page).expect("a page");
+    assert!(text.contains("without it") && text.contains("fitted again"));
+    assert!(text.contains("\"time\""), "the step stands against time_s");
+}

@@ -61,6 +61,52 @@ fn pose_accuracy_and_repeatability_are_those_worked_out_by_hand() {
 }
 
 #[test]
+fn unknown_directions_are_no_direction_and_distances_are_those_worked_out_by_hand() {
+    let profile = nominal();
+    let mut seen = exact(&profile, 20);
+    let [a, b] = [seen.rows[0].clone(), seen.rows[1].clone()];
+    seen.rows.drain(..2);
+    let apart = |a: Vector, b: Vector| norm(sub(a, b)) / MM;
+    let [pa, pb] = [&a, &b].map(|row| row.observed.point_m().expect("a position"));
+    let along = scale(1.0 / norm(sub(pb, pa)), sub(pb, pa));
+    // the first cycle tells no direction and is far off; the second pose is 0.1, 0.2, 0.3 mm too far
+    let mut line = 100;
+    for cycle in 0..3 {
+        for (row, far) in [(&a, 0.0), (&b, 0.1 * f64::from(cycle + 1))] {
+            let mut row = row.clone();
+            let p = position(&mut row.observed);
+            *p = std::array::from_fn(|k| p[k] + far * MM * along[k]);
+            if cycle == 0 {
+                row.conditions.direction = [0.0; 6];
+            } else {
+                let way = if cycle == 1 { 1.0 } else { -1.0 };
+                row.conditions.direction = [0.0, way, 0.0, way, 0.0, 0.0];
+            }
+            row.line = line;
+            line += 1;
+            seen.rows.push(row);
+        }
+    }
+    let found = validate(&profile, &seen, Refit::No, None).expect("a validation");
+    let [first, second] = found.repeated.as_slice() else {
+        panic!("{:?}", found.repeated);
+    };
+    assert!(first.variation_mm.expect("two directions") < 1e-9);
+    // 0.2 and 0.3 mm, not 0.1
+    assert!((second.variation_mm.expect("two directions") - 0.1).abs() < 1e-9);
+    // the controller is the real arm here
+    assert!((second.commanded_accuracy_mm - second.accuracy_mm).abs() < 1e-9);
+    let [distance] = found.repeated_distances.as_slice() else {
+        panic!("{:?}", found.repeated_distances);
+    };
+    assert_eq!((distance.lines, distance.count), ([100, 101], 3));
+    assert!((distance.distance_mm - apart(pa, pb) - 0.2).abs() < 1e-9);
+    assert!((distance.accuracy_mm - 0.2).abs() < 1e-9);
+    assert!((distance.commanded_accuracy_mm - 0.2).abs() < 1e-9);
+    assert!((distance.repeatability_mm - 0.3).abs() < 1e-9);
+}
+
+#[test]
 fn regions_hold_the_rows_at_their_distance_from_the_calibration() {
     let mut profile = nominal();
     let middle = [0.3, 0.1, 0.4];

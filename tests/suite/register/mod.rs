@@ -6,6 +6,7 @@ mod oracle;
 mod part;
 mod procedure;
 mod recovery;
+mod sweeps;
 
 use crate::support::table;
 use poseshift::geometry::{Pose, Quaternion, Rotation, Vector};

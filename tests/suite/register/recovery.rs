@@ -4,6 +4,7 @@ use super::{noisy, normal, random_pose, seeded};
 use poseshift::geometry::{Pose, Rotation, Vector, add, norm, scale, sub};
 use poseshift::model::Conditions;
 use poseshift::model::profile::{Mounted, Profile};
+use poseshift::register::axes::outliers::without_outliers;
 use poseshift::register::axes::{Row, Sweep, axis, base, tool};
 use poseshift::register::frames::{TouchedPlane, points_and_planes};
 use poseshift::register::handeye::{HandEye, Setup, refine_by_corners};
@@ -527,15 +528,27 @@ fn base_tool_and_backlash_come_out_of_sweeps() {
             Sweep { joint, rows }
         };
         let sweeps: Vec<Sweep> = [0, 1, 4, 5].map(&mut sweep).into();
+        for sweep in &sweeps {
+            let (kept, outliers) = without_outliers(sweep, &nominal).expect("a sweep");
+            assert!(outliers.is_empty() && kept == *sweep, "{outliers:?}");
+            let mut spoilt = sweep.clone();
+            spoilt.rows[7].point_m[2] += 1e-3;
+            let (_, outliers) = without_outliers(&spoilt, &nominal).expect("a sweep");
+            let [outlier] = outliers.as_slice() else {
+                panic!("{outliers:?}")
+            };
+            assert!(outlier.row == 7 && (outlier.off_m - 1e-3).abs() < 2e-4);
+        }
         let found = base(&sweeps[0], &sweeps[1], &nominal).expect("a base");
         base_chi.push(chi_squared(
             &found.pose,
             &world_from_base,
-            &found.covariance,
+            &found.covariance.expect("many rows"),
         ));
         let placed = tool(&sweeps[2], &sweeps[3], &nominal).expect("a tool");
         let gap = placed.pose.separation(&flange_from_tool);
-        let sigma = norm(placed.covariance.sigma_at_m(placed.pose.translation));
+        let covariance = placed.covariance.expect("many rows");
+        let sigma = norm(covariance.sigma_at_m(placed.pose.translation));
         tool_errors.push(gap.distance_m / sigma);
         assert!(gap.angle_rad < 1e-3, "{gap:?}");
         let second = axis(&sweeps[1], &nominal).expect("an axis");

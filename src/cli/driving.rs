@@ -1,0 +1,210 @@
+//! The way of a measuring program: which configurations the arm may stand in, in which order, and what its moves meet.
+
+use super::check::Loader;
+use super::compensate::language_by_id;
+use super::failure::Failure;
+use crate::check::posture::touching;
+use crate::check::{Options, Scene, Subject, check};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::plan::{Breach, Constraints, Guard};
+use crate::identify::route;
+use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Model};
+use crate::program::Source;
+use std::path::Path;
+
+/// Moves are looked at every so far, radians.
+const STEP_RAD: f64 = 2.0 * DEG;
+/// The way out where moves meet something.
+const BY_HAND: &str = "drive it by hand, over a pose between, or leave the configuration out";
+
+/// The arm, its own shapes, and what it must keep to.
+pub struct Driving<'a> {
+    profile: Profile,
+    tool: &'a Mounted,
+    scene: Scene,
+    arm: Model,
+    guard: Guard<'a>,
+    constraints: &'a Constraints,
+}
+
+impl<'a> Driving<'a> {
+    /// Reads the meshes that the profile's shapes name.
+    pub fn new(
+        profile: &'a Profile,
+        path: &Path,
+        tool: &'a Mounted,
+        constraints: &'a Constraints,
+    ) -> Result<Self, Failure> {
+        let mut shaped = profile.clone();
+        let mut meshes = Loader::default();
+        for shape in &mut shaped.shapes {
+            meshes.load(&mut shape.shape, path)?;
+        }
+        let scene = Scene::new(&shaped, None, &meshes.meshes)
+            .map_err(|missing| Failure::new(missing.to_string()))?;
+        Ok(Self {
+            arm: profile.real_model(tool, &Conditions::default()),
+            guard: Guard::new(profile, tool, constraints),
+            profile: shaped,
+            tool,
+            scene,
+            constraints,
+        })
+    }
+
+    /// Whether the arm touches itself nowhere in this posture.
+    pub fn stands(&self, q: &[f64; 6]) -> bool {
+        touching(&self.scene, &self.arm, q).is_none()
+    }
+
+    /// Postures along a move of joints, coarse ones first.
+    fn along(from: &[f64; 6], to: &[f64; 6]) -> impl Iterator<Item = [f64; 6]> {
+        let far = from
+            .iter()
+            .zip(to)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "some turns in steps of degrees"
+        )]
+        let steps = (far / STEP_RAD).ceil().max(1.0) as usize;
+        let (from, to) = (*from, *to);
+        let coarse = (0..=steps).filter(|k| k % 8 == 4);
+        let fine = (0..=steps).filter(|k| k % 8 != 4);
+        coarse.chain(fine).map(move |k| {
+            #[allow(clippy::cast_precision_loss)]
+            let s = k as f64 / steps as f64;
+            std::array::from_fn(|i| from[i] + s * (to[i] - from[i]))
+        })
+    }
+
+    fn is_free(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
+        Self::along(from, to).all(|q| self.guard.breach(&q).is_none() && self.stands(&q))
+    }
+
+    /// An order in which as few moves as possible meet anything.
+    pub fn order(&self, joints: &[[f64; 6]]) -> Vec<usize> {
+        route::order(joints, &|q| self.constraints.approach(q), &|from, to| {
+            self.is_free(from, to)
+        })
+    }
+
+    /// What the moves of a program meet: each configuration's approach, then the configuration.
+    pub fn findings(
+        &self,
+        language: &str,
+        program: &Path,
+        text: &str,
+        joints: &[[f64; 6]],
+    ) -> Vec<Finding> {
+        let file = program.display().to_string();
+        let mut findings = self.touched(language, &file, text);
+        let mut at: Option<[f64; 6]> = None;
+        for (index, q) in joints.iter().enumerate() {
+            let approach = self.constraints.approach(q);
+            let stops = [at.unwrap_or(approach), approach, *q];
+            let worst = stops
+                .windows(2)
+                .flat_map(|ends| Self::along(&ends[0], &ends[1]))
+                .filter_map(|q| self.guard.breach(&q))
+                .max_by(|a, b| a.depth_m().total_cmp(&b.depth_m()));
+            at = Some(*q);
+            let Some(worst) = worst else { continue };
+            let deep = mm_from_m(worst.depth_m());
+            let (id, what) = match worst {
+                Breach::Outside(_) => (
+                    "leaves-box",
+                    format!("takes the tool {deep:.1} mm out of --inside-mm"),
+                ),
+                Breach::KeptOut(_) => (
+                    "keep-out",
+                    format!("takes tool, wrist or elbow {deep:.1} mm into a --keep-out-mm"),
+                ),
+            };
+            findings.push(warning(
+                id,
+                &file,
+                0,
+                format!("the way to configuration {} {what}", index + 1),
+            ));
+        }
+        findings
+    }
+
+    /// Moves on which the arm touches itself, by what `check` says of the program.
+    fn touched(&self, language: &str, file: &str, text: &str) -> Vec<Finding> {
+        if self.scene.is_empty() {
+            return vec![Finding {
+                severity: Severity::Note,
+                ..warning(
+                    "no-shapes",
+                    file,
+                    0,
+                    "the profile has no shapes: whether the arm touches itself was not looked at"
+                        .into(),
+                )
+            }];
+        }
+        let unknown = |why: String| {
+            vec![warning(
+                "not-checked",
+                file,
+                0,
+                format!("whether the arm touches itself on its way was not looked at: {why}"),
+            )]
+        };
+        let Ok(language) = language_by_id(language) else {
+            return unknown(format!("`{language}` is not read"));
+        };
+        let sources = [Source::new(file, text.as_bytes().to_vec())];
+        let mut options = Options::default();
+        options.given.tools.insert(None, self.tool.clone());
+        let subject = Subject {
+            language,
+            sources: &sources,
+            nominal: None,
+            profile: &self.profile,
+            scene: &self.scene,
+        };
+        let found = match check(&subject, &options) {
+            Ok(found) => found,
+            Err(error) => return unknown(error.to_string()),
+        };
+        let mut findings = Vec::new();
+        for (number, motion) in found.moves.iter().enumerate() {
+            let Some(near) = motion.clearance.filter(|c| c.sampled_m <= 0.0) else {
+                continue;
+            };
+            let Some((a, b)) = self.scene.pair_names(&near) else {
+                continue;
+            };
+            findings.push(warning(
+                "collision",
+                file,
+                motion.line,
+                format!(
+                    "on the way to configuration {} the arm's {a} touches {b}, at {:.0} % of the move",
+                    number / 2 + 1,
+                    100.0 * near.at
+                ),
+            ));
+        }
+        findings
+    }
+}
+
+fn warning(id: &'static str, file: &str, line: usize, message: String) -> Finding {
+    Finding {
+        id,
+        severity: Severity::Warning,
+        file: file.into(),
+        line,
+        column: usize::from(line > 0),
+        message,
+        hint: BY_HAND.into(),
+    }
+}

@@ -1,0 +1,206 @@
+//! Every candidate beside a model, kept at hand while the model changes.
+
+use super::beside::{Beside, Group};
+use super::candidates::Candidate;
+use super::fit::{Fit, Gain, Projection};
+use super::search::{Chosen, Scored, World, overlaps};
+use super::table::Column;
+use crate::model::effects::Kind;
+use rayon::prelude::*;
+
+/// Rows on both sides of a row from which on an effect holds.
+const ROWS_BESIDE: usize = 5;
+
+/// Every candidate seen from a fit without effects: good as long as its weights are.
+#[derive(Debug)]
+struct Seen {
+    base: Fit,
+    projections: Vec<Projection>,
+    groups: Vec<Group>,
+}
+
+/// A model with effects, and every candidate beside it.
+#[derive(Debug)]
+pub struct View {
+    seen: Seen,
+    full: Fit,
+    side: Side,
+    /// Columns of the effects that are shown.
+    shown: Vec<Vec<Column>>,
+}
+
+/// The effects of a model, and what every candidate has in common with them.
+#[derive(Debug)]
+struct Side {
+    beside: Beside,
+    /// Products of each candidate's columns with those of the effects.
+    cross: Vec<Vec<f64>>,
+}
+
+impl Side {
+    fn of(seen: &Seen, full: &Fit, chosen: &[Chosen]) -> Self {
+        let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
+        let beside = Beside::of(&seen.base, full, &effects);
+        let projections = seen.projections.par_iter();
+        let cross = projections.map(|p| beside.cross(p)).collect();
+        Self { beside, cross }
+    }
+}
+
+impl Seen {
+    fn of(world: &World, full: &Fit) -> Self {
+        let base = full.with_held(world.residual, &world.held(&[]));
+        let projections = base.projections(&world.candidates.columns);
+        let group = |candidate: &Candidate| {
+            let own = candidate.columns.iter().map(|i| &projections[*i]);
+            Group::of(&base, &own.collect::<Vec<_>>())
+        };
+        let groups = world.candidates.list.par_iter().map(group).collect();
+        Self {
+            base,
+            projections,
+            groups,
+        }
+    }
+}
+
+impl View {
+    /// Without effects.
+    #[must_use]
+    pub fn of(world: &World) -> Self {
+        let full = world.fit(&[]);
+        let seen = Seen::of(world, &full);
+        Self {
+            side: Side::of(&seen, &full, &[]),
+            seen,
+            full,
+            shown: Vec::new(),
+        }
+    }
+
+    /// Turns to a model with these effects.
+    pub fn show(&mut self, world: &World, chosen: &[Chosen]) {
+        let same = self.shown.len() == chosen.len();
+        if same && (self.shown.iter().zip(chosen)).all(|(s, c)| *s == c.columns) {
+            return;
+        }
+        self.full = world.fit(chosen);
+        if self.seen.base.roots != self.full.roots {
+            self.seen = Seen::of(world, &self.full);
+        }
+        self.side = Side::of(&self.seen, &self.full, chosen);
+        self.shown = chosen.iter().map(|c| c.columns.clone()).collect();
+    }
+
+    /// Every candidate beside a model with all of these effects, best first.
+    pub fn best(&mut self, world: &World, chosen: &[Chosen]) -> Vec<Scored> {
+        self.show(world, chosen);
+        self.scan(world, chosen, &vec![true; chosen.len()])
+    }
+
+    /// How much chi-squared rises without the effects that are not kept.
+    #[must_use]
+    pub fn loss(&self, keep: &[bool]) -> f64 {
+        let beside = &self.side.beside;
+        let all = beside.kept(&vec![true; keep.len()]);
+        (beside.deviance(&beside.kept(keep)) - beside.deviance(&all)) / self.full.scale.powi(2)
+    }
+
+    /// Every candidate beside those of the effects shown that are kept, best first.
+    #[must_use]
+    pub fn scan(&self, world: &World, chosen: &[Chosen], keep: &[bool]) -> Vec<Scored> {
+        self.scan_side(world, &self.side, chosen, keep)
+    }
+
+    /// Every candidate beside other effects than those shown, with the weights and the scale of those shown.
+    #[must_use]
+    pub fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
+        let side = Side::of(&self.seen, &self.full, others);
+        self.scan_side(world, &side, others, &vec![true; others.len()])
+    }
+
+    /// What all of a kind would gain together beside the effects shown: one for each place, those at their bound left out.
+    #[must_use]
+    pub fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
+        let list = &world.candidates.list;
+        let own = |i: &usize| {
+            list[*i].effect.kind == kind
+                && list[*i].columns.len() == 1
+                && !(chosen.iter()).any(|c| overlaps(&list[*i], None, &c.candidate))
+        };
+        let own: Vec<usize> = (0..list.len()).filter(own).collect();
+        let columns: Vec<usize> = own.iter().map(|i| list[*i].columns[0]).collect();
+        let least: Vec<Option<f64>> = own.iter().map(|i| list[*i].least[0]).collect();
+        let seen = columns.iter().map(|c| &self.seen.projections[*c]);
+        let group = Group::of(&self.seen.base, &seen.collect::<Vec<_>>());
+        let cross = columns.iter().map(|c| self.side.cross[*c].as_slice());
+        let kept = self.side.beside.kept(&vec![true; chosen.len()]);
+        let cross: Vec<&[f64]> = cross.collect();
+        let Some(gain) = self.side.beside.gain(&group, &cross, &kept, &least) else {
+            return Vec::new();
+        };
+        let live: Vec<usize> = (0..own.len()).filter(|k| gain.values[*k] != 0.0).collect();
+        // the gain belongs to all of them: each has its part
+        let part = gain.gain / live.len().max(1) as f64;
+        let one = |k: usize| Scored {
+            index: own[k],
+            row: None,
+            gain: Gain {
+                gain: part,
+                values: vec![gain.values[k]],
+                count: 1,
+            },
+            cost: world.cost(&list[own[k]], 1),
+        };
+        live.into_iter().map(one).collect()
+    }
+
+    fn scan_side(
+        &self,
+        world: &World,
+        side: &Side,
+        chosen: &[Chosen],
+        keep: &[bool],
+    ) -> Vec<Scored> {
+        let with: Vec<&Chosen> = (chosen.iter().zip(keep))
+            .filter_map(|(c, keep)| keep.then_some(c))
+            .collect();
+        let kept = side.beside.kept(keep);
+        let columns: Vec<&Column> = with.iter().flat_map(|c| &c.columns).collect();
+        let any_row = world.candidates.list.iter().any(|c| c.row.is_some());
+        let fit = any_row.then(|| self.seen.base.seeking(&columns, &self.full));
+        let taken = |candidate: &Candidate, row: Option<u32>| {
+            with.iter().any(|c| overlaps(candidate, row, &c.candidate))
+        };
+        let scored = |(index, candidate): (usize, &Candidate)| -> Vec<Scored> {
+            let of = |row, gain: Gain| Scored {
+                index,
+                row,
+                cost: world.cost(candidate, gain.count),
+                gain,
+            };
+            if let Some(fit) = fit.as_ref().filter(|_| candidate.row.is_some()) {
+                let own = candidate.columns.iter();
+                let own: Vec<&Column> = own.map(|i| &world.candidates.columns[*i]).collect();
+                let gains = fit.gains_from_rows(world.layout, &own, ROWS_BESIDE);
+                let rows = gains
+                    .into_iter()
+                    .map(|(row, gain)| (u32::try_from(row + 1).ok(), gain));
+                let free = rows.filter(|(row, _)| !taken(candidate, *row));
+                return free.map(|(row, gain)| of(row, gain)).collect();
+            }
+            if taken(candidate, None) {
+                return Vec::new();
+            }
+            let own = candidate.columns.iter();
+            let cross: Vec<&[f64]> = own.map(|i| side.cross[*i].as_slice()).collect();
+            let group = &self.seen.groups[index];
+            let gain = side.beside.gain(group, &cross, &kept, &candidate.least);
+            gain.map(|gain| of(None, gain)).into_iter().collect()
+        };
+        let list = world.candidates.list.par_iter().enumerate();
+        let mut all: Vec<Scored> = list.flat_map_iter(scored).collect();
+        all.sort_by(|a, b| b.merit().total_cmp(&a.merit()));
+        all
+    }
+}

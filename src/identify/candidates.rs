@@ -1,0 +1,216 @@
+//! Random configurations that a robot may be sent to.
+
+use super::error::IdentifyError;
+use super::random::Random;
+use crate::geometry::{Pose, Vector, dot, norm, sub};
+use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Model};
+use std::f64::consts::PI;
+
+/// Draws for one candidate before the constraints count as impossible to meet.
+const DRAWS: usize = 2000;
+
+/// An axis-aligned box of the world, metres.
+pub type Box3 = [Vector; 2];
+
+/// What a configuration must meet.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Constraints {
+    /// Distance from the joint limits, radians. Room for the approach stands beside it.
+    pub margin_rad: f64,
+    /// Every joint arrives from so far below, radians; 0 without such an approach.
+    pub approach_rad: f64,
+    /// The tool must be inside, there and where it is approached from.
+    pub inside: Option<Box3>,
+    /// The tool, the wrist and the elbow must be outside, there and where they are approached from.
+    pub keep_out: Vec<Box3>,
+    /// Where the measuring device stands, metres, and how far the tool's z axis may point away from it, radians.
+    pub sight: Option<(Vector, f64)>,
+}
+
+impl Constraints {
+    /// Where every joint is before it arrives.
+    #[must_use]
+    pub fn approach(&self, q: &[f64; 6]) -> [f64; 6] {
+        q.map(|angle| angle - self.approach_rad)
+    }
+}
+
+/// What a box does not allow, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Breach {
+    /// The tool is so far outside the box it must be in.
+    Outside(f64),
+    /// Tool, wrist or elbow is so deep in a keep-out.
+    KeptOut(f64),
+}
+
+impl Breach {
+    /// How far, metres.
+    #[must_use]
+    pub fn depth_m(self) -> f64 {
+        match self {
+            Self::Outside(depth) | Self::KeptOut(depth) => depth,
+        }
+    }
+}
+
+/// Constraints of one arm with one tool.
+pub struct Guard<'a> {
+    profile: &'a Profile,
+    tool: &'a Mounted,
+    constraints: &'a Constraints,
+    arm: Model,
+}
+
+/// How far a point is outside a box: 0 inside.
+fn beyond(box3: &Box3, p: Vector) -> f64 {
+    norm(std::array::from_fn(|k| {
+        (box3[0][k] - p[k]).max(p[k] - box3[1][k]).max(0.0)
+    }))
+}
+
+/// How deep a point is in a box; negative outside.
+fn depth(box3: &Box3, p: Vector) -> f64 {
+    (0..3)
+        .map(|k| (p[k] - box3[0][k]).min(box3[1][k] - p[k]))
+        .fold(f64::INFINITY, f64::min)
+}
+
+impl<'a> Guard<'a> {
+    /// For one tool.
+    #[must_use]
+    pub fn new(profile: &'a Profile, tool: &'a Mounted, constraints: &'a Constraints) -> Self {
+        let arm = profile.real_model(tool, &Conditions::default());
+        Self {
+            profile,
+            tool,
+            constraints,
+            arm,
+        }
+    }
+
+    /// The worst that the boxes do not allow at these joints.
+    #[must_use]
+    pub fn breach(&self, q: &[f64; 6]) -> Option<Breach> {
+        let Constraints {
+            inside, keep_out, ..
+        } = self.constraints;
+        if inside.is_none() && keep_out.is_empty() {
+            return None;
+        }
+        let tip = self.tip(q).translation;
+        let out = inside.map_or(0.0, |box3| beyond(&box3, tip));
+        if out > 0.0 {
+            return Some(Breach::Outside(out));
+        }
+        if keep_out.is_empty() {
+            return None;
+        }
+        let geometry = self.profile.geometry(self.tool);
+        let chain = crate::model::Chain::of(&geometry, &self.profile.mechanism);
+        let turns = crate::geometry::Turn::of_each(&self.profile.mechanism.commanded(q));
+        let places = chain.link_frames(&turns);
+        let arm = places[2..].iter().map(|frame| frame.translation);
+        let deepest = arm
+            .chain([tip])
+            .flat_map(|p| keep_out.iter().map(move |box3| depth(box3, p)))
+            .fold(f64::NEG_INFINITY, f64::max);
+        (deepest >= 0.0).then_some(Breach::KeptOut(deepest))
+    }
+
+    fn tip(&self, q: &[f64; 6]) -> Pose {
+        self.arm.forward(q, &Conditions::default())
+    }
+
+    fn is_seen(&self, q: &[f64; 6]) -> bool {
+        let Some((device, most)) = self.constraints.sight else {
+            return true;
+        };
+        let tip = self.tip(q);
+        let toward = sub(device, tip.translation);
+        dot(tip.rotation.axis(2), toward) / norm(toward).max(1e-9) >= most.cos()
+    }
+
+    /// Whether a configuration meets the constraints, and where it is approached from the boxes.
+    #[must_use]
+    pub fn admits(&self, q: &[f64; 6]) -> bool {
+        let approached = || {
+            self.constraints.approach_rad == 0.0
+                || self.breach(&self.constraints.approach(q)).is_none()
+        };
+        self.is_seen(q) && self.breach(q).is_none() && approached()
+    }
+}
+
+/// Random configurations that meet the constraints, as near to zero as they can be: no joint makes a whole turn in vain. The
+/// second value is the part of draws that did.
+///
+/// # Errors
+/// Constraints that no draw meets.
+pub fn candidates(
+    profile: &Profile,
+    tool: &Mounted,
+    constraints: &Constraints,
+    count: usize,
+    seed: u64,
+) -> Result<(Vec<[f64; 6]>, f64), IdentifyError> {
+    candidates_where(profile, tool, constraints, count, seed, &|_| true)
+}
+
+/// As [`candidates`], of those that are `admitted` as they are and where they are approached from.
+pub(super) fn candidates_where(
+    profile: &Profile,
+    tool: &Mounted,
+    constraints: &Constraints,
+    count: usize,
+    seed: u64,
+    admitted: &dyn Fn(&[f64; 6]) -> bool,
+) -> Result<(Vec<[f64; 6]>, f64), IdentifyError> {
+    let mut random = Random::new(seed);
+    let guard = Guard::new(profile, tool, constraints);
+    let mut range = [[0.0; 2]; 6];
+    for (i, joint) in profile.mechanism.joints.iter().enumerate() {
+        let low = joint.min_rad + constraints.margin_rad + constraints.approach_rad;
+        let high = joint.max_rad - constraints.margin_rad;
+        if low >= high {
+            return Err(IdentifyError::Suspicious {
+                message: format!(
+                    "joint {} has no room between its limits for the margin and the approach",
+                    i + 1
+                ),
+                hint: "a smaller --margin-deg or --approach-deg".into(),
+            });
+        }
+        // of a joint that turns more than once, the turn about zero has every posture
+        range[i] = if low < -PI && high > PI {
+            [-PI, PI]
+        } else {
+            [low, high]
+        };
+    }
+    let mut found = Vec::with_capacity(count);
+    let mut draws = 0;
+    while found.len() < count {
+        draws += 1;
+        if draws > DRAWS * (found.len() + 1) {
+            return Err(IdentifyError::Suspicious {
+                message: format!(
+                    "of {draws} random configurations {} meet the constraints; {count} are needed",
+                    found.len()
+                ),
+                hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates; shapes of the profile that touch \
+                       wherever the arm is are too large"
+                    .into(),
+            });
+        }
+        let q: [f64; 6] = std::array::from_fn(|i| random.between(range[i][0], range[i][1]));
+        if guard.admits(&q)
+            && admitted(&q)
+            && (constraints.approach_rad == 0.0 || admitted(&constraints.approach(&q)))
+        {
+            found.push(q);
+        }
+    }
+    Ok((found, count as f64 / draws as f64))
+}

@@ -1,0 +1,124 @@
+//! Files that are tables, but not CSV as it is read here: said before columns are looked for.
+
+/// What is wrong, where, and the way out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotCsv {
+    /// Line, from 1; 0 is the whole file.
+    pub line: usize,
+    /// Column in bytes, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// The way out.
+    pub hint: String,
+}
+
+/// Separators that other programs write.
+const SEPARATORS: [(u8, &str, &str); 3] = [
+    (b';', "semicolons", ";"),
+    (b'\t', "tabs", "\\t"),
+    (b'|', "bars", "|"),
+];
+
+/// A number with a decimal comma.
+fn has_decimal_comma(cell: &[u8]) -> bool {
+    let text = std::str::from_utf8(cell).unwrap_or_default().trim();
+    text.contains(',') && text.replacen(',', ".", 1).parse::<f64>().is_ok()
+}
+
+/// What makes a file no CSV with commas: it is empty, no UTF-8, has other separators or decimal commas. `None` where none of these
+/// is to be seen.
+#[must_use]
+pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
+    if let Err(error) = std::str::from_utf8(bytes) {
+        let at = error.valid_up_to();
+        let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
+        let start = bytes[..at]
+            .iter()
+            .rposition(|b| *b == b'\n')
+            .map_or(0, |n| n + 1);
+        return Some(NotCsv {
+            line,
+            column: at - start + 1,
+            message: "not UTF-8 text".into(),
+            hint: "save the table as CSV in UTF-8 (from Latin-1: `iconv -f latin1 -t utf8 FILE`; from UTF-16: `iconv -f utf16 -t utf8 FILE`)"
+                .into(),
+        });
+    }
+    let mut lines = bytes
+        .split(|b| *b == b'\n')
+        .enumerate()
+        .filter(|(_, line)| !line.trim_ascii().is_empty() && !line.starts_with(b"#"));
+    let Some((number, header)) = lines.next() else {
+        return Some(NotCsv {
+            line: 0,
+            column: 1,
+            message: "the file is empty".into(),
+            hint: "the first line names the columns, with commas between".into(),
+        });
+    };
+    let first = lines.next().map(|(_, line)| line);
+    let count = |line: &[u8], separator: u8| line.iter().filter(|b| **b == separator).count();
+    if count(header, b',') > 0 {
+        // every number with a decimal comma is two cells
+        let cells = 1 + count(header, b',');
+        let found = first.map_or(0, |line| 1 + count(line, b','));
+        let doubled = cells > 2 && found > cells && found <= 2 * cells;
+        return doubled.then(|| NotCsv {
+            line: number + 2,
+            column: 1,
+            message: format!("{found} cells; the header has {cells}"),
+            hint: "are decimals written with a comma? write them with a point".into(),
+        });
+    }
+    let (separator, name, sign) = SEPARATORS
+        .into_iter()
+        .find(|(separator, ..)| count(header, *separator) > 0)?;
+    let decimal = first.is_some_and(|line| line.split(|b| *b == separator).any(has_decimal_comma));
+    let (and, points) = if decimal {
+        (", and decimals are written with a comma", "s/,/./g; ")
+    } else {
+        ("", "")
+    };
+    Some(NotCsv {
+        line: number + 1,
+        column: 1,
+        message: format!("columns are separated by {name}, not commas{and}"),
+        hint: format!("convert it: `sed '{points}s/{sign}/,/g' FILE > NEW.csv`"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(text: &[u8]) -> (usize, usize, String, String) {
+        let found = not_csv(text).expect("no CSV");
+        (found.line, found.column, found.message, found.hint)
+    }
+
+    #[test]
+    fn separators_decimals_and_encodings_are_named() {
+        assert_eq!(not_csv(b"a,b\n1,2\n"), None);
+        assert_eq!(not_csv(b"a\n1\n"), None);
+        let (line, _, message, hint) = told(b"# x\na;b\n1,5;2,5\n");
+        assert_eq!(line, 2);
+        assert!(
+            message.contains("semicolons") && message.contains("comma"),
+            "{message}"
+        );
+        assert!(hint.contains("s/,/./g; s/;/,/g"), "{hint}");
+        let (_, _, message, hint) = told(b"a\tb\n1.5\t2\n");
+        assert!(
+            message.contains("tabs") && hint.contains("'s/\\t/,/g'"),
+            "{hint}"
+        );
+        let (line, _, message, hint) = told(b"a,b,c\n1,5,2,5,3,5\n");
+        assert!(line == 2 && message.contains("6 cells") && hint.contains("point"));
+        let (_, _, message, _) = told(b"\n# nothing\n");
+        assert!(message.contains("empty"));
+        let (line, column, message, hint) = told(b"a,b\n1,\xb52\n");
+        assert_eq!((line, column), (2, 3));
+        assert!(message.contains("UTF-8") && hint.contains("iconv"));
+    }
+}

@@ -1,0 +1,128 @@
+//! Doubts of a validation: measurements that are not of this robot, or not as the file says.
+
+use super::error::IdentifyError;
+use super::measurements::Measurements;
+use super::screening::{Remark, doubt_start, look};
+use super::start;
+use super::statistics::Quality;
+use super::validation::Refit;
+use crate::model::profile::Profile;
+
+/// The real model is worse than the nominal arm with fitted frames by this factor where something was moved.
+const WORSE: f64 = 1.5;
+/// Errors below this are never doubted, mm.
+const SMALL_MM: f64 = 0.1;
+/// Frames that are fitted and still miss by more are not of this robot, mm.
+const HOPELESS_MM: f64 = 20.0;
+/// Residuals in standard deviations between which stated sigmas are believed.
+const BELIEVED: [f64; 2] = [0.3, 3.0];
+
+fn warning(id: &'static str, message: String, hint: &str) -> Remark {
+    Remark {
+        id,
+        warning: true,
+        line: 0,
+        message,
+        hint: hint.into(),
+    }
+}
+
+/// What can be seen before any model is judged, as `calibrate` sees it.
+///
+/// # Errors
+/// Another reading of the file fits much better.
+pub(super) fn before(
+    profile: &Profile,
+    measurements: &Measurements,
+    refit: Refit,
+) -> Result<Vec<Remark>, IdentifyError> {
+    let mut remarks = match look(profile, measurements) {
+        Ok(remarks) => remarks,
+        // one pose or one line may be what is to be judged
+        Err(IdentifyError::Suspicious { message, hint }) => {
+            vec![warning("little-variety", message, &hint)]
+        }
+        Err(other) => return Err(other),
+    };
+    // nothing is identified
+    remarks.retain(|remark| remark.id != "joint-never-moved");
+    if let Some(start) = start::find(profile, measurements) {
+        let mut doubts = doubt_start(profile, measurements, &start)?;
+        // fitted tools may be anywhere
+        doubts.retain(|remark| remark.id != "tool-elsewhere" || refit == Refit::No);
+        for doubt in &mut doubts {
+            if doubt.id == "tool-elsewhere" {
+                doubt.hint =
+                    "is it the tool of the profile? --refit-frames fits base, tool and points first".into();
+            }
+        }
+        remarks.extend(doubts);
+    }
+    Ok(remarks)
+}
+
+/// What the errors say.
+pub(super) fn after(
+    real: &Quality,
+    frames: &Quality,
+    normalised: Option<f64>,
+    refit: Refit,
+) -> Vec<Remark> {
+    let mut remarks = Vec::new();
+    let missed = real.main().zip(frames.main());
+    let moved = missed.filter(|(real, frames)| {
+        real.rms > SMALL_MM && real.rms > WORSE * frames.rms && frames.rms < HOPELESS_MM
+    });
+    if let Some((_, frames)) = missed.filter(|(_, frames)| frames.rms >= HOPELESS_MM) {
+        remarks.push(warning(
+            "poor-fit",
+            format!(
+                "the nominal arm misses by {:.1} mm rms with base and tool fitted to these rows: no arm is that far from its drawing",
+                frames.rms
+            ),
+            "is it this robot, this order of rows? every column in its unit?",
+        ));
+    }
+    if let Some((real, frames)) = moved {
+        let (message, hint) = if refit == Refit::No {
+            (
+                format!(
+                    "the real model misses by {:.3} mm rms, the nominal arm with base and tool fitted to these rows by {:.3} mm",
+                    real.rms, frames.rms
+                ),
+                "was the device, the robot or the tool set up anew? --refit-frames fits base, tool and points first",
+            )
+        } else {
+            (
+                format!(
+                    "the real model misses by {:.3} mm rms, more than the nominal arm: {:.3} mm",
+                    real.rms, frames.rms
+                ),
+                "is it the profile of this arm? was the arm repaired or its joints set anew since the calibration?",
+            )
+        };
+        remarks.push(warning("worse-than-nominal", message, hint));
+    }
+    if let Some(times) = normalised.filter(|_| moved.is_none()) {
+        let [low, high] = BELIEVED;
+        if times > high {
+            remarks.push(warning(
+                "sigma-small",
+                format!(
+                    "residuals are {times:.1} times the given standard deviations: they are too small by that, or the model misses something"
+                ),
+                "sigma_mm is in mm; `poseshift diagnose` looks for what the model misses",
+            ));
+        } else if times < low {
+            remarks.push(warning(
+                "sigma-large",
+                format!(
+                    "residuals are {times:.3} times the given standard deviations: they are too large by a factor of {:.0}",
+                    1.0 / times.max(1e-9)
+                ),
+                "sigma_mm is in mm, not in micrometres",
+            ));
+        }
+    }
+    remarks
+}

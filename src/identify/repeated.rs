@@ -1,0 +1,172 @@
+//! Accuracy and repeatability of poses and distances that were measured several times.
+//!
+//! # Source
+//! ISO 9283:1998, pose accuracy and repeatability (7.2), multi-directional pose accuracy variation (7.2.3), distance accuracy and
+//! repeatability (7.3).
+
+use super::measurements::Measurements;
+use super::statistics::{Miss, Spread};
+use crate::geometry::units::mm_from_m;
+use crate::geometry::{Vector, add, norm, scale, sub};
+use std::collections::BTreeMap;
+
+/// Fewest measurements of one configuration.
+const FEWEST: usize = 3;
+
+/// Pose accuracy and repeatability of one configuration measured several times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeated {
+    /// Line of its first row.
+    pub line: usize,
+    /// How often it was measured.
+    pub count: usize,
+    /// Distance of the mean of what was attained from what the real model expects, mm.
+    pub accuracy_mm: f64,
+    /// AP: its distance from what the controller believes, the commanded pose, mm.
+    pub commanded_accuracy_mm: f64,
+    /// RP: mean plus three standard deviations of the distances from their mean, mm.
+    pub repeatability_mm: f64,
+    /// vAP: largest distance between the means of different approach directions, mm; `None` from one direction only. Rows of
+    /// unknown direction are left out.
+    pub variation_mm: Option<f64>,
+}
+
+/// Distance accuracy and repeatability between two configurations measured several times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RepeatedDistance {
+    /// Lines of their first rows.
+    pub lines: [usize; 2],
+    /// How many pairs, in the order in which they were measured.
+    pub count: usize,
+    /// Mean distance, mm.
+    pub distance_mm: f64,
+    /// How far it is from the distance that the real model expects, mm.
+    pub accuracy_mm: f64,
+    /// AD: how far it is from the distance of the commanded poses, mm.
+    pub commanded_accuracy_mm: f64,
+    /// RD: three standard deviations of the distances, mm.
+    pub repeatability_mm: f64,
+}
+
+fn mean(of: &[Vector]) -> Vector {
+    let sum = of.iter().fold([0.0; 3], |sum, p| add(sum, *p));
+    scale(1.0 / of.len().max(1) as f64, sum)
+}
+
+/// Rows of one configuration and point, by the line of the first.
+fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
+    type Key = (Vec<u64>, Option<String>);
+    let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+    for (i, row) in measurements.rows.iter().enumerate() {
+        if row.observed.point_m().is_some() {
+            let key = (
+                row.q.iter().map(|q| q.to_bits()).collect(),
+                row.point.clone(),
+            );
+            groups.entry(key).or_default().push(i);
+        }
+    }
+    let mut found: Vec<Vec<usize>> = groups
+        .into_values()
+        .filter(|rows| rows.len() >= FEWEST)
+        .collect();
+    found.sort_by_key(|rows| measurements.rows[rows[0]].line);
+    found
+}
+
+/// The directions that the joints of some rows arrived in, one word a row; `None` of a row that does not tell them. A joint that no
+/// row tells of does not matter.
+fn ways(measurements: &Measurements, rows: &[usize]) -> Vec<Option<Vec<bool>>> {
+    let direction = |row: &usize| measurements.rows[*row].conditions.direction;
+    let told: Vec<usize> = (0..6)
+        .filter(|k| rows.iter().any(|row| direction(row)[*k] != 0.0))
+        .collect();
+    rows.iter()
+        .map(|row| {
+            let direction = direction(row);
+            let known = !told.is_empty() && told.iter().all(|k| direction[*k] != 0.0);
+            known.then(|| told.iter().map(|k| direction[*k] > 0.0).collect())
+        })
+        .collect()
+}
+
+/// Poses measured at least three times; `misses` of the real and of the controller's model.
+pub(super) fn repeated(measurements: &Measurements, misses: [&[Miss]; 2]) -> Vec<Repeated> {
+    let gap = |misses: &[Miss], row: usize| {
+        let [x, y, z, ..] = misses[row].gap;
+        [x, y, z].map(mm_from_m)
+    };
+    groups(measurements)
+        .iter()
+        .map(|rows| {
+            let [gaps, commanded] =
+                misses.map(|m| rows.iter().map(|row| gap(m, *row)).collect::<Vec<_>>());
+            let middle = mean(&gaps);
+            let about: Vec<f64> = gaps.iter().map(|g| norm(sub(*g, middle))).collect();
+            let spread = Spread::of(&about).expect("at least three rows");
+            let mut directions: BTreeMap<Vec<bool>, Vec<Vector>> = BTreeMap::new();
+            for (way, gap) in ways(measurements, rows).into_iter().zip(&gaps) {
+                if let Some(way) = way {
+                    directions.entry(way).or_default().push(*gap);
+                }
+            }
+            let means: Vec<Vector> = directions.values().map(|g| mean(g)).collect();
+            let apart = means
+                .iter()
+                .flat_map(|a| means.iter().map(move |b| norm(sub(*a, *b))));
+            Repeated {
+                line: measurements.rows[rows[0]].line,
+                count: rows.len(),
+                accuracy_mm: norm(middle),
+                commanded_accuracy_mm: norm(mean(&commanded)),
+                repeatability_mm: spread.mean_plus_3std(),
+                variation_mm: (means.len() > 1).then(|| apart.fold(0.0, f64::max)),
+            }
+        })
+        .collect()
+}
+
+/// Distances from each pose measured at least three times to the next one of the same point.
+pub(super) fn repeated_distances(
+    measurements: &Measurements,
+    misses: [&[Miss]; 2],
+) -> Vec<RepeatedDistance> {
+    let groups = groups(measurements);
+    let point = |rows: &[usize]| &measurements.rows[rows[0]].point;
+    let mut found = Vec::new();
+    for (number, first) in groups.iter().enumerate() {
+        let later = &groups[number + 1..];
+        let Some(second) = later.iter().find(|rows| point(rows) == point(first)) else {
+            continue;
+        };
+        let pairs: Vec<(usize, usize)> =
+            first.iter().copied().zip(second.iter().copied()).collect();
+        let seen = |row: usize| {
+            let place = measurements.rows[row].observed.point_m();
+            place.expect("rows of a group have points")
+        };
+        let lengths: Vec<f64> = pairs
+            .iter()
+            .map(|(a, b)| mm_from_m(norm(sub(seen(*a), seen(*b)))))
+            .collect();
+        let Some(spread) = Spread::of(&lengths) else {
+            continue;
+        };
+        // what a model expects is the same each time but for what it says of time and direction
+        let expected = misses.map(|misses| {
+            let lengths = pairs
+                .iter()
+                .map(|(a, b)| mm_from_m(norm(sub(misses[*a].expected_m, misses[*b].expected_m))));
+            lengths.sum::<f64>() / pairs.len() as f64
+        });
+        found.push(RepeatedDistance {
+            lines: [first, second].map(|rows| measurements.rows[rows[0]].line),
+            count: pairs.len(),
+            distance_mm: spread.mean,
+            accuracy_mm: (spread.mean - expected[0]).abs(),
+            commanded_accuracy_mm: (spread.mean - expected[1]).abs(),
+            repeatability_mm: 3.0 * spread.std,
+        });
+    }
+    found
+}

@@ -1,0 +1,207 @@
+//! `validate`: files that cannot be meant, and figures that do not mean what they seem to.
+
+use crate::support::{poseshift, repository, scratch};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+use serde_json::Value;
+use std::path::Path;
+use tempfile::TempDir;
+
+const TRUTH: &str = "robots/abb_irb120_thesis.yaml";
+
+fn seeded(seed: usize) -> StdRng {
+    StdRng::seed_from_u64(u64::try_from(seed).expect("a small number"))
+}
+
+fn run(folder: &Path, command: &str) -> (Option<i32>, Value, String) {
+    let mut arguments: Vec<String> = command.split(' ').map(str::to_owned).collect();
+    for word in &mut arguments {
+        *word = word.replace("TRUTH", repository(TRUTH).to_str().expect("UTF-8"));
+    }
+    let output = poseshift()
+        .current_dir(folder)
+        .args(&arguments)
+        .arg("--json")
+        .output()
+        .expect("the program starts");
+    (
+        output.status.code(),
+        serde_json::from_slice(&output.stdout).unwrap_or(Value::Null),
+        String::from_utf8_lossy(&output.stderr).into_owned(),
+    )
+}
+
+fn validate(folder: &Path, profile: &str, rest: &str) -> (Option<i32>, Value, String) {
+    run(
+        folder,
+        &format!("validate --profile {profile} --measurements m.csv{rest}"),
+    )
+}
+
+/// Measurements `m.csv` of the truth in a folder of their own.
+fn measured(count: usize) -> TempDir {
+    let folder = scratch();
+    let mut joints = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg".to_owned();
+    let mut random = seeded(count);
+    for _ in 0..count {
+        let ends = [150.0, 100.0, 65.0, 150.0, 110.0, 170.0];
+        let q = ends.map(|end: f64| random.random_range(-end..end).to_string());
+        joints += &format!("\n{}", q.join(","));
+    }
+    std::fs::write(folder.path().join("q.csv"), joints).expect("scratch");
+    let simulate = "simulate --profile TRUTH --joints q.csv --noise-mm 0.02 -o m.csv";
+    let (status, _, told) = run(folder.path(), simulate);
+    assert_eq!(status, Some(0), "{told}");
+    folder
+}
+
+/// Changes the numbers of some columns of `m.csv`.
+fn change(folder: &Path, columns: &[&str], by: impl Fn(f64) -> f64) {
+    let path = folder.join("m.csv");
+    let text = std::fs::read_to_string(&path).expect("measurements");
+    let header: Vec<&str> = text.lines().next().expect("a header").split(',').collect();
+    let mut out = header.join(",");
+    for line in text.lines().skip(1) {
+        let cells = line.split(',').zip(&header).map(|(cell, name)| {
+            if columns.contains(name) {
+                by(cell.parse().expect("a number")).to_string()
+            } else {
+                cell.to_owned()
+            }
+        });
+        out += &format!("\n{}", cells.collect::<Vec<_>>().join(","));
+    }
+    std::fs::write(path, out).expect("scratch");
+}
+
+fn ids(report: &Value) -> Vec<&str> {
+    let findings = report["findings"].as_array().expect("findings");
+    findings.iter().filter_map(|f| f["id"].as_str()).collect()
+}
+
+#[test]
+fn files_that_cannot_be_meant_are_refused_as_by_calibrate() {
+    let joints = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
+    let folder = measured(40);
+    assert_eq!(validate(folder.path(), "TRUTH", "").0, Some(0));
+    change(folder.path(), &joints, f64::to_radians);
+    let (status, _, told) = validate(folder.path(), "TRUTH", "");
+    assert!(status == Some(2) && told.contains("radians"), "{told}");
+    let folder = measured(40);
+    change(folder.path(), &["x_mm", "y_mm", "z_mm"], |v| v / 1000.0);
+    let (status, _, told) = validate(folder.path(), "TRUTH", "");
+    assert!(status == Some(2) && told.contains("metres"), "{told}");
+    let folder = measured(2);
+    let (status, _, told) = validate(folder.path(), "TRUTH", "");
+    assert_eq!(status, Some(2));
+    assert!(
+        !told.contains("--level") && told.contains("configurations"),
+        "{told}"
+    );
+}
+
+#[test]
+fn rows_that_the_profile_was_calibrated_with_are_told() {
+    let folder = measured(30);
+    let at = folder.path();
+    let calibrate = "calibrate --profile TRUTH --measurements m.csv --level 0 --date day -o c.yaml";
+    let (status, _, told) = run(at, calibrate);
+    assert_eq!(status, Some(0), "{told}");
+    let (_, report, _) = validate(at, "c.yaml", "");
+    assert_eq!(ids(&report), ["seen-before"]);
+    // others are news
+    change(at, &["x_mm"], |x| x + 0.001);
+    let (_, report, _) = validate(at, "c.yaml", "");
+    assert!(ids(&report).is_empty(), "{report}");
+    // and the profile tells what it is worth
+    let show = poseshift()
+        .current_dir(at)
+        .args(["profile", "show", "c.yaml"])
+        .output()
+        .expect("the program starts");
+    let text = String::from_utf8(show.stdout).expect("UTF-8");
+    for word in ["date  day", "rows  30", "error after", "±"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+}
+
+#[test]
+fn a_device_set_up_anew_is_told_and_refitted_with_its_regions_and_its_controller() {
+    let folder = measured(40);
+    let at = folder.path();
+    let calibrate = "calibrate --profile TRUTH --measurements m.csv --level 0 -o c.yaml";
+    assert_eq!(run(at, calibrate).0, Some(0));
+    change(at, &["x_mm"], |x| x + 0.001);
+    let (_, before, _) = validate(at, "c.yaml", "");
+    change(at, &["x_mm"], |x| x + 3000.0);
+    let (status, moved, _) = validate(at, "c.yaml", "");
+    assert_eq!(status, Some(0));
+    let finding = &moved["findings"][0];
+    assert_eq!(finding["id"], "worse-than-nominal");
+    assert!(
+        finding["hint"]
+            .as_str()
+            .expect("a hint")
+            .contains("--refit-frames")
+    );
+    let (_, refitted, _) = validate(at, "c.yaml", " --refit-frames");
+    assert!(ids(&refitted).is_empty(), "{refitted}");
+    assert_eq!(
+        refitted["position"]["controller"],
+        refitted["position"]["frames_only"]
+    );
+    let regions = |report: &Value| -> Vec<Value> {
+        let parts = report["parts"].as_array().expect("parts");
+        let those = parts.iter().filter(|part| part["by"] == "region");
+        those.map(|part| part["name"].clone()).collect()
+    };
+    assert_eq!(regions(&before), regions(&refitted));
+    assert!(regions(&before).len() > 2);
+}
+
+#[test]
+fn sigmas_in_another_unit_are_told_with_the_factor() {
+    let folder = measured(40);
+    let path = folder.path().join("m.csv");
+    let text = std::fs::read_to_string(&path).expect("measurements");
+    assert!(text.lines().next().expect("a header").contains("sigma_mm"));
+    change(folder.path(), &["sigma_mm"], |sigma| sigma * 1000.0);
+    let (_, report, _) = validate(folder.path(), "TRUTH", "");
+    assert_eq!(ids(&report), ["sigma-large"]);
+    change(folder.path(), &["sigma_mm"], |sigma| sigma * 1e-5);
+    let (_, report, _) = validate(folder.path(), "TRUTH", "");
+    assert_eq!(ids(&report), ["sigma-small"]);
+}
+
+#[test]
+fn tables_that_are_no_csv_are_named_with_the_way_out() {
+    let folder = measured(20);
+    let path = folder.path().join("m.csv");
+    let text = std::fs::read_to_string(&path).expect("measurements");
+    for (from, to, word) in [(",", ";", "semicolons"), (",", "\t", "tabs")] {
+        std::fs::write(&path, text.replace(from, to)).expect("scratch");
+        let (status, _, told) = validate(folder.path(), "TRUTH", "");
+        assert!(
+            status == Some(2) && told.contains(word) && told.contains("sed"),
+            "{told}"
+        );
+        let (status, _, told) = run(folder.path(), "simulate --profile TRUTH --joints m.csv");
+        assert!(status == Some(2) && told.contains(word), "{told}");
+    }
+    std::fs::write(&path, text.replace(',', ";").replace('.', ",")).expect("scratch");
+    let (_, _, told) = validate(folder.path(), "TRUTH", "");
+    assert!(told.contains("decimals"), "{told}");
+    std::fs::write(&path, "").expect("scratch");
+    let (status, _, told) = validate(folder.path(), "TRUTH", "");
+    assert!(status == Some(2) && told.contains("empty"), "{told}");
+    let mut bytes = text.into_bytes();
+    let place = bytes.len() - 3;
+    bytes[place] = 0xb5;
+    std::fs::write(&path, bytes).expect("scratch");
+    let (status, _, told) = validate(folder.path(), "TRUTH", "");
+    assert!(
+        status == Some(2) && told.contains("UTF-8") && told.contains("iconv"),
+        "{told}"
+    );
+    assert!(!told.contains("m.csv:21:1\n"), "{told}");
+}

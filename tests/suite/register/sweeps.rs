@@ -1,0 +1,131 @@
+//! `axes`: files that cannot be meant are told, and uncertainties hold the truth.
+
+use crate::support::{poseshift, repository, scratch};
+use serde_json::Value;
+
+const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
+
+/// The sweeps of the guide: header and cells.
+fn sweeps() -> (Vec<String>, Vec<Vec<String>>) {
+    let text = std::fs::read_to_string(repository("docs/measuring/sweeps.csv")).expect("a file");
+    let mut lines = text
+        .lines()
+        .map(|line| line.split(',').map(str::to_owned).collect());
+    (lines.next().expect("a header"), lines.collect())
+}
+
+fn column(header: &[String], name: &str) -> usize {
+    let found = header.iter().position(|column| column == name);
+    found.unwrap_or_else(|| panic!("no column {name}"))
+}
+
+/// Exit status, report and standard error of the sweeps, changed.
+fn axes(
+    profile: &str,
+    change: impl Fn(&[String], &mut Vec<Vec<String>>),
+) -> (Option<i32>, Value, String) {
+    let folder = scratch();
+    let (header, mut rows) = sweeps();
+    change(&header, &mut rows);
+    let lines: Vec<String> = [header]
+        .iter()
+        .chain(&rows)
+        .map(|row| row.join(","))
+        .collect();
+    std::fs::write(folder.path().join("s.csv"), lines.join("\n")).expect("scratch");
+    let run = |json: bool| {
+        let mut command = poseshift();
+        command.current_dir(folder.path());
+        command.args(["axes", "s.csv", "--profile"]);
+        command.arg(repository(profile));
+        if json {
+            command.arg("--json");
+        }
+        command.output().expect("the program starts")
+    };
+    let told = run(false);
+    let value = serde_json::from_slice(&run(true).stdout).unwrap_or(Value::Null);
+    (
+        told.status.code(),
+        value,
+        String::from_utf8_lossy(&told.stderr).into_owned(),
+    )
+}
+
+fn scaled(name: &'static str, by: f64) -> impl Fn(&[String], &mut Vec<Vec<String>>) {
+    move |header, rows| {
+        let at = column(header, name);
+        for row in rows {
+            row[at] = (row[at].parse::<f64>().expect("a number") * by).to_string();
+        }
+    }
+}
+
+#[test]
+fn sweeps_that_no_base_and_tool_of_the_robot_explain_are_refused_with_what_does() {
+    let (status, _, told) = axes(PROFILE, |header, rows| {
+        for name in ["x_mm", "y_mm", "z_mm"] {
+            scaled(name, 1e-3)(header, rows);
+        }
+    });
+    assert!(status == Some(2) && told.contains("metres"), "{told}");
+    let (status, _, told) = axes(PROFILE, |header, rows| {
+        let (x, y) = (column(header, "x_mm"), column(header, "y_mm"));
+        rows.iter_mut().for_each(|row| row.swap(x, y));
+    });
+    assert!(status == Some(2) && told.contains("swapped"), "{told}");
+    let (status, _, told) = axes(PROFILE, scaled("q2_deg", -1.0));
+    assert!(
+        status == Some(2) && told.contains("joint 2 counts the other way"),
+        "{told}"
+    );
+    let (status, _, told) = axes("robots/kuka_kr6_r900.yaml", |_, _| ());
+    assert!(
+        status == Some(2) && told.contains("is it this robot"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_row_on_no_circle_is_left_out_and_named() {
+    let (_, clean, _) = axes(PROFILE, |_, _| ());
+    assert_eq!(clean["findings"], serde_json::json!([]));
+    let (status, found, told) = axes(PROFILE, |header, rows| {
+        let at = column(header, "x_mm");
+        rows[5][at] = (rows[5][at].parse::<f64>().expect("a number") + 5.0).to_string();
+    });
+    assert_eq!(status, Some(0), "{told}");
+    // the header is line 1
+    assert!(told.contains("s.csv:7: left out"), "{told}");
+    assert_eq!(found["findings"][0]["id"], "outlier");
+    for key in ["x_mm", "y_mm", "z_mm"] {
+        let [a, b] = [&found, &clean].map(|v| v["base"][key].as_f64().expect("a number"));
+        assert!((a - b).abs() < 0.05, "{key}: {a} and {b}");
+    }
+}
+
+#[test]
+fn the_sag_of_the_arm_is_in_the_sigma_and_three_rows_have_none() {
+    // the truth that the guide's data were made with
+    const TRUE_Z_MM: f64 = 0.103;
+    let (_, found, _) = axes(PROFILE, |_, _| ());
+    let z = found["base"]["z_mm"].as_f64().expect("a number");
+    let sigma = found["base_sigma"]["z_mm"].as_f64().expect("a number");
+    assert!((z - TRUE_Z_MM).abs() > 0.3, "{z}");
+    assert!((z - TRUE_Z_MM).abs() < 3.0 * sigma, "{z} +/- {sigma}");
+    assert_eq!(found["base_sag"]["from"], "profile");
+    // without compliance in the profile, a typical arm's
+    let (_, stiff, _) = axes("robots/abb_irb120.yaml", |_, _| ());
+    assert_eq!(stiff["base_sag"]["from"], "typical");
+    let (status, few, _) = axes(PROFILE, |_, rows| {
+        let mut count = std::collections::BTreeMap::new();
+        rows.retain(|row| {
+            let seen: &mut usize = count.entry(row[0].clone()).or_default();
+            *seen += 1;
+            *seen <= 3
+        });
+    });
+    assert_eq!(status, Some(0));
+    assert!(few["base"].is_object() && few["base_sigma"].is_null());
+    assert!(few["joints"][0]["noise_mm"].is_null());
+}
