@@ -191,15 +191,13 @@ impl Axes {
                 rotation,
                 direction,
             };
-            match sweeps.iter_mut().find(|(sweep, _)| sweep.joint == joint) {
-                Some((sweep, lines)) => {
-                    sweep.rows.push(measured);
-                    lines.push(row.line);
-                }
-                None => {
-                    let rows = vec![measured];
-                    sweeps.push((Sweep { joint, rows }, vec![row.line]));
-                }
+            let known = sweeps.iter_mut().find(|(sweep, _)| sweep.joint == joint);
+            if let Some((sweep, lines)) = known {
+                sweep.rows.push(measured);
+                lines.push(row.line);
+            } else {
+                let rows = vec![measured];
+                sweeps.push((Sweep { joint, rows }, vec![row.line]));
             }
         }
         if points.len() > 1 {

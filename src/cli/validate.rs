@@ -59,7 +59,7 @@ impl Validate {
         let folds = self.folds.map(|n| n as usize);
         let progress = Progress::new(output, "validating");
         let found = validate_telling(&profile, &measurements, refit, folds, &mut |done, of| {
-            progress.tell(done, of)
+            progress.tell(done, of);
         })
         .map_err(|error| match error {
             IdentifyError::TooFew {

@@ -32,7 +32,7 @@ fn has_decimal_comma(cell: &[u8]) -> bool {
 pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
     if let Err(error) = std::str::from_utf8(bytes) {
         let at = error.valid_up_to();
-        let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
+        let line = bytes[..at].split(|b| *b == b'\n').count();
         let start = bytes[..at]
             .iter()
             .rposition(|b| *b == b'\n')
@@ -58,7 +58,8 @@ pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
         });
     };
     let first = lines.next().map(|(_, line)| line);
-    let count = |line: &[u8], separator: u8| line.iter().filter(|b| **b == separator).count();
+    // how many there are: the parts between, less one
+    let count = |line: &[u8], separator: u8| line.split(|b| *b == separator).count() - 1;
     if count(header, b',') > 0 {
         // every number with a decimal comma is two cells
         let cells = 1 + count(header, b',');

@@ -71,7 +71,9 @@ fn sweeps_that_no_base_and_tool_of_the_robot_explain_are_refused_with_what_does(
     assert!(status == Some(2) && told.contains("metres"), "{told}");
     let (status, _, told) = axes(PROFILE, |header, rows| {
         let (x, y) = (column(header, "x_mm"), column(header, "y_mm"));
-        rows.iter_mut().for_each(|row| row.swap(x, y));
+        for row in rows {
+            row.swap(x, y);
+        }
     });
     assert!(status == Some(2) && told.contains("swapped"), "{told}");
     let (status, _, told) = axes(PROFILE, scaled("q2_deg", -1.0));
