@@ -190,8 +190,9 @@ mod tests {
             ((1..6).map(column).collect(), (11..14).map(column).collect());
         // effects partly in the span of what is held
         let effects: Vec<Column> = (21..25)
-            .map(|s| {
-                let both = column(s).into_iter().zip(&base[s as usize % 5]);
+            .zip(&base)
+            .map(|(s, base)| {
+                let both = column(s).into_iter().zip(base);
                 both.map(|(x, b)| x + 2.0 * b).collect()
             })
             .collect();
