@@ -10,7 +10,7 @@ const PARALLEL: f64 = 0.1;
 /// Parameters of this rank and above have a typical size; base, tool and points may be anywhere.
 pub const FIRST_PHYSICAL: u32 = 2;
 /// The number that the base has among joints.
-const BASE_NUMBER: u32 = BASE as u32 + 1;
+const BASE_NUMBER: u32 = 7;
 /// How far a measured point may be from where it is believed, one standard deviation, metres.
 const POINT_SIGMA_M: f64 = 0.01;
 

@@ -182,7 +182,7 @@ fn doubt_sigma(problem: &Problem, after: &[Miss]) -> Option<Remark> {
     if problem.sigma_assumed || (SIGMA_FACTOR.recip()..=SIGMA_FACTOR).contains(&times) {
         return None;
     }
-    let hint = if times < 0.01 || times > 300.0 {
+    let hint = if !(0.01..=300.0).contains(&times) {
         "is sigma_mm in millimetres?"
     } else if times > 1.0 {
         "the arm does more than the model knows, or sigma_mm is too small; `poseshift diagnose` looks for what is missing"
