@@ -21,6 +21,8 @@ use crate::model::{Conditions, Motion};
 use nalgebra::DMatrix;
 use pulp::Arch;
 
+/// Standard deviations by a chosen set as a part of those by as many random configurations, of parameters that hardly show.
+const CHOSEN_BETTER: f64 = 0.5;
 /// Configurations that tell which parameters can be determined.
 const SAMPLE: usize = 1000;
 /// Numbers of a pose.
@@ -223,10 +225,10 @@ pub fn plan_telling(
     let every = problem.rows.len().div_ceil(SAMPLE * each).max(1);
     let sample = problem.with_rows(|i| (i / each).is_multiple_of(every));
     let normal = Normal::of(&sample, &estimate, &problem.parameters, Loss::squares());
-    // standard deviations of as many random configurations as are asked for
+    // standard deviations of as many configurations as are asked for
     let sampled = (sample.rows.len() / each) as f64;
     let planned = (request.count + request.given.len()) as f64;
-    let noise = request.sigma_m / DEFAULT_SIGMA_M * (sampled / planned).sqrt();
+    let noise = CHOSEN_BETTER * request.sigma_m / DEFAULT_SIGMA_M * (sampled / planned).sqrt();
     let known = identifiable(&normal, &problem.parameters, Some(noise));
     let parameters: Vec<Parameter> = known
         .kept
