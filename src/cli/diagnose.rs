@@ -224,6 +224,10 @@ fn text(found: &Diagnosis, all: bool) -> String {
             out += &report::wrapped(&report::competes(s, found), "  ", "    ");
         }
     }
+    for i in &found.impossible {
+        out.push('\n');
+        out += &report::wrapped(&report::impossibly(i, found), "", "  ");
+    }
     if let Some(most) = found.telling.iter().map(|t| t.apart_m).reduce(f64::max) {
         out += &format!(
             "\n{} poses tell alternatives apart, by up to {:.3} mm: --poses FILE writes them\n",

@@ -10,7 +10,7 @@ use super::proof::{Proof, held_out};
 use super::refit::refit;
 use super::search::{Chosen, Scored};
 use super::session::{Session, Trust, for_choice};
-use super::stand_ins::{StandIn, stand_ins};
+use super::stand_ins::{StandIn, impossible, stand_ins};
 use super::table::{Layout, lengths_m};
 use super::unknown::chance;
 use super::whereabouts::spots;
@@ -79,6 +79,11 @@ pub(super) fn conclude(
     let world = session.world(&used, &options.accept);
     let doubted = verdict == Verdict::Undetermined;
     let stand_ins = stand_ins(attempt, &world, (!doubted).then_some(NEARLY_PART));
+    let impossible = if doubted {
+        impossible(attempt, &world)
+    } else {
+        Vec::new()
+    };
     let again = |chosen: &[Chosen]| {
         refit(
             &session.problem,
@@ -116,6 +121,7 @@ pub(super) fn conclude(
         found,
         rivals,
         stand_ins,
+        impossible,
         unknown: attempt.unknown.clone(),
         spots: spots(
             &session.problem,

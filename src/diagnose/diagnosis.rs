@@ -5,7 +5,7 @@ use super::candidates::CannotTest;
 use super::conclusion::conclude;
 use super::poses::Telling;
 use super::session::{Trust, for_choice, is_nominal};
-use super::stand_ins::StandIn;
+use super::stand_ins::{Impossible, StandIn};
 use super::unknown::Unknown;
 use super::whereabouts::Spot;
 use crate::identify::IdentifyError;
@@ -143,6 +143,8 @@ pub struct Diagnosis {
     pub rivals: Vec<Rival>,
     /// Effects of one kind that compete with several of those found.
     pub stand_ins: Vec<StandIn>,
+    /// Effects that would compete if their values were possible.
+    pub impossible: Vec<Impossible>,
     /// Models fitted again without each of the effects found, where they were asked for.
     pub without: Vec<Estimate>,
     /// And without any of them.

@@ -119,24 +119,43 @@ impl View {
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
 
+    /// What all of a kind gain together beside those of the effects shown that are kept: which candidates, one for each place, and
+    /// their gain and values. Values stay physical only if they are `bounded`.
+    #[must_use]
+    pub fn set_of(
+        &self,
+        world: &World,
+        (chosen, keep): (&[Chosen], &[bool]),
+        kind: Kind,
+        bounded: bool,
+    ) -> Option<(Vec<usize>, Gain)> {
+        let list = &world.candidates.list;
+        let is_taken = |i: usize| {
+            let mut with = chosen.iter().zip(keep).filter(|(_, keep)| **keep);
+            with.any(|(c, _)| overlaps(&list[i], None, &c.candidate))
+        };
+        let own = |i: &usize| {
+            list[*i].effect.kind == kind && list[*i].columns.len() == 1 && !is_taken(*i)
+        };
+        let own: Vec<usize> = (0..list.len()).filter(own).collect();
+        let columns: Vec<usize> = own.iter().map(|i| list[*i].columns[0]).collect();
+        let bound = |i: &usize| list[*i].least[0].filter(|_| bounded);
+        let least: Vec<Option<f64>> = own.iter().map(bound).collect();
+        let seen = columns.iter().map(|c| &self.seen.projections[*c]);
+        let group = Group::of(&self.seen.base, &seen.collect::<Vec<_>>());
+        let cross = columns.iter().map(|c| self.side.cross[*c].as_slice());
+        let cross: Vec<&[f64]> = cross.collect();
+        let kept = self.side.beside.kept(keep);
+        let gain = self.side.beside.gain(&group, &cross, &kept, &least)?;
+        Some((own, gain))
+    }
+
     /// What all of a kind would gain together beside the effects shown: one for each place, those at their bound left out.
     #[must_use]
     pub fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
         let list = &world.candidates.list;
-        let own = |i: &usize| {
-            list[*i].effect.kind == kind
-                && list[*i].columns.len() == 1
-                && !(chosen.iter()).any(|c| overlaps(&list[*i], None, &c.candidate))
-        };
-        let own: Vec<usize> = (0..list.len()).filter(own).collect();
-        let columns: Vec<usize> = own.iter().map(|i| list[*i].columns[0]).collect();
-        let least: Vec<Option<f64>> = own.iter().map(|i| list[*i].least[0]).collect();
-        let seen = columns.iter().map(|c| &self.seen.projections[*c]);
-        let group = Group::of(&self.seen.base, &seen.collect::<Vec<_>>());
-        let cross = columns.iter().map(|c| self.side.cross[*c].as_slice());
-        let kept = self.side.beside.kept(&vec![true; chosen.len()]);
-        let cross: Vec<&[f64]> = cross.collect();
-        let Some(gain) = self.side.beside.gain(&group, &cross, &kept, &least) else {
+        let all = vec![true; chosen.len()];
+        let Some((own, gain)) = self.set_of(world, (chosen, &all), kind, true) else {
             return Vec::new();
         };
         let live: Vec<usize> = (0..own.len()).filter(|k| gain.values[*k] != 0.0).collect();

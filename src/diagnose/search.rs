@@ -385,8 +385,8 @@ impl World<'_> {
 }
 
 impl World<'_> {
-    /// The cause that explains most first, in it the effect that explains most, then what explains most beside those, and
-    /// so on.
+    /// The cause first without which most is lost, in it the effect that explains most, then what explains most beside those,
+    /// and so on.
     #[must_use]
     pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
         let mut ordered: Vec<Chosen> = Vec::new();
@@ -403,7 +403,8 @@ impl World<'_> {
             let of = |c: &Chosen| cause(c.candidate.effect.kind);
             let last = ordered.last().map(of);
             let more = |kind: Kind| chosen.iter().any(|c| of(c) == kind);
-            let of_kind = |kind: Kind| gain(&|c| of(c) == kind);
+            // what is lost without it: causes that imitate each other share what either explains alone
+            let of_kind = |kind: Kind| gain(&|_| true) - gain(&|c| of(c) != kind);
             let kinds = chosen.iter().map(of);
             let Some(kind) = last
                 .filter(|kind| more(*kind))

@@ -32,6 +32,17 @@ pub struct StandIn {
     pub(super) estimate: Estimate,
 }
 
+/// Effects that would compete with a group of those found if they could be what they would have to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Impossible {
+    /// Indices of the effects found that they would stand for.
+    pub instead_of: Vec<usize>,
+    /// Those of them that are impossible, with the values they would have.
+    pub effects: Vec<Effect>,
+    /// Fall of chi-squared by all of their kind, as a part of that of the group.
+    pub part: f64,
+}
+
 /// Effects of one kind, and those of one kind at one joint.
 fn groups(chosen: &[Chosen]) -> Vec<Vec<usize>> {
     let mut all: Vec<Vec<usize>> = Vec::new();
@@ -93,6 +104,59 @@ fn of_kind(
         others.push(world.chosen(next));
     }
     (others, gain)
+}
+
+/// Springs that would explain as much as a group of other effects if some of them pushed against their load.
+pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
+    let chosen = &attempt.chosen;
+    let mut view = View::of(world);
+    view.show(world, chosen);
+    let mut all: Vec<Impossible> = Vec::new();
+    for group in groups(chosen) {
+        if group.iter().any(|i| world.wanted(&chosen[*i].candidate)) {
+            continue;
+        }
+        let keep: Vec<bool> = (0..chosen.len()).map(|i| !group.contains(&i)).collect();
+        let loss = view.loss(&keep);
+        let own = chosen[group[0]].candidate.effect.kind;
+        let others = REGISTRY.iter().filter(|kind| **kind != own);
+        for &kind in others.filter(|kind| kind.definition().parameters.len() == 1) {
+            let set = |bounded| view.set_of(world, (chosen, &keep), kind, bounded);
+            let (Some((members, free)), Some((_, real))) = (set(false), set(true)) else {
+                continue;
+            };
+            let part = free.gain / loss.max(1e-12);
+            if part < PART || 2.0 * real.gain > free.gain {
+                continue;
+            }
+            let list = &world.candidates.list;
+            let values = members.iter().zip(&free.values);
+            let beyond =
+                values.filter(|(i, value)| list[**i].least[0].is_some_and(|least| **value < least));
+            let effects = beyond.map(|(i, value)| {
+                let mut effect = list[*i].effect.clone();
+                let number = list[*i].sought[0];
+                let parameter = &effect.definition().parameters[number];
+                effect.parameters[number] += value * parameter.prior_sigma * parameter.unit.in_si();
+                effect
+            });
+            all.push(Impossible {
+                instead_of: group.clone(),
+                effects: effects.collect(),
+                part,
+            });
+        }
+    }
+    // of one kind what would stand for most
+    all.sort_by(|a, b| b.instead_of.len().cmp(&a.instead_of.len()));
+    let mut told: Vec<Kind> = Vec::new();
+    all.retain(|i| {
+        let kind = i.effects.first().map(|e| e.kind);
+        let is_new = kind.is_some_and(|kind| !told.contains(&kind));
+        told.extend(kind);
+        is_new
+    });
+    all
 }
 
 /// What competes with groups of the effects found, the nearest first. Where the verdict is sure only what explains nearly

@@ -21,8 +21,9 @@ use crate::model::{Conditions, Motion};
 use nalgebra::DMatrix;
 use pulp::Arch;
 
-/// Standard deviations by a chosen set as a part of those by as many random configurations, of parameters that hardly show.
-const CHOSEN_BETTER: f64 = 0.5;
+/// Parameters that random configurations tell too badly are given up only where even this part of their standard deviations
+/// is too much: a chosen set tells more, and what was measured decides in the end.
+const GIVEN_UP: f64 = 0.3;
 /// Configurations that tell which parameters can be determined.
 const SAMPLE: usize = 1000;
 /// Numbers of a pose.
@@ -228,7 +229,7 @@ pub fn plan_telling(
     // standard deviations of as many configurations as are asked for
     let sampled = (sample.rows.len() / each) as f64;
     let planned = (request.count + request.given.len()) as f64;
-    let noise = CHOSEN_BETTER * request.sigma_m / DEFAULT_SIGMA_M * (sampled / planned).sqrt();
+    let noise = GIVEN_UP * request.sigma_m / DEFAULT_SIGMA_M * (sampled / planned).sqrt();
     let known = identifiable(&normal, &problem.parameters, Some(noise));
     let parameters: Vec<Parameter> = known
         .kept

@@ -1,7 +1,7 @@
 //! What a diagnosis found: JSON for programs, sentences for people.
 
 use super::identification::{findings, spread};
-use crate::diagnose::stand_ins::StandIn;
+use crate::diagnose::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{Diagnosis, Found, NoiseSource, Rival, Verdict};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::JOINTS;
@@ -71,18 +71,27 @@ fn rival(r: &Rival, found: &[Found]) -> Value {
     Value::Object(map)
 }
 
+fn whole(e: &Effect) -> Value {
+    let (mut map, parameters) = entry(e);
+    map.insert("parameters".into(), Value::Object(parameters));
+    Value::Object(map)
+}
+
 fn stand_in(s: &StandIn, found: &[Found]) -> Value {
-    let effect = |e: &Effect| {
-        let (mut map, parameters) = entry(e);
-        map.insert("parameters".into(), Value::Object(parameters));
-        Value::Object(map)
-    };
     let labels = s.instead_of.iter().map(|i| found[*i].effect.label());
     json!({
-        "effects": s.effects.iter().map(effect).collect::<Vec<_>>(),
+        "effects": s.effects.iter().map(whole).collect::<Vec<_>>(),
         "instead_of": labels.collect::<Vec<_>>(),
         "chi_squared_fall": finite(s.gain), "part": finite(s.part), "behind": finite(s.behind),
         "left_mm": finite(mm_from_m(s.left_m)),
+    })
+}
+
+fn impossible(i: &Impossible, found: &[Found]) -> Value {
+    let labels = i.instead_of.iter().map(|i| found[*i].effect.label());
+    json!({
+        "effects": i.effects.iter().map(whole).collect::<Vec<_>>(),
+        "instead_of": labels.collect::<Vec<_>>(), "part": finite(i.part),
     })
 }
 
@@ -100,6 +109,7 @@ pub fn diagnosis(d: &Diagnosis, file: &str) -> Value {
             "part": finite(s.part), "p_value": finite(s.p_value),
         })).collect::<Vec<_>>(),
         "alternatives": d.rivals.iter().map(|r| rival(r, &d.found)).collect::<Vec<_>>(),
+        "impossible": d.impossible.iter().map(|i| impossible(i, &d.found)).collect::<Vec<_>>(),
         "alternative_groups": d.stand_ins.iter().map(|s| stand_in(s, &d.found)).collect::<Vec<_>>(),
         "unregistered": d.unknown.iter().map(|u| json!({"function": u.name, "chi_squared_fall": finite(u.gain)})).collect::<Vec<_>>(),
         "telling_poses": d.telling.iter().map(|t| json!({
@@ -269,6 +279,24 @@ pub fn competes(s: &StandIn, d: &Diagnosis) -> String {
         mm_from_m(s.left_m),
         mm_from_m(d.left_m),
         s.behind
+    )
+}
+
+/// What would compete with a group of the effects found if it were possible.
+#[must_use]
+pub fn impossibly(i: &Impossible, d: &Diagnosis) -> String {
+    let values = i.effects.iter().map(|effect| {
+        let definition = effect.definition();
+        let known = definition.parameters.iter().zip(effect.parameters);
+        let numbers = known.map(|(p, x)| format!("{:.1e} {}", x / p.unit.in_si(), p.unit.symbol()));
+        numbers.collect::<Vec<_>>().join(", ")
+    });
+    format!(
+        "{} would explain {:.0} % as much as {}, but only with {}: nothing springs against its load",
+        together(i.effects.iter()),
+        100.0 * i.part,
+        together(i.instead_of.iter().map(|i| &d.found[*i].effect)),
+        values.collect::<Vec<_>>().join(" and ")
     )
 }
 

@@ -2,6 +2,7 @@
 
 mod commands;
 mod physics;
+mod real;
 
 use crate::trial::{GROUPS, Group, case, label};
 use poseshift::diagnose::{Options, Verdict, diagnose};
