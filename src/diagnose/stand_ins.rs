@@ -148,7 +148,7 @@ pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
         }
     }
     // of one kind what would stand for most
-    all.sort_by(|a, b| b.instead_of.len().cmp(&a.instead_of.len()));
+    all.sort_by_key(|i| std::cmp::Reverse(i.instead_of.len()));
     let mut told: Vec<Kind> = Vec::new();
     all.retain(|i| {
         let kind = i.effects.first().map(|e| e.kind);
