@@ -10,7 +10,7 @@ use super::{Answer, Output, files, print, print_json};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Quaternion, norm};
-use crate::identify::sweeps::{doubt, point_on_flange};
+use crate::identify::doubt::sweeps::{doubt, point_on_flange};
 use crate::model::profile::{Mounted, Profile};
 use crate::register::axes::outliers::without_outliers;
 use crate::register::axes::sag::{Arm, Frame, Sag, sag};

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::files;
-use crate::identify::csv_doubts::not_csv;
+use crate::identify::doubt::csv::not_csv;
 use crate::program::Source;
 use std::path::Path;
 

@@ -9,8 +9,8 @@ use super::session::{Session, Trust, for_choice, session};
 use super::table::Column;
 use super::unknown::{Library, Likeness, Unknown, chance, likeness};
 use crate::identify::IdentifyError;
+use crate::identify::doubt::Remark;
 use crate::identify::measurements::Measurements;
-use crate::identify::screening::Remark;
 use crate::model::effects::Effect;
 use crate::model::profile::Profile;
 

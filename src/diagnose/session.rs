@@ -6,15 +6,16 @@ use super::search::{Chosen, World};
 use super::table::{Column, Layout, table};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
+use crate::identify::IdentifyError;
 use crate::identify::calibration::{
     BasePolicy, Options as CalibrationOptions, calibrate, fit_frames,
 };
+use crate::identify::doubt::{Remark, screening};
 use crate::identify::measurements::{Measurements, Purpose};
 use crate::identify::parameters::{Level, Pick, Selection, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::robust::Shape;
 use crate::identify::start::{self, base_gap};
-use crate::identify::{IdentifyError, screening};
 use crate::model::effects::{Effect, Kind, Place};
 use crate::model::profile::{ControllerModel, Profile};
 
@@ -171,7 +172,7 @@ pub fn session(
     measurements: &Measurements,
     trust: Trust,
     leave: &dyn Fn(&Effect) -> bool,
-) -> Result<(Session, Vec<screening::Remark>), IdentifyError> {
+) -> Result<(Session, Vec<Remark>), IdentifyError> {
     let fit = measurements.filtered(|_, row| row.purpose != Some(Purpose::Validate));
     if fit.rows.is_empty() {
         return Err(IdentifyError::NothingToFit);

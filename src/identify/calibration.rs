@@ -1,15 +1,14 @@
 //! The whole identification: screened measurements, a start, a solution, what it is worth.
 
 use super::contact;
+use super::doubt::{Remark, plausibility, screening};
 use super::error::IdentifyError;
 use super::expectation::expected_error_m;
 use super::identifiability::{Observability, observability, singular_values};
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
-use super::plausibility;
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
-use super::screening::{self, Remark};
 use super::solver::{Solution, Stop, absorb_base, solve};
 use super::start::{self, Start, base_gap};
 use super::statistics::{Miss, Quality, misses};

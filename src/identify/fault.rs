@@ -1,6 +1,6 @@
 //! What can be wrong with a file of measurements, and where.
 
-use super::csv_doubts::NotCsv;
+use super::doubt::csv::NotCsv;
 
 /// How far a quaternion's length may be from 1.
 pub(super) const UNIT_TOLERANCE: f64 = 1e-3;

@@ -5,7 +5,7 @@ use crate::geometry::{Pose, Quaternion, Vector};
 use crate::model::Conditions;
 
 use super::contact::{self, Contact, ContactKind};
-use super::csv_doubts::not_csv;
+use super::doubt::csv::not_csv;
 
 pub use super::fault::{MeasurementError, MeasurementFault};
 

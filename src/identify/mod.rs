@@ -1,6 +1,6 @@
 //! From measurements to a robot's parameters, with honest uncertainty.
 //!
-//! The data flow: [`measurements`] are read and doubted ([`screening`]); [`start`] finds the base in closed form;
+//! The data flow: [`measurements`] are read and doubted ([`doubt`], as is what is made of them); [`start`] finds the base in closed form;
 //! [`problem`] makes rows that [`observation`] compares with a model; [`normal`] gathers normal equations in one pass;
 //! [`identifiability`] says which parameters they determine; [`solver`] finds these, [`uncertainty`] and [`statistics`] say
 //! what they are worth. [`calibrate`] is all of it; [`validation`] judges, [`plan`] chooses what to measure,
@@ -25,20 +25,15 @@ pub mod calibration;
 mod candidates;
 pub mod contact;
 mod contact_cells;
-pub mod csv_doubts;
-mod doubts;
+pub mod doubt;
 mod error;
 mod exchange;
 pub mod expectation;
 mod fault;
 mod pairs;
-mod plausibility;
-mod readings;
 mod repeated;
 pub mod route;
-pub mod screening;
 pub mod statistics;
-pub mod sweeps;
 pub mod uncertainty;
 pub mod validation;
 

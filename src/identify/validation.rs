@@ -4,13 +4,13 @@ pub use super::repeated::{Repeated, RepeatedDistance};
 
 use super::calibration::{begin, begin_frames};
 use super::contact;
+use super::doubt::{self, Remark};
 use super::error::IdentifyError;
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::repeated::{repeated, repeated_distances};
 use super::robust::Shape;
-use super::screening::Remark;
 use super::solver::solve;
 use super::start;
 use super::statistics::{Miss, Pairs, Quality, Spread, misses, pairs};
@@ -170,7 +170,7 @@ pub fn validate_telling(
             hint: "with --refit-frames base and points are fitted to these rows first".into(),
         });
     }
-    let mut remarks = super::doubts::before(profile, measurements, refit)?;
+    let mut remarks = doubt::validation::before(profile, measurements, refit)?;
     let controller = controller_profile(profile);
     let at_rest = |profile: &Profile| {
         Problem::new(profile, measurements, &selection, profile.world_from_base)
@@ -224,7 +224,7 @@ pub fn validate_telling(
         Refit::No => judged(&controller_problem.with_rows(is_judged), &nominal),
         Refit::Judged | Refit::Others => frames_only.clone(),
     };
-    remarks.extend(super::doubts::after(
+    remarks.extend(doubt::validation::after(
         &judged_real.quality,
         &frames_only.quality,
         given.then_some(normalised),

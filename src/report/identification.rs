@@ -3,8 +3,8 @@
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::identify::calibration::{Calibration, STRONG_CORRELATION};
+use crate::identify::doubt::Remark;
 use crate::identify::identifiability::Observability;
-use crate::identify::screening::Remark;
 use crate::identify::statistics::{Pairs, Quality, Spread};
 use serde_json::{Value, json};
 

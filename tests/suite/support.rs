@@ -158,3 +158,18 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
         .filter_map(below)
         .collect()
 }
+
+/// Runs the program at the top of the repository: status, standard output, standard error.
+pub fn run(arguments: &[&str]) -> (i32, String, String) {
+    let output = poseshift()
+        .current_dir(repository(""))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+    (
+        output.status.code().expect("it ended"),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}

@@ -1,7 +1,7 @@
 //! `check` and `compensate --max-path-error` from the command line.
 
 use super::joint_move;
-use crate::support::{poseshift, repository, scratch};
+use crate::support::{run, scratch};
 use serde_json::Value;
 use std::path::Path;
 
@@ -21,20 +21,6 @@ const PROGRAM: &str = "MODULE t
   ENDPROC
 ENDMODULE
 ";
-
-fn run(arguments: &[&str]) -> (i32, String, String) {
-    let output = poseshift()
-        .current_dir(repository(""))
-        .args(arguments)
-        .output()
-        .expect("the program starts");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    (
-        output.status.code().expect("it ended"),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
 
 fn json(arguments: &[&str]) -> (i32, Value) {
     let all: Vec<&str> = arguments.iter().copied().chain(["--json"]).collect();

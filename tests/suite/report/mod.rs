@@ -2,27 +2,12 @@
 
 mod trace;
 
-use crate::support::{poseshift, repository, scratch};
+use crate::support::{repository, run, scratch};
 use serde_json::Value;
 use std::path::Path;
 
 const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
 const PROGRAM: &str = "programs/rapid/olp/in/Deburr.mod";
-
-/// Runs the program at the top of the repository: status, standard output, standard error.
-fn run(arguments: &[&str]) -> (i32, String, String) {
-    let output = poseshift()
-        .current_dir(repository(""))
-        .args(arguments)
-        .output()
-        .expect("the program starts");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    (
-        output.status.code().expect("it ended"),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
 
 fn name(path: &Path) -> &str {
     path.to_str().expect("UTF-8")

@@ -1,11 +1,12 @@
 //! Doubts of a validation: measurements that are not of this robot, or not as the file says.
 
-use super::error::IdentifyError;
-use super::measurements::Measurements;
-use super::screening::{Remark, doubt_start, look};
-use super::start;
-use super::statistics::Quality;
-use super::validation::Refit;
+use super::screening::{doubt_start, look};
+use super::{Remark, remark, sigma};
+use crate::identify::error::IdentifyError;
+use crate::identify::measurements::Measurements;
+use crate::identify::start;
+use crate::identify::statistics::Quality;
+use crate::identify::validation::Refit;
 use crate::model::profile::Profile;
 
 /// The real model is worse than the nominal arm with fitted frames by this factor where something was moved.
@@ -14,24 +15,12 @@ const WORSE: f64 = 1.5;
 const SMALL_MM: f64 = 0.1;
 /// Frames that are fitted and still miss by more are not of this robot, mm.
 const HOPELESS_MM: f64 = 20.0;
-/// Residuals in standard deviations between which stated sigmas are believed.
-const BELIEVED: [f64; 2] = [0.3, 3.0];
-
-fn warning(id: &'static str, message: String, hint: &str) -> Remark {
-    Remark {
-        id,
-        warning: true,
-        line: 0,
-        message,
-        hint: hint.into(),
-    }
-}
 
 /// What can be seen before any model is judged, as `calibrate` sees it.
 ///
 /// # Errors
 /// Another reading of the file fits much better.
-pub(super) fn before(
+pub fn before(
     profile: &Profile,
     measurements: &Measurements,
     refit: Refit,
@@ -40,7 +29,7 @@ pub(super) fn before(
         Ok(remarks) => remarks,
         // one pose or one line may be what is to be judged
         Err(IdentifyError::Suspicious { message, hint }) => {
-            vec![warning("little-variety", message, &hint)]
+            vec![remark("little-variety", 0, message, &hint)]
         }
         Err(other) => return Err(other),
     };
@@ -62,7 +51,7 @@ pub(super) fn before(
 }
 
 /// What the errors say.
-pub(super) fn after(
+pub fn after(
     real: &Quality,
     frames: &Quality,
     normalised: Option<f64>,
@@ -74,8 +63,8 @@ pub(super) fn after(
         real.rms > SMALL_MM && real.rms > WORSE * frames.rms && frames.rms < HOPELESS_MM
     });
     if let Some((_, frames)) = missed.filter(|(_, frames)| frames.rms >= HOPELESS_MM) {
-        remarks.push(warning(
-            "poor-fit",
+        remarks.push(remark(
+            "poor-fit", 0,
             format!(
                 "the nominal arm misses by {:.1} mm rms with base and tool fitted to these rows: no arm is that far from its drawing",
                 frames.rms
@@ -101,28 +90,8 @@ pub(super) fn after(
                 "is it the profile of this arm? was the arm repaired or its joints set anew since the calibration?",
             )
         };
-        remarks.push(warning("worse-than-nominal", message, hint));
+        remarks.push(remark("worse-than-nominal", 0, message, hint));
     }
-    if let Some(times) = normalised.filter(|_| moved.is_none()) {
-        let [low, high] = BELIEVED;
-        if times > high {
-            remarks.push(warning(
-                "sigma-small",
-                format!(
-                    "residuals are {times:.1} times the given standard deviations: they are too small by that, or the model misses something"
-                ),
-                "sigma_mm is in mm; `poseshift diagnose` looks for what the model misses",
-            ));
-        } else if times < low {
-            remarks.push(warning(
-                "sigma-large",
-                format!(
-                    "residuals are {times:.3} times the given standard deviations: they are too large by a factor of {:.0}",
-                    1.0 / times.max(1e-9)
-                ),
-                "sigma_mm is in mm, not in micrometres",
-            ));
-        }
-    }
+    remarks.extend(normalised.filter(|_| moved.is_none()).and_then(sigma));
     remarks
 }

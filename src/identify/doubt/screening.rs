@@ -1,12 +1,13 @@
 //! Measurements that contradict the robot, the format or themselves, found before anything is believed.
 
-use super::error::IdentifyError;
-use super::measurements::{Measurements, Observed};
-use super::problem::Problem;
 use super::readings::{Reading, readings};
-use super::start::{self, Start, spreads};
+use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, remark, suspicious};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Vector, dot, norm, sub};
+use crate::identify::error::IdentifyError;
+use crate::identify::measurements::{Measurements, Observed};
+use crate::identify::problem::Problem;
+use crate::identify::start::{self, Start, spreads};
 use crate::model::profile::Profile;
 
 /// A first guess that misses by less is not doubted, metres, if it is also less than [`GOOD_PART`].
@@ -17,8 +18,6 @@ const GOOD_PART: f64 = 0.02;
 const BAD_START_M: f64 = 0.02;
 /// Another reading of the file must miss by less than this part of the spread, and than [`BAD_START_M`].
 const FITS_PART: f64 = 0.1;
-/// And be better by this factor to be suggested; by twice as much where the file as it is may be of an uncalibrated arm.
-pub(super) const BETTER: f64 = 4.0;
 /// Readings that fit as well but for this factor are named as well.
 const AS_WELL: f64 = 1.5;
 /// Orientations further from each other than this are not of one tool, radians.
@@ -31,8 +30,6 @@ const STILL_RAD: f64 = 0.5 * DEG;
 const CONTRADICTED_TOOL_M: f64 = 0.02;
 /// A tool this far from where the profile has it is worth a warning, metres.
 const WRONG_TOOL_M: f64 = 0.005;
-/// The way out where nothing fits.
-pub(super) const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong";
 /// Rows that are enough to try other readings of the file.
 const TRIED_ROWS: usize = 150;
 
@@ -49,38 +46,6 @@ pub fn doubt_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark>
             "give `bodies` and the tool's mass, or --level 2 if the arm is light and stiff",
         )
     })
-}
-
-/// Something about the measurements that a person should look at.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Remark {
-    /// Stable name in kebab-case.
-    pub id: &'static str,
-    /// Whether it is more than a note.
-    pub warning: bool,
-    /// Line of the measurements; 0 is the whole file.
-    pub line: usize,
-    /// What was found, with the evidence.
-    pub message: String,
-    /// The way out; empty where there is none.
-    pub hint: String,
-}
-
-pub(super) fn remark(id: &'static str, line: usize, message: String, hint: &str) -> Remark {
-    Remark {
-        id,
-        warning: true,
-        line,
-        message,
-        hint: hint.into(),
-    }
-}
-
-pub(super) fn suspicious(message: String, hint: &str) -> IdentifyError {
-    IdentifyError::Suspicious {
-        message,
-        hint: hint.into(),
-    }
 }
 
 /// What can be seen without a model: units of angles, joints that stand still, rows that repeat, points on a line.

@@ -1,8 +1,8 @@
 //! Other ways in which a file of measurements may be meant: units, order of columns and rows, signs, zeros.
 
-use super::measurements::{Measurement, Measurements, Observed};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Vector, scale};
+use crate::identify::measurements::{Measurement, Measurements, Observed};
 
 /// Another reading of the file: what it supposes, and the way out.
 pub(super) struct Reading {

@@ -1,14 +1,14 @@
 //! A fit that no calibrated arm has, found before its values are believed.
 
-use super::calibration::Outlier;
-use super::contact::Contact;
-use super::error::IdentifyError;
-use super::measurements::{Measurements, Observed};
-use super::parameters::{FIRST_PHYSICAL, Parameter, Subject};
-use super::problem::{Estimate, Problem};
-use super::screening::{BETTER, NOT_OF_THIS_ROBOT, Remark, remark, suspicious};
-use super::statistics::{Miss, quantile};
+use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, remark, sigma, suspicious};
 use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::identify::calibration::Outlier;
+use crate::identify::contact::Contact;
+use crate::identify::error::IdentifyError;
+use crate::identify::measurements::{Measurements, Observed};
+use crate::identify::parameters::{FIRST_PHYSICAL, Parameter, Subject};
+use crate::identify::problem::{Estimate, Problem};
+use crate::identify::statistics::{Miss, quantile};
 use crate::model::effects::Kind;
 use std::collections::BTreeSet;
 
@@ -26,8 +26,6 @@ const JUDGED: f64 = 0.9;
 const ABSURD: f64 = 100.0;
 /// and beyond this many worth a warning.
 const UNUSUAL: f64 = 20.0;
-/// Residuals beyond this many of their stated standard deviations, or below one over it, are told.
-const SIGMA_FACTOR: f64 = 3.0;
 /// Touches that miss by more than this many are read in other ways.
 const TOUCH_FACTOR: f64 = 5.0;
 /// An expected error elsewhere is told from here on, metres.
@@ -92,7 +90,8 @@ pub fn doubt_fit(
             "look at the outliers, the tool and the masses; `poseshift diagnose` looks for what is missing",
         ));
     }
-    remarks.extend(doubt_sigma(problem, after));
+    let times = times_sigma(after).filter(|_| !problem.sigma_assumed);
+    remarks.extend(times.and_then(sigma));
     Ok(remarks)
 }
 
@@ -176,28 +175,11 @@ pub fn doubt_touches(
     Ok(())
 }
 
-/// Residuals against the stated standard deviations.
-fn doubt_sigma(problem: &Problem, after: &[Miss]) -> Option<Remark> {
-    let times = times_sigma(after)?;
-    if problem.sigma_assumed || (SIGMA_FACTOR.recip()..=SIGMA_FACTOR).contains(&times) {
-        return None;
-    }
-    let hint = if !(0.01..=300.0).contains(&times) {
-        "is sigma_mm in millimetres?"
-    } else if times > 1.0 {
-        "the arm does more than the model knows, or sigma_mm is too small; `poseshift diagnose` looks for what is missing"
-    } else {
-        "is sigma_mm one standard deviation of a coordinate?"
-    };
-    let message = format!("residuals are {times:.3} times the stated standard deviations");
-    Some(remark("sigma-doubtful", 0, message, hint))
-}
-
 /// Doubts that the measurements tell of the arm elsewhere.
 #[must_use]
 pub fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
     let missed = usual(after.iter().map(|miss| miss.length_m))?;
-    let expected = expected_m.filter(|e| *e > FAR_OFF_M && *e > SIGMA_FACTOR * missed)?;
+    let expected = expected_m.filter(|e| *e > FAR_OFF_M && *e > super::SIGMA_FACTOR * missed)?;
     let message = format!(
         "the fitted model misses these rows by {:.3} mm rms, and postures elsewhere within the joint limits by {:.2} mm as it is to be expected",
         mm_from_m(missed),

@@ -1,11 +1,12 @@
 //! Sweeps of single joints that no base and tool of this robot explain.
 
-use super::error::IdentifyError;
-use super::measurements::{Measurement, Measurements, Observed};
-use super::screening::{Remark, doubt_start};
-use super::start;
+use super::screening::doubt_start;
+use super::{Remark, remark};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector, add, norm, scale, sub};
+use crate::identify::error::IdentifyError;
+use crate::identify::measurements::{Measurement, Measurements, Observed};
+use crate::identify::start;
 use crate::model::Conditions;
 use crate::model::profile::Profile;
 use crate::register::axes::relations::relations;
@@ -59,8 +60,8 @@ pub fn doubt(
             other_reading(profile, sweeps, missed_m)?;
         }
         if missed_m > POOR_M {
-            remarks.push(warning(
-                "poor-fit",
+            remarks.push(remark(
+                "poor-fit", 0,
                 format!(
                     "base and tool explain the sweeps to {:.2} mm rms only: few arms are so far from their drawing",
                     mm_from_m(missed_m)
@@ -73,8 +74,8 @@ pub fn doubt(
         let [angle, drawn] = relation.angle_rad;
         let [distance_m, drawn_m] = relation.distance_m;
         if (angle - drawn).abs() > UNLIKE.0 || (distance_m - drawn_m).abs() > UNLIKE.1 {
-            remarks.push(warning(
-                "axes-unlike",
+            remarks.push(remark(
+                "axes-unlike", 0,
                 format!(
                     "axes {} and {} are {:.3} deg and {:.2} mm apart; in the profile {:.3} deg and {:.2} mm",
                     relation.joints[0] + 1,
@@ -95,8 +96,8 @@ pub fn doubt(
         if gap_m > ELSEWHERE_M {
             remarks.push(Remark {
                 warning: false,
-                ..warning(
-                    "tool-elsewhere",
+                ..remark(
+                    "tool-elsewhere", 0,
                     format!(
                         "the measured point is {:.1} mm from where the profile has the tool `{name}`",
                         mm_from_m(gap_m)
@@ -107,16 +108,6 @@ pub fn doubt(
         }
     }
     Ok(remarks)
-}
-
-fn warning(id: &'static str, message: String, hint: &str) -> Remark {
-    Remark {
-        id,
-        warning: true,
-        line: 0,
-        message,
-        hint: hint.into(),
-    }
 }
 
 fn rms(profile: &Profile, sweeps: &[Sweep], base: &Pose, point: Vector) -> f64 {

@@ -1,0 +1,75 @@
+//! Measurements, and what is made of them, that contradict the robot, the format or themselves: never a confident wrong answer.
+//!
+//! [`csv`] looks at the text, [`screening`] at the rows before anything is believed (`readings` are what else a file may mean),
+//! `plausibility` at a fit, `validation` at a profile judged on rows, [`sweeps`] at sweeps of single joints.
+
+pub mod csv;
+pub(super) mod plausibility;
+mod readings;
+pub mod screening;
+pub mod sweeps;
+pub(super) mod validation;
+
+use super::error::IdentifyError;
+
+/// Another reading of a file must be better by this factor to be suggested; by twice as much where the file as it is may be of an uncalibrated arm.
+const BETTER: f64 = 4.0;
+/// The way out where nothing fits.
+const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong";
+/// Residuals beyond this many of their stated standard deviations, or below one over it, are told.
+const SIGMA_FACTOR: f64 = 3.0;
+
+/// Something about the measurements that a person should look at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Remark {
+    /// Stable name in kebab-case.
+    pub id: &'static str,
+    /// Whether it is more than a note.
+    pub warning: bool,
+    /// Line of the measurements; 0 is the whole file.
+    pub line: usize,
+    /// What was found, with the evidence.
+    pub message: String,
+    /// The way out; empty where there is none.
+    pub hint: String,
+}
+
+fn remark(id: &'static str, line: usize, message: String, hint: &str) -> Remark {
+    Remark {
+        id,
+        warning: true,
+        line,
+        message,
+        hint: hint.into(),
+    }
+}
+
+fn suspicious(message: String, hint: &str) -> IdentifyError {
+    IdentifyError::Suspicious {
+        message,
+        hint: hint.into(),
+    }
+}
+
+/// Residuals that are so many times their stated standard deviations.
+fn sigma(times: f64) -> Option<Remark> {
+    if times > SIGMA_FACTOR {
+        let message = format!(
+            "residuals are {times:.1} times the stated standard deviations: they are too small by that, or the model misses something"
+        );
+        let hint = if times > 300.0 {
+            "is sigma_mm in millimetres?"
+        } else {
+            "sigma_mm is one standard deviation of a coordinate; `poseshift diagnose` looks for what the model misses"
+        };
+        return Some(remark("sigma-small", 0, message, hint));
+    }
+    (times < SIGMA_FACTOR.recip()).then(|| {
+        let message = format!(
+            "residuals are {times:.3} times the stated standard deviations: they are too large by a factor of {:.0}",
+            times.max(1e-9).recip()
+        );
+        let hint = "sigma_mm is one standard deviation of a coordinate in mm, not in micrometres";
+        remark("sigma-large", 0, message, hint)
+    })
+}
