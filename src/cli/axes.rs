@@ -117,12 +117,13 @@ impl Axes {
                     backlash_rad: axis.backlash_rad,
                 })
                 .collect();
-            let page = page::page(
+            let mut page = page::page(
                 &drawn,
                 base_pose.as_ref(),
                 tool_pose.as_ref(),
                 &name.to_string(),
             );
+            page.findings(&findings);
             files::write_all(self.report.output(Some(&page)).as_slice())?;
         }
         if output.json {

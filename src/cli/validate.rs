@@ -79,7 +79,8 @@ impl Validate {
         let mut findings = seen_before(&profile, &found, &hashes, &name);
         findings.extend(identification::findings(&found.remarks, &name));
         if self.report.is_wanted() {
-            let page = validate_page(&found, &profile, &name);
+            let mut page = validate_page(&found, &profile, &name);
+            page.findings(&findings);
             let page = self.report.output(Some(&page));
             files::write_all(page.as_slice())?;
         }

@@ -369,7 +369,7 @@ impl Chooser<'_> {
             .map(|(_, i)| i)
     }
 
-    /// One start: a random set, improved by exchanges until none raises the determinant.
+    /// One start: a random set, improved until the candidate that tells most beside it is worth no exchange.
     pub fn run(&self, count: usize, random: &mut Random) -> (f64, Vec<usize>, usize) {
         let total = self.jacobians.len();
         let mut used = vec![false; total];
@@ -381,6 +381,15 @@ impl Chooser<'_> {
                 set.push(i);
             }
         }
+        self.improve(set, 1)
+    }
+
+    /// A set improved by exchanges until none of the `tried` candidates that tell most beside it is worth one: the logarithm
+    /// of its determinant, the set, and how many exchanges.
+    pub fn improve(&self, mut set: Vec<usize>, tried: usize) -> (f64, Vec<usize>, usize) {
+        let total = self.jacobians.len();
+        let mut used = vec![false; total];
+        set.iter().for_each(|i| used[*i] = true);
         let mut information = self.information(&set);
         let mut best = Self::log_determinant(&information);
         let mut exchanges = 0;
@@ -408,34 +417,35 @@ impl Chooser<'_> {
                 grams: &grams,
                 out: &mut ratios,
             });
-            let free = (0..total).filter(|i| !used[*i]);
-            let Some(entering) = free.max_by(|a, b| ratios[*a].total_cmp(&ratios[*b])) else {
+            let mut made = None;
+            for entering in largest(&ratios, &used, tried) {
+                if self
+                    .change(&mut inverse, &mut grams, entering, 1.0)
+                    .is_none()
+                {
+                    break;
+                }
+                let inside = set.iter().copied().chain([entering]);
+                let leaving = self.least_missed(&grams, inside).expect("one entered");
+                // the decision in double precision
+                let mut next = information.clone();
+                let (new, old) = (&self.jacobians[entering], &self.jacobians[leaving]);
+                next.gemm_tr(1.0, new, new, 1.0);
+                next.gemm_tr(-1.0, old, old, 1.0);
+                let now = Self::log_determinant(&next);
+                let is_worth = leaving != entering && (now - best).exp() >= WORTH;
+                let out = if is_worth { leaving } else { entering };
+                if self.change(&mut inverse, &mut grams, out, -1.0).is_none() {
+                    break;
+                }
+                if is_worth {
+                    made = Some((entering, leaving, next, now));
+                    break;
+                }
+            }
+            let Some((entering, leaving, next, now)) = made else {
                 break;
             };
-            if self
-                .change(&mut inverse, &mut grams, entering, 1.0)
-                .is_none()
-            {
-                break;
-            }
-            let inside = set.iter().copied().chain([entering]);
-            let leaving = self.least_missed(&grams, inside).expect("one entered");
-            if leaving == entering
-                || self
-                    .change(&mut inverse, &mut grams, leaving, -1.0)
-                    .is_none()
-            {
-                break;
-            }
-            // the decision in double precision
-            let mut next = information.clone();
-            let (new, old) = (&self.jacobians[entering], &self.jacobians[leaving]);
-            next.gemm_tr(1.0, new, new, 1.0);
-            next.gemm_tr(-1.0, old, old, 1.0);
-            let now = Self::log_determinant(&next);
-            if !now.is_finite() || (now - best).exp() < WORTH {
-                break;
-            }
             (used[leaving], used[entering]) = (false, true);
             set.retain(|i| *i != leaving);
             set.push(entering);
@@ -445,6 +455,19 @@ impl Chooser<'_> {
         }
         (best, set, exchanges)
     }
+}
+
+/// The candidates with the largest ratios that are not used, largest first.
+fn largest(ratios: &[f32], used: &[bool], count: usize) -> Vec<usize> {
+    let mut found: Vec<usize> = Vec::with_capacity(count + 1);
+    for i in (0..used.len()).filter(|i| !used[*i]) {
+        if found.len() < count || ratios[i] > ratios[found[count - 1]] {
+            let at = found.partition_point(|other| ratios[*other] >= ratios[i]);
+            found.insert(at, i);
+            found.truncate(count);
+        }
+    }
+    found
 }
 
 #[cfg(test)]

@@ -24,6 +24,8 @@ use pulp::Arch;
 /// Parameters that random configurations tell too badly are given up only where even this part of their standard deviations
 /// is too much: a chosen set tells more, and what was measured decides in the end.
 const GIVEN_UP: f64 = 0.3;
+/// Candidates that the best of several starts is tried to be improved with.
+const TRIED: usize = 40;
 /// Configurations that tell which parameters can be determined.
 const SAMPLE: usize = 1000;
 /// Numbers of a pose.
@@ -282,7 +284,13 @@ pub fn plan_telling(
             best = Some(found);
         }
     }
-    let (_, mut chosen, exchanges) = best.expect("at least one start");
+    let (_, mut chosen, mut exchanges) = best.expect("at least one start");
+    if starts > 1 {
+        // the best of them once more, with more candidates
+        let more;
+        (_, chosen, more) = chooser.improve(chosen, TRIED);
+        exchanges += more;
+    }
     chosen.sort_unstable();
     let information = chooser.information(&chosen);
     let Some(factor) = information.clone().cholesky() else {

@@ -109,6 +109,9 @@ fn rows_that_the_profile_was_calibrated_with_are_told() {
     assert_eq!(status, Some(0), "{told}");
     let (_, report, _) = validate(at, "c.yaml", "");
     assert_eq!(ids(&report), ["seen-before"]);
+    validate(at, "c.yaml", " --report page.html");
+    let page = std::fs::read_to_string(at.join("page.html")).expect("a page");
+    assert!(page.contains("seen-before"));
     // others are news
     change(at, &["x_mm"], |x| x + 0.001);
     let (_, report, _) = validate(at, "c.yaml", "");

@@ -2,7 +2,7 @@
 
 use super::{Judged, Rows, robot_lead, show_rows, summary};
 use crate::identify::statistics::Quality;
-use crate::identify::validation::Validation;
+use crate::identify::validation::{Refit, Validation};
 use crate::model::profile::Profile;
 use crate::report::html::numbers::{Column, Table, significant};
 use crate::report::html::page::{Level, Page, Tone};
@@ -41,7 +41,12 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
         ("frames only".to_owned(), &found.frames_only.quality),
         ("real".to_owned(), &found.real.quality),
     ]));
-    let middle = profile.quality.as_ref().and_then(|quality| {
+    // of the frame that the device had then
+    let known = profile
+        .quality
+        .as_ref()
+        .filter(|_| found.refit == Refit::No);
+    let middle = known.and_then(|quality| {
         let numbers = quality["middle_mm"].as_array()?;
         let number = |k: usize| numbers.get(k)?.as_f64();
         Some([number(0)?, number(1)?, number(2)?].map(crate::geometry::units::m_from_mm))
