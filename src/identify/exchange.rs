@@ -389,7 +389,9 @@ impl Chooser<'_> {
     pub fn improve(&self, mut set: Vec<usize>, tried: usize) -> (f64, Vec<usize>, usize) {
         let total = self.jacobians.len();
         let mut used = vec![false; total];
-        set.iter().for_each(|i| used[*i] = true);
+        for i in &set {
+            used[*i] = true;
+        }
         let mut information = self.information(&set);
         let mut best = Self::log_determinant(&information);
         let mut exchanges = 0;
