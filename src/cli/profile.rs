@@ -275,6 +275,20 @@ fn with_sigmas(effect: &str, values: &str, sigmas: &BTreeMap<String, f64>) -> St
     pairs.collect::<Vec<_>>().join("  ")
 }
 
+/// A line in which hashes show their first digits; `--json` has them whole.
+fn with_short_hashes(line: &str) -> String {
+    let short = |word: &str| {
+        let is_hash = word.len() == 64 && word.bytes().all(|b| b.is_ascii_hexdigit());
+        if is_hash {
+            format!("{}\u{2026}", &word[..16])
+        } else {
+            word.to_owned()
+        }
+    };
+    let words: Vec<String> = line.split(' ').map(short).collect();
+    words.join(" ")
+}
+
 fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
     let inverse = Arm::of(&profile.geometry(&Mounted::flange()), &profile.mechanism);
     let inverse = inverse.as_ref().map_or_else(ToString::to_string, |arm| {
@@ -339,7 +353,11 @@ fn show(profile: &Profile, output: Output) -> Result<Answer, Failure> {
     let worth = worth(profile);
     if !worth.is_empty() {
         text += "\ncalibration\n";
-        text.extend(worth.iter().map(|line| format!("  {line}\n")));
+        text.extend(
+            worth
+                .iter()
+                .map(|line| format!("  {}\n", with_short_hashes(line))),
+        );
     }
     if profile.effects.is_empty() {
         text += "\nno calibration: compensation changes nothing\n";

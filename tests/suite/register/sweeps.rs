@@ -98,7 +98,10 @@ fn a_row_on_no_circle_is_left_out_and_named() {
     });
     assert_eq!(status, Some(0), "{told}");
     // the header is line 1
-    assert!(told.contains("s.csv:7: left out"), "{told}");
+    assert!(
+        told.contains("s.csv:7:1: warning[outlier]: left out"),
+        "{told}"
+    );
     assert_eq!(found["findings"][0]["id"], "outlier");
     for key in ["x_mm", "y_mm", "z_mm"] {
         let [a, b] = [&found, &clean].map(|v| v["base"][key].as_f64().expect("a number"));
