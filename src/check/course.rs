@@ -318,21 +318,17 @@ impl Leg<'_> {
                 true,
             ),
             Course::Tool(course) => {
-                let pose = course.pose(s);
-                let near = middle.map(Jet::constant);
-                let signs = self.branch.signs().map(Jet::constant);
-                let solution = self.equipped.arm.solve(&pose, signs, &near);
+                let half_width = 0.5 * (to - from);
+                let arm = &self.equipped.arm;
+                let enclosed =
+                    arm.enclose(&course.pose(s), half_width, self.branch.signs(), middle);
                 let exact = self.equipped.calibrated_controller.is_none();
                 let joints = if exact {
-                    solution.q
+                    enclosed
                 } else {
                     let middle_pose = course.pose(0.5 * (from + to));
-                    let nominal = self
-                        .equipped
-                        .arm
-                        .solve_branch(&middle_pose, self.branch, middle)
-                        .q;
-                    std::array::from_fn(|i| beside(solution.q[i], middle[i] - nominal[i]))
+                    let nominal = arm.solve_branch(&middle_pose, self.branch, middle).q;
+                    std::array::from_fn(|i| beside(enclosed[i], middle[i] - nominal[i]))
                 };
                 (joints, exact)
             }

@@ -82,6 +82,7 @@ impl Portion {
         let shift = task.wanted.separation(&controller_pose);
         (report.fake, report.shift) = (Some(fake), shift);
         self.findings.extend(singularity(job, task, outcome));
+        self.findings.extend(other_posture(job, task, outcome));
         if shift.distance_m < NO_SHIFT.distance_m && shift.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
@@ -400,5 +401,35 @@ fn singularity(job: &Job, task: &Task, outcome: &Outcome) -> Option<Finding> {
         task.target,
         message,
         hint,
+    ))
+}
+
+/// A pose that the controller may reach in another posture than the one it was compensated for.
+fn other_posture(job: &Job, task: &Task, outcome: &Outcome) -> Option<Finding> {
+    let is_pose = job.program.targets[task.target].layout.shape == Shape::Pose;
+    let only = job
+        .equipped(task.tool)
+        .inverse
+        .arm
+        .is_only_posture(&outcome.margins);
+    if !is_pose || only {
+        return None;
+    }
+    let q: Vec<String> = outcome
+        .q
+        .iter()
+        .map(|q| format!("{:.1}", q / DEG))
+        .collect();
+    let message = format!(
+        "{} is near a singularity, where this arm can have another posture on the same branch: joints {} deg are meant",
+        name_of(job, task.target),
+        q.join(", ")
+    );
+    Some(job.at_target(
+        "several-postures",
+        Severity::Warning,
+        task.target,
+        message,
+        "see that the controller stands so, or teach the joints",
     ))
 }

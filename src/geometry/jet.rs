@@ -3,6 +3,9 @@
 use super::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+/// Attempts to enclose an implicit function.
+const INCLUSIONS: usize = 6;
+
 /// All real numbers within `radius` of `middle`. An unbounded set has an infinite radius.
 ///
 /// Rounding of the arithmetic itself, some 1e-15 of the values, is not counted in.
@@ -166,14 +169,72 @@ impl Jet {
         }
     }
 
-    /// Either of two functions: where one goes over into the other there is no derivative to enclose.
-    fn either(self, other: Self) -> Self {
+    /// Anything.
+    fn unknown() -> Self {
         let unbounded = Ball::of(0.0, f64::INFINITY);
         Self {
-            value: self.value.hull(other.value),
+            value: unbounded,
             slope: unbounded,
             bend: unbounded,
         }
+    }
+
+    /// Either of two functions: where one goes over into the other there is no derivative to enclose.
+    fn either(self, other: Self) -> Self {
+        Self {
+            value: self.value.hull(other.value),
+            ..Self::unknown()
+        }
+    }
+
+    /// The same values, as if nothing moved.
+    #[must_use]
+    pub fn at_rest(self) -> Self {
+        Self {
+            value: self.value,
+            ..Self::constant(0.0)
+        }
+    }
+
+    /// The function x(s) that solves x = g(s, x) and is zero, but for `slack`, in the middle of an interval of s that reaches
+    /// `half_width` to either side.
+    ///
+    /// `moving` encloses g over the interval; `resting` does with everything but x at rest, so that its slope is ∂g/∂x where
+    /// that of x is one. Slope and bend are those of the implicit function; they bound how far x comes from zero. Unbounded
+    /// where no such bound is found.
+    #[must_use]
+    pub fn implicit(
+        half_width: f64,
+        slack: f64,
+        moving: impl Fn(Self) -> Self,
+        resting: impl Fn(Self) -> Self,
+    ) -> Self {
+        let with = |value: Ball, slope: Ball| Self {
+            value,
+            slope,
+            bend: Ball::point(0.0),
+        };
+        let (none, one) = (Ball::point(0.0), Ball::point(1.0));
+        let mut ball = Ball::of(0.0, slack);
+        for _ in 0..INCLUSIONS {
+            let by_x = resting(with(ball, one)).slope;
+            if by_x.magnitude() >= 1.0 || !by_x.radius.is_finite() {
+                break;
+            }
+            let divisor = one.minus(by_x).reciprocal();
+            let slope = moving(with(ball, none)).slope.times(divisor);
+            let reach = slope.magnitude() * half_width + slack;
+            if reach <= ball.radius {
+                let bend = moving(with(ball, slope)).bend.times(divisor);
+                return Self {
+                    value: Ball::of(0.0, reach),
+                    slope,
+                    bend,
+                };
+            }
+            ball = Ball::of(0.0, 1.25 * reach);
+        }
+        Self::unknown()
     }
 
     fn reciprocal(self) -> Self {
@@ -342,6 +403,11 @@ impl Scalar for Jet {
     #[inline(always)]
     fn every_below(self, limit: f64) -> bool {
         self.value.high() < limit
+    }
+
+    /// Nothing is known of it without the width of the interval: see [`Jet::implicit`].
+    fn settled(_: impl FnMut(Self) -> Self) -> (Self, Self) {
+        (Self::unknown(), Self::constant(0.0))
     }
 
     fn round(self) -> Self {

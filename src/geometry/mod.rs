@@ -9,6 +9,7 @@ mod lanes;
 mod pose;
 mod rotation;
 mod scalar;
+mod settle;
 mod turn;
 pub mod units;
 

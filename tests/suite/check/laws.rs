@@ -1,6 +1,7 @@
 //! What is promised about everything between samples, against dense sampling by other means.
 
 use super::{THESIS, joint_move, part, profile, rapid, run};
+use crate::support::text;
 use nalgebra::{Isometry3, Point3, Vector3};
 use poseshift::check::Options;
 use poseshift::check::cell::Cell;
@@ -67,9 +68,8 @@ fn isometry(pose: poseshift::geometry::Pose) -> Isometry3<f64> {
     pose.into()
 }
 
-#[test]
-fn no_point_of_a_straight_move_is_farther_off_than_its_bound() {
-    let profile = profile(THESIS);
+/// Straight moves of a profile's arm with its tool `artifact`, against a thousand points of each.
+fn compare_straight_moves(profile: &Profile) {
     let tool = profile.tool("artifact").expect("its tool");
     let conditions = Conditions::default();
     let (real, nominal) = (
@@ -79,7 +79,7 @@ fn no_point_of_a_straight_move_is_farther_off_than_its_bound() {
     let arm = Arm::of(&profile.geometry(&tool), &profile.mechanism).expect("a closed form");
     let (mut state, mut compared) = (7, 0);
     for _ in 0..60 {
-        let a = random_joints(&profile, &mut state, 0.5);
+        let a = random_joints(profile, &mut state, 0.5);
         let b: [f64; 6] = std::array::from_fn(|i| a[i] + 25.0 * (part(&mut state) - 0.5));
         let pose = nominal.forward(&b.map(f64::to_radians), &conditions);
         let t = pose
@@ -96,7 +96,7 @@ fn no_point_of_a_straight_move_is_farther_off_than_its_bound() {
             "    ConfL\\Off;\n    MoveL [[{t}],[{q}],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n"
         );
         let sources = rapid(&(joint_move(a) + &line));
-        let found = run(&profile, None, &sources, None, &Options::default());
+        let found = run(profile, None, &sources, None, &Options::default());
         if found.is_refused() || found.moves.len() < 2 {
             continue;
         }
@@ -129,6 +129,26 @@ fn no_point_of_a_straight_move_is_farther_off_than_its_bound() {
         compared += 1;
     }
     assert!(compared >= 30, "{compared}");
+}
+
+#[test]
+fn no_point_of_a_straight_move_is_farther_off_than_its_bound() {
+    compare_straight_moves(&profile(THESIS));
+}
+
+#[test]
+fn the_same_holds_where_joint_6_is_found_by_iteration() {
+    let effects = "effects:
+    - {effect: link_geometry, link: 2, a_mm: 0.3, alpha_deg: 0.05, theta_deg: -0.12}
+    - {effect: link_geometry, link: 6, alpha_deg: -0.08, a_mm: 0.25}
+";
+    let tool = "tools:
+  artifact: {frame: {x_mm: 20, y_mm: -10, z_mm: 250, rx_deg: 0, ry_deg: 30, rz_deg: 0}}";
+    let nominal = text("robots/yaskawa_ma1400.yaml");
+    let calibrated = nominal
+        .replace("effects: []", effects)
+        .replace("tools: {}", tool);
+    compare_straight_moves(&Profile::from_yaml(&calibrated).expect("a calibrated profile"));
 }
 
 /// Distance of a point from a body of a cell.

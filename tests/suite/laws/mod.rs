@@ -1,3 +1,4 @@
 //! What must hold for every input.
 
 mod inverse;
+mod offset_wrist;

@@ -1,6 +1,6 @@
 //! The nominal inverse in closed form, from the numbers of the chain.
 //!
-//! Both kinds of arm share the shoulder (axis 1 turns the arm's plane) and the planar pair of links; they differ in the
+//! All kinds of arm share the shoulder (axis 1 turns the arm's plane) and the planar pair of links; they differ in the
 //! wrist. Every step is written over [`Scalar`] without branches, so that several targets are solved side by side.
 
 #![allow(
@@ -8,8 +8,12 @@
     reason = "one index runs over several arrays"
 )]
 
+mod offset;
+mod parallel;
+mod spherical;
+
 use super::branch::Branch;
-use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add};
+use crate::geometry::{Jet, Pose, Rotation, Scalar, Turn, Vector, add};
 use crate::model::{Geometry, Link, Mechanism};
 
 /// How far an angle or length of the chain may be from what the closed form needs, radians or metres.
@@ -32,10 +36,10 @@ pub enum Unsupported {
         /// What would do.
         needed: &'static str,
     },
-    /// Neither a spherical wrist nor three parallel axes.
+    /// Neither a spherical wrist, nor one with axis 6 offset from axis 5, nor three parallel axes.
     #[error(
-        "no closed-form inverse: alpha of row 4 is {alpha_4_deg} deg, so axes 2, 3 and 4 are not parallel; and the wrist is \
-         not spherical: {key} of row {row} is {found_mm} mm where 0 is needed"
+        "no closed-form inverse: alpha of row 4 is {alpha_4_deg} deg, so axes 2, 3 and 4 are not parallel; and axes 4 \
+         and 5 do not meet: {key} of row {row} is {found_mm} mm where 0 is needed"
     )]
     Wrist {
         /// α of row 4.
@@ -69,12 +73,14 @@ pub enum Unsupported {
 enum Wrist {
     /// Axes 4, 5 and 6 meet in one point.
     Spherical,
+    /// Axes 4 and 5 meet; axis 6 passes axis 5 at a distance.
+    Offset,
     /// Axes 2, 3 and 4 are parallel.
     Parallel,
 }
 
 /// An arm whose inverse has a closed form: (a) ortho-parallel base and spherical wrist, with shoulder, lateral and elbow
-/// offsets; (b) three parallel axes.
+/// offsets; (b) the same with axis 6 offset from axis 5, closed but for the angle of joint 6; (c) three parallel axes.
 ///
 /// # Source
 /// Derived here from the rows of the chain. The conditions are those of M. Brandstötter, A. Angerer, M. Hofbaur, "An
@@ -106,6 +112,7 @@ pub struct Arm {
     forearm: Turn,
     a5_m: f64,
     d5_m: f64,
+    a6_m: f64,
     /// Sign that turns "in front of the lower arm" into the sine of the elbow.
     elbow_sign: f64,
     /// Sign that turns the controller's joint 5 into the sine of the chain's.
@@ -216,21 +223,27 @@ impl Arm {
         let e6 = right_angle(6, &l[5])?;
         let (sine_4, cosine_4) = l[3].alpha_rad.sin_cos();
         let parallel = straight_angle(&l[3]);
-        let offsets = [("a", 5, l[4].a_m), ("d", 5, l[4].d_m), ("a", 6, l[5].a_m)];
-        let in_the_way = offsets
-            .iter()
-            .find(|(_, _, length)| length.abs() > TOLERANCE);
-        let (wrist, forearm, lateral) = match (in_the_way, parallel) {
+        let is_there = |length: f64| length.abs() > TOLERANCE;
+        let between_4_and_5 = [("a", l[4].a_m), ("d", l[4].d_m)];
+        let apart = between_4_and_5
+            .into_iter()
+            .find(|(_, length)| is_there(*length));
+        let offset = is_there(l[5].a_m);
+        let (wrist, forearm, lateral) = match (apart, parallel) {
             (None, _) => {
                 let forearm = [l[3].a_m, -sine_4 * l[3].d_m];
                 (
-                    Wrist::Spherical,
+                    if offset {
+                        Wrist::Offset
+                    } else {
+                        Wrist::Spherical
+                    },
                     forearm,
                     l[1].d_m + s3 * (l[2].d_m + cosine_4 * l[3].d_m),
                 )
             }
             (Some(_), Some(s4)) => {
-                if l[5].a_m.abs() > TOLERANCE {
+                if offset {
                     return Err(Unsupported::ParallelOffset {
                         row: 6,
                         found_mm: 1e3 * l[5].a_m,
@@ -242,12 +255,12 @@ impl Arm {
                     l[1].d_m + s3 * (l[2].d_m + s4 * l[3].d_m),
                 )
             }
-            (Some(&(key, row, length)), None) => {
+            (Some((key, length)), None) => {
                 let alpha_4_deg = l[3].alpha_rad.to_degrees();
                 return Err(Unsupported::Wrist {
                     alpha_4_deg,
                     key,
-                    row,
+                    row: 5,
                     found_mm: 1e3 * length,
                 });
             }
@@ -291,6 +304,7 @@ impl Arm {
             forearm: Turn::toward(forearm[1], forearm[0]),
             a5_m: l[4].a_m,
             d5_m: l[4].d_m,
+            a6_m: l[5].a_m,
             elbow_sign: -e2 * s3 * l[2].a_m.signum(),
             wrist_sign: sign[4]
                 * if home[4].cos() < -TOLERANCE {
@@ -306,6 +320,7 @@ impl Arm {
     pub fn kind(&self) -> &'static str {
         match self.wrist {
             Wrist::Spherical => "spherical wrist",
+            Wrist::Offset => "offset wrist, joint 6 by iteration",
             Wrist::Parallel => "three parallel axes",
         }
     }
@@ -336,6 +351,26 @@ impl Arm {
         }
     }
 
+    /// Enclosures of the joint angles over an interval of a path, `half_width` to either side of the middle, where the
+    /// controller's joints are `middle`.
+    #[must_use]
+    pub fn enclose(
+        &self,
+        world_from_tool: &Pose<Jet>,
+        half_width: f64,
+        signs: [f64; 3],
+        middle: &[f64; 6],
+    ) -> [Jet; 6] {
+        let (signs, near) = (signs.map(Jet::constant), middle.map(Jet::constant));
+        if self.wrist != Wrist::Offset {
+            return self.solve(world_from_tool, signs, &near).q;
+        }
+        let target = self.last_row(world_from_tool);
+        let (rows, _) = self.enclose_offset(&target, half_width, signs, &near);
+        let angles = self.angles(&self.turns_of(rows), &near);
+        self.mechanism.controller(&angles)
+    }
+
     /// [`Arm::solve`] as far as sines and cosines.
     #[inline(always)]
     pub(super) fn solve_turns<S: Scalar>(
@@ -344,18 +379,32 @@ impl Arm {
         signs: [S; 3],
         near: &[S; 6],
     ) -> Turned<S> {
-        // the frame of the last row without its d, seen from the frame that axis 1 turns
-        let target =
-            self.turning_from_world.cast() * *world_from_tool * self.tool_from_link6.cast();
-        let (mut turns, beyond) = match self.wrist {
+        let target = self.last_row(world_from_tool);
+        let (rows, beyond) = match self.wrist {
             Wrist::Spherical => self.solve_spherical(&target, signs, near),
+            Wrist::Offset => self.solve_offset(&target, signs, near),
             Wrist::Parallel => self.solve_parallel(&target, signs, near),
         };
+        Turned {
+            turns: self.turns_of(rows),
+            beyond,
+        }
+    }
+
+    /// The frame of the last row without its d, seen from the frame that axis 1 turns.
+    #[inline(always)]
+    fn last_row<S: Scalar>(&self, world_from_tool: &Pose<S>) -> Pose<S> {
+        self.turning_from_world.cast() * *world_from_tool * self.tool_from_link6.cast()
+    }
+
+    /// Turns of the mechanical joints with these turns of the rows of the chain.
+    #[inline(always)]
+    fn turns_of<S: Scalar>(&self, mut rows: [Turn<S>; 6]) -> [Turn<S>; 6] {
         for i in 0..6 {
             let home = self.home[i].cast();
-            turns[i] = (turns[i] * home.inverse()).signed(S::constant(self.sign[i]));
+            rows[i] = (rows[i] * home.inverse()).signed(S::constant(self.sign[i]));
         }
-        Turned { turns, beyond }
+        rows
     }
 
     /// Mechanical joint angles of these turns, by whole turns nearest to the controller's angles `near`.
@@ -438,110 +487,6 @@ impl Arm {
         // row 3 turns by the elbow's angle less the direction of the forearm in its frame
         let third = Turn { sine, cosine } * self.forearm.cast().inverse();
         (second, third, beyond)
-    }
-
-    #[inline(always)]
-    fn solve_spherical<S: Scalar>(
-        &self,
-        target: &Pose<S>,
-        [front, before, positive]: [S; 3],
-        near: &[S; 6],
-    ) -> ([Turn<S>; 6], S) {
-        let p = target.translation;
-        let (first, r, beyond_1) = self.shoulder(p, front);
-        let v = S::constant(self.e2) * p[2];
-        let (second, third, beyond_2) = self.planar(r - S::constant(self.a2_m), v, before);
-        // rotation of row 3 seen from the turning frame: Rz(1) · Rx(α2) · Rz(2 ± 3) · Rx(α3)
-        let s3 = S::constant(self.s3);
-        let sum = second * third.signed(s3);
-        let third_from_turning = arm_rotation(first, sum, S::constant(self.e2), s3).transpose();
-        let n = self.link4_from_wrist.cast() * (third_from_turning * target.rotation);
-        let m = &n.0;
-        let (e5, e6) = (S::constant(self.e5), S::constant(self.e6));
-        let side = positive * S::constant(self.wrist_sign);
-        let length = (m[0][2] * m[0][2] + m[1][2] * m[1][2]).sqrt();
-        let fifth = Turn {
-            sine: side * length,
-            cosine: -(e5 * e6) * m[2][2],
-        };
-        let scale = side * e6 / length.max(S::constant(f64::MIN_POSITIVE));
-        let fourth = Turn {
-            sine: scale * m[1][2],
-            cosine: scale * m[0][2],
-        };
-        let fourth = self.unless_aligned(length, fourth, 3, near);
-        // Rz(−4) · n = M · Rz(6): the first row of M, which has the cosine of row 5, and the last, which has its sine
-        let Turn {
-            sine: s4,
-            cosine: c4,
-        } = fourth;
-        let Turn {
-            sine: s5,
-            cosine: c5,
-        } = fifth;
-        let sixth = Turn {
-            sine: -(c5 * (c4 * m[0][1] + s4 * m[1][1]) + e5 * s5 * m[2][1]),
-            cosine: c5 * (c4 * m[0][0] + s4 * m[1][0]) + e5 * s5 * m[2][0],
-        };
-        (
-            [first, second, third, fourth, fifth, sixth],
-            beyond_1 + beyond_2,
-        )
-    }
-
-    #[inline(always)]
-    fn solve_parallel<S: Scalar>(
-        &self,
-        target: &Pose<S>,
-        [front, before, positive]: [S; 3],
-        near: &[S; 6],
-    ) -> ([Turn<S>; 6], S) {
-        let p = target.translation;
-        let (first, r, beyond_1) = self.shoulder(p, front);
-        let (e2, e5, e6) = (
-            S::constant(self.e2),
-            S::constant(self.e5),
-            S::constant(self.e6),
-        );
-        let (s3, s34) = (S::constant(self.s3), S::constant(self.s3 * self.s4));
-        // axis 4 in the last frame: (s5·e5·c6, −s5·e5·s6, −e5·e6·c5)
-        let axis_4 = [s34 * e2 * first.sine, -(s34 * e2 * first.cosine), S::zero()];
-        let m = target.rotation.transpose() * axis_4;
-        let side = positive * S::constant(self.wrist_sign);
-        let length = (m[0] * m[0] + m[1] * m[1]).sqrt();
-        let fifth = Turn {
-            sine: side * length,
-            cosine: -(e5 * e6) * m[2],
-        };
-        let scale = side * e5 / length.max(S::constant(f64::MIN_POSITIVE));
-        let sixth = Turn {
-            sine: -(scale * m[1]),
-            cosine: scale * m[0],
-        };
-        let sixth = self.unless_aligned(length, sixth, 5, near);
-        let Turn { sine, cosine } = fifth;
-        let wrist = Pose::from_rotation(Rotation([
-            [cosine, S::zero(), e6 * sine],
-            [S::zero(), -(e5 * e6), S::zero()],
-            [e5 * sine, S::zero(), -(e5 * e6) * cosine],
-        ]))
-        .turned(sixth)
-        .rotation;
-        let fourth_in_turning = target.rotation * wrist.transpose();
-        // into the plane: Rx(−α2) · Rz(−1)
-        let turned =
-            arm_rotation(first, Turn::none(), e2, S::one()).transpose() * fourth_in_turning;
-        let k = &turned.0;
-        let sum = Turn::toward(k[1][0], k[0][0]);
-        let (a5, d5) = (S::constant(self.a5_m), S::constant(self.d5_m));
-        let end = turned * [a5, -(d5 * e5), S::zero()];
-        let [u, v] = [r - S::constant(self.a2_m) - end[0], e2 * p[2] - end[1]];
-        let (second, third, beyond_2) = self.planar(u, v, before);
-        let fourth = (sum * (second * third.signed(s3)).inverse()).signed(s34);
-        (
-            [first, second, third, fourth, fifth, sixth],
-            beyond_1 + beyond_2,
-        )
     }
 
     /// A pose moved across axis 1 by `radius_m` in the direction `angle_rad` about it.
