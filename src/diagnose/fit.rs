@@ -40,7 +40,7 @@ pub struct Fit {
     /// One for each of the basis: those of S, then ones.
     pub(super) shares: Vec<f64>,
     /// Which of the columns stands behind each of the basis.
-    kept: Vec<usize>,
+    pub(super) kept: Vec<usize>,
     /// How many of the basis belong to Q.
     base: usize,
     /// Triangle: `triangle[j]` are the parts of column `kept[j]` along the basis up to j.

@@ -171,6 +171,25 @@ fn profile_base(profile: &Profile) -> Pose {
     })
 }
 
+/// Which columns do not do what those before them do. The others are left out for good: beside an effect found later, a last
+/// link that bends, they would be told apart by next to nothing and run away together.
+fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> Vec<usize> {
+    let mut kept = Plain::of(layout, used, residual, held, LEAST).kept();
+    kept.sort_unstable();
+    kept
+}
+
+/// Columns that are held, and how freely.
+fn held_of<'a>(columns: &'a [Column], shares: &[f64]) -> Vec<Held<'a>> {
+    let both = columns.iter().zip(shares);
+    both.map(|(column, share)| Held {
+        column,
+        share: *share,
+        sought: false,
+    })
+    .collect()
+}
+
 /// Prepares a session.
 ///
 /// # Errors
@@ -196,7 +215,8 @@ pub fn session(
         .map_or(profile.world_from_base, |g| g.world_from_base);
     let (far, turned) = base_gap(&profile_base(profile), &base);
     let elsewhere = far > SAME_PLACE_M || turned > SAME_TURN_RAD;
-    let (problem, own) = Problem::new(profile, measurements, &selection, profile.world_from_base)?;
+    let (mut problem, own) =
+        Problem::new(profile, measurements, &selection, profile.world_from_base)?;
     let layout = Layout::of(&problem);
     let used = fit.rows.len();
     let numbers: usize = (0..layout.rows())
@@ -263,17 +283,25 @@ pub fn session(
         Subject::Point { .. } | Subject::Feature { .. } => true,
         Subject::Effect(slot) => elsewhere && estimate.effects[slot.effect].kind == Kind::BaseFrame,
     };
-    let shares = problem
+    let shares: Vec<f64> = problem
         .parameters
         .iter()
         .map(|p| if free(p.subject) { 1.0 } else { share })
         .collect();
     let (residual, columns) = table(&problem, &estimate, &problem.parameters);
+    let used = for_choice(measurements);
+    let kept = distinct(&layout, &residual, &held_of(&columns, &shares), &used);
+    let columns: Vec<Column> = kept.iter().map(|i| columns[*i].clone()).collect();
+    let shares: Vec<f64> = kept.iter().map(|i| shares[*i]).collect();
+    problem.parameters = kept
+        .iter()
+        .map(|i| problem.parameters[*i].clone())
+        .collect();
     let (present, _) = table(&problem, &present_estimate, &[]);
     let tried = Tried::of(&problem, &estimate);
     let candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
     let repeats = if problem.sigma_assumed {
-        of_repeats(&problem, &layout, &residual, &for_choice(measurements))
+        of_repeats(&problem, &layout, &residual, &used)
     } else {
         None
     };
@@ -301,14 +329,7 @@ impl Session {
     #[must_use]
     pub fn world<'a>(&'a self, used: &'a [bool], accepted: &'a [Pick]) -> World<'a> {
         let layout = &self.layout;
-        let held = self.columns.iter().zip(&self.shares);
-        let held: Vec<Held> = held
-            .map(|(column, share)| Held {
-                column,
-                share: *share,
-                sought: false,
-            })
-            .collect();
+        let held = held_of(&self.columns, &self.shares);
         let in_use = (0..layout.rows()).filter(|row| used[*row]);
         let numbers: usize = in_use.map(|row| layout.row(row).len()).sum();
         World {

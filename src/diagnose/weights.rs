@@ -86,6 +86,12 @@ impl Plain {
         }
     }
 
+    /// Indices of the columns that are not redundant beside those before them.
+    #[must_use]
+    pub fn kept(&self) -> Vec<usize> {
+        self.fit.kept.clone()
+    }
+
     /// L. Where the weights take a column away it is infinite on the diagonal.
     fn lower(&self, less: &[(usize, f64)]) -> Vec<Vec<f64>> {
         let count = self.fit.basis.len();

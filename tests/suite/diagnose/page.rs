@@ -46,8 +46,6 @@ fn the_page_shows_what_cannot_be_and_rows_that_decide_alone() {
         hidden,
         "--count",
         "80",
-        "--starts",
-        "1",
         "-o",
         name(&joints),
     ]);
