@@ -213,7 +213,9 @@ fn main() {
             (first..first + count).into_par_iter().map(one).collect()
         };
         if is_given("--cases") {
-            all.iter().for_each(|told| print_case(group, told));
+            for told in &all {
+                print_case(group, told);
+            }
         }
         let right = all.iter().filter(|t| t.right(group)).count();
         let part = right as f64 / all.len() as f64;

@@ -13,7 +13,9 @@ pub(super) fn show(page: &mut Page, found: &Diagnosis) {
     let all = [
         spots, rivals, groups, impossible, untested, outliers, followed,
     ];
-    all.iter().for_each(|list| list(page, found));
+    for list in all {
+        list(page, found);
+    }
 }
 
 fn labels(found: &Diagnosis, which: &[usize]) -> String {
