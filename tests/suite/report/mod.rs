@@ -9,12 +9,12 @@ use std::path::Path;
 const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
 const PROGRAM: &str = "programs/rapid/olp/in/Deburr.mod";
 
-fn name(path: &Path) -> &str {
+pub fn name(path: &Path) -> &str {
     path.to_str().expect("UTF-8")
 }
 
 /// The data of a page.
-fn data(page: &Path) -> Value {
+pub fn data(page: &Path) -> Value {
     let html = std::fs::read_to_string(page).expect("a page");
     let (_, rest) = html
         .split_once(r#"<script type="application/json" id="data">"#)
@@ -24,7 +24,7 @@ fn data(page: &Path) -> Value {
 }
 
 /// A column of a table of a page by heading.
-fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Value> {
+pub fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Value> {
     let columns = data["tables"][table]["columns"].as_array().expect(table);
     let found = columns
         .iter()
@@ -42,7 +42,7 @@ fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Val
 }
 
 /// Each number of a page is one of the report rounded to so many digits.
-fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
+pub fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
     assert_eq!(shown.len(), told.len(), "{what}");
     assert!(!shown.is_empty(), "{what}");
     for (shown, told) in shown.iter().zip(told) {
@@ -55,7 +55,7 @@ fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
     }
 }
 
-fn each(list: &Value, key: &str) -> Vec<Value> {
+pub fn each(list: &Value, key: &str) -> Vec<Value> {
     let list = list.as_array().expect("a list").iter();
     list.map(|one| one[key].clone()).collect()
 }
