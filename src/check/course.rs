@@ -14,6 +14,8 @@ use crate::model::{Conditions, Model};
 const SMALL: f64 = 1e-9;
 /// An interval shorter than this whose bounds are not finite is not halved again.
 const SHORTEST: f64 = 1.0 / 512.0;
+/// What the search for joints leaves, radians.
+const SLACK_RAD: f64 = 1e-8;
 
 /// How a straight or circular move turns the tool on its way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -265,6 +267,15 @@ pub(crate) struct Piece {
     pub certified: bool,
 }
 
+impl Piece {
+    /// Whether these joints lie within the bounds: with those of both ends in one piece the way between them has no leap.
+    pub fn holds(&self, joints: &[f64; 6]) -> bool {
+        let within =
+            |(jet, q): (&Jet, &f64)| (q - jet.value.middle).abs() <= jet.value.radius + SLACK_RAD;
+        self.joints.iter().zip(joints).all(within)
+    }
+}
+
 impl Leg<'_> {
     /// The controller's joints at `s`, by whole turns nearest to `near`.
     pub fn joints(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
@@ -356,14 +367,17 @@ impl Leg<'_> {
 
     fn split(&self, from: f64, to: f64, near: &mut [f64; 6], out: &mut Vec<Piece>) {
         let middle = self.joints(0.5 * (from + to), near);
-        let piece = self.enclose(from, to, &middle);
+        let mut piece = self.enclose(from, to, &middle);
+        let end = self.joints(to, &middle);
+        piece.certified &= piece.holds(near) && piece.holds(&end);
         let long = to - from;
         let steady = piece.joints.iter().all(|joint| {
             let change = joint.bend.magnitude() * long;
             change <= 0.5 * joint.slope.magnitude() + 0.2 && joint.slope.magnitude() * long < 1.0
         });
-        if steady || long <= SHORTEST {
-            *near = self.joints(to, &middle);
+        let exact = self.equipped.calibrated_controller.is_none();
+        if (steady && (piece.certified || !exact)) || long <= SHORTEST {
+            *near = end;
             out.push(piece);
         } else {
             let half = 0.5 * (from + to);

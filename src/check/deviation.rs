@@ -178,7 +178,10 @@ pub(crate) fn path_error(
             a.turned.max(b.turned).max(middle.turned) + turn,
         );
         let close = |bound: f64, low: f64, slack: f64| bound <= low + slack.max(CLOSE_PART * low);
-        if close(bound.0, low.0, CLOSE_M) && close(bound.1, low.1, CLOSE_RAD) {
+        let is_whole =
+            !enclosed.certified || (enclosed.holds(&a.joints) && enclosed.holds(&b.joints));
+        let is_close = close(bound.0, low.0, CLOSE_M) && close(bound.1, low.1, CLOSE_RAD);
+        if is_close && is_whole {
             high = (high.0.max(bound.0), high.1.max(bound.1));
         } else if depth < DEEPEST {
             for (a, b) in [(a, middle), (middle, b)] {
@@ -188,10 +191,10 @@ pub(crate) fn path_error(
                     depth: depth + 1,
                 });
             }
-        } else if bound.0.is_finite() && bound.1.is_finite() {
+        } else if is_whole && bound.0.is_finite() && bound.1.is_finite() {
             high = (high.0.max(bound.0), high.1.max(bound.1));
         } else {
-            // at a singularity nothing bounds the joints' rates: what is between the samples is unknown
+            // it leaps from one posture to another, or at a singularity nothing bounds the joints' rates: what is between the samples is unknown
             found.certified = false;
         }
     }

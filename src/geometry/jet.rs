@@ -332,6 +332,7 @@ impl Scalar for Jet {
             self.value.high().max(0.0).sqrt(),
         );
         let value = Ball::between(low, high);
+        let value = Ball::of(value.middle, value.radius);
         let inverse = value.reciprocal();
         let cube = inverse.times(inverse).times(inverse);
         self.chain(value, inverse.by(0.5), cube.by(-0.25))

@@ -119,7 +119,18 @@ fn compare_straight_moves(profile: &Profile) {
                 between.translation.vector.into(),
                 poseshift::geometry::Quaternion([q.w, q.i, q.j, q.k]),
             );
-            near = arm.solve_branch(&pose, branch, &near).q;
+            let next = arm.solve_branch(&pose, branch, &near);
+            assert_eq!(next.beyond, 0.0, "{path:?}");
+            let leap = (0..6)
+                .map(|i| (next.q[i] - near[i]).abs())
+                .fold(0.0, f64::max);
+            assert!(
+                k == 0 || leap < 0.3,
+                "{s} {:?} {near:?} {:?}",
+                next.q,
+                arm.posture(&near).1
+            );
+            near = next.q;
             let landed = real.forward(&near, &conditions);
             far =
                 far.max((isometry(landed).translation.vector - between.translation.vector).norm());

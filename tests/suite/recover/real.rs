@@ -101,9 +101,10 @@ fn assert_within(set: &str, found: [f64; 3], limits: [f64; 3]) {
 
 #[test]
 fn three_quarters_fitted_or_a_half_leave_the_means_aimed_at() {
-    let all_but_every_fourth = |number: usize| number % 4 != 0;
-    let every_second = |number: usize| number % 2 == 0;
-    let splits: [(&str, &str, fn(usize) -> bool, [f64; 3]); 3] = [
+    let all_but_every_fourth = |number: usize| !number.is_multiple_of(4);
+    let every_second = |number: usize| number.is_multiple_of(2);
+    type Split = (&'static str, &'static str, fn(usize) -> bool, [f64; 3]);
+    let splits: [Split; 3] = [
         (
             "irb120_faro",
             "fit.csv",
