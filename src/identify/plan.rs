@@ -85,7 +85,7 @@ fn imagined(
     poses: bool,
 ) -> Result<(Problem, Estimate), IdentifyError> {
     let row = |q: &[f64; 6], point: Option<&String>| Measurement {
-        line: 0,
+        line: 0.into(),
         id: String::new(),
         q: *q,
         observed: if poses {

@@ -560,7 +560,7 @@ fn show_lists(page: &mut Page, found: &Diagnosis) {
         let list = &found.outliers;
         let table = Table {
             columns: vec![
-                Column::counts("line", list.iter().map(|o| o.line)),
+                Column::counts("line", list.iter().map(|o| o.line.number)),
                 Column::texts("id", list.iter().map(|o| o.id.clone())),
                 Column::numbers(
                     "residual",

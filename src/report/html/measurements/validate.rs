@@ -103,7 +103,7 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
         let list = &found.repeated;
         let table = Table {
             columns: vec![
-                Column::counts("line", list.iter().map(|r| r.line)),
+                Column::counts("line", list.iter().map(|r| r.line.number)),
                 Column::counts("count", list.iter().map(|r| r.count)),
                 Column::numbers(
                     "AP",
