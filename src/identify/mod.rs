@@ -30,6 +30,7 @@ mod error;
 mod exchange;
 pub mod expectation;
 mod fault;
+mod imagined;
 mod line;
 mod pairs;
 mod repeated;
