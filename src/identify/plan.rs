@@ -81,8 +81,7 @@ pub fn plan(
     plan_telling(profile, tool, selection, request, &|_| true, &mut |_, _| ())
 }
 
-/// As [`plan`]; configurations that are not `admitted`, as they are or where they are approached from, are not drawn; `tell`
-/// hears how many of how many starts are done.
+/// As [`plan`]; configurations that are not `admitted`, with the way from where they are approached, are not drawn; `tell` hears how many of how many starts are done.
 ///
 /// # Errors
 /// As [`plan`].
@@ -95,7 +94,7 @@ pub fn plan_telling(
     tool: &Mounted,
     selection: &Selection,
     request: &Request,
-    admitted: &dyn Fn(&[f64; 6]) -> bool,
+    admitted: &(dyn Fn(&[f64; 6]) -> bool + Sync),
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Plan, IdentifyError> {
     let (pool, admitted) = candidates_where(
@@ -153,24 +152,25 @@ pub fn plan_telling(
     };
     let mut random = Random::new(request.seed ^ 0x5eed);
     let starts = request.starts.max(1);
-    let drawn: Vec<Vec<usize>> = (0..starts)
-        .map(|_| chooser.draw(request.count, &mut random))
-        .collect();
-    let mut found: Vec<Improved> = Vec::with_capacity(starts);
-    for some in drawn.chunks(rayon::current_num_threads()) {
-        tell(found.len(), starts);
-        found.par_extend(
-            some.par_iter()
-                .map(|set| chooser.improve(set.clone(), TRIED)),
-        );
+    let mut starts_o1 = Vec::new();
+    let mut best: Option<Improved> = None;
+    while starts_o1.len() < starts {
+        tell(starts_o1.len(), starts);
+        let side_by_side = rayon::current_num_threads().min(starts - starts_o1.len());
+        let drawn: Vec<Vec<usize>> = (0..side_by_side)
+            .map(|_| chooser.draw(request.count, &mut random))
+            .collect();
+        let improve = |set| chooser.improve(set, TRIED);
+        let improved: Vec<Improved> = drawn.into_par_iter().map(improve).collect();
+        for found in improved {
+            starts_o1.push(o1(found.log_determinant));
+            let least = best.as_ref().map(|best| best.log_determinant);
+            if least.is_none_or(|least| found.log_determinant > least) {
+                best = Some(found);
+            }
+        }
     }
-    let starts_o1: Vec<f64> = found.iter().map(|f| o1(f.log_determinant)).collect();
-    // of equals the first
-    let best = found
-        .into_iter()
-        .rev()
-        .max_by(|a, b| a.log_determinant.total_cmp(&b.log_determinant))
-        .expect("at least one start");
+    let best = best.expect("at least one start");
     let (mut chosen, mut exchanges) = (best.set, best.exchanges);
     // the best of them once more, with more candidates
     let more = chooser.improve(chosen, SHORTLIST);

@@ -36,6 +36,9 @@ const STILL_RAD: f64 = 0.5 * DEG;
 const CONTRADICTED_TOOL_M: f64 = 0.02;
 /// A tool this far from where the profile has it is worth a warning, metres.
 const WRONG_TOOL_M: f64 = 0.005;
+/// The way out of poses that are alike.
+const VARIETY: &str =
+    "measure configurations over the whole workspace: `poseshift plan` chooses them";
 /// Points that are less apart are in one place, metres.
 const ONE_PLACE_M: f64 = 1e-6;
 /// Points that are no farther than this from the middle of all are not doubted for it, metres.
@@ -74,6 +77,12 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
         high - low
     };
     let still: Vec<usize> = (0..6).filter(|i| range(*i) < STILL_RAD).collect();
+    if rows.len() == 1 {
+        return Err(suspicious(
+            "there is one row: nothing of the arm follows from one pose".into(),
+            VARIETY,
+        ));
+    }
     if still.len() == 6 {
         let most = (0..6).map(range).fold(0.0, f64::max) / DEG;
         return Err(suspicious(
@@ -83,7 +92,7 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
                 STILL_RAD / DEG,
                 duplicates(rows).map_or_else(String::new, |copies| format!("; {}", copies.message))
             ),
-            "measure configurations over the whole workspace: `poseshift plan` chooses them",
+            VARIETY,
         ));
     }
     for joint in &still {
@@ -146,7 +155,7 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
                     mm_from_m(long),
                     mm_from_m(wide)
                 ),
-                "measure configurations over the whole workspace: `poseshift plan` chooses them",
+                VARIETY,
             ));
         }
     }
