@@ -1,6 +1,10 @@
 //! How often `diagnose` names what is hidden in a robot: seeded cases, diagnosed without the answer.
 //!
-//! `cargo run --release --example blind_trial -- [--only GROUP] [--count N] [--seed K] [--rows N] [--list]`
+//! `cargo run --release --example blind_trial -- [--only GROUP] [--first N] [--count N] [--seed K] [--rows N] [--list] [--cases]
+//! [--oracle] [--in-turn]`
+//!
+//! `--oracle` also fits the effects that are hidden, known by name, and says what they reach on rows not used: no method does
+//! better but by chance. `--in-turn` runs one case after another, so that their times are those of one diagnosis on all cores.
 
 #[path = "../tests/physics/mod.rs"]
 #[allow(dead_code)]
@@ -9,11 +13,14 @@ mod physics;
 #[allow(dead_code)]
 mod trial;
 
-use poseshift::diagnose::{Options, Verdict, diagnose};
+use poseshift::diagnose::candidates::MOST_ORDERS;
+use poseshift::diagnose::{Diagnosis, Options, Verdict, diagnose};
+use poseshift::identify::parameters::Pick;
+use poseshift::model::effects::{Effect, Place, REGISTRY};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
-use trial::{GROUPS, Group, NOISE_MM, case, label};
+use trial::{Case, GROUPS, Group, NOISE_MM, case, label};
 
 struct Told {
     what: String,
@@ -25,6 +32,8 @@ struct Told {
     reason: String,
     /// Held-out rms after, over that of the noise; of rough data what 95 % of the rows stay below.
     floor: Option<f64>,
+    /// The same with the effects that are hidden and no others.
+    oracle: Option<f64>,
     seconds: f64,
     number: usize,
 }
@@ -47,21 +56,91 @@ fn percentile_95(sizes: &[f64]) -> f64 {
     sorted[sorted.len() * 95 / 100]
 }
 
-fn run(group: &Group, number: usize, seed: u64, rows: usize) -> Told {
+/// Number of an effect's place, from 1, as in [`Pick`].
+fn number_of(effect: &Effect, place: Place) -> Option<u32> {
+    let counted = |index: usize| u32::try_from(index + 1).ok();
+    match place {
+        Place::Link | Place::Joint | Place::JointOrBase => counted(effect.site.index),
+        Place::On => counted(effect.site.on),
+        Place::Order => Some(effect.site.order),
+        Place::Row | Place::Tool => None,
+    }
+}
+
+/// Options that leave no choice but these effects.
+fn only(effects: &[Effect]) -> Options {
+    let mut options = Options::default();
+    let all = |kind| Pick {
+        kind: Some(kind),
+        places: Vec::new(),
+        key: None,
+    };
+    for &kind in REGISTRY {
+        let own: Vec<Vec<u32>> = (effects.iter().filter(|e| e.kind == kind))
+            .map(|e| {
+                let places = e.definition().site.iter();
+                places.filter_map(|p| number_of(e, *p)).collect()
+            })
+            .collect();
+        if own.is_empty() {
+            options.reject.push(all(kind));
+        }
+        for numbers in &own {
+            let places = numbers.iter().map(|n| (*n, *n)).collect();
+            options.accept.push(Pick {
+                places,
+                ..all(kind)
+            });
+        }
+        // every other place: those that differ first at some number
+        for depth in 0..own.first().map_or(0, Vec::len) {
+            let heads: BTreeSet<&[u32]> = own.iter().map(|numbers| &numbers[..depth]).collect();
+            for head in heads {
+                let known = |n: &u32| {
+                    let with = own.iter().filter(|numbers| numbers.starts_with(head));
+                    with.into_iter().any(|numbers| numbers[depth] == *n)
+                };
+                for other in (1..=MOST_ORDERS).filter(|n| !known(n)) {
+                    let mut places: Vec<(u32, u32)> = head.iter().map(|n| (*n, *n)).collect();
+                    places.push((other, other));
+                    options.reject.push(Pick {
+                        places,
+                        ..all(kind)
+                    });
+                }
+            }
+        }
+    }
+    options
+}
+
+/// Held-out error over that of the noise.
+fn floor_of(found: &Diagnosis, group: &Group, case: &Case) -> Option<f64> {
+    found.held_out.map(|(_, after)| {
+        if group.rough {
+            // heavy tails: the root mean square is that of a few rows
+            after.p95 / percentile_95(&case.noise_mm)
+        } else {
+            after.rms / (NOISE_MM * 3.0_f64.sqrt())
+        }
+    })
+}
+
+fn run(group: &Group, number: usize, seed: u64, rows: usize, oracle: bool) -> Told {
     let case = case(group, number, seed, rows);
     let start = Instant::now();
-    let result = diagnose(
-        &case.profile,
-        &case.measurements,
-        &Options::default(),
-        &mut |_| {},
-    );
+    let asked =
+        |options: &Options| diagnose(&case.profile, &case.measurements, options, &mut |_| {});
+    let result = asked(&Options::default());
     let seconds = start.elapsed().as_secs_f64();
+    let known = (oracle && !group.unregistered).then(|| asked(&only(&case.effects)));
+    let known = known.and_then(Result::ok);
     let mut told = Told {
-        what: case.what,
+        oracle: known.and_then(|found| floor_of(&found, group, &case)),
+        what: case.what.clone(),
         size: case.size,
         independent: case.independent,
-        answer: case.answer,
+        answer: case.answer.clone(),
         named: Vec::new(),
         verdict: None,
         reason: String::new(),
@@ -76,18 +155,34 @@ fn run(group: &Group, number: usize, seed: u64, rows: usize) -> Told {
             told.named.dedup();
             told.verdict = Some(found.verdict);
             told.reason = found.reasons.join("; ");
-            told.floor = found.held_out.map(|(_, after)| {
-                if group.rough {
-                    // heavy tails: the root mean square is that of a few rows
-                    after.p95 / percentile_95(&case.noise_mm)
-                } else {
-                    after.rms / (NOISE_MM * 3.0_f64.sqrt())
-                }
-            });
+            told.floor = floor_of(&found, group, &case);
         }
         Err(error) => told.reason = error.to_string(),
     }
     told
+}
+
+/// Median, and what 90 % stay below.
+fn middle_and_tail(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    let at = |index: usize| sorted.get(index).copied().unwrap_or(0.0);
+    (at(sorted.len() / 2), at(sorted.len() * 9 / 10))
+}
+
+/// One line: answer, size of what is left, time.
+fn print_case(group: &Group, told: &Told) {
+    println!(
+        "  {} #{}: {} [{}] {:.3}{} {:.2} s",
+        group.name,
+        told.number,
+        told.named.join(" + "),
+        told.verdict.map_or("error", Verdict::id),
+        told.floor.unwrap_or(0.0),
+        told.oracle
+            .map_or(String::new(), |o| format!(" oracle {o:.3}")),
+        told.seconds
+    );
 }
 
 fn main() {
@@ -105,29 +200,27 @@ fn main() {
         number("--seed", 1) as u64,
         number("--rows", 150),
     );
-    let (first, list) = (
-        number("--first", 0),
-        arguments.iter().any(|a| a == "--list"),
-    );
+    let is_given = |name: &str| arguments.iter().any(|a| a == name);
+    let (first, list) = (number("--first", 0), is_given("--list"));
     for group in &GROUPS {
         if value("--only").is_some_and(|only| !only.split(',').any(|o| o == group.name)) {
             continue;
         }
-        let all: Vec<Told> = (first..first + count)
-            .into_par_iter()
-            .map(|n| run(group, n, seed, rows))
-            .collect();
+        let one = |n| run(group, n, seed, rows, is_given("--oracle"));
+        let all: Vec<Told> = if is_given("--in-turn") {
+            (first..first + count).map(one).collect()
+        } else {
+            (first..first + count).into_par_iter().map(one).collect()
+        };
+        if is_given("--cases") {
+            for told in &all {
+                print_case(group, told);
+            }
+        }
         let right = all.iter().filter(|t| t.right(group)).count();
         let part = right as f64 / all.len() as f64;
-        let floors: Vec<f64> = all
-            .iter()
-            .filter(|t| t.right(group))
-            .filter_map(|t| t.floor)
-            .collect();
-        let mut sorted = floors.clone();
-        sorted.sort_by(f64::total_cmp);
-        let mean = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
-        let tail = sorted.get(sorted.len() * 9 / 10).copied().unwrap_or(0.0);
+        let right_ones = || all.iter().filter(|t| t.right(group));
+        let (mean, tail) = middle_and_tail(right_ones().filter_map(|t| t.floor));
         let slow = all.iter().map(|t| t.seconds).fold(0.0, f64::max);
         let typical = all.iter().map(|t| t.seconds).sum::<f64>() / all.len() as f64;
         println!(
@@ -137,6 +230,12 @@ fn main() {
             100.0 * part,
             100.0 * group.goal
         );
+        if right_ones().any(|t| t.oracle.is_some()) {
+            let (mean, tail) = middle_and_tail(right_ones().filter_map(|t| t.oracle));
+            println!(
+                "              held-out / noise with the effects known {mean:.3} (90 %: {tail:.3})"
+            );
+        }
         let undetermined = all
             .iter()
             .filter(|t| t.verdict == Some(Verdict::Undetermined))

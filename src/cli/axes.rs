@@ -117,13 +117,7 @@ impl Axes {
                     backlash_rad: axis.backlash_rad,
                 })
                 .collect();
-            let mut page = page::page(
-                &drawn,
-                base_pose.as_ref(),
-                tool_pose.as_ref(),
-                &name.to_string(),
-            );
-            page.findings(&findings);
+            let page = page::page(&drawn, &found.drawn(), &name.to_string(), &findings);
             files::write_all(self.report.output(Some(&page)).as_slice())?;
         }
         if output.json {
@@ -259,6 +253,44 @@ impl Frames {
         }
         Ok(())
     }
+
+    /// Base and tool for the page.
+    fn drawn(&self) -> [page::Frame; 2] {
+        let frame = |name, joints, placed: Option<&Placed>, sag: Option<&Sag>| {
+            let of = |covariance: &PoseCovariance| placed.map(|p| deviations(p, covariance));
+            let whole = placed.and_then(|placed| whole(placed, sag));
+            page::Frame {
+                name,
+                joints,
+                pose: placed.map(|placed| placed.pose),
+                sigma: whole
+                    .and_then(|w| of(&w))
+                    .unwrap_or_else(|| NO_NOISE.into()),
+                sag: sag.and_then(|sag| of(&sag.covariance)),
+            }
+        };
+        let (base, tool) = (self.base.as_ref(), self.tool.as_ref());
+        [
+            frame("world from base", "1 and 2", base, self.base_sag.as_ref()),
+            frame("flange from tool", "5 and 6", tool, self.tool_sag.as_ref()),
+        ]
+    }
+}
+
+/// What is said of the noise where it is not known.
+const NO_NOISE: &str = "not known: three rows a sweep leave nothing to tell the noise by";
+
+/// Standard deviations of a frame.
+fn deviations(placed: &Placed, covariance: &PoseCovariance) -> String {
+    let sigma = as_sigma(covariance);
+    let [x, y, z] = sigma.position_m.map(mm_from_m);
+    let [rx, ry, rz] = sigma.rotation_rad.map(|r| r / DEG);
+    let turn = if placed.oriented && norm([rx, ry, rz]) > 0.0 {
+        format!("; {rx:.5} {ry:.5} {rz:.5} deg")
+    } else {
+        String::new()
+    };
+    format!("{x:.4} {y:.4} {z:.4} mm{turn}")
 }
 
 /// Noise and sag together; `None` where the noise is not known.
@@ -379,23 +411,9 @@ fn text(axes: &[Axis], found: &Frames) -> String {
              rx_deg:\u{a0}{rx:.5}, ry_deg:\u{a0}{ry:.5}, rz_deg:\u{a0}{rz:.5}}}\n"
         )
         .expect(ok);
-        let numbers = |covariance: &PoseCovariance| {
-            let sigma = as_sigma(covariance);
-            let [x, y, z] = sigma.position_m.map(mm_from_m);
-            let [rx, ry, rz] = sigma.rotation_rad.map(|r| r / DEG);
-            let turn = if placed.oriented && norm([rx, ry, rz]) > 0.0 {
-                format!("; {rx:.5} {ry:.5} {rz:.5} deg")
-            } else {
-                String::new()
-            };
-            format!("{x:.4} {y:.4} {z:.4} mm{turn}")
-        };
         match whole(placed, sag.as_ref()) {
-            Some(covariance) => writeln!(text, "  sigma {}", numbers(&covariance)),
-            None => writeln!(
-                text,
-                "  sigma not known: three rows a sweep leave nothing to tell the noise by"
-            ),
+            Some(covariance) => writeln!(text, "  sigma {}", deviations(placed, &covariance)),
+            None => writeln!(text, "  sigma {NO_NOISE}"),
         }
         .expect(ok);
         if let Some(sag) = sag {
@@ -412,7 +430,7 @@ fn text(axes: &[Axis], found: &Frames) -> String {
             writeln!(
                 text,
                 "  {share} under gravity, {whose}: {}",
-                numbers(&sag.covariance)
+                deviations(placed, &sag.covariance)
             )
             .expect(ok);
         } else {

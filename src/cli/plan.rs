@@ -41,8 +41,8 @@ pub struct PlanCommand {
     /// Random configurations to choose from
     #[arg(long, value_name = "N", default_value_t = 5000)]
     candidates: usize,
-    /// Random sets to start from
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    /// Random sets to start from; the best set found is improved once more
+    #[arg(long, value_name = "N", default_value_t = 4)]
     starts: usize,
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]

@@ -1,8 +1,10 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be doubted.
 
 use super::beside::{Beside, Kept};
+use super::chances::normal_tail;
 use super::diagnosis::Options;
 use super::fit::Fit;
+use super::noise::{Repeats, of_repeats};
 use super::refit::{Refit, refit, shrink};
 use super::search::{Chosen, World};
 use super::session::{Session, Trust, for_choice, session};
@@ -36,7 +38,10 @@ pub(super) struct Attempt {
     pub rivalled: Vec<(usize, Unknown)>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
+    /// What is left over the noise that is stated or repeated poses show, where that is beyond chance.
     pub louder: Option<f64>,
+    /// Noise by repeated poses beside what was found, where `sigma_mm` does not state it.
+    pub repeats: Option<Repeats>,
     /// Deviance and costs in common units: less is better.
     merit: f64,
     pub trust: Trust,
@@ -118,11 +123,17 @@ fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
     (p < STRAINED).then_some(p)
 }
 
-/// What is left over the noise that is stated, where that is beyond chance.
-fn louder(session: &Session, refit: &Refit) -> Option<f64> {
-    let spread = (2.0 / refit.fit.freedom).sqrt();
-    let excess = (refit.fit.scale * refit.fit.scale - 1.0) / spread;
-    (!session.problem.sigma_assumed && excess > LOUDER).then_some(refit.fit.scale)
+/// What is left over the noise that is stated, or that repeated poses show, where that is beyond chance.
+fn louder(session: &Session, refit: &Refit, repeats: Option<Repeats>) -> Option<f64> {
+    let (scale, freedom) = (refit.fit.scale, refit.fit.freedom);
+    if session.problem.sigma_assumed {
+        let repeats = repeats?;
+        let is_louder = repeats.chance_of(scale, freedom) < normal_tail(LOUDER);
+        return is_louder.then_some(scale / repeats.scale);
+    }
+    let spread = (2.0 / freedom).sqrt();
+    let excess = (scale * scale - 1.0) / spread;
+    (excess > LOUDER).then_some(scale)
 }
 
 /// Deviance, the information criterion's price of what is fitted freely, and what naming the effects costs.
@@ -184,7 +195,10 @@ pub(super) fn attempt(
     let rivalled = outdone(&session, &library, &world, &chosen, &fit, &refit);
     let likeness = likeness(&session.problem, &session.layout, &used, &refit.fit);
     let strained = strain(trust, &refit);
-    let louder = louder(&session, &refit);
+    // with what was found: it may have changed from one repetition to the next
+    let repeats = (session.repeats)
+        .and_then(|_| of_repeats(&session.problem, &session.layout, &refit.residual, &used));
+    let louder = louder(&session, &refit, repeats);
     let merit = merit(&session, trust, &used, &chosen, &refit);
     if matches!(trust, Trust::Calibrated { .. }) {
         shrink(&session.problem, &session.shares, &mut refit);
@@ -199,6 +213,7 @@ pub(super) fn attempt(
             likeness,
             strained,
             louder,
+            repeats,
             merit,
             trust,
         },

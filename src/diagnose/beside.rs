@@ -47,6 +47,18 @@ impl Group {
     }
 }
 
+impl Group {
+    /// Products that are known: of the columns with one another and with what is left, all projected, and their squares before.
+    #[must_use]
+    pub const fn known(gram: Vec<Vec<f64>>, slopes: Vec<f64>, squares: Vec<f64>) -> Self {
+        Self {
+            gram,
+            slopes,
+            squares,
+        }
+    }
+}
+
 impl Beside {
     /// Of a fit without effects, at the scale of `full`, the fit with all of them.
     #[must_use]
@@ -70,6 +82,11 @@ impl Beside {
             turned,
             owners,
         }
+    }
+
+    /// Columns of the effects times the fit's M.
+    pub(super) fn turned(&self) -> &[Column] {
+        &self.turned
     }
 
     /// Products of a column with those of the effects.

@@ -1,11 +1,26 @@
 //! Tail probabilities.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal};
 
 /// Probability that chi-squared with `k` degrees of freedom exceeds `x`.
 #[must_use]
 pub fn chi_squared_tail(x: f64, k: usize) -> f64 {
     match ChiSquared::new(k as f64) {
+        Ok(distribution) if x > 0.0 => distribution.sf(x),
+        _ => 1.0,
+    }
+}
+
+/// What chi-squared with `k` degrees of freedom stays below with probability `p`.
+#[must_use]
+pub fn chi_squared_quantile(p: f64, k: f64) -> f64 {
+    ChiSquared::new(k).map_or(k, |distribution| distribution.inverse_cdf(p))
+}
+
+/// Probability that the ratio of two mean squares of the same variance, with `a` and `b` degrees of freedom, exceeds `x`.
+#[must_use]
+pub fn f_tail(x: f64, a: f64, b: f64) -> f64 {
+    match FisherSnedecor::new(a, b) {
         Ok(distribution) if x > 0.0 => distribution.sf(x),
         _ => 1.0,
     }
@@ -37,6 +52,20 @@ mod tests {
         assert!((chi_squared_tail(-1.0, 3) - 1.0).abs() < 1e-15);
         // far out: exp(-x / 2) for two degrees of freedom
         assert!((chi_squared_tail(1000.0, 2) / (-500.0_f64).exp() - 1.0).abs() < 1e-9);
+        // tables 26.8 and 26.9: quantiles of chi-squared, and of F to four digits
+        assert!((chi_squared_quantile(0.99, 6.0) - 16.811_894).abs() < 1e-5);
+        assert!((chi_squared_quantile(0.95, 100.0) - 124.342_113).abs() < 1e-5);
+        for (x, a, b, p) in [
+            (4.965, 1.0, 10.0, 0.05),
+            (2.978, 10.0, 10.0, 0.05),
+            (4.849, 10.0, 10.0, 0.01),
+            (2.387, 20.0, 60.0, 0.005),
+        ] {
+            assert!((f_tail(x, a, b) / p - 1.0).abs() < 2e-3, "{x} {a} {b}");
+        }
+        // far out, by scipy
+        assert!((f_tail(25.0, 400.0, 60.0) / 1.884_382_151_421_661_8e-30 - 1.0).abs() < 1e-6);
+        assert!((f_tail(0.0, 3.0, 4.0) - 1.0).abs() < 1e-15);
         assert!((normal_tail(5.0) / 2.866_515_718_791_939e-7 - 1.0).abs() < 1e-9);
         assert!((normal_tail(-1.0) - 0.841_344_746_068_543).abs() < 1e-9);
     }

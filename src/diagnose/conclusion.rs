@@ -11,21 +11,20 @@ use super::refit::refit;
 use super::search::{Chosen, Scored};
 use super::session::{Session, Trust, for_choice};
 use super::stand_ins::{StandIn, impossible, stand_ins};
-use super::table::{Layout, lengths_m};
+use super::table::lengths_m;
 use super::unknown::chance;
 use super::whereabouts::spots;
 use crate::identify::IdentifyError;
 use crate::identify::doubt::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
-use crate::identify::problem::{Estimate, Problem};
+use crate::identify::problem::Estimate;
 use crate::identify::robust::limit;
 use crate::identify::statistics::Spread;
 use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, REGISTRY};
 use crate::model::profile::Profile;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 
 /// Another effect explains the data nearly as well where it is worse by no more than this, twice a log likelihood.
 const NEARLY: f64 = 6.0;
@@ -41,8 +40,6 @@ const OUTLIER: f64 = 1.6;
 const SERIES: usize = 3;
 /// A row is followed where so much of its own numbers is in its expectation.
 const FOLLOWED: f64 = 0.7;
-/// Repeated poses tell the noise from so many degrees of freedom on.
-const REPEATS: usize = 10;
 
 /// Draws the conclusions from the better attempt.
 ///
@@ -148,42 +145,15 @@ pub(super) fn conclude(
     })
 }
 
-/// Noise of repeated poses in standard deviations of the rows, where there are enough.
-fn repeats(problem: &Problem, layout: &Layout, residual: &[f64]) -> Option<f64> {
-    let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    for (i, row) in problem.rows.iter().enumerate() {
-        let key = format!(
-            "{:?} {:?} {} {:?}",
-            row.q, row.conditions.direction, row.tool, row.point
-        );
-        groups.entry(key).or_default().push(i);
-    }
-    let (mut sum, mut freedom) = (0.0, 0);
-    for rows in groups.values().filter(|rows| rows.len() > 1) {
-        let count = layout.row(rows[0]).len();
-        for k in 0..count {
-            let values: Vec<f64> = rows
-                .iter()
-                .map(|r| residual[layout.row(*r).start + k])
-                .collect();
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            sum += values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-            freedom += values.len() - 1;
-        }
-    }
-    (freedom >= REPEATS).then(|| (sum / freedom as f64).sqrt())
-}
-
 /// Noise of a coordinate, where it comes from, and what is left of a coordinate, metres.
 fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
-    let problem = &attempt.session.problem;
     let sigma_m = attempt.sigma_m();
     let left_m = attempt.refit.fit.scale * sigma_m;
-    if !problem.sigma_assumed {
+    if !attempt.session.problem.sigma_assumed {
         return (sigma_m, NoiseSource::Given, left_m);
     }
-    match repeats(problem, &attempt.session.layout, &attempt.refit.residual) {
-        Some(noise) => (noise * sigma_m, NoiseSource::Repeats, left_m),
+    match attempt.repeats {
+        Some(repeats) => (repeats.scale * sigma_m, NoiseSource::Repeats, left_m),
         None => (left_m, NoiseSource::Left, left_m),
     }
 }
@@ -283,8 +253,13 @@ fn doubts(attempt: &Attempt, found: &[Found], rivals: &[Rival]) -> Vec<String> {
         ));
     }
     if let Some(scale) = attempt.louder {
+        let source = if attempt.session.problem.sigma_assumed {
+            "repeated poses show"
+        } else {
+            "sigma_mm states"
+        };
         reasons.push(format!(
-            "what is left is {scale:.2} times the noise that sigma_mm states"
+            "what is left is {scale:.2} times the noise that {source}"
         ));
     }
     reasons

@@ -2,15 +2,16 @@
 //! gain: a projected score test.
 
 use super::table::{Column, Layout, add_scaled, dot};
-use crate::identify::robust::{limit, median_of_squares};
+use super::weights::Plain;
+use crate::identify::robust::median_of_squares;
 use rayon::prelude::*;
 
 /// A column is redundant where less than this part of its square is left when earlier ones have explained the rest.
 pub(super) const REDUNDANT: f64 = 1e-7;
 /// A column shows nothing where its parameter's typical size moves all numbers together by fewer standard deviations.
-const INVISIBLE: f64 = 0.1;
+pub(super) const INVISIBLE: f64 = 0.1;
 /// Turns of re-weighting.
-const TURNS: usize = 8;
+pub(super) const TURNS: usize = 8;
 /// A parameter beyond its typical size by this factor is one standard deviation off.
 const PRIOR_WIDTH: f64 = 5.0;
 
@@ -35,17 +36,17 @@ pub struct Fit {
     /// Roots of the weights of all numbers; zero for rows not used.
     pub roots: Column,
     /// Columns of Q, then of U, weighted.
-    basis: Vec<Column>,
+    pub(super) basis: Vec<Column>,
     /// One for each of the basis: those of S, then ones.
-    shares: Vec<f64>,
+    pub(super) shares: Vec<f64>,
     /// Which of the columns stands behind each of the basis.
-    kept: Vec<usize>,
+    pub(super) kept: Vec<usize>,
     /// How many of the basis belong to Q.
     base: usize,
     /// Triangle: `triangle[j]` are the parts of column `kept[j]` along the basis up to j.
-    triangle: Vec<Vec<f64>>,
+    pub(super) triangle: Vec<Vec<f64>>,
     /// Parts of the residual along the basis.
-    parts: Vec<f64>,
+    pub(super) parts: Vec<f64>,
     /// `M r`, weighted.
     pub left: Column,
     /// `rᵀ M r`: the deviance, before division by the scale squared.
@@ -65,7 +66,7 @@ fn weighted(column: &[f64], roots: &[f64]) -> Column {
 }
 
 /// Median length of rows, in standard deviations.
-fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f64 {
+pub(super) fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f64 {
     let mut ratios: Vec<f64> = Vec::new();
     let mut numbers = 0;
     for row in (0..layout.rows()).filter(|row| used[*row]) {
@@ -84,55 +85,14 @@ fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f
 }
 
 impl Fit {
-    /// Fits `residual` by `held` columns on the rows in use.
-    ///
-    /// Weights are one up to the length that 99.7 % of normal rows stay below, and fall with the square beyond it, so that
-    /// a gross error counts as one row at the limit, whatever its size.
+    /// Fits `residual` by `held` columns, those that are sought behind the others, on the rows in use: robustly, see
+    /// [`Plain::fits`].
     #[must_use]
     pub fn of(layout: &Layout, used: &[bool], residual: &[f64], held: &[Held], floor: f64) -> Self {
-        let mut roots = vec![0.0; layout.numbers()];
-        for row in (0..layout.rows()).filter(|row| used[*row]) {
-            roots[layout.row(row)].fill(1.0);
-        }
-        let mut fit = Self::weighted(residual, held, roots);
-        let mut last = f64::INFINITY;
-        for _ in 0..TURNS {
-            let rest = fit.unweighted_rest(residual, held);
-            let scale = scale_of(layout, used, &rest, fit.freedom_of(layout, used)).max(floor);
-            let mut roots = fit.roots.clone();
-            let mut clipped = 0;
-            for row in (0..layout.rows()).filter(|row| used[*row]) {
-                let range = layout.row(row);
-                let length = rest[range.clone()]
-                    .iter()
-                    .map(|r| r * r)
-                    .sum::<f64>()
-                    .sqrt();
-                let most = limit(range.len()) * scale;
-                let root = if length > most { most / length } else { 1.0 };
-                clipped += usize::from(root < 1.0);
-                roots[range].fill(root);
-            }
-            if clipped == 0 && fit.roots.iter().all(|r| *r == 0.0 || *r == 1.0) {
-                fit.scale = scale;
-                break;
-            }
-            fit = Self::weighted(residual, held, roots);
-            fit.scale = scale;
-            if (scale / last - 1.0).abs() < 1e-3 {
-                break;
-            }
-            last = scale;
-        }
-        // the spread of what counts, by the mean where weights let it
-        let weight: f64 = fit.roots.iter().map(|r| r * r).sum();
-        let free: f64 = fit.shares.iter().filter(|s| **s == 1.0).sum();
-        fit.freedom = (weight - free).max(1.0);
-        let mean = (fit.deviance / fit.freedom).sqrt();
-        // normal rows beyond the limit are cut: their part of the mean square is small
-        fit.scale = mean.max(floor).max(1e-12);
-        fit.floor = floor;
-        fit
+        let first = held.iter().position(|h| h.sought).unwrap_or(held.len());
+        let sought: Vec<&[f64]> = held[first..].iter().map(|h| h.column).collect();
+        let plain = Plain::of(layout, used, residual, &held[..first], floor);
+        plain.fits(layout, residual, &sought, first).1
     }
 
     /// The same rows, weights and scale with other columns.
@@ -145,15 +105,7 @@ impl Fit {
         fit
     }
 
-    fn freedom_of(&self, layout: &Layout, used: &[bool]) -> f64 {
-        let numbers: usize = (0..layout.rows())
-            .filter(|r| used[*r])
-            .map(|r| layout.row(r).len())
-            .sum();
-        numbers as f64 - self.shares.iter().sum::<f64>()
-    }
-
-    fn weighted(residual: &[f64], held: &[Held], roots: Column) -> Self {
+    pub(super) fn weighted(residual: &[f64], held: &[Held], roots: Column) -> Self {
         let mut fit = Self {
             left: weighted(residual, &roots),
             roots,
@@ -218,7 +170,7 @@ impl Fit {
     }
 
     /// Adds a column that is sought.
-    fn seek(&mut self, index: usize, column: &[f64]) {
+    pub(super) fn seek(&mut self, index: usize, column: &[f64]) {
         let column = weighted(column, &self.roots);
         let before = dot(&column, &column);
         if before < INVISIBLE * INVISIBLE * 1e-4 {
@@ -248,19 +200,6 @@ impl Fit {
         self.parts.push(part);
     }
 
-    /// The same with columns that are sought beside those there are, at the scale of `full`.
-    #[must_use]
-    pub fn seeking(&self, columns: &[&Column], full: &Self) -> Self {
-        let mut fit = self.clone();
-        (fit.scale, fit.freedom, fit.floor) = (full.scale, full.freedom, full.floor);
-        let next = fit.kept.iter().max().map_or(0, |most| most + 1);
-        for (k, column) in columns.iter().enumerate() {
-            fit.seek(next + k, column);
-        }
-        fit.strained();
-        fit
-    }
-
     /// Values of the columns that are sought, one for each of U.
     fn sought(&self) -> Vec<f64> {
         let mut solved = self.parts[self.base..].to_vec();
@@ -284,7 +223,7 @@ impl Fit {
         parts
     }
 
-    fn strained(&mut self) {
+    pub(super) fn strained(&mut self) {
         let parts = self.remaining(&self.sought());
         let pulls = parts.iter().zip(&self.shares).filter(|(_, s)| **s < 1.0);
         self.strain = pulls.fold((0.0, 0), |(sum, count), (p, _)| (sum + p * p, count + 1));
@@ -338,7 +277,7 @@ impl Fit {
     }
 
     /// The weighted column and its parts along the basis.
-    fn parts_of(&self, column: &[f64]) -> (Column, Vec<f64>) {
+    pub(super) fn parts_of(&self, column: &[f64]) -> (Column, Vec<f64>) {
         let column = weighted(column, &self.roots);
         let parts = self.basis.iter().map(|q| dot(q, &column)).collect();
         (column, parts)
@@ -419,68 +358,6 @@ impl Fit {
             None => vec![f64::INFINITY; count],
         }
     }
-
-    /// The gains of a group of columns that begin at a row, for each first row that leaves `margin` rows on both sides:
-    /// sums from the end, one pass over the numbers.
-    #[must_use]
-    pub fn gains_from_rows(
-        &self,
-        layout: &Layout,
-        columns: &[&Column],
-        margin: usize,
-    ) -> Vec<(usize, Gain)> {
-        let count = columns.len();
-        let columns: Vec<Column> = columns.iter().map(|c| weighted(c, &self.roots)).collect();
-        let mut slopes = vec![0.0; count];
-        let mut gram = vec![vec![0.0; count]; count];
-        let mut along = vec![vec![0.0; self.basis.len()]; count];
-        let mut found = Vec::new();
-        let used = |row: usize| self.roots[layout.row(row)].iter().any(|r| *r > 0.0);
-        let (mut behind, total) = (0, (0..layout.rows()).filter(|r| used(*r)).count());
-        for row in (0..layout.rows()).rev() {
-            if !used(row) {
-                continue;
-            }
-            behind += 1;
-            for n in layout.row(row) {
-                for i in 0..count {
-                    let c = columns[i][n];
-                    if c == 0.0 {
-                        continue;
-                    }
-                    slopes[i] += c * self.left[n];
-                    for j in 0..count {
-                        gram[i][j] += c * columns[j][n];
-                    }
-                    for (sum, q) in along[i].iter_mut().zip(&self.basis) {
-                        *sum += c * q[n];
-                    }
-                }
-            }
-            if behind < margin || total - behind < margin {
-                continue;
-            }
-            let squares: Vec<f64> = (0..count).map(|i| gram[i][i]).collect();
-            let mut rest = gram.clone();
-            for i in 0..count {
-                for j in 0..count {
-                    let parts = along[i].iter().zip(&along[j]).zip(&self.shares);
-                    rest[i][j] -= parts.map(|((x, y), s)| x * y * s).sum::<f64>();
-                }
-            }
-            if let Some(gain) = gain_of(
-                &rest,
-                &slopes,
-                &squares,
-                &vec![None; count],
-                self.scale,
-                self.ridge(),
-            ) {
-                found.push((row, gain));
-            }
-        }
-        found
-    }
 }
 
 /// A column seen from a fit.
@@ -488,7 +365,7 @@ impl Fit {
 pub struct Projection {
     /// Weighted.
     pub(super) column: Column,
-    parts: Vec<f64>,
+    pub(super) parts: Vec<f64>,
     /// Inner product with what is left.
     pub(super) slope: f64,
     /// Inner product with itself, before projection.

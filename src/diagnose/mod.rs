@@ -12,6 +12,7 @@ pub mod chances;
 mod conclusion;
 pub mod diagnosis;
 pub mod fit;
+pub mod noise;
 pub mod poses;
 mod proof;
 pub mod refit;
@@ -19,8 +20,10 @@ mod scan;
 pub mod search;
 pub mod session;
 pub mod stand_ins;
+mod steps;
 pub mod table;
 pub mod unknown;
+pub mod weights;
 pub mod whereabouts;
 
 pub use diagnosis::{Diagnosis, Found, NoiseSource, Options, Rival, Verdict, diagnose};

@@ -4,7 +4,9 @@ use super::beside::{Beside, Group};
 use super::candidates::Candidate;
 use super::fit::{Fit, Gain, Projection};
 use super::search::{Chosen, Scored, World, overlaps};
+use super::steps::Steps;
 use super::table::Column;
+use super::weights::{Products, Weighted};
 use crate::model::effects::Kind;
 use rayon::prelude::*;
 
@@ -17,11 +19,15 @@ struct Seen {
     base: Fit,
     projections: Vec<Projection>,
     groups: Vec<Group>,
+    /// Of candidates that begin at a row.
+    steps: Vec<Option<Steps>>,
 }
 
 /// A model with effects, and every candidate beside it.
 #[derive(Debug)]
 pub struct View {
+    /// Products of the candidates' columns while every row counts fully.
+    products: Vec<Products>,
     seen: Seen,
     full: Fit,
     side: Side,
@@ -35,31 +41,53 @@ struct Side {
     beside: Beside,
     /// Products of each candidate's columns with those of the effects.
     cross: Vec<Vec<f64>>,
+    /// The same from each first row on, of candidates that begin at a row.
+    steps: Vec<Vec<Vec<Vec<f64>>>>,
 }
 
 impl Side {
-    fn of(seen: &Seen, full: &Fit, chosen: &[Chosen]) -> Self {
+    fn of(world: &World, seen: &Seen, full: &Fit, chosen: &[Chosen]) -> Self {
         let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
         let beside = Beside::of(&seen.base, full, &effects);
         let projections = seen.projections.par_iter();
         let cross = projections.map(|p| beside.cross(p)).collect();
-        Self { beside, cross }
+        let from = |steps: &Option<Steps>| match steps {
+            Some(steps) => steps.cross(world.layout, &beside),
+            None => Vec::new(),
+        };
+        let steps = seen.steps.iter().map(from).collect();
+        Self {
+            beside,
+            cross,
+            steps,
+        }
     }
 }
 
 impl Seen {
-    fn of(world: &World, full: &Fit) -> Self {
-        let base = full.with_held(world.residual, &world.held(&[]));
-        let projections = base.projections(&world.candidates.columns);
+    fn of(world: &World, products: &[Products], base: &Weighted) -> Self {
+        let columns = world.candidates.columns.par_iter().zip(products);
+        let seen = columns.map(|(column, own)| world.plain.projection(base, column, own));
+        let projections: Vec<Projection> = seen.collect();
+        let base = base.fit.clone();
         let group = |candidate: &Candidate| {
             let own = candidate.columns.iter().map(|i| &projections[*i]);
             Group::of(&base, &own.collect::<Vec<_>>())
         };
         let groups = world.candidates.list.par_iter().map(group).collect();
+        let begins = |candidate: &Candidate| {
+            candidate.row.map(|_| {
+                let own = candidate.columns.iter();
+                let own: Vec<&Column> = own.map(|i| &world.candidates.columns[*i]).collect();
+                Steps::of(&base, world.layout, &own, ROWS_BESIDE)
+            })
+        };
+        let steps = world.candidates.list.par_iter().map(begins).collect();
         Self {
             base,
             projections,
             groups,
+            steps,
         }
     }
 }
@@ -68,10 +96,13 @@ impl View {
     /// Without effects.
     #[must_use]
     pub fn of(world: &World) -> Self {
-        let full = world.fit(&[]);
-        let seen = Seen::of(world, &full);
+        let columns = world.candidates.columns.par_iter();
+        let products: Vec<Products> = columns.map(|c| world.plain.products(c)).collect();
+        let (base, full) = world.fits(&[]);
+        let seen = Seen::of(world, &products, &base);
         Self {
-            side: Side::of(&seen, &full, &[]),
+            side: Side::of(world, &seen, &full, &[]),
+            products,
             seen,
             full,
             shown: Vec::new(),
@@ -84,11 +115,12 @@ impl View {
         if same && (self.shown.iter().zip(chosen)).all(|(s, c)| *s == c.columns) {
             return;
         }
-        self.full = world.fit(chosen);
+        let (base, full) = world.fits(chosen);
+        self.full = full;
         if self.seen.base.roots != self.full.roots {
-            self.seen = Seen::of(world, &self.full);
+            self.seen = Seen::of(world, &self.products, &base);
         }
-        self.side = Side::of(&self.seen, &self.full, chosen);
+        self.side = Side::of(world, &self.seen, &self.full, chosen);
         self.shown = chosen.iter().map(|c| c.columns.clone()).collect();
     }
 
@@ -115,7 +147,7 @@ impl View {
     /// Every candidate beside other effects than those shown, with the weights and the scale of those shown.
     #[must_use]
     pub fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
-        let side = Side::of(&self.seen, &self.full, others);
+        let side = Side::of(world, &self.seen, &self.full, others);
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
 
@@ -185,9 +217,6 @@ impl View {
             .filter_map(|(c, keep)| keep.then_some(c))
             .collect();
         let kept = side.beside.kept(keep);
-        let columns: Vec<&Column> = with.iter().flat_map(|c| &c.columns).collect();
-        let any_row = world.candidates.list.iter().any(|c| c.row.is_some());
-        let fit = any_row.then(|| self.seen.base.seeking(&columns, &self.full));
         let taken = |candidate: &Candidate, row: Option<u32>| {
             with.iter().any(|c| overlaps(candidate, row, &c.candidate))
         };
@@ -198,15 +227,21 @@ impl View {
                 cost: world.cost(candidate, gain.count),
                 gain,
             };
-            if let Some(fit) = fit.as_ref().filter(|_| candidate.row.is_some()) {
-                let own = candidate.columns.iter();
-                let own: Vec<&Column> = own.map(|i| &world.candidates.columns[*i]).collect();
-                let gains = fit.gains_from_rows(world.layout, &own, ROWS_BESIDE);
-                let rows = gains
-                    .into_iter()
-                    .map(|(row, gain)| (u32::try_from(row + 1).ok(), gain));
-                let free = rows.filter(|(row, _)| !taken(candidate, *row));
-                return free.map(|(row, gain)| of(row, gain)).collect();
+            if let Some(steps) = &self.seen.steps[index] {
+                let free = vec![None; candidate.columns.len()];
+                let cross = &side.steps[index];
+                let each = steps.rows.iter().zip(&steps.groups).zip(cross);
+                return each
+                    .filter_map(|((row, group), cross)| {
+                        let row = u32::try_from(row + 1).ok();
+                        if taken(candidate, row) {
+                            return None;
+                        }
+                        let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
+                        let gain = side.beside.gain(group, &cross, &kept, &free)?;
+                        Some(of(row, gain))
+                    })
+                    .collect();
             }
             if taken(candidate, None) {
                 return Vec::new();

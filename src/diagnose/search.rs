@@ -4,6 +4,7 @@ use super::candidates::{Candidate, Candidates};
 use super::fit::{Fit, Gain, Held};
 use super::scan::View;
 use super::table::{Column, Layout};
+use super::weights::{Plain, Weighted};
 use crate::identify::parameters::Pick;
 use crate::model::effects::{Kind, REGISTRY};
 
@@ -47,7 +48,7 @@ const fn cause(kind: Kind) -> Kind {
 }
 
 /// Everything that the search looks at.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct World<'a> {
     /// Where the numbers of rows stand.
     pub layout: &'a Layout,
@@ -61,8 +62,10 @@ pub struct World<'a> {
     pub candidates: &'a Candidates,
     /// Rows in use.
     pub used: &'a [bool],
-    /// The residuals' scale is at least this.
-    pub floor: f64,
+    /// Those held, fitted while every row in use counts fully.
+    pub plain: Plain,
+    /// The logarithm of how many numbers are in use.
+    pub ln_numbers: f64,
     /// Effects that a person wants, whatever the evidence.
     pub accepted: &'a [Pick],
 }
@@ -131,17 +134,12 @@ pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 }
 
 impl World<'_> {
-    fn numbers(&self) -> f64 {
-        let used = (0..self.layout.rows()).filter(|row| self.used[*row]);
-        used.map(|row| self.layout.row(row).len()).sum::<usize>() as f64
-    }
-
     /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`, the choice among its
     /// peers and among all kinds, and the odds against a rare one.
     pub(super) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
         let parameters = (count + candidate.chosen) as f64;
         let kinds = REGISTRY.len() as f64;
-        parameters * self.numbers().ln()
+        parameters * self.ln_numbers
             + 2.0 * (candidate.peers as f64).ln()
             + 2.0 * kinds.ln()
             + if rare(candidate.effect.kind) {
@@ -188,16 +186,19 @@ impl World<'_> {
         held.chain(own).collect()
     }
 
+    /// The robust fit with these effects, and before it that of the columns held at its weights and scale.
+    #[must_use]
+    pub fn fits(&self, chosen: &[Chosen]) -> (Weighted, Fit) {
+        let own = chosen.iter().flat_map(|c| &c.columns);
+        let own: Vec<&[f64]> = own.map(Vec::as_slice).collect();
+        let first = self.held.len();
+        (self.plain).fits(self.layout, self.residual, &own, first)
+    }
+
     /// The robust fit with these effects.
     #[must_use]
     pub fn fit(&self, chosen: &[Chosen]) -> Fit {
-        Fit::of(
-            self.layout,
-            self.used,
-            self.residual,
-            &self.held(chosen),
-            self.floor,
-        )
+        self.fits(chosen).1
     }
 
     /// An effect of a scan, ready to be in the model.

@@ -1,9 +1,12 @@
 //! What a diagnosis starts from: the model's residuals and the parameters that are fitted along.
 
 use super::candidates::{Candidate, Candidates, Tried, columns_of};
+use super::fit::Held;
+use super::noise::{Repeats, of_repeats};
 use super::refit::refit;
 use super::search::{Chosen, World};
 use super::table::{Column, Layout, table};
+use super::weights::Plain;
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::identify::IdentifyError;
@@ -26,6 +29,9 @@ const SAME_TURN_RAD: f64 = 1.0 * DEG;
 
 /// Numbers beyond the parameters that an estimate of the noise takes.
 const SPARE: usize = 10;
+
+/// Least scale of residuals where nothing is known of the noise.
+const LEAST: f64 = 1e-6;
 
 /// What is known of the arm before its effects are sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +67,8 @@ pub struct Session {
     pub tried: Tried,
     /// What is tried.
     pub candidates: Candidates,
+    /// Noise by repeated poses, where `sigma_mm` does not state it.
+    pub repeats: Option<Repeats>,
     /// Whether the device's frame is not the profile's: the base is fitted.
     pub elsewhere: bool,
 }
@@ -163,6 +171,25 @@ fn profile_base(profile: &Profile) -> Pose {
     })
 }
 
+/// Which columns do not do what those before them do. The others are left out for good: beside an effect found later, a last
+/// link that bends, they would be told apart by next to nothing and run away together.
+fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> Vec<usize> {
+    let mut kept = Plain::of(layout, used, residual, held, LEAST).kept();
+    kept.sort_unstable();
+    kept
+}
+
+/// Columns that are held, and how freely.
+fn held_of<'a>(columns: &'a [Column], shares: &[f64]) -> Vec<Held<'a>> {
+    let both = columns.iter().zip(shares);
+    both.map(|(column, share)| Held {
+        column,
+        share: *share,
+        sought: false,
+    })
+    .collect()
+}
+
 /// Prepares a session.
 ///
 /// # Errors
@@ -188,7 +215,8 @@ pub fn session(
         .map_or(profile.world_from_base, |g| g.world_from_base);
     let (far, turned) = base_gap(&profile_base(profile), &base);
     let elsewhere = far > SAME_PLACE_M || turned > SAME_TURN_RAD;
-    let (problem, own) = Problem::new(profile, measurements, &selection, profile.world_from_base)?;
+    let (mut problem, own) =
+        Problem::new(profile, measurements, &selection, profile.world_from_base)?;
     let layout = Layout::of(&problem);
     let used = fit.rows.len();
     let numbers: usize = (0..layout.rows())
@@ -255,15 +283,28 @@ pub fn session(
         Subject::Point { .. } | Subject::Feature { .. } => true,
         Subject::Effect(slot) => elsewhere && estimate.effects[slot.effect].kind == Kind::BaseFrame,
     };
-    let shares = problem
+    let shares: Vec<f64> = problem
         .parameters
         .iter()
         .map(|p| if free(p.subject) { 1.0 } else { share })
         .collect();
     let (residual, columns) = table(&problem, &estimate, &problem.parameters);
+    let used = for_choice(measurements);
+    let kept = distinct(&layout, &residual, &held_of(&columns, &shares), &used);
+    let columns: Vec<Column> = kept.iter().map(|i| columns[*i].clone()).collect();
+    let shares: Vec<f64> = kept.iter().map(|i| shares[*i]).collect();
+    problem.parameters = kept
+        .iter()
+        .map(|i| problem.parameters[*i].clone())
+        .collect();
     let (present, _) = table(&problem, &present_estimate, &[]);
     let tried = Tried::of(&problem, &estimate);
     let candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
+    let repeats = if problem.sigma_assumed {
+        of_repeats(&problem, &layout, &residual, &used)
+    } else {
+        None
+    };
     Ok((
         Session {
             problem,
@@ -276,6 +317,7 @@ pub fn session(
             shares,
             tried,
             candidates,
+            repeats,
             elsewhere,
         },
         remarks,
@@ -286,23 +328,29 @@ impl Session {
     /// What the search looks at, with the rows in use.
     #[must_use]
     pub fn world<'a>(&'a self, used: &'a [bool], accepted: &'a [Pick]) -> World<'a> {
+        let layout = &self.layout;
+        let held = held_of(&self.columns, &self.shares);
+        let in_use = (0..layout.rows()).filter(|row| used[*row]);
+        let numbers: usize = in_use.map(|row| layout.row(row).len()).sum();
         World {
-            layout: &self.layout,
+            layout,
             residual: &self.residual,
             held: &self.columns,
             shares: &self.shares,
             candidates: &self.candidates,
+            plain: Plain::of(layout, used, &self.residual, &held, self.floor()),
+            ln_numbers: (numbers as f64).ln(),
             used,
-            floor: self.floor(),
             accepted,
         }
     }
 
-    /// The residuals' scale is at least this: stated noise is not doubted downwards.
+    /// The residuals' scale is at least this: stated noise is not doubted downwards, that of repeated poses not below what it
+    /// is known to be.
     #[must_use]
     pub fn floor(&self) -> f64 {
         if self.problem.sigma_assumed {
-            1e-6
+            self.repeats.map_or(LEAST, |r| r.least().max(LEAST))
         } else {
             1.0
         }

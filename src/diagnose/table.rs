@@ -4,7 +4,17 @@ use crate::identify::observation::MOST_NUMBERS;
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Motion;
+use pulp::Arch;
 use std::ops::Range;
+use std::sync::LazyLock;
+
+/// Sums of an inner product that run side by side.
+const LANES: usize = 16;
+/// Fewer numbers are not worth choosing instructions for.
+const SHORT: usize = 48;
+
+/// What the processor can do.
+static ARCH: LazyLock<Arch> = LazyLock::new(Arch::new);
 
 /// One number for each measured number.
 pub type Column = Vec<f64>;
@@ -19,9 +29,15 @@ impl Layout {
     /// Of a problem's rows.
     #[must_use]
     pub fn of(problem: &Problem) -> Self {
+        Self::of_counts(problem.rows.iter().map(|row| row.observed.count()))
+    }
+
+    /// Of rows with so many numbers each.
+    #[must_use]
+    pub fn of_counts(counts: impl IntoIterator<Item = usize>) -> Self {
         let mut starts = vec![0];
-        for row in &problem.rows {
-            starts.push(starts[starts.len() - 1] + row.observed.count());
+        for count in counts {
+            starts.push(starts[starts.len() - 1] + count);
         }
         Self { starts }
     }
@@ -29,9 +45,7 @@ impl Layout {
     /// Rows of equal length.
     #[cfg(test)]
     pub fn even(rows: usize, each: usize) -> Self {
-        Self {
-            starts: (0..=rows).map(|r| r * each).collect(),
-        }
+        Self::of_counts(std::iter::repeat_n(each, rows))
     }
 
     /// Numbers of a row.
@@ -86,29 +100,57 @@ pub fn table(
     (residual, columns)
 }
 
+struct Dot<'a>(&'a [f64], &'a [f64]);
+
+impl pulp::NullaryFnOnce for Dot<'_> {
+    type Output = f64;
+
+    // so many sums, whatever the machine: its results are those of every other
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let mut sums = [0.0; LANES];
+        let (mut x, mut y) = (self.0.chunks_exact(LANES), self.1.chunks_exact(LANES));
+        for (p, q) in x.by_ref().zip(y.by_ref()) {
+            for k in 0..LANES {
+                sums[k] += p[k] * q[k];
+            }
+        }
+        let rest = x.remainder().iter().zip(y.remainder());
+        let tail: f64 = rest.map(|(p, q)| p * q).sum();
+        sums.iter().sum::<f64>() + tail
+    }
+}
+
+struct Add<'a>(&'a mut [f64], f64, &'a [f64]);
+
+impl pulp::NullaryFnOnce for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (a, b) in self.0.iter_mut().zip(self.2) {
+            *a += self.1 * b;
+        }
+    }
+}
+
 /// Inner product.
 #[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (mut x, mut y) = (a.chunks_exact(4), b.chunks_exact(4));
-    for (p, q) in x.by_ref().zip(y.by_ref()) {
-        for k in 0..4 {
-            sums[k] += p[k] * q[k];
-        }
+    if a.len() < SHORT {
+        return a.iter().zip(b).map(|(x, y)| x * y).sum();
     }
-    let tail: f64 = x
-        .remainder()
-        .iter()
-        .zip(y.remainder())
-        .map(|(p, q)| p * q)
-        .sum();
-    sums[0] + sums[1] + sums[2] + sums[3] + tail
+    ARCH.dispatch(Dot(a, b))
 }
 
 /// `into += by · column`.
 pub fn add_scaled(into: &mut [f64], by: f64, column: &[f64]) {
-    for (a, b) in into.iter_mut().zip(column) {
-        *a += by * b;
+    if into.len() < SHORT {
+        for (a, b) in into.iter_mut().zip(column) {
+            *a += by * b;
+        }
+    } else {
+        ARCH.dispatch(Add(into, by, column));
     }
 }
 

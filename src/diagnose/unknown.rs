@@ -322,6 +322,60 @@ fn features(problem: &Problem, estimate: &Estimate) -> Vec<Feature> {
     all
 }
 
+/// A motion's columns multiplied with everything that they may be multiplied with, summed over the numbers of each row: a function
+/// of the rows is then a factor of each sum.
+struct Summed {
+    /// For each column, products with the basis.
+    along: Vec<Vec<Column>>,
+    /// With what is left.
+    left: Vec<Column>,
+    /// With the effects.
+    effects: Vec<Vec<Column>>,
+    /// With each other.
+    own: Vec<Vec<Column>>,
+}
+
+impl Summed {
+    fn of(columns: &[Column], layout: &Layout, fit: &Fit, beside: &Beside) -> Self {
+        let weighted =
+            |c: &Column| -> Column { c.iter().zip(&fit.roots).map(|(c, w)| c * w).collect() };
+        let columns: Vec<Column> = columns.iter().map(weighted).collect();
+        let with = |column: &Column, other: &Column| -> Column {
+            let rows = (0..layout.rows()).map(|row| layout.row(row));
+            rows.map(|row| dot(&column[row.clone()], &other[row]))
+                .collect()
+        };
+        let all = |others: &[Column]| -> Vec<Vec<Column>> {
+            let each = |c: &Column| others.iter().map(|o| with(c, o)).collect();
+            columns.iter().map(each).collect()
+        };
+        Self {
+            along: all(&fit.basis),
+            left: columns.iter().map(|c| with(c, &fit.left)).collect(),
+            effects: all(beside.turned()),
+            own: all(&columns),
+        }
+    }
+
+    /// The columns times a function of the rows: their products, and those with the effects.
+    fn times(&self, values: &[f64], shares: &[f64]) -> (Group, Vec<Vec<f64>>) {
+        let with = |sums: &Vec<Column>| sums.iter().map(|s| dot(s, values)).collect::<Vec<f64>>();
+        let squared: Column = values.iter().map(|v| v * v).collect();
+        let along: Vec<Vec<f64>> = self.along.iter().map(with).collect();
+        let projected = |i: usize, j: usize| {
+            let parts = along[i].iter().zip(&along[j]).zip(shares);
+            dot(&self.own[i][j], &squared) - parts.map(|((x, y), s)| x * y * s).sum::<f64>()
+        };
+        let columns = 0..along.len();
+        let gram = columns
+            .clone()
+            .map(|i| columns.clone().map(|j| projected(i, j)).collect());
+        let squares = columns.clone().map(|i| dot(&self.own[i][i], &squared));
+        let group = Group::known(gram.collect(), with(&self.left), squares.collect());
+        (group, self.effects.iter().map(with).collect())
+    }
+}
+
 impl Library {
     /// The functions of these rows.
     #[must_use]
@@ -385,26 +439,16 @@ impl Library {
         kept: &[Kept],
     ) -> Vec<Vec<Unknown>> {
         let pairs = self.pairs();
+        let motions = self.motions.iter();
+        let motions: Vec<Summed> = motions
+            .map(|(_, columns)| Summed::of(columns, layout, fit, beside))
+            .collect();
         let each: Vec<Vec<Option<Gain>>> = pairs
             .par_iter()
             .map(|(m, f)| {
-                let (_, columns) = &self.motions[*m];
-                let values = &self.features[*f].values;
-                let columns: Vec<Column> = columns
-                    .iter()
-                    .map(|column| {
-                        let mut own = column.clone();
-                        for (row, value) in values.iter().enumerate() {
-                            own[layout.row(row)].iter_mut().for_each(|x| *x *= value);
-                        }
-                        own
-                    })
-                    .collect();
-                let projections = fit.projections(&columns);
-                let group = Group::of(fit, &projections.iter().collect::<Vec<_>>());
-                let cross: Vec<Vec<f64>> = projections.iter().map(|p| beside.cross(p)).collect();
+                let (group, cross) = motions[*m].times(&self.features[*f].values, &fit.shares);
                 let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
-                let free = vec![None; columns.len()];
+                let free = vec![None; cross.len()];
                 let gain = |kept: &Kept| beside.gain(&group, &cross, kept, &free);
                 kept.iter().map(gain).collect()
             })

@@ -1,10 +1,12 @@
 //! Seeded cases for `diagnose`: a robot with something hidden in it, measured by one of two implementations of the physics.
 
+mod hidden;
 pub mod truth;
 
 use crate::physics::{Fault, Moment, Robot, tool_pose};
+use hidden::{hidden, kinds, scaled};
 use poseshift::identify::measurements::Measurements;
-use poseshift::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site};
+use poseshift::model::effects::{Effect, Kind, MOST_PARAMETERS, Place, Site};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model};
 use rand::rngs::StdRng;
@@ -117,6 +119,8 @@ pub struct Case {
     pub csv: String,
     /// The answer, as [`label`] writes it, sorted.
     pub answer: Vec<String>,
+    /// The effects hidden.
+    pub effects: Vec<Effect>,
     /// What is hidden, for the table: the effect's name, or what it is.
     pub what: String,
     /// Size, in root mean squares of the noise.
@@ -143,14 +147,6 @@ fn normal(random: &mut StdRng) -> f64 {
         random.random_range(0.0..1.0),
     );
     (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
-}
-
-fn sign(random: &mut StdRng) -> f64 {
-    if random.random_range(0..2) == 0 {
-        1.0
-    } else {
-        -1.0
-    }
 }
 
 fn at(kind: Kind, index: usize, parameters: &[f64]) -> Effect {
@@ -204,120 +200,6 @@ fn calibration(profile: &Profile, big: bool, random: &mut StdRng) -> Vec<Effect>
     effects
 }
 
-/// A hidden effect of this kind with values of typical proportions.
-fn hidden(
-    kind: Kind,
-    rows: usize,
-    length_s: f64,
-    torques: &[f64; 6],
-    start: Start,
-    random: &mut StdRng,
-) -> Effect {
-    let definition = kind.definition();
-    let mut site = Site {
-        order: 1,
-        ..Site::default()
-    };
-    for place in definition.site {
-        match place {
-            Place::Link if kind == Kind::LinkGeometry => site.index = random.random_range(1..5),
-            Place::Link | Place::Joint => site.index = random.random_range(0..6),
-            Place::JointOrBase => site.index = random.random_range(0..=BASE),
-            Place::On => {
-                while site.on == site.index {
-                    site.on = random.random_range(0..6);
-                }
-            }
-            Place::Order => site.order = random.random_range(1..5),
-            Place::Row => {
-                site.order =
-                    u32::try_from(random.random_range(rows / 5..rows * 4 / 5)).expect("small");
-            }
-            Place::Tool => {}
-        }
-    }
-    if definition.needs_masses() && definition.site.contains(&Place::Joint) {
-        // a joint that carries a torque
-        while torques[site.index] < 0.02 * torques.iter().fold(0.0, |m, t| f64::max(m, *t)) {
-            site.index = random.random_range(0..6);
-        }
-    }
-    let mut p = [0.0; MOST_PARAMETERS];
-    for (value, parameter) in p.iter_mut().zip(definition.parameters) {
-        *value = parameter.prior_sigma
-            * parameter.unit.in_si()
-            * random.random_range(0.3..1.0)
-            * sign(random);
-    }
-    match kind {
-        Kind::LinkGeometry => {
-            // one of the parameters that no neighbour can stand for
-            let which = [0, 1, 3][random.random_range(0..3)];
-            (0..5).filter(|k| *k != which).for_each(|k| p[k] = 0.0);
-        }
-        Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance => p = p.map(f64::abs),
-        Kind::ComplianceKnee => {
-            p = [
-                random.random_range(0.1..0.4) * torques[site.index],
-                p[1].abs(),
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-            ];
-        }
-        Kind::ThermalGrowth => p = [p[0].abs(), 20.0, 0.0, 0.0, 0.0, 0.0],
-        Kind::WarmUpDrift => {
-            p[4] = random.random_range(0.1..0.5) * length_s;
-            if site.index == BASE {
-                p[0] = 0.0;
-            } else {
-                p[1..4].fill(0.0);
-            }
-        }
-        Kind::PayloadError => p = [p[0].abs(), 0.3 * p[1], 0.3 * p[2], 0.3 * p[3], 0.0, 0.0],
-        _ => {}
-    }
-    let _ = start;
-    Effect {
-        kind,
-        site,
-        parameters: p,
-    }
-}
-
-/// Parameters that scale with the size of an effect: not torques, temperatures, times.
-fn scaled(effect: &Effect, by: f64) -> Effect {
-    let fixed: &[usize] = match effect.kind {
-        Kind::ComplianceKnee => &[0],
-        Kind::ThermalGrowth => &[1],
-        Kind::WarmUpDrift => &[4],
-        _ => &[],
-    };
-    let mut scaled = effect.clone();
-    for (k, p) in scaled.parameters.iter_mut().enumerate() {
-        if !fixed.contains(&k) {
-            *p *= by;
-        }
-    }
-    scaled
-}
-
-/// Kinds that may be hidden: all, but those that are fitted anew where the start is a drawing.
-pub fn kinds(start: Start) -> Vec<Kind> {
-    let absorbed = [
-        Kind::BaseFrame,
-        Kind::ToolFrame,
-        Kind::LinkGeometry,
-        Kind::JointCompliance,
-    ];
-    REGISTRY
-        .iter()
-        .copied()
-        .filter(|k| start == Start::Calibrated || !absorbed.contains(k))
-        .collect()
-}
-
 fn joints_of(profile: &Profile, count: usize, random: &mut StdRng) -> Vec<[f64; 6]> {
     (0..count)
         .map(|_| {
@@ -334,6 +216,12 @@ fn joints_of(profile: &Profile, count: usize, random: &mut StdRng) -> Vec<[f64; 
 
 /// Builds a case. The kinds hidden follow from its number, everything else from the seed.
 pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
+    case_of(group, number, seed, (rows, 1))
+}
+
+/// A case in which each pose is measured so many times, one after another.
+pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, usize)) -> Case {
+    let rows = poses * times;
     let mut random =
         StdRng::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
     let which = number % 2;
@@ -364,16 +252,20 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
         let tip: Vec<f64> = (0..3).map(|_| p(&mut random, 1e-3)).collect();
         truth.effects.push(at(Kind::ToolFrame, 0, &tip));
     }
-    let q = joints_of(&truth, rows, &mut random);
+    let q = joints_of(&truth, poses, &mut random).into_iter();
+    let q: Vec<[f64; 6]> = q.flat_map(|q| std::iter::repeat_n(q, times)).collect();
     let mut conditions = Vec::new();
-    let mut last = [0.0; 6];
+    let (mut last, mut direction) = ([0.0; 6], [0.0; 6]);
     let length_s = 45.0 * rows as f64;
     let wave = random.random_range(0.0..6.0);
     for (r, joints) in q.iter().enumerate() {
         let warm =
             23.0 + 4.0 * (wave + 5.0 * r as f64 / rows as f64).sin() + 0.2 * normal(&mut random);
+        if *joints != last {
+            direction = std::array::from_fn(|i| (joints[i] - last[i]).signum());
+        }
         conditions.push(Conditions {
-            direction: std::array::from_fn(|i| (joints[i] - last[i]).signum()),
+            direction,
             temperature_c: Some((warm * 100.0).round() / 100.0),
             time_s: Some(45.0 * r as f64 + random.random_range(0.0..5.0_f64).round()),
             row: u32::try_from(r + 1).ok(),
@@ -430,7 +322,7 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
                 all_kinds[random.random_range(0..all_kinds.len())]
             };
             size = wanted;
-            let unit = hidden(kind, rows, length_s, &torques, group.start, &mut random);
+            let unit = hidden(kind, rows, length_s, &torques, &mut random);
             let moved = rms(&see(std::slice::from_ref(&unit), &[]));
             let again = effects.iter().any(|e: &Effect| label(e) == label(&unit));
             if moved < 1e-9 || again {
@@ -544,6 +436,7 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
         measurements: Measurements::from_csv(text.as_bytes()).expect("rows in the format"),
         csv: text,
         answer,
+        effects,
         what,
         size,
         independent,

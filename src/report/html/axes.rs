@@ -3,6 +3,7 @@
 use super::frames::pose_text;
 use super::numbers::{Column, Table, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use crate::finding::Finding;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 
@@ -25,18 +26,40 @@ pub struct Sweep {
     pub backlash_rad: Option<(f64, f64)>,
 }
 
+/// A frame that sweeps give.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// What it is.
+    pub name: &'static str,
+    /// The joints whose sweeps give it.
+    pub joints: &'static str,
+    /// Where it is; `None` without those sweeps.
+    pub pose: Option<Pose>,
+    /// Its standard deviations, or why they are not known.
+    pub sigma: String,
+    /// The part of the arm's sag in them; `None` where it is not known.
+    pub sag: Option<String>,
+}
+
 /// The page.
 #[must_use]
-pub fn page(sweeps: &[Sweep], base: Option<&Pose>, tool: Option<&Pose>, file: &str) -> Page {
+pub fn page(sweeps: &[Sweep], frames: &[Frame], file: &str, findings: &[Finding]) -> Page {
     let answer = format!("{} joints were swept", sweeps.len());
-    let mut page = Page::new("Axes".into(), Level::Good, answer);
+    let mut page = Page::new("Axes".into(), Level::of(findings), answer);
     page.lead.push(file.to_owned());
-    for (name, place, joints) in [
-        ("world from base", base, "1 and 2"),
-        ("flange from tool", tool, "5 and 6"),
-    ] {
-        let needs = || format!("needs the sweeps of joints {joints}");
-        page.fact(name, place.map_or_else(needs, pose_text));
+    for frame in frames {
+        let Some(pose) = &frame.pose else {
+            page.fact(
+                frame.name,
+                format!("needs the sweeps of joints {}", frame.joints),
+            );
+            continue;
+        };
+        page.fact(frame.name, pose_text(pose));
+        page.fact(&format!("{}, sigma", frame.name), frame.sigma.clone());
+        if let Some(sag) = &frame.sag {
+            page.fact(&format!("{}, of it sag", frame.name), sag.clone());
+        }
     }
     let rms = |values: &[f64]| {
         let sum: f64 = values.iter().map(|v| v * v).sum();
@@ -62,6 +85,7 @@ pub fn page(sweeps: &[Sweep], base: Option<&Pose>, tool: Option<&Pose>, file: &s
     for sweep in sweeps {
         show_sweep(&mut page, sweep);
     }
+    page.findings(findings);
     page
 }
 

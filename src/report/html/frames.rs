@@ -4,7 +4,7 @@ use super::cell::{Along, Cell, Ellipsoid, Path, Points, Robot};
 use super::numbers::{Column, Number, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::check::Meshes;
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector, norm, scale};
 use crate::identify::plan::Plan;
@@ -59,14 +59,6 @@ pub struct Frame {
     pub findings: Vec<Finding>,
 }
 
-fn level(findings: &[Finding]) -> Level {
-    match findings.iter().map(|f| f.severity).max() {
-        Some(Severity::Error) => Level::Error,
-        Some(Severity::Warning) => Level::Warning,
-        _ => Level::Good,
-    }
-}
-
 /// The numbers of a pose: millimetres and degrees.
 #[must_use]
 pub fn pose_text(pose: &Pose) -> String {
@@ -82,7 +74,7 @@ pub fn pose_text(pose: &Pose) -> String {
 pub fn frame_page(frame: &Frame) -> Page {
     let mut page = Page::new(
         frame.title.clone(),
-        level(&frame.findings),
+        Level::of(&frame.findings),
         frame.answer.clone(),
     );
     page.lead.clone_from(&frame.lead);

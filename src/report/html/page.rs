@@ -38,6 +38,18 @@ pub enum Level {
     Error,
 }
 
+impl Level {
+    /// As the worst of the findings.
+    #[must_use]
+    pub fn of(findings: &[Finding]) -> Self {
+        match findings.iter().map(|f| f.severity).max() {
+            Some(Severity::Error) => Self::Error,
+            Some(Severity::Warning) => Self::Warning,
+            _ => Self::Good,
+        }
+    }
+}
+
 /// The answer in a sentence.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {

@@ -1,7 +1,8 @@
 //! `diagnose` from outside: report, files, exit status, bad input.
 
+use super::{group, without_sigma};
 use crate::support::{poseshift, scratch};
-use crate::trial::{Case, GROUPS, case};
+use crate::trial::{Case, case};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -16,20 +17,18 @@ fn files(case: &Case) -> (tempfile::TempDir, PathBuf, PathBuf) {
     (folder, profile, csv)
 }
 
-fn group(name: &str) -> &'static crate::trial::Group {
-    GROUPS
-        .iter()
-        .find(|g| g.name == name)
-        .expect("a group of the trial")
+/// A calibrated robot with an effect of this kind hidden in it.
+pub fn case_with(what: &str) -> Case {
+    // kinds follow from the number
+    let number = (0..64)
+        .find(|n| case(group("calibrated"), *n, 3, 30).what == what)
+        .expect("every kind is hidden");
+    case(group("calibrated"), number, 3, 150)
 }
 
 #[test]
 fn the_report_names_the_effect_and_the_profile_has_it() {
-    // a joint's backlash: kinds follow from the number
-    let number = (0..64)
-        .find(|n| case(group("calibrated"), *n, 3, 30).what == "backlash")
-        .expect("every kind is hidden");
-    let case = case(group("calibrated"), number, 3, 150);
+    let case = case_with("backlash");
     let (folder, profile, csv) = files(&case);
     let better = folder.path().join("better.yaml");
     let run = poseshift()
@@ -152,10 +151,7 @@ fn too_few_rows_and_constant_columns_are_told() {
 
 #[test]
 fn a_person_overrules() {
-    let number = (0..64)
-        .find(|n| case(group("calibrated"), *n, 3, 30).what == "joint_scale")
-        .expect("every kind is hidden");
-    let case = case(group("calibrated"), number, 3, 150);
+    let case = case_with("joint_scale");
     let (_folder, profile, csv) = files(&case);
     let run = poseshift()
         .args([
@@ -215,7 +211,7 @@ fn with_places(csv: &str, change: impl Fn(usize, &[[f64; 3]]) -> [f64; 3]) -> St
 }
 
 /// Status, standard output and standard error of a diagnosis.
-fn diagnosed(case: &Case, more: &[&str]) -> (i32, String, String) {
+pub fn diagnosed(case: &Case, more: &[&str]) -> (i32, String, String) {
     let (_folder, profile, csv) = files(case);
     let run = poseshift()
         .args(["diagnose", "--profile"])
@@ -268,10 +264,7 @@ fn one_pose_again_and_again_says_nothing() {
 
 #[test]
 fn the_text_is_read_in_a_minute() {
-    let number = (0..64)
-        .find(|n| case(group("calibrated"), *n, 3, 30).what == "backlash")
-        .expect("every kind is hidden");
-    let (status, out, error) = diagnosed(&case(group("calibrated"), number, 3, 150), &[]);
+    let (status, out, error) = diagnosed(&case_with("backlash"), &[]);
     assert_eq!(status, 0, "{error}");
     let first = out.lines().next().expect("a sentence");
     assert!(
@@ -373,29 +366,8 @@ fn another_tool_is_called_a_tool_or_nothing() {
 #[test]
 fn without_a_noise_to_judge_by_nothing_is_named() {
     // a drawing: frames, geometry and compliance take nearly all that 14 rows say, and there is no sigma_mm
-    let mut case = case(group("nominal"), 0, 3, 14);
-    let rows = case.csv.lines().map(|line| {
-        let cells: Vec<&str> = line.split(',').collect();
-        cells[..cells.len() - 1].join(",")
-    });
-    case.csv = rows.collect::<Vec<_>>().join("\n") + "\n";
-    assert!(!case.csv.contains("sigma_mm"));
+    let case = without_sigma(case(group("nominal"), 0, 3, 14));
     let (status, out, error) = diagnosed(&case, &[]);
     assert_eq!((status, out.as_str()), (2, ""));
     assert!(error.contains("too few"), "{error}");
-}
-
-#[test]
-fn the_page_shows_each_step_against_the_clock_or_the_joint() {
-    let number = (0..64)
-        .find(|n| case(group("calibrated"), *n, 3, 30).what == "frame_shift")
-        .expect("every kind is hidden");
-    let case = case(group("calibrated"), number, 3, 150);
-    let folder = scratch();
-    let page = folder.path().join("page.html");
-    let (status, _, error) = diagnosed(&case, &["--quick", "--report", &page.to_string_lossy()]);
-    assert_eq!(status, 0, "{error}");
-    let text = std::fs::read_to_string(&page).expect("a page");
-    assert!(text.contains("without it") && text.contains("fitted again"));
-    assert!(text.contains("\"time\""), "the step stands against time_s");
 }

@@ -1,16 +1,44 @@
 //! The diagnosis, against hidden truth: a reduced blind trial, and the command line.
 
 mod commands;
+mod page;
 mod physics;
 mod real;
+mod repeats;
 
-use crate::trial::{GROUPS, Group, case, label};
+use crate::trial::{Case, GROUPS, Group, case, label};
 use poseshift::diagnose::{Options, Verdict, diagnose};
+use poseshift::identify::measurements::Measurements;
 
 /// Poses of a case.
 const ROWS: usize = 150;
 /// Another seed than the example's.
 const SEED: u64 = 77;
+
+fn group(name: &str) -> &'static Group {
+    GROUPS
+        .iter()
+        .find(|g| g.name == name)
+        .expect("a group of the trial")
+}
+
+/// The same measurements, read again from a text.
+fn with_csv(mut case: Case, csv: String) -> Case {
+    case.measurements = Measurements::from_csv(csv.as_bytes()).expect("rows in the format");
+    case.csv = csv;
+    case
+}
+
+/// The same without the last column, `sigma_mm`.
+fn without_sigma(case: Case) -> Case {
+    let rows = case.csv.lines().map(|line| {
+        let (cells, _) = line.rsplit_once(',').expect("several columns");
+        cells.to_owned() + "\n"
+    });
+    let csv: String = rows.collect();
+    assert!(case.csv.contains("sigma_mm") && !csv.contains("sigma_mm"));
+    with_csv(case, csv)
+}
 
 fn right(group: &Group, number: usize) -> (bool, String) {
     let case = case(group, number, SEED, ROWS);
@@ -46,12 +74,8 @@ fn right(group: &Group, number: usize) -> (bool, String) {
 
 /// Cases of one group; at most `wrong` of them may be wrong.
 fn trial(name: &str, numbers: impl Iterator<Item = usize>, wrong: usize) {
-    let group = GROUPS
-        .iter()
-        .find(|g| g.name == name)
-        .expect("a group of the trial");
     let failures: Vec<String> = numbers
-        .map(|n| right(group, n))
+        .map(|n| right(group(name), n))
         .filter(|(right, _)| !right)
         .map(|(_, w)| w)
         .collect();

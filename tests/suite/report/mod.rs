@@ -9,12 +9,12 @@ use std::path::Path;
 const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
 const PROGRAM: &str = "programs/rapid/olp/in/Deburr.mod";
 
-fn name(path: &Path) -> &str {
+pub fn name(path: &Path) -> &str {
     path.to_str().expect("UTF-8")
 }
 
 /// The data of a page.
-fn data(page: &Path) -> Value {
+pub fn data(page: &Path) -> Value {
     let html = std::fs::read_to_string(page).expect("a page");
     let (_, rest) = html
         .split_once(r#"<script type="application/json" id="data">"#)
@@ -24,7 +24,7 @@ fn data(page: &Path) -> Value {
 }
 
 /// A column of a table of a page by heading.
-fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Value> {
+pub fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Value> {
     let columns = data["tables"][table]["columns"].as_array().expect(table);
     let found = columns
         .iter()
@@ -42,7 +42,7 @@ fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec<Val
 }
 
 /// Each number of a page is one of the report rounded to so many digits.
-fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
+pub fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
     assert_eq!(shown.len(), told.len(), "{what}");
     assert!(!shown.is_empty(), "{what}");
     for (shown, told) in shown.iter().zip(told) {
@@ -55,7 +55,7 @@ fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
     }
 }
 
-fn each(list: &Value, key: &str) -> Vec<Value> {
+pub fn each(list: &Value, key: &str) -> Vec<Value> {
     let list = list.as_array().expect("a list").iter();
     list.map(|one| one[key].clone()).collect()
 }
@@ -388,4 +388,115 @@ fn inserted_moves_are_told_and_drawn_as_a_way_of_their_own() {
     assert!(p2.is_some());
     let of_p2 = |item: &Value| item.as_u64().and_then(|i| usize::try_from(i).ok()) == p2;
     assert!(items[49..].iter().all(of_p2));
+}
+
+#[test]
+fn pages_of_repeated_poses_and_of_sweeps_have_what_is_told() {
+    let folder = scratch();
+    let at = |file: &str| folder.path().join(file);
+    let (once, repeated) = (at("once.csv"), at("repeated.csv"));
+    let told = |arguments: &[&str]| -> String {
+        let (status, out, error) = run(arguments);
+        assert_eq!(status, 0, "{error}");
+        out
+    };
+    let joints = at("joints.csv");
+    told(&[
+        "plan",
+        "--profile",
+        PROFILE,
+        "--count",
+        "12",
+        "--candidates",
+        "100",
+        "--starts",
+        "1",
+        "--level",
+        "1",
+        "-o",
+        name(&joints),
+    ]);
+    let measured = |seed: &str| {
+        told(&[
+            "simulate",
+            "--profile",
+            PROFILE,
+            "--joints",
+            name(&joints),
+            "-o",
+            name(&once),
+            "--noise-mm",
+            "0.03",
+            "--seed",
+            seed,
+        ]);
+        let text = std::fs::read_to_string(&once).expect("measurements");
+        text.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let mut rows = measured("1");
+    for seed in ["2", "3"] {
+        rows.extend(measured(seed).into_iter().skip(1));
+    }
+    std::fs::write(&repeated, rows.join("\n")).expect("scratch");
+    let page = at("validate.html");
+    let json = told(&[
+        "validate",
+        "--profile",
+        PROFILE,
+        "--measurements",
+        name(&repeated),
+        "--report",
+        name(&page),
+        "--json",
+    ]);
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let shown = data(&page);
+    for (table, key, label, of) in [
+        ("repeated", "iso_9283", "AP", "commanded_accuracy_mm"),
+        ("repeated", "iso_9283", "AP, real model", "accuracy_mm"),
+        ("repeated", "iso_9283", "RP", "repeatability_mm"),
+        (
+            "distances",
+            "iso_9283_distances",
+            "AD",
+            "commanded_accuracy_mm",
+        ),
+        (
+            "distances",
+            "iso_9283_distances",
+            "AD, real model",
+            "accuracy_mm",
+        ),
+        ("distances", "iso_9283_distances", "RD", "repeatability_mm"),
+    ] {
+        agree(
+            &column(&shown, table, label, Some("mm")),
+            &each(&report[key], of),
+            4,
+            label,
+        );
+    }
+
+    // one row of a sweep 3 mm off: it is left out, and the page says so
+    let sweeps = at("sweeps.csv");
+    let text = std::fs::read_to_string(repository("docs/measuring/sweeps.csv")).expect("sweeps");
+    std::fs::write(&sweeps, text.replacen("341.3129", "344.3129", 1)).expect("scratch");
+    let page = at("axes.html");
+    let json = told(&[
+        "axes",
+        name(&sweeps),
+        "--profile",
+        PROFILE,
+        "--report",
+        name(&page),
+        "--json",
+    ]);
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let shown = column(&data(&page), "findings", "message", None);
+    assert_eq!(shown, each(&report["findings"], "message"));
+    let html = std::fs::read_to_string(&page).expect("a page");
+    let sigma = report["base_sigma"]["x_mm"].as_f64().expect("a sigma");
+    assert!(html.contains("world from base, sigma"), "no sigma");
+    assert!(html.contains(&format!("{sigma:.4}")), "{sigma}");
+    assert!(html.contains(r#"class="verdict warning""#));
 }

@@ -2,9 +2,9 @@
 
 use super::{Judged, Rows, robot_lead, show_rows, summary};
 use crate::identify::statistics::Quality;
-use crate::identify::validation::{Refit, Validation};
+use crate::identify::validation::{Refit, Repeated, RepeatedDistance, Validation};
 use crate::model::profile::Profile;
-use crate::report::html::numbers::{Column, Table, significant};
+use crate::report::html::numbers::{Column, Table, fixed, significant};
 use crate::report::html::page::{Level, Page, Tone};
 
 /// The page of `validate`.
@@ -101,20 +101,16 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
     }
     if !found.repeated.is_empty() {
         let list = &found.repeated;
+        let mm = |of: &dyn Fn(&Repeated) -> f64| -> Vec<_> {
+            list.iter().map(|r| significant(of(r), 4)).collect()
+        };
         let table = Table {
             columns: vec![
                 Column::counts("line", list.iter().map(|r| r.line.number)),
                 Column::counts("count", list.iter().map(|r| r.count)),
-                Column::numbers(
-                    "AP",
-                    "mm",
-                    list.iter().map(|r| significant(r.accuracy_mm, 4)),
-                ),
-                Column::numbers(
-                    "RP",
-                    "mm",
-                    list.iter().map(|r| significant(r.repeatability_mm, 4)),
-                ),
+                Column::numbers("AP", "mm", mm(&|r| r.commanded_accuracy_mm)),
+                Column::numbers("AP, real model", "mm", mm(&|r| r.accuracy_mm)),
+                Column::numbers("RP", "mm", mm(&|r| r.repeatability_mm)),
                 Column::numbers(
                     "vAP",
                     "mm",
@@ -123,7 +119,36 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
                 ),
             ],
         };
-        page.show("repeated", "Repeated poses, ISO 9283", "", table);
+        let note = "AP: the mean from the commanded pose, and from the real model's";
+        page.show("repeated", "Repeated poses, ISO 9283", note, table);
+    }
+    if !found.repeated_distances.is_empty() {
+        let list = &found.repeated_distances;
+        let mm = |of: &dyn Fn(&RepeatedDistance) -> f64| -> Vec<_> {
+            list.iter().map(|r| significant(of(r), 4)).collect()
+        };
+        let table = Table {
+            columns: vec![
+                Column::counts("line", list.iter().map(|r| r.lines[0].number)),
+                Column::counts("to line", list.iter().map(|r| r.lines[1].number)),
+                Column::counts("count", list.iter().map(|r| r.count)),
+                Column::numbers(
+                    "distance",
+                    "mm",
+                    list.iter().map(|r| fixed(r.distance_mm, 3)),
+                ),
+                Column::numbers("AD", "mm", mm(&|r| r.commanded_accuracy_mm)),
+                Column::numbers("AD, real model", "mm", mm(&|r| r.accuracy_mm)),
+                Column::numbers("RD", "mm", mm(&|r| r.repeatability_mm)),
+            ],
+        };
+        let note = "AD: the mean from the commanded distance, and from the real model's";
+        page.show(
+            "distances",
+            "Distances of repeated poses, ISO 9283",
+            note,
+            table,
+        );
     }
     page
 }

@@ -1,5 +1,7 @@
 //! The page of `diagnose`: the gap shrinking step by step, and for each step what gave the effect away.
 
+mod lists;
+
 use super::cell::{Along, Cell, Path, Points, Robot};
 use super::numbers::{Column, Number, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
@@ -10,7 +12,7 @@ use crate::geometry::{Vector, dot, scale, sub};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::{Miss, misses};
 use crate::model::effects::Kind as EffectKind;
-use crate::report::diagnosis::{sentence, together};
+use crate::report::diagnosis::sentence;
 use crate::report::identification;
 
 /// A joint whose turn moves the measured point by less than this, metres a radian, shows nothing of its angle.
@@ -74,7 +76,7 @@ pub fn page(found: &Diagnosis, lines: &[usize], file: &str) -> Page {
     }
     show_evidence(&mut page, found);
     show_residuals(&mut page, found, lines);
-    show_lists(&mut page, found);
+    lists::show(&mut page, found);
     page.findings(&identification::findings(&found.remarks, file));
     page
 }
@@ -454,126 +456,4 @@ fn show_residuals(page: &mut Page, found: &Diagnosis, lines: &[usize]) {
         ellipsoids: Vec::new(),
         along: Along::No(false),
     })));
-}
-
-fn show_lists(page: &mut Page, found: &Diagnosis) {
-    if !found.spots.is_empty() {
-        let list = &found.spots;
-        let table = Table {
-            columns: vec![
-                Column::texts("column", list.iter().map(|s| s.column.clone())),
-                Column::texts("most at", list.iter().map(|s| s.values.clone())),
-                Column::numbers(
-                    "rms",
-                    "mm",
-                    list.iter().map(|s| significant(mm_from_m(s.size_m), 4)),
-                ),
-                Column::numbers(
-                    "largest",
-                    "mm",
-                    list.iter().map(|s| significant(mm_from_m(s.largest_m), 4)),
-                ),
-                Column::numbers("part", "%", list.iter().map(|s| fixed(100.0 * s.part, 1))),
-                Column::numbers("p", "", list.iter().map(|s| significant(s.p_value, 2))),
-            ],
-        };
-        page.show(
-            "where",
-            "Where the present model misses",
-            "Strongest first.",
-            table,
-        );
-    }
-    if !found.rivals.is_empty() {
-        let list = &found.rivals;
-        let table = Table {
-            columns: vec![
-                Column::texts("effect", list.iter().map(|r| r.effect.label())),
-                Column::texts(
-                    "instead of",
-                    list.iter()
-                        .map(|r| found.found[r.instead_of].effect.label()),
-                ),
-                Column::numbers(
-                    "fall of chi squared",
-                    "",
-                    list.iter().map(|r| significant(r.gain, 4)),
-                ),
-                Column::numbers(
-                    "behind by",
-                    "",
-                    list.iter().map(|r| significant(r.behind, 3)),
-                ),
-            ],
-        };
-        page.show(
-            "alternatives",
-            "What explains the measurements nearly as well",
-            "",
-            table,
-        );
-    }
-    if !found.stand_ins.is_empty() {
-        let list = &found.stand_ins;
-        let table = Table {
-            columns: vec![
-                Column::texts("effects", list.iter().map(|s| together(s.effects.iter()))),
-                Column::texts(
-                    "instead of",
-                    list.iter()
-                        .map(|s| together(s.instead_of.iter().map(|i| &found.found[*i].effect))),
-                ),
-                Column::numbers("part", "%", list.iter().map(|s| fixed(100.0 * s.part, 1))),
-                Column::numbers(
-                    "left of a coordinate",
-                    "mm",
-                    list.iter().map(|s| significant(mm_from_m(s.left_m), 4)),
-                ),
-                Column::numbers(
-                    "behind by",
-                    "",
-                    list.iter().map(|s| significant(s.behind, 3)),
-                ),
-            ],
-        };
-        page.show(
-            "groups",
-            "What competes with several of the effects found",
-            "The part of the fall of chi squared that they have in common.",
-            table,
-        );
-    }
-    if !found.cannot_test.is_empty() {
-        let list = &found.cannot_test;
-        let table = Table {
-            columns: vec![
-                Column::texts(
-                    "effect",
-                    list.iter().map(|c| c.kind.definition().id.to_owned()),
-                ),
-                Column::texts("needs", list.iter().map(|c| c.missing.clone())),
-            ],
-        };
-        page.show("cannot-test", "What could not be tested", "", table);
-    }
-    if !found.outliers.is_empty() {
-        let list = &found.outliers;
-        let table = Table {
-            columns: vec![
-                Column::counts("line", list.iter().map(|o| o.line.number)),
-                Column::texts("id", list.iter().map(|o| o.id.clone())),
-                Column::numbers(
-                    "residual",
-                    "mm",
-                    list.iter().map(|o| significant(mm_from_m(o.length_m), 5)),
-                ),
-                Column::numbers(
-                    "times the noise",
-                    "",
-                    list.iter().map(|o| significant(o.times, 3)),
-                ),
-            ],
-        };
-        page.show("outliers", "Rows that fit no model", "", table);
-    }
 }

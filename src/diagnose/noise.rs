@@ -1,0 +1,149 @@
+//! The noise that poses measured more than once show: pure error, whatever the model.
+//!
+//! # Source
+//! J. von Neumann, R. H. Kent, H. R. Bellinson, B. I. Hart, "The mean square successive difference" (1941): what changes slowly
+//! cancels from one repetition to the next. N. R. Draper, H. Smith, "Applied Regression Analysis", on pure error and lack of fit.
+
+use super::chances::{chi_squared_quantile, f_tail};
+use super::fit::Fit;
+use super::table::{Column, Layout};
+use crate::identify::measurements::Observed;
+use crate::identify::problem::{PointRef, Problem, Row};
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_1_SQRT_2;
+
+/// Repeated poses tell the noise from so many degrees of freedom on.
+const FEWEST: f64 = 10.0;
+/// Repetitions are near one another within this part of the session.
+const NEAR_PART: f64 = 0.1;
+/// And within so many degrees, °C.
+const NEAR_C: f64 = 0.5;
+/// The noise is at least the estimate's lower bound, which it stays above with this probability.
+const SURE: f64 = 0.99;
+
+/// Noise of a measured number by repetitions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repeats {
+    /// In standard deviations of the rows.
+    pub scale: f64,
+    /// Degrees of freedom it is known from.
+    pub freedom: f64,
+}
+
+impl Repeats {
+    /// The noise is hardly less, in standard deviations of the rows.
+    #[must_use]
+    pub fn least(&self) -> f64 {
+        self.scale * (self.freedom / chi_squared_quantile(SURE, self.freedom)).sqrt()
+    }
+
+    /// Probability that normal residuals of this noise, with so many degrees of freedom, come out as large as `scale`.
+    #[must_use]
+    pub fn chance_of(&self, scale: f64, freedom: f64) -> f64 {
+        f_tail((scale / self.scale).powi(2), freedom, self.freedom)
+    }
+}
+
+/// Bits of numbers that are equal: minus zero is zero.
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|x| (x + 0.0).to_bits()).collect()
+}
+
+/// Rows of the same angles, arrived at from the same side under the same force, of the same point on the same tool seen from
+/// the same place. An unknown direction is one of its own. Where something was touched the angles are the reading: no two agree.
+fn groups(problem: &Problem, used: &[bool]) -> Vec<Vec<usize>> {
+    let mut groups: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    for (i, row) in problem.rows.iter().enumerate().filter(|(i, _)| used[*i]) {
+        let point = match row.point {
+            PointRef::Named(index) => (Some(index), Vec::new()),
+            PointRef::Known(place) => (None, bits(&place)),
+        };
+        let seen = match row.observed {
+            Observed::Position(_) | Observed::Pose(_) => Vec::new(),
+            Observed::Distance { from_m, .. } => bits(&from_m),
+            Observed::Contact(_) => continue,
+        };
+        let conditions = &row.conditions;
+        let key = (
+            bits(&row.q),
+            bits(&conditions.direction),
+            bits(&conditions.force_n),
+            (row.tool, point, row.observed.count(), seen),
+        );
+        groups.entry(key).or_default().push(i);
+    }
+    groups.into_values().filter(|rows| rows.len() > 1).collect()
+}
+
+/// When rows were measured, in parts of the session: by the clock, else by their order.
+fn moments(rows: &[Row]) -> Vec<f64> {
+    let clock: Vec<f64> = rows.iter().filter_map(|r| r.conditions.time_s).collect();
+    let times = if clock.len() == rows.len() {
+        clock
+    } else {
+        (0..rows.len()).map(|r| r as f64).collect()
+    };
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min);
+    let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let length = (last - first).max(f64::MIN_POSITIVE);
+    times.iter().map(|t| (t - first) / length).collect()
+}
+
+/// How many independent differences tell as much as these successive ones: by the variance of their mean square, n normal numbers.
+fn independent_of(differences: usize) -> f64 {
+    let n = differences as f64 + 1.0;
+    if differences == 0 {
+        0.0
+    } else {
+        2.0 * (n - 1.0).powi(2) / (3.0 * n - 4.0)
+    }
+}
+
+/// The noise of repeated poses on the rows in use, where there are enough; `residual` in standard deviations of the rows.
+///
+/// Differences of successive repetitions count, so that drift hardly does; a reading that is wrong counts as one at the limit of
+/// what is normal. Where there are enough repetitions near one another in time and temperature, those far apart are left out:
+/// they differ by what the model does not know of either. Readings that agree in every digit are copies, and say nothing.
+#[must_use]
+pub fn of_repeats(
+    problem: &Problem,
+    layout: &Layout,
+    residual: &[f64],
+    used: &[bool],
+) -> Option<Repeats> {
+    let groups = groups(problem, used);
+    let moments = moments(&problem.rows);
+    let is_copy = |a: usize, b: usize| problem.rows[a].observed == problem.rows[b].observed;
+    let is_near = |a: usize, b: usize| {
+        let temperature = |row: usize| problem.rows[row].conditions.temperature_c;
+        let both = temperature(a).zip(temperature(b));
+        (moments[a] - moments[b]).abs() <= NEAR_PART
+            && both.is_none_or(|(a, b)| (a - b).abs() <= NEAR_C)
+    };
+    let of = |wanted: &dyn Fn(usize, usize) -> bool| {
+        let (mut counts, mut differences, mut independent) = (Vec::new(), Column::new(), 0.0);
+        for rows in &groups {
+            let before = counts.len();
+            for pair in rows.windows(2) {
+                let (a, b) = (pair[0], pair[1]);
+                if is_copy(a, b) || !wanted(a, b) {
+                    continue;
+                }
+                let numbers = layout.row(a).zip(layout.row(b));
+                let of_one = |(i, j)| (residual[i] - residual[j]) * FRAC_1_SQRT_2;
+                differences.extend(numbers.map(of_one));
+                counts.push(layout.row(a).len());
+            }
+            independent += independent_of(counts.len() - before);
+        }
+        let all = vec![true; counts.len()];
+        let part = independent / counts.len().max(1) as f64;
+        let fit = Fit::of(&Layout::of_counts(counts), &all, &differences, &[], 0.0);
+        let repeats = Repeats {
+            scale: fit.scale,
+            freedom: part * fit.freedom,
+        };
+        (repeats.freedom >= FEWEST).then_some(repeats)
+    };
+    of(&is_near).or_else(|| of(&|_, _| true))
+}
