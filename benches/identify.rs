@@ -135,16 +135,23 @@ fn choosing(criterion: &mut Criterion) {
     };
     let mut group = criterion.benchmark_group("plan");
     group.sample_size(20);
-    for starts in [1, 10] {
+    let one = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
+    for starts in [1, 4, 10] {
         let found = plan(&profile, &tool, &selection(), &request(starts)).expect("a plan");
         println!(
             "50 of 5000, {starts} starts: O1 {:.4} ({:?})",
             found.observability.o1, found.starts_o1
         );
-        group.bench_function(format!("50 of 5000, {starts} starts"), |b| {
-            b.iter(|| {
-                black_box(plan(&profile, &tool, &selection(), &request(starts)).expect("a plan"))
-            });
+        let planned =
+            || black_box(plan(&profile, &tool, &selection(), &request(starts)).expect("a plan"));
+        group.bench_function(format!("50 of 5000, {starts} starts, all cores"), |b| {
+            b.iter(planned);
+        });
+        group.bench_function(format!("50 of 5000, {starts} starts, one core"), |b| {
+            b.iter(|| one.install(planned));
         });
     }
     group.finish();

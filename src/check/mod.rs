@@ -20,6 +20,7 @@ mod judge;
 pub mod limits;
 pub mod mesh;
 mod nominal;
+pub mod passage;
 pub mod posture;
 mod query;
 pub mod refine;

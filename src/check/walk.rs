@@ -22,7 +22,7 @@ pub(super) struct Arms {
 }
 
 impl Arms {
-    fn of(equipped: &Equipped, profile: &Profile, tool: &Mounted) -> Self {
+    pub fn of(equipped: &Equipped, profile: &Profile, tool: &Mounted) -> Self {
         let plain = Models {
             real: equipped.inverse.real.clone(),
             controller: equipped.controller.clone(),

@@ -358,7 +358,7 @@ fn text(found: &Calibration, all: bool) -> String {
         ];
         for o in found.outliers.iter().take(shown) {
             rows.push(vec![
-                o.line.to_string(),
+                o.line.short(),
                 o.id.clone(),
                 format!("{:.3}", mm_from_m(o.length_m)),
                 format!("{:.1} (limit {:.1})", o.times, o.limit),

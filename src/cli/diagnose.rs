@@ -93,7 +93,11 @@ impl Diagnose {
             json["poses"] = json!(path.display().to_string());
         }
         if self.report.is_wanted() {
-            let lines: Vec<usize> = measurements.rows.iter().map(|row| row.line).collect();
+            let lines: Vec<usize> = measurements
+                .rows
+                .iter()
+                .map(|row| row.line.number)
+                .collect();
             let page = crate::report::html::diagnosis::page(&found, &lines, &name);
             outputs.extend(self.report.output(Some(&page)));
         }
@@ -248,7 +252,7 @@ fn text(found: &Diagnosis, all: bool) -> String {
         );
         for o in found.outliers.iter().take(most) {
             out += &format!(
-                "  line {}: {:.3} mm, {:.0} times the noise\n",
+                "  {}: {:.3} mm, {:.0} times the noise\n",
                 o.line,
                 mm_from_m(o.length_m),
                 o.times
@@ -261,7 +265,7 @@ fn text(found: &Diagnosis, all: bool) -> String {
             found.followed.len()
         );
         for f in found.followed.iter().take(most) {
-            out += &format!("  line {}: leverage {:.2}\n", f.line, f.leverage);
+            out += &format!("  {}: leverage {:.2}\n", f.line, f.leverage);
         }
     }
     out

@@ -3,19 +3,23 @@
 use super::check::Loader;
 use super::compensate::language_by_id;
 use super::failure::Failure;
+use crate::check::passage::Passage;
 use crate::check::posture::touching;
 use crate::check::{Options, Scene, Subject, check};
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::identify::plan::{Breach, Constraints, Guard};
 use crate::identify::route;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use crate::program::Source;
+use crate::report::approach::Stop;
 use std::path::Path;
 
-/// Moves are looked at every so far, radians.
+/// Where moves are sampled, so far apart, radians.
 const STEP_RAD: f64 = 2.0 * DEG;
+/// The arm's bodies keep this apart on planned moves, metres: a program's angles are rounded.
+const ROOM_M: f64 = 0.1 * MM;
 /// The way out where moves meet something.
 const BY_HAND: &str = "drive it by hand, over a pose between, or leave the configuration out";
 
@@ -27,6 +31,8 @@ pub struct Driving<'a> {
     arm: Model,
     guard: Guard<'a>,
     constraints: &'a Constraints,
+    /// `None` of an arm whose programs cannot be followed.
+    passage: Option<Passage>,
 }
 
 impl<'a> Driving<'a> {
@@ -47,6 +53,7 @@ impl<'a> Driving<'a> {
         Ok(Self {
             arm: profile.real_model(tool, &Conditions::default()),
             guard: Guard::new(profile, tool, constraints),
+            passage: Passage::new(&shaped, tool).ok(),
             profile: shaped,
             tool,
             scene,
@@ -55,8 +62,13 @@ impl<'a> Driving<'a> {
     }
 
     /// Whether the arm touches itself nowhere in this posture.
-    pub fn stands(&self, q: &[f64; 6]) -> bool {
+    fn stands(&self, q: &[f64; 6]) -> bool {
         touching(&self.scene, &self.arm, q).is_none()
+    }
+
+    /// Whether the arm comes to this configuration from where it is approached from, and touches nothing on that way.
+    pub fn admits(&self, q: &[f64; 6]) -> bool {
+        self.stands(q) && self.is_free(&self.constraints.approach(q), q)
     }
 
     /// Postures along a move of joints, coarse ones first.
@@ -82,8 +94,14 @@ impl<'a> Driving<'a> {
         })
     }
 
+    /// Whether a move meets nothing: everywhere on its way, not only at samples, where the arm's programs can be followed.
     fn is_free(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
-        Self::along(from, to).all(|q| self.guard.breach(&q).is_none() && self.stands(&q))
+        self.guard.keeps(from, to)
+            && match &self.passage {
+                _ if self.scene.is_empty() => true,
+                Some(passage) => passage.is_clear(&self.scene, from, to, ROOM_M),
+                None => Self::along(from, to).all(|q| self.stands(&q)),
+            }
     }
 
     /// An order in which as few moves as possible meet anything.
@@ -93,36 +111,69 @@ impl<'a> Driving<'a> {
         })
     }
 
-    /// What the moves of a program meet: each configuration's approach, then the configuration.
+    /// Poses that the arm goes over before it comes to where each configuration is approached from: none where the straight way of
+    /// the joints is free, or where no way was found.
+    pub fn over(&self, joints: &[[f64; 6]]) -> Vec<Vec<[f64; 6]>> {
+        let zero = self
+            .profile
+            .mechanism
+            .joints
+            .each_ref()
+            .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
+        let over = joints.windows(2).map(|ends| {
+            let to = self.constraints.approach(&ends[1]);
+            route::detour(&ends[0], &to, &zero, joints, &|from, to| {
+                self.is_free(from, to)
+            })
+        });
+        std::iter::once(Vec::new()).chain(over).collect()
+    }
+
+    /// What the moves of a program meet: what each configuration is come to over, its approach, then the configuration.
     pub fn findings(
         &self,
         language: &str,
         program: &Path,
         text: &str,
-        joints: &[[f64; 6]],
+        stops: &[Stop],
     ) -> Vec<Finding> {
         let file = program.display().to_string();
-        let mut findings = self.touched(language, &file, text);
+        let mut findings = self.touched(language, &file, text, stops);
         let mut at: Option<[f64; 6]> = None;
-        for (index, q) in joints.iter().enumerate() {
-            let approach = self.constraints.approach(q);
-            let stops = [at.unwrap_or(approach), approach, *q];
-            let worst = stops
+        for (index, stop) in stops.iter().enumerate() {
+            let approach = self.constraints.approach(&stop.q);
+            let mut places: Vec<[f64; 6]> = at.into_iter().chain(stop.over.clone()).collect();
+            places.extend([approach, stop.q]);
+            at = Some(stop.q);
+            if places
+                .windows(2)
+                .all(|ends| self.guard.keeps(&ends[0], &ends[1]))
+            {
+                continue;
+            }
+            let worst = places
                 .windows(2)
                 .flat_map(|ends| Self::along(&ends[0], &ends[1]))
                 .filter_map(|q| self.guard.breach(&q))
                 .max_by(|a, b| a.depth_m().total_cmp(&b.depth_m()));
-            at = Some(*q);
-            let Some(worst) = worst else { continue };
-            let deep = mm_from_m(worst.depth_m());
             let (id, what) = match worst {
-                Breach::Outside(_) => (
+                Some(Breach::Outside(deep_m)) => (
                     "leaves-box",
-                    format!("takes the tool {deep:.1} mm out of --inside-mm"),
+                    format!(
+                        "takes the tool {:.1} mm out of --inside-mm",
+                        mm_from_m(deep_m)
+                    ),
                 ),
-                Breach::KeptOut(_) => (
+                Some(Breach::KeptOut(deep_m)) => (
                     "keep-out",
-                    format!("takes tool, wrist or elbow {deep:.1} mm into a --keep-out-mm"),
+                    format!(
+                        "takes tool, wrist or elbow {:.1} mm into a --keep-out-mm",
+                        mm_from_m(deep_m)
+                    ),
+                ),
+                None => (
+                    "keep-out",
+                    "touches a face of --inside-mm or of a --keep-out-mm".to_owned(),
                 ),
             };
             findings.push(warning(
@@ -136,7 +187,7 @@ impl<'a> Driving<'a> {
     }
 
     /// Moves on which the arm touches itself, by what `check` says of the program.
-    fn touched(&self, language: &str, file: &str, text: &str) -> Vec<Finding> {
+    fn touched(&self, language: &str, file: &str, text: &str, stops: &[Stop]) -> Vec<Finding> {
         if self.scene.is_empty() {
             return vec![Finding {
                 severity: Severity::Note,
@@ -175,7 +226,13 @@ impl<'a> Driving<'a> {
             Err(error) => return unknown(error.to_string()),
         };
         let mut findings = Vec::new();
-        for (number, motion) in found.moves.iter().enumerate() {
+        // the configuration of each move of the program
+        let configurations: Vec<usize> = stops
+            .iter()
+            .enumerate()
+            .flat_map(|(i, stop)| std::iter::repeat_n(i + 1, stop.over.len() + 2))
+            .collect();
+        for motion in &found.moves {
             let Some(near) = motion.clearance.filter(|c| c.sampled_m <= 0.0) else {
                 continue;
             };
@@ -188,7 +245,7 @@ impl<'a> Driving<'a> {
                 motion.line,
                 format!(
                     "on the way to configuration {} the arm's {a} touches {b}, at {:.0} % of the move",
-                    number / 2 + 1,
+                    configurations.get(motion.motion).copied().unwrap_or(0),
                     100.0 * near.at
                 ),
             ));

@@ -10,6 +10,7 @@ use crate::identify::parameters::Pick;
 use crate::program::Source;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Files of measurements.
 #[derive(Args)]
@@ -38,10 +39,12 @@ impl MeasurementFiles {
                 )
             })?;
             hashes.push(files::sha256(&source.bytes));
-            // lines of several files are told apart by the rows' names
+            // rows of several files are told apart by their names and lines
             if self.measurements.len() > 1 {
+                let file: Arc<str> = path.display().to_string().into();
                 for row in &mut read.rows {
-                    row.id = format!("{}:{}", path.display(), row.id);
+                    row.id = format!("{file}:{}", row.id);
+                    row.line.file = Some(Arc::clone(&file));
                 }
             }
             match &mut all {

@@ -13,8 +13,9 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::measurements::DIRECTION_COLUMNS;
 use crate::identify::parameters::{Level, Selection};
 use crate::identify::plan::{Constraints, Plan, Request, plan_telling};
+use crate::report::approach::{self, Stop};
 use crate::report::html::frames::plan_page;
-use crate::report::{approach, identification};
+use crate::report::identification;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -40,8 +41,8 @@ pub struct PlanCommand {
     /// Random configurations to choose from
     #[arg(long, value_name = "N", default_value_t = 5000)]
     candidates: usize,
-    /// Random sets to start from
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    /// Random sets to start from; the best set found is improved once more
+    #[arg(long, value_name = "N", default_value_t = 4)]
     starts: usize,
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
@@ -124,10 +125,13 @@ impl PlanCommand {
                 rows.collect::<Result<Vec<_>, Failure>>()?
             }
         };
-        for (option, value) in [("--sigma-mm", self.sigma_mm), ("--cone-deg", self.cone_deg)] {
-            if value.is_nan() || value <= 0.0 {
+        for (option, value, most) in [
+            ("--sigma-mm", self.sigma_mm, 1e6),
+            ("--cone-deg", self.cone_deg, 180.0),
+        ] {
+            if !(1e-9..=most).contains(&value) {
                 return Err(Failure::new(format!(
-                    "{option} is {value}; it must be greater than 0"
+                    "{option} is {value:e}; it must be greater than 0 (1e-9 or more), and at most {most:e}"
                 )));
             }
         }
@@ -221,7 +225,7 @@ impl PlanCommand {
             &tool,
             &selection,
             &request,
-            &|q| driving.stands(q),
+            &|q| driving.admits(q),
             &mut |done, of| progress.tell(done, of),
         )
         .map_err(|error| identify_failure(&name, &error))?;
@@ -236,6 +240,7 @@ impl PlanCommand {
         let table = self.table(&found);
         let mut findings = Vec::new();
         let mut written = Vec::new();
+        let mut between = 0;
         if let Some(path) = &self.output {
             written.push((path.clone(), table.clone().into_bytes()));
         }
@@ -245,9 +250,17 @@ impl PlanCommand {
                 .as_deref()
                 .or(profile.language.as_deref())
                 .unwrap_or_default();
+            let over = driving.over(&found.joints);
+            let stops: Vec<Stop> = found
+                .joints
+                .iter()
+                .zip(over)
+                .map(|(q, over)| Stop { over, q: *q })
+                .collect();
+            between = stops.iter().map(|stop| stop.over.len()).sum();
             let text = approach::program(
                 language,
-                &found.joints,
+                &stops,
                 self.approach_deg * DEG,
                 profile.pulses_per_deg,
             )
@@ -260,7 +273,7 @@ impl PlanCommand {
                     ),
                 )
             })?;
-            findings = driving.findings(language, path, &text, &found.joints);
+            findings = driving.findings(language, path, &text, &stops);
             written.push((path.clone(), text.into_bytes()));
         }
         if self.report.is_wanted() {
@@ -275,6 +288,7 @@ impl PlanCommand {
                 .map(|(p, _)| p.display().to_string())
                 .collect();
             report["output"] = json!(names);
+            report["poses_between"] = json!(between);
             report["findings"] = json!(findings);
             return print_json(&report).map(|()| Answer::Yes);
         }
@@ -287,6 +301,11 @@ impl PlanCommand {
             print(&table)?;
         } else if !output.quiet {
             print_text(&text(&found, self.sigma_mm))?;
+            if between > 0 {
+                print(&format!(
+                    "the program goes over {between} poses between that are not measured\n"
+                ))?;
+            }
             print(&self.report.told())?;
         }
         Ok(Answer::Yes)

@@ -169,21 +169,26 @@ fn report(found: &Validation) -> Value {
         .repeated
         .iter()
         .map(|r| {
-            json!({
-                "line": r.line, "count": r.count, "accuracy_mm": r.accuracy_mm,
+            let found = json!({
+                "line": r.line.number, "count": r.count, "accuracy_mm": r.accuracy_mm,
                 "commanded_accuracy_mm": r.commanded_accuracy_mm, "repeatability_mm": r.repeatability_mm,
                 "multidirectional_variation_mm": r.variation_mm,
-            })
+            });
+            identification::with_file(found, &r.line)
         })
         .collect();
     report["iso_9283_distances"] = found
         .repeated_distances
         .iter()
         .map(|r| {
-            json!({
-                "lines": r.lines, "count": r.count, "distance_mm": r.distance_mm, "accuracy_mm": r.accuracy_mm,
+            let mut found = json!({
+                "lines": [r.lines[0].number, r.lines[1].number], "count": r.count, "distance_mm": r.distance_mm, "accuracy_mm": r.accuracy_mm,
                 "commanded_accuracy_mm": r.commanded_accuracy_mm, "repeatability_mm": r.repeatability_mm,
-            })
+            });
+            if let [Some(first), Some(second)] = r.lines.each_ref().map(|line| &line.file) {
+                found["files"] = json!([**first, **second]);
+            }
+            found
         })
         .collect();
     if let Some((count, full, alone)) = &found.folds {
@@ -279,7 +284,7 @@ fn iso_9283(found: &Validation, most: usize) -> String {
         let [commanded, real, rp] =
             [r.commanded_accuracy_mm, r.accuracy_mm, r.repeatability_mm].map(digits);
         vec![
-            r.line.to_string(),
+            r.line.short(),
             r.count.to_string(),
             commanded,
             real,
@@ -297,7 +302,7 @@ fn iso_9283(found: &Validation, most: usize) -> String {
     out += "\ndistances of repeated poses, mm; AD: the mean from the commanded distance, and from the real model's\n";
     let rows = found.repeated_distances.iter().take(most).map(|r| {
         let mut row = vec![
-            format!("{} to {}", r.lines[0], r.lines[1]),
+            format!("{} to {}", r.lines[0].short(), r.lines[1].short()),
             r.count.to_string(),
             format!("{:.3}", r.distance_mm),
         ];

@@ -345,7 +345,8 @@ fn equip(job: &Job, places: &[Option<Place>]) -> Result<Vec<Option<Equipped>>, U
     Ok(arms)
 }
 
-fn mount(profile: &Profile, tool: &Mounted) -> Result<Equipped, Unsupported> {
+/// The arm with one tool.
+pub(crate) fn mount(profile: &Profile, tool: &Mounted) -> Result<Equipped, Unsupported> {
     let conditions = Conditions::default();
     let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)?;
     let inverse = Inverse {

@@ -347,7 +347,7 @@ fn outliers(attempt: &Attempt, measurements: &Measurements, left_m: &[f64]) -> V
         let length = squares.sum::<f64>().sqrt();
         if length > OUTLIER * limit(range.len()) * refit.fit.scale {
             outliers.push(OutlierRow {
-                line: m.line,
+                line: m.line.clone(),
                 id: m.id.clone(),
                 length_m: left_m[row],
                 times: length / refit.fit.scale,
@@ -365,7 +365,7 @@ fn followed(attempt: &Attempt, measurements: &Measurements) -> Vec<FollowedRow> 
     let mut followed: Vec<FollowedRow> = rows
         .filter(|(_, leverage)| *leverage > FOLLOWED)
         .map(|(m, leverage)| FollowedRow {
-            line: m.line,
+            line: m.line.clone(),
             id: m.id.clone(),
             leverage,
         })

@@ -8,12 +8,12 @@ use super::session::{Trust, for_choice, is_nominal};
 use super::stand_ins::{Impossible, StandIn};
 use super::unknown::Unknown;
 use super::whereabouts::Spot;
-use crate::identify::IdentifyError;
 use crate::identify::doubt::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::Spread;
+use crate::identify::{IdentifyError, Line};
 use crate::model::effects::Effect;
 use crate::model::profile::Profile;
 
@@ -36,8 +36,8 @@ pub struct Options {
 /// A row that decides parameters alone: its residual is small whatever it says, and no evidence for the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FollowedRow {
-    /// Line of the file.
-    pub line: usize,
+    /// Where it stands.
+    pub line: Line,
     /// Its id.
     pub id: String,
     /// How much of its own numbers the model follows, from 0 to 1.
@@ -119,8 +119,8 @@ pub enum NoiseSource {
 /// A row that no model explains.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlierRow {
-    /// Line in the file.
-    pub line: usize,
+    /// Where it stands.
+    pub line: Line,
     /// Its id.
     pub id: String,
     /// Length of its residual, metres.

@@ -5,6 +5,7 @@ use super::doubt::{Remark, plausibility, screening};
 use super::error::IdentifyError;
 use super::expectation::expected_error_m;
 use super::identifiability::{Observability, observability, singular_values};
+use super::line::Line;
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
@@ -67,8 +68,8 @@ impl Default for Options {
 pub struct Outlier {
     /// Index of the measurement.
     pub measurement: usize,
-    /// Line in the file.
-    pub line: usize,
+    /// Where it stands.
+    pub line: Line,
     /// Its id.
     pub id: String,
     /// Measured minus expected, metres.
@@ -485,7 +486,7 @@ fn outliers(
             let m = &measurements.rows[row.measurement];
             found.push(Outlier {
                 measurement: row.measurement,
-                line: m.line,
+                line: m.line.clone(),
                 id: m.id.clone(),
                 length_m: miss.length_m,
                 times: squared.sqrt() / typical,

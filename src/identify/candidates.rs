@@ -5,8 +5,15 @@ use super::random::Random;
 use crate::geometry::{Pose, Vector, dot, norm, sub};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
+/// What the arm's effects may add to how fast its points move.
+const EFFECTS: f64 = 1.05;
+/// A way whose points come as near to a box is not told from one that touches it, metres.
+const TOUCH_M: f64 = 1e-4;
+/// Configurations that are judged side by side.
+const BATCH: usize = 512;
 /// Draws for one candidate before the constraints count as impossible to meet.
 const DRAWS: usize = 2000;
 
@@ -107,16 +114,76 @@ impl<'a> Guard<'a> {
         if keep_out.is_empty() {
             return None;
         }
-        let geometry = self.profile.geometry(self.tool);
-        let chain = crate::model::Chain::of(&geometry, &self.profile.mechanism);
-        let turns = crate::geometry::Turn::of_each(&self.profile.mechanism.commanded(q));
-        let places = chain.link_frames(&turns);
-        let arm = places[2..].iter().map(|frame| frame.translation);
+        let arm = self.arm_points(q).into_iter();
         let deepest = arm
             .chain([tip])
             .flat_map(|p| keep_out.iter().map(move |box3| depth(box3, p)))
             .fold(f64::NEG_INFINITY, f64::max);
         (deepest >= 0.0).then_some(Breach::KeptOut(deepest))
+    }
+
+    /// How far tool, wrist and elbow are at least from what the boxes do not allow, metres: negative in a breach, infinite without
+    /// boxes.
+    fn room_m(&self, q: &[f64; 6]) -> f64 {
+        let Constraints {
+            inside, keep_out, ..
+        } = self.constraints;
+        if inside.is_none() && keep_out.is_empty() {
+            return f64::INFINITY;
+        }
+        let tip = self.tip(q).translation;
+        let room = inside.map_or(f64::INFINITY, |box3| depth(&box3, tip));
+        if keep_out.is_empty() {
+            return room;
+        }
+        let points = self.arm_points(q).into_iter().chain([tip]);
+        points
+            .flat_map(|p| keep_out.iter().map(move |box3| -depth(box3, p)))
+            .fold(room, f64::min)
+    }
+
+    /// Elbow and wrist: the origins of the links' frames from the third on.
+    fn arm_points(&self, q: &[f64; 6]) -> Vec<Vector> {
+        let geometry = self.profile.geometry(self.tool);
+        let chain = crate::model::Chain::of(&geometry, &self.profile.mechanism);
+        let turns = crate::geometry::Turn::of_each(&self.profile.mechanism.commanded(q));
+        let places = chain.link_frames(&turns);
+        places[2..].iter().map(|frame| frame.translation).collect()
+    }
+
+    /// Whether the boxes are kept everywhere on a move of the joints at constant rates, guaranteed by how fast the points move: no
+    /// breach can be between two places that have more room together than the way between them is long.
+    #[must_use]
+    pub fn keeps(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
+        let at = |s: f64| self.room_m(&std::array::from_fn(|i| from[i] + s * (to[i] - from[i])));
+        let (first, last) = (at(0.0), at(1.0));
+        if first == f64::INFINITY {
+            return true;
+        }
+        let mechanism = &self.profile.mechanism;
+        let (a, b) = (mechanism.commanded(from), mechanism.commanded(to));
+        let reaches = self.arm.reaches();
+        let zero = [0.0; 6];
+        let last_link = self.arm.link_frames(&zero, &Conditions::default())[6];
+        let tool_m = norm(sub(self.tip(&zero).translation, last_link.translation));
+        // the farthest point that each joint carries, from its axis
+        let way_m: f64 = (0..6)
+            .map(|i| (b[i] - a[i]).abs() * (reaches[i + 1..].iter().sum::<f64>() + tool_m))
+            .sum::<f64>()
+            * EFFECTS;
+        let mut open = vec![(0.0, first, 1.0, last)];
+        while let Some((low, room, high, other)) = open.pop() {
+            let between_m = way_m * (high - low);
+            if room < 0.0 || other < 0.0 || (room + other <= between_m && between_m < TOUCH_M) {
+                return false;
+            }
+            if room + other <= between_m {
+                let middle = 0.5 * (low + high);
+                let its = at(middle);
+                open.extend([(low, room, middle, its), (middle, its, high, other)]);
+            }
+        }
+        true
     }
 
     fn tip(&self, q: &[f64; 6]) -> Pose {
@@ -158,14 +225,14 @@ pub fn candidates(
     candidates_where(profile, tool, constraints, count, seed, &|_| true)
 }
 
-/// As [`candidates`], of those that are `admitted` as they are and where they are approached from.
+/// As [`candidates`], of those that are `admitted`.
 pub(super) fn candidates_where(
     profile: &Profile,
     tool: &Mounted,
     constraints: &Constraints,
     count: usize,
     seed: u64,
-    admitted: &dyn Fn(&[f64; 6]) -> bool,
+    admitted: &(dyn Fn(&[f64; 6]) -> bool + Sync),
 ) -> Result<(Vec<[f64; 6]>, f64), IdentifyError> {
     let mut random = Random::new(seed);
     let guard = Guard::new(profile, tool, constraints);
@@ -192,24 +259,34 @@ pub(super) fn candidates_where(
     let mut found = Vec::with_capacity(count);
     let mut draws = 0;
     while found.len() < count {
-        draws += 1;
-        if draws > DRAWS * (found.len() + 1) {
-            return Err(IdentifyError::Suspicious {
-                message: format!(
-                    "of {draws} random configurations {} meet the constraints; {count} are needed",
-                    found.len()
-                ),
-                hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates; shapes of the profile that touch \
-                       wherever the arm is are too large"
-                    .into(),
-            });
-        }
-        let q: [f64; 6] = std::array::from_fn(|i| random.between(range[i][0], range[i][1]));
-        if guard.admits(&q)
-            && admitted(&q)
-            && (constraints.approach_rad == 0.0 || admitted(&constraints.approach(&q)))
-        {
-            found.push(q);
+        let batch: Vec<[f64; 6]> = (0..BATCH)
+            .map(|_| std::array::from_fn(|i| random.between(range[i][0], range[i][1])))
+            .collect();
+        // in the order in which they were drawn, however many judge them
+        let met: Vec<bool> = batch
+            .par_iter()
+            .with_min_len(BATCH / 16)
+            .map(|q| guard.admits(q) && admitted(q))
+            .collect();
+        for (q, is_met) in batch.into_iter().zip(met) {
+            draws += 1;
+            if draws > DRAWS * (found.len() + 1) {
+                return Err(IdentifyError::Suspicious {
+                    message: format!(
+                        "of {draws} random configurations {} meet the constraints; {count} are needed",
+                        found.len()
+                    ),
+                    hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates; shapes of the profile that touch \
+                           wherever the arm is are too large"
+                        .into(),
+                });
+            }
+            if is_met {
+                found.push(q);
+            }
+            if found.len() == count {
+                break;
+            }
         }
     }
     Ok((found, count as f64 / draws as f64))

@@ -9,6 +9,7 @@
 //! taxonomy for robot kinematic calibration methods" (1996).
 
 use super::error::IdentifyError;
+use super::line::Line;
 use super::measurements::{Measurement, Observed};
 use super::parameters::{Parameter, Subject};
 use super::problem::{Estimate, Problem, Row};
@@ -148,7 +149,7 @@ pub fn settle(rows: &mut [Measurement]) -> Result<(), Conflict> {
         };
         let Some((earlier, all)) = known.iter_mut().find(|(_, k)| k.feature == contact.feature)
         else {
-            known.push((row.line, contact.clone()));
+            known.push((row.line.number, contact.clone()));
             continue;
         };
         let agrees = all.kind == contact.kind
@@ -158,7 +159,7 @@ pub fn settle(rows: &mut [Measurement]) -> Result<(), Conflict> {
         if !agrees {
             return Err(Conflict {
                 feature: contact.feature.clone(),
-                line: row.line,
+                line: row.line.number,
                 earlier: *earlier,
             });
         }
@@ -192,8 +193,8 @@ pub struct Feature {
     pub origin_m: Vector,
     /// Normal of the plane at no tilt, and the two directions in which it tilts.
     pub axes: [Vector; 3],
-    /// Line of its first row.
-    pub line: usize,
+    /// Its first row.
+    pub line: Line,
 }
 
 /// Where a feature is, in the world.
@@ -219,7 +220,7 @@ fn frame(normal: Vector) -> [Vector; 3] {
 }
 
 impl Feature {
-    fn new(contact: &Contact, line: usize) -> Self {
+    fn new(contact: &Contact, line: &Line) -> Self {
         let (centre, radius, normal) = (
             contact.centre_m.is_some(),
             contact.radius_m.is_some(),
@@ -236,7 +237,7 @@ impl Feature {
             given: contact.clone(),
             origin_m: contact.centre_m.unwrap_or_default(),
             axes: frame(contact.normal.unwrap_or([0.0, 0.0, 1.0])),
-            line,
+            line: line.clone(),
         }
     }
 
@@ -394,17 +395,14 @@ pub(super) fn gather(rows: &[Measurement]) -> Result<Vec<Feature>, IdentifyError
             continue;
         };
         match features.iter().find(|f| f.name == contact.feature) {
-            None => features.push(Feature::new(contact, row.line)),
+            None => features.push(Feature::new(contact, &row.line)),
             Some(feature) => {
-                let same = Feature::new(contact, row.line);
+                let same = Feature::new(contact, &row.line);
                 if same.known != feature.known || same.kind != feature.kind {
                     return Err(IdentifyError::Feature {
-                        line: row.line,
+                        line: row.line.clone(),
                         feature: contact.feature.clone(),
-                        reason: format!(
-                            "line {} says something else of it in another file",
-                            feature.line
-                        ),
+                        reason: format!("{} says something else of it", feature.line),
                     });
                 }
             }
@@ -455,8 +453,8 @@ pub(super) fn start(problem: &mut Problem, estimate: &mut Estimate) -> Result<()
         }
     }
     for (index, feature) in problem.features.iter_mut().enumerate() {
-        let fault = |line, name: &str, reason| IdentifyError::Feature {
-            line,
+        let fault = |line: &Line, name: &str, reason| IdentifyError::Feature {
+            line: line.clone(),
             feature: name.to_owned(),
             reason,
         };
@@ -470,12 +468,12 @@ pub(super) fn start(problem: &mut Problem, estimate: &mut Estimate) -> Result<()
                 balls[index].len(),
                 unknown / feature.kind.count() + 1
             );
-            return Err(fault(feature.line, &feature.name, reason));
+            return Err(fault(&feature.line, &feature.name, reason));
         }
-        let (line, name) = (feature.line, feature.name.clone());
+        let (line, name) = (feature.line.clone(), feature.name.clone());
         estimate.features[index] = feature
             .start(&balls[index])
-            .map_err(|reason| fault(line, &name, reason))?;
+            .map_err(|reason| fault(&line, &name, reason))?;
     }
     Ok(())
 }
@@ -492,7 +490,7 @@ pub(super) fn carry(
     for (index, feature) in problem.features.iter_mut().enumerate() {
         let same = found.0.features.iter().position(|f| f.name == feature.name);
         let same = same.ok_or_else(|| IdentifyError::Feature {
-            line: feature.line,
+            line: feature.line.clone(),
             feature: feature.name.clone(),
             reason: "no row for the fit touches it: its place is unknown".into(),
         })?;

@@ -1,5 +1,7 @@
 //! What can keep an identification from its answer.
 
+use super::line::Line;
+
 /// A word that names no parameter.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SelectionError {
@@ -49,27 +51,27 @@ fn listed(names: &[String]) -> String {
     }
 }
 
+/// A point is of no arm that is this many times farther from the middle of all points than half of them are.
+pub(super) const FAR_OFF: f64 = 100.0;
+
 /// Why nothing was identified.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum IdentifyError {
     /// A row's tool is not in the profile.
-    #[error(
-        "line {line}: the profile has no tool `{tool}`; it has {}",
-        listed(known)
-    )]
+    #[error("{line}: the profile has no tool `{tool}`; it has {}", listed(known))]
     UnknownTool {
-        /// Line of the file.
-        line: usize,
+        /// Which row.
+        line: Line,
         /// The name.
         tool: String,
         /// Those it has.
         known: Vec<String>,
     },
     /// Rows without a tool, and several to choose from.
-    #[error("line {line}: no tool is named and the profile has {}: {}", known.len(), known.join(", "))]
+    #[error("{line}: no tool is named and the profile has {}: {}", known.len(), known.join(", "))]
     AmbiguousTool {
-        /// Line of the file.
-        line: usize,
+        /// Which row.
+        line: Line,
         /// Those it has.
         known: Vec<String>,
     },
@@ -94,6 +96,18 @@ pub enum IdentifyError {
         /// The way out.
         hint: String,
     },
+    /// A point far from all others.
+    #[error(
+        "{line}: the point is {away_mm:.0} mm from the middle of the others, of which half are within {half_mm:.0} mm; the limit is {FAR_OFF} times as far"
+    )]
+    FarOff {
+        /// Which row.
+        line: Line,
+        /// How far, mm.
+        away_mm: f64,
+        /// How far half of the points are at most, mm.
+        half_mm: f64,
+    },
     /// The place of the base does not follow from the measurements.
     #[error("where the base stands does not follow from the measurements: {reason}")]
     NoStart {
@@ -109,10 +123,10 @@ pub enum IdentifyError {
         need: &'static str,
     },
     /// A touched feature that its touches do not tell.
-    #[error("line {line}: feature `{feature}`: {reason}")]
+    #[error("{line}: feature `{feature}`: {reason}")]
     Feature {
-        /// Line of its first row.
-        line: usize,
+        /// Its first row.
+        line: Line,
         /// Its name.
         feature: String,
         /// Why.
@@ -147,6 +161,7 @@ impl IdentifyError {
             Self::AmbiguousTool { .. } => "add a column tool".into(),
             Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or --fix".into(),
             Self::Suspicious { hint, .. } => hint.clone(),
+            Self::FarOff { .. } => "is a decimal point lost, or is the row in another unit? correct it or leave it out".into(),
             Self::NoStart { .. } => "measure at least 5 configurations in which every joint moves; or give the base in the profile".into(),
             Self::Feature { .. } => "touch it more often and farther apart, or give its numbers: cx_mm,cy_mm,cz_mm, radius_mm, nx,ny,nz".into(),
             Self::NotConverged { .. } => "identify less (--level 1 first), or look at the rows with the largest residuals".into(),

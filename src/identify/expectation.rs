@@ -3,10 +3,12 @@
 use super::normal::Normal;
 use super::observation::Observation;
 use super::parameters::{FIRST_PHYSICAL, Parameter, Subject};
-use super::problem::{Estimate, Problem, Row};
+use super::problem::{Estimate, PointRef, Problem, Row};
 use super::random::Random;
 use super::robust::Loss;
-use crate::model::{Conditions, Motion};
+use crate::geometry::{Pose, Scalar, Vector, add, cross, scale};
+use crate::model::batch::{Four, WIDTH};
+use crate::model::{Conditions, FourMotions, Motion};
 use nalgebra::{DMatrix, DVector};
 
 /// Random postures within the joint limits.
@@ -29,6 +31,44 @@ pub(super) fn slopes(
             Subject::Feature { feature, value } => seen.slope_of_feature(feature, value),
         };
         each(column, slope.map(|x| x * parameter.scale));
+    }
+}
+
+/// The same in four postures, with the tools there and the point at `arm` from their origins: how the point is shifted and how the
+/// tool turns, metres and radians a scale.
+#[inline(always)]
+pub(super) fn four_slopes(
+    pose: &Pose<Four>,
+    arm: Vector<Four>,
+    motions: &[FourMotions],
+    parameters: &[Parameter],
+    points: [PointRef; WIDTH],
+    mut each: impl FnMut(usize, Vector<Four>, Vector<Four>),
+) {
+    let none = [Four::zero(); 3];
+    let mut motion = motions.iter();
+    for (column, parameter) in parameters.iter().enumerate() {
+        let (shift, turn) = match parameter.subject {
+            Subject::Effect(_) => match motion.next() {
+                Some(m) => (add(m.shift_m, cross(m.turn_rad, arm)), m.turn_rad),
+                None => (none, none),
+            },
+            Subject::Point { point, axis } => {
+                let mut own = pose.rotation.axis(axis);
+                for (lane, other) in points.iter().enumerate() {
+                    if *other != PointRef::Named(point) {
+                        for own in &mut own {
+                            own.0[lane] = 0.0;
+                        }
+                    }
+                }
+                (own, none)
+            }
+            // nothing is touched where a position is measured
+            Subject::Feature { .. } => (none, none),
+        };
+        let size = Four::constant(parameter.scale);
+        each(column, scale(size, shift), scale(size, turn));
     }
 }
 

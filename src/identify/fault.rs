@@ -5,6 +5,20 @@ use super::doubt::csv::NotCsv;
 /// How far a quaternion's length may be from 1.
 pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
 
+/// Largest numbers by how the column's name ends, and what they are called.
+const MOST: [(&str, (f64, &str)); 2] = [
+    ("_mm", (1e8, "100 km: 1e8 mm")),
+    ("_deg", (1e5, "277 turns: 1e5 deg")),
+];
+/// Of the other columns: seconds since 1970 are fewer.
+const MOST_OTHERS: (f64, &str) = (1e12, "1e12");
+/// The limit that a number of a column is beyond.
+pub(super) fn beyond(column: &str, number: f64) -> Option<&'static str> {
+    let own = MOST.iter().find(|(ending, _)| column.ends_with(ending));
+    let (most, limit) = own.map_or(MOST_OTHERS, |(_, most)| *most);
+    (number.abs() > most).then_some(limit)
+}
+
 /// A fault at its place in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
@@ -69,6 +83,16 @@ pub enum MeasurementFault {
         /// What stands there.
         found: String,
     },
+    /// A number that nothing measured has.
+    #[error("column {column}: {found} is beyond {limit}")]
+    TooLarge {
+        /// The column.
+        column: &'static str,
+        /// What stands there.
+        found: String,
+        /// The limit, with its unit.
+        limit: &'static str,
+    },
     /// A number outside its range.
     #[error("column {column}: {found} is not {allowed}")]
     NotAllowed {
@@ -110,6 +134,9 @@ impl MeasurementError {
             MeasurementFault::MissingColumns { header, .. } => {
                 format!("the header has: {}", header.join(", "))
             }
+            MeasurementFault::TooLarge { .. } => {
+                "is a decimal point lost, or is it an error code of the device? correct the number or leave the row out".into()
+            }
             MeasurementFault::Kind { .. } => {
                 "leave the cells of the other kind empty: x_mm,y_mm,z_mm or distance_mm,from_x_mm,from_y_mm,from_z_mm".into()
             }
@@ -118,5 +145,40 @@ impl MeasurementError {
             }
             _ => String::new(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::measurements::Measurements;
+
+    fn read(row: &str) -> Result<Measurements, MeasurementError> {
+        let header =
+            "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,sigma_mm,temperature_c";
+        Measurements::from_csv(format!("{header}\n{row}\n").as_bytes())
+    }
+
+    fn fault(row: &str) -> MeasurementError {
+        read(row).expect_err("it should be refused")
+    }
+
+    #[test]
+    fn numbers_that_nothing_measured_has_are_refused_with_their_limit() {
+        for (row, column, limit) in [
+            ("1e300,2,3,1,20", "x_mm", "1e8 mm"),
+            ("1,2,-2e8,1,20", "z_mm", "1e8 mm"),
+            ("1,2,3,1e-320,20", "sigma_mm", "1e-9 mm"),
+            ("1,2,3,1,1e13", "temperature_c", "1e12"),
+        ] {
+            let error = fault(&format!("1,2,3,4,5,6,{row}"));
+            let told = error.to_string();
+            assert_eq!(error.line, 2, "{row}");
+            assert!(told.contains(column) && told.contains(limit), "{told}");
+        }
+        let told = fault("1,2,3,-1e300,5,6,1,2,3,1,20").to_string();
+        assert!(told.contains("q4_deg: -1e300 is beyond"), "{told}");
+        // micrometres of a tracker far away
+        assert!(read("1,2,3,4,5,6,9e7,2,3,1,20").is_ok());
     }
 }

@@ -6,10 +6,11 @@ use crate::model::Conditions;
 
 use super::contact::{self, Contact, ContactKind};
 use super::doubt::csv::not_csv;
+use super::line::Line;
 
 pub use super::fault::{MeasurementError, MeasurementFault};
 
-use super::fault::UNIT_TOLERANCE;
+use super::fault::{UNIT_TOLERANCE, beyond};
 
 /// Columns of joint angles.
 pub const JOINT_COLUMNS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
@@ -25,6 +26,9 @@ pub const POINT_COLUMNS: [&str; 3] = ["px_mm", "py_mm", "pz_mm"];
 pub const DIRECTION_COLUMNS: [&str; 6] = ["dir1", "dir2", "dir3", "dir4", "dir5", "dir6"];
 /// Columns of the external force on the tool.
 pub const FORCE_COLUMNS: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
+
+/// Smallest standard deviation, metres.
+const LEAST_SIGMA_M: f64 = 1e-12;
 
 /// Columns of a touched sphere's centre, of a point of a touched plane, or of a touched point.
 pub const CENTRE_COLUMNS: [&str; 3] = ["cx_mm", "cy_mm", "cz_mm"];
@@ -95,8 +99,8 @@ impl Purpose {
 /// One reading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
-    /// Line in the file, from 1.
-    pub line: usize,
+    /// Where it stands.
+    pub line: Line,
     /// The column `id`, else the row's number from 1.
     pub id: String,
     /// Commanded joint angles in the controller's sense, radians.
@@ -204,10 +208,19 @@ impl Cells<'_> {
     pub(super) fn number(&self, column: &'static str) -> Result<f64, MeasurementError> {
         let text = self.text(column).unwrap_or_default();
         let number = text.parse().ok().filter(|n: &f64| n.is_finite());
-        number.ok_or_else(|| {
-            let found = text.to_owned();
-            self.error(column, MeasurementFault::NotFinite { column, found })
-        })
+        let found = text.to_owned();
+        let Some(number) = number else {
+            return Err(self.error(column, MeasurementFault::NotFinite { column, found }));
+        };
+        if let Some(limit) = beyond(column, number) {
+            let fault = MeasurementFault::TooLarge {
+                column,
+                found,
+                limit,
+            };
+            return Err(self.error(column, fault));
+        }
+        Ok(number)
     }
 
     pub(super) fn numbers<const N: usize>(
@@ -314,8 +327,8 @@ impl Cells<'_> {
             conditions.force_n = self.numbers(FORCE_COLUMNS)?;
         }
         let sigma_m = self.optional("sigma_mm")?.map(m_from_mm);
-        if sigma_m.is_some_and(|sigma| sigma <= 0.0) {
-            let (column, allowed) = ("sigma_mm", "greater than zero");
+        if sigma_m.is_some_and(|sigma| sigma < LEAST_SIGMA_M) {
+            let (column, allowed) = ("sigma_mm", "greater than zero: 1e-9 mm or more");
             let found = self.text(column).unwrap_or_default().to_owned();
             return Err(self.not_allowed(column, found, allowed));
         }
@@ -330,7 +343,7 @@ impl Cells<'_> {
         };
         let contact = self.contact(kinds)?;
         Ok(Measurement {
-            line: self.line,
+            line: self.line.into(),
             id: self
                 .text("id")
                 .map_or_else(|| number.to_string(), str::to_owned),
@@ -539,7 +552,7 @@ mod tests {
             [3, 6, 1]
         );
         assert_eq!(all.rows[0].q[1], 2.0 * DEG);
-        assert_eq!(all.rows[2].line, 5);
+        assert_eq!(all.rows[2].line, Line::from(5));
         let both = fault(columns, &["1,2,3,,,,,500,1,2,3"]);
         assert_eq!(both.fault, MeasurementFault::Kind { both: true });
         let neither = fault(columns, &[",,,,,,,,,,"]);

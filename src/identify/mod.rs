@@ -30,6 +30,8 @@ mod error;
 mod exchange;
 pub mod expectation;
 mod fault;
+mod imagined;
+mod line;
 mod pairs;
 mod repeated;
 pub mod route;
@@ -39,3 +41,4 @@ pub mod validation;
 
 pub use calibration::{BasePolicy, Calibration, Options, calibrate};
 pub use error::{IdentifyError, SelectionError};
+pub use line::Line;

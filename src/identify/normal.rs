@@ -1,11 +1,12 @@
 //! Normal equations, gathered in one pass over the rows.
 
+use super::expectation::four_slopes;
 use super::measurements::Observed;
 use super::observation::{MOST_NUMBERS, Observation};
 use super::parameters::{Parameter, Subject};
-use super::problem::{Estimate, PointRef, Problem, Row};
+use super::problem::{Estimate, Problem, Row};
 use super::robust::Loss;
-use crate::geometry::{Pose, Scalar, add, cross, scale};
+use crate::geometry::{Pose, Scalar};
 use crate::model::batch::{Four, WIDTH, lane_of, side_by_side};
 use crate::model::{FourMotions, Motion, Sensitivity};
 use nalgebra::{DMatrix, DVector};
@@ -229,29 +230,15 @@ impl Pass<'_> {
                 gap[k].0[lane] = counted.by[k] * counted.gap[k];
             }
         }
-        let mut motion = motions.iter();
-        for (slope, parameter) in slopes.iter_mut().zip(self.parameters) {
-            let own = match parameter.subject {
-                Subject::Effect(_) => match motion.next() {
-                    Some(m) => add(m.shift_m, cross(m.turn_rad, arm)),
-                    None => [Four::zero(); 3],
-                },
-                Subject::Point { point, axis } => {
-                    let mut own = pose.rotation.axis(axis);
-                    for (lane, row) in rows.iter().enumerate() {
-                        if row.point != PointRef::Named(point) {
-                            for own in &mut own {
-                                own.0[lane] = 0.0;
-                            }
-                        }
-                    }
-                    own
-                }
-                // nothing is touched where a position is measured
-                Subject::Feature { .. } => [Four::zero(); 3],
-            };
-            *slope = scale(Four::constant(parameter.scale), own);
-        }
+        let of: [_; WIDTH] = std::array::from_fn(|i| rows[i].point);
+        four_slopes(
+            pose,
+            arm,
+            motions,
+            self.parameters,
+            of,
+            |column, shift, _| slopes[column] = shift,
+        );
         for k in 0..3 {
             for (column, slope) in slopes.iter().enumerate() {
                 let cell = by[k] * slope[k];

@@ -4,34 +4,25 @@ pub use super::candidates::{Box3, Breach, Constraints, Guard, candidates};
 
 use super::candidates::candidates_where;
 use super::error::IdentifyError;
-use super::exchange::{Chooser, Rows};
-use super::expectation::slopes;
+use super::exchange::{Chooser, Improved, SHORTLIST};
 use super::identifiability::{
     Identifiable, Observability, identifiable, observability, singular_values,
 };
-use super::measurements::{Measurement, Measurements, Observed};
-use super::normal::Normal;
-use super::parameters::{Parameter, Selection, Subject};
-use super::problem::{DEFAULT_SIGMA_M, Estimate, Problem};
+use super::imagined::{Derivatives, imagined};
+use super::parameters::{Parameter, Selection};
+use super::problem::DEFAULT_SIGMA_M;
 use super::random::Random;
-use super::robust::Loss;
-use crate::geometry::Pose;
 use crate::model::profile::{Mounted, Profile};
-use crate::model::{Conditions, Motion};
-use nalgebra::DMatrix;
-use pulp::Arch;
+use rayon::prelude::*;
 
 /// Parameters that random configurations tell too badly are given up only where even this part of their standard deviations
 /// is too much: a chosen set tells more, and what was measured decides in the end.
 const GIVEN_UP: f64 = 0.3;
-/// Candidates that the best of several starts is tried to be improved with.
-const TRIED: usize = 40;
+/// Candidates that each start is tried to be improved with at a time; the best of them with a whole [`SHORTLIST`].
+const TRIED: usize = 4;
 /// Configurations that tell which parameters can be determined.
 const SAMPLE: usize = 1000;
-/// Numbers of a pose.
-const POSE_NUMBERS: usize = 6;
-/// A part of a configuration's information below which there is none.
-const NOTHING: f64 = 1e-12;
+
 /// What to choose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
@@ -68,117 +59,12 @@ pub struct Plan {
     pub sigma: Vec<f64>,
     /// Indices of the set in SI units: metres a metre, a radian, a radian a newton metre.
     pub observability: Observability,
-    /// O1 of each start.
+    /// O1 of each start, before the best of them is improved once more.
     pub starts_o1: Vec<f64>,
     /// Exchanges of the best start.
     pub exchanges: usize,
     /// Part of the random configurations that met the constraints.
     pub admitted: f64,
-}
-
-/// A problem whose rows are these configurations, to take derivatives of.
-fn imagined(
-    profile: &Profile,
-    tool: &Mounted,
-    selection: &Selection,
-    joints: &[[f64; 6]],
-    poses: bool,
-) -> Result<(Problem, Estimate), IdentifyError> {
-    let row = |q: &[f64; 6], point: Option<&String>| Measurement {
-        line: 0,
-        id: String::new(),
-        q: *q,
-        observed: if poses {
-            Observed::Pose(Pose::identity())
-        } else {
-            Observed::Position([0.0; 3])
-        },
-        tool: profile
-            .tools
-            .contains_key(&tool.name)
-            .then(|| tool.name.clone()),
-        point: point.cloned(),
-        point_in_tool_m: None,
-        conditions: Conditions::default(),
-        sigma_m: None,
-        purpose: None,
-        contact: None,
-    };
-    let mut rows = Vec::new();
-    for q in joints {
-        if profile.points.is_empty() {
-            rows.push(row(q, None));
-        }
-        rows.extend(profile.points.keys().map(|name| row(q, Some(name))));
-    }
-    let measurements = Measurements {
-        rows,
-        columns: super::measurements::DIRECTION_COLUMNS
-            .map(str::to_owned)
-            .to_vec(),
-    };
-    Problem::new(profile, &measurements, selection, profile.world_from_base)
-}
-
-/// Derivatives of each configuration by the parameters, in their scales and the standard deviation.
-fn jacobians(
-    problem: &Problem,
-    estimate: &Estimate,
-    parameters: &[Parameter],
-    configurations: usize,
-    sigma_m: f64,
-) -> Vec<DMatrix<f64>> {
-    let models = problem.models(estimate, parameters);
-    let effects = parameters
-        .iter()
-        .filter(|p| matches!(p.subject, Subject::Effect(_)))
-        .count();
-    let mut motions = vec![Motion::default(); effects];
-    let each = problem.rows.len() / configurations.max(1);
-    problem
-        .rows
-        .chunks(each.max(1))
-        .map(|rows| {
-            let height: usize = rows.iter().map(|row| row.observed.count()).sum();
-            let mut matrix = DMatrix::zeros(height, parameters.len());
-            let mut top = 0;
-            for row in rows {
-                let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
-                let seen = problem.observe(estimate, row, pose);
-                let weights = seen.weights();
-                let by = weights.map(|weight| weight * row.sigma_m / sigma_m);
-                slopes(&seen, &motions, parameters, |column, slope| {
-                    for k in 0..row.observed.count() {
-                        matrix[(top + k, column)] = slope[k] * by[k];
-                    }
-                });
-                top += row.observed.count();
-            }
-            matrix
-        })
-        .collect()
-}
-
-/// The same information in fewer rows, where every configuration tells as much in [`POSE_NUMBERS`]: several known points on one
-/// tool say no more than its pose.
-fn fewer_rows(jacobians: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
-    let height = jacobians.first().map_or(0, DMatrix::nrows);
-    if height <= POSE_NUMBERS {
-        return jacobians;
-    }
-    let fewer = |j: &DMatrix<f64>| {
-        let eigen = (j * j.transpose()).symmetric_eigen();
-        let mut order: Vec<usize> = (0..height).collect();
-        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-        let (most, next) = (
-            eigen.eigenvalues[order[0]],
-            eigen.eigenvalues[order[POSE_NUMBERS]],
-        );
-        let directions = eigen.eigenvectors.select_columns(&order[..POSE_NUMBERS]);
-        (next <= NOTHING * most).then(|| directions.tr_mul(j))
-    };
-    let found: Option<Vec<_>> = jacobians.iter().map(fewer).collect();
-    found.unwrap_or(jacobians)
 }
 
 /// Chooses configurations that tell the parameters best: the largest determinant of the information matrix, which is the
@@ -195,8 +81,7 @@ pub fn plan(
     plan_telling(profile, tool, selection, request, &|_| true, &mut |_, _| ())
 }
 
-/// As [`plan`]; configurations that are not `admitted`, as they are or where they are approached from, are not drawn; `tell`
-/// hears how many of how many starts are done.
+/// As [`plan`]; configurations that are not `admitted`, with the way from where they are approached, are not drawn; `tell` hears how many of how many starts are done.
 ///
 /// # Errors
 /// As [`plan`].
@@ -209,7 +94,7 @@ pub fn plan_telling(
     tool: &Mounted,
     selection: &Selection,
     request: &Request,
-    admitted: &dyn Fn(&[f64; 6]) -> bool,
+    admitted: &(dyn Fn(&[f64; 6]) -> bool + Sync),
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Plan, IdentifyError> {
     let (pool, admitted) = candidates_where(
@@ -222,23 +107,28 @@ pub fn plan_telling(
     )?;
     let mut all = request.given.clone();
     all.extend(&pool);
-    let (problem, estimate) = imagined(profile, tool, selection, &all, request.poses)?;
     // what some hundreds of configurations cannot tell apart, none can
-    let each = (problem.rows.len() / all.len().max(1)).max(1);
-    let every = problem.rows.len().div_ceil(SAMPLE * each).max(1);
-    let sample = problem.with_rows(|i| (i / each).is_multiple_of(every));
-    let normal = Normal::of(&sample, &estimate, &problem.parameters, Loss::squares());
+    let every = all.len().div_ceil(SAMPLE).max(1);
+    let sample: Vec<[f64; 6]> = all.iter().step_by(every).copied().collect();
+    let (problem, estimate) = imagined(profile, tool, selection, &sample, request.poses)?;
+    let each = problem.rows.len() / sample.len().max(1);
+    let derivatives = Derivatives::of_joints(&problem, &estimate, &all, each, request.sigma_m);
     // standard deviations of as many configurations as are asked for
-    let sampled = (sample.rows.len() / each) as f64;
     let planned = (request.count + request.given.len()) as f64;
-    let noise = GIVEN_UP * request.sigma_m / DEFAULT_SIGMA_M * (sampled / planned).sqrt();
+    let noise =
+        GIVEN_UP * request.sigma_m / DEFAULT_SIGMA_M * (sample.len() as f64 / planned).sqrt();
+    let normal = derivatives.normal(
+        every,
+        DEFAULT_SIGMA_M / request.sigma_m,
+        &problem.parameters,
+    );
     let known = identifiable(&normal, &problem.parameters, Some(noise));
     let parameters: Vec<Parameter> = known
         .kept
         .iter()
         .map(|i| problem.parameters[*i].clone())
         .collect();
-    let per_row = problem.numbers() / all.len().max(1);
+    let per_row = derivatives.height;
     if (request.count + request.given.len()) * per_row < parameters.len()
         || request.count > pool.len()
     {
@@ -248,21 +138,9 @@ pub fn plan_telling(
             parameters: parameters.len(),
         });
     }
-    let jacobians = jacobians(&problem, &estimate, &parameters, all.len(), request.sigma_m);
-    let jacobians = fewer_rows(jacobians);
-    let (given, free) = jacobians.split_at(request.given.len());
+    let derivatives = derivatives.by(&known.kept).in_fewer_rows();
     let width = parameters.len();
-    let mut base = DMatrix::zeros(width, width);
-    for j in given {
-        base.gemm_tr(1.0, j, j, 1.0);
-    }
-    let rows = Rows::of(free, width);
-    let chooser = Chooser {
-        jacobians: free,
-        rows: &rows,
-        base: &base,
-        arch: Arch::new(),
-    };
+    let chooser = Chooser::new(&derivatives, request.given.len());
     let count = request.count + request.given.len();
     // O1 in SI units: the scales and the standard deviation are taken out again
     let scales: f64 = parameters
@@ -273,24 +151,31 @@ pub fn plan_telling(
         ((0.5 * log_determinant - scales) / width as f64).exp() / (count as f64).sqrt()
     };
     let mut random = Random::new(request.seed ^ 0x5eed);
-    let mut best: Option<(f64, Vec<usize>, usize)> = None;
-    let mut starts_o1 = Vec::new();
     let starts = request.starts.max(1);
-    for start in 0..starts {
-        tell(start, starts);
-        let found = chooser.run(request.count, &mut random);
-        starts_o1.push(o1(found.0));
-        if best.as_ref().is_none_or(|(value, _, _)| found.0 > *value) {
-            best = Some(found);
+    let mut starts_o1 = Vec::new();
+    let mut best: Option<Improved> = None;
+    while starts_o1.len() < starts {
+        tell(starts_o1.len(), starts);
+        let side_by_side = rayon::current_num_threads().min(starts - starts_o1.len());
+        let drawn: Vec<Vec<usize>> = (0..side_by_side)
+            .map(|_| chooser.draw(request.count, &mut random))
+            .collect();
+        let improve = |set| chooser.improve(set, TRIED);
+        let improved: Vec<Improved> = drawn.into_par_iter().map(improve).collect();
+        for found in improved {
+            starts_o1.push(o1(found.log_determinant));
+            let least = best.as_ref().map(|best| best.log_determinant);
+            if least.is_none_or(|least| found.log_determinant > least) {
+                best = Some(found);
+            }
         }
     }
-    let (_, mut chosen, mut exchanges) = best.expect("at least one start");
-    if starts > 1 {
-        // the best of them once more, with more candidates
-        let more;
-        (_, chosen, more) = chooser.improve(chosen, TRIED);
-        exchanges += more;
-    }
+    let best = best.expect("at least one start");
+    let (mut chosen, mut exchanges) = (best.set, best.exchanges);
+    // the best of them once more, with more candidates
+    let more = chooser.improve(chosen, SHORTLIST);
+    chosen = more.set;
+    exchanges += more.exchanges;
     chosen.sort_unstable();
     let information = chooser.information(&chosen);
     let Some(factor) = information.clone().cholesky() else {
@@ -327,25 +212,10 @@ pub fn plan_telling(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::identify::normal::Normal;
     use crate::identify::parameters::Level;
-
-    #[test]
-    fn several_points_on_one_tool_are_as_much_as_six_numbers() {
-        let mut random = Random::new(5);
-        let mut matrix =
-            |rows, columns| DMatrix::from_fn(rows, columns, |_, _| random.between(-1.0, 1.0));
-        let all: Vec<DMatrix<f64>> = (0..4).map(|_| matrix(9, 6) * matrix(6, 20)).collect();
-        let fewer = fewer_rows(all.clone());
-        for (j, k) in all.iter().zip(&fewer) {
-            assert_eq!(k.nrows(), 6);
-            let gap = (j.tr_mul(j) - k.tr_mul(k)).abs().max();
-            assert!(gap < 1e-10, "{gap}");
-        }
-        // where one tells more, all stay as they are
-        let mut mixed = all;
-        mixed[2] = matrix(9, 20);
-        assert!(fewer_rows(mixed).iter().all(|j| j.nrows() == 9));
-    }
+    use crate::identify::robust::Loss;
+    use nalgebra::DMatrix;
 
     #[test]
     fn an_exchanged_set_is_better_than_random_ones_and_meets_the_limits() {
@@ -392,7 +262,7 @@ mod tests {
             "{} {random}",
             one.observability.o1
         );
-        assert!((one.observability.o1 / one.starts_o1[0] - 1.0).abs() < 1e-6);
+        assert!(one.observability.o1 > one.starts_o1[0] * (1.0 - 1e-6));
         for q in &one.joints {
             assert!(
                 profile
@@ -402,6 +272,15 @@ mod tests {
             );
         }
         let several = plan(&profile, &tool, &selection, &request(4)).expect("a plan");
+        let lonely = rayon::ThreadPoolBuilder::new()
+            .num_threads(1)
+            .build()
+            .expect("a thread")
+            .install(|| plan(&profile, &tool, &selection, &request(4)).expect("a plan"));
+        assert_eq!(
+            (&several.chosen, &several.starts_o1),
+            (&lonely.chosen, &lonely.starts_o1)
+        );
         assert!(several.observability.o1 >= one.observability.o1);
         // the set that is there already counts
         let mut grown = request(1);
@@ -441,7 +320,8 @@ mod tests {
         let (pool, _) = candidates(&profile, &tool, &request.constraints, 5000, 1).expect("a pool");
         let (problem, estimate) =
             imagined(&profile, &tool, &selection, &pool, false).expect("rows");
-        let all = jacobians(&problem, &estimate, &problem.parameters, 5000, 1.0);
+        let all = Derivatives::of_joints(&problem, &estimate, &pool, 1, 1.0);
+        let all: Vec<DMatrix<f64>> = (0..5000).map(|i| all.columns(i).transpose()).collect();
         let mut random = Random::new(9);
         let width = problem.parameters.len();
         assert_eq!((width, found.identifiable.kept.len()), (30, 30));

@@ -131,7 +131,7 @@ fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyErro
         Some(name) => profile
             .tool(name)
             .ok_or_else(|| IdentifyError::UnknownTool {
-                line: row.line,
+                line: row.line.clone(),
                 tool: name.clone(),
                 known: known(),
             }),
@@ -139,7 +139,7 @@ fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyErro
             0 => Ok(Mounted::flange()),
             1 => Ok(profile.tool(&known()[0]).expect("a key of the map")),
             _ => Err(IdentifyError::AmbiguousTool {
-                line: row.line,
+                line: row.line.clone(),
                 known: known(),
             }),
         },

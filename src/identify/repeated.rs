@@ -4,6 +4,7 @@
 //! ISO 9283:1998, pose accuracy and repeatability (7.2), multi-directional pose accuracy variation (7.2.3), distance accuracy and
 //! repeatability (7.3).
 
+use super::line::Line;
 use super::measurements::Measurements;
 use super::statistics::{Miss, Spread};
 use crate::geometry::units::mm_from_m;
@@ -16,8 +17,8 @@ const FEWEST: usize = 3;
 /// Pose accuracy and repeatability of one configuration measured several times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repeated {
-    /// Line of its first row.
-    pub line: usize,
+    /// Its first row.
+    pub line: Line,
     /// How often it was measured.
     pub count: usize,
     /// Distance of the mean of what was attained from what the real model expects, mm.
@@ -34,8 +35,8 @@ pub struct Repeated {
 /// Distance accuracy and repeatability between two configurations measured several times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RepeatedDistance {
-    /// Lines of their first rows.
-    pub lines: [usize; 2],
+    /// Their first rows.
+    pub lines: [Line; 2],
     /// How many pairs, in the order in which they were measured.
     pub count: usize,
     /// Mean distance, mm.
@@ -53,7 +54,7 @@ fn mean(of: &[Vector]) -> Vector {
     scale(1.0 / of.len().max(1) as f64, sum)
 }
 
-/// Rows of one configuration and point, by the line of the first.
+/// Rows of one configuration and point, in the order of their first ones.
 fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
     type Key = (Vec<u64>, Option<String>);
     let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
@@ -70,7 +71,7 @@ fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
         .into_values()
         .filter(|rows| rows.len() >= FEWEST)
         .collect();
-    found.sort_by_key(|rows| measurements.rows[rows[0]].line);
+    found.sort_by_key(|rows| rows[0]);
     found
 }
 
@@ -115,7 +116,7 @@ pub(super) fn repeated(measurements: &Measurements, misses: [&[Miss]; 2]) -> Vec
                 .iter()
                 .flat_map(|a| means.iter().map(move |b| norm(sub(*a, *b))));
             Repeated {
-                line: measurements.rows[rows[0]].line,
+                line: measurements.rows[rows[0]].line.clone(),
                 count: rows.len(),
                 accuracy_mm: norm(middle),
                 commanded_accuracy_mm: norm(mean(&commanded)),
@@ -160,7 +161,7 @@ pub(super) fn repeated_distances(
             lengths.sum::<f64>() / pairs.len() as f64
         });
         found.push(RepeatedDistance {
-            lines: [first, second].map(|rows| measurements.rows[rows[0]].line),
+            lines: [first, second].map(|rows| measurements.rows[rows[0]].line.clone()),
             count: pairs.len(),
             distance_mm: spread.mean,
             accuracy_mm: (spread.mean - expected[0]).abs(),

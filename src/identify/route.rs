@@ -1,6 +1,6 @@
 //! In which order configurations are driven to.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 
 /// Configurations that are tried as the first one.
 const STARTS: usize = 8;
@@ -51,6 +51,67 @@ pub fn order(
     best.map_or_else(Vec::new, |(_, order)| order)
 }
 
+/// Groups of joints that are laid at home on a detour, the likeliest first.
+const TUCKED: [&[usize]; 7] = [
+    &[1, 2, 3, 4, 5],
+    &[0, 1, 2, 3, 4, 5],
+    &[3, 4, 5],
+    &[1, 2],
+    &[4],
+    &[2],
+    &[1],
+];
+
+/// Poses to go over from one place to another, as few as do, where the straight way of the joints is not free: with some joints of
+/// either end at `home`, or over some of `others`. None where the straight way is free, or where nothing helps.
+#[must_use]
+pub fn detour(
+    from: &[f64; 6],
+    to: &[f64; 6],
+    home: &[f64; 6],
+    others: &[[f64; 6]],
+    free: &dyn Fn(&[f64; 6], &[f64; 6]) -> bool,
+) -> Vec<[f64; 6]> {
+    if free(from, to) {
+        return Vec::new();
+    }
+    let tucked = |q: &[f64; 6], joints: &[usize]| {
+        let mut tucked = *q;
+        for joint in joints {
+            tucked[*joint] = home[*joint];
+        }
+        tucked
+    };
+    let mut places: Vec<[f64; 6]> = TUCKED
+        .iter()
+        .flat_map(|joints| [tucked(to, joints), tucked(from, joints)])
+        .collect();
+    let mut nearest: Vec<[f64; 6]> = others.to_vec();
+    nearest.sort_by(|a, b| (far(from, a) + far(a, to)).total_cmp(&(far(from, b) + far(b, to))));
+    places.extend(nearest);
+    places.retain(|place| place != from && place != to);
+    // breadth first: where each place is come to from
+    let mut come_from: Vec<Option<Option<usize>>> = vec![None; places.len()];
+    let mut open: VecDeque<Option<usize>> = VecDeque::from([None]);
+    while let Some(at) = open.pop_front() {
+        let here = at.map_or(from, |at| &places[at]);
+        if at.is_some() && free(here, to) {
+            let mut over: Vec<[f64; 6]> = std::iter::successors(at, |at| come_from[*at].flatten())
+                .map(|at| places[at])
+                .collect();
+            over.reverse();
+            return over;
+        }
+        for next in 0..places.len() {
+            if come_from[next].is_none() && free(here, &places[next]) {
+                come_from[next] = Some(at);
+                open.push_back(Some(next));
+            }
+        }
+    }
+    Vec::new()
+}
+
 /// From one configuration always on to the nearest that can be reached; and what is left over.
 fn onward(
     joints: &[[f64; 6]],
@@ -99,6 +160,36 @@ fn put_between(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_way_that_is_not_free_goes_over_a_pose_between() {
+        // a wall at 0 of joint 1 that is open where joint 2 is below 0.1 or above 1
+        let free = |a: &[f64; 6], b: &[f64; 6]| {
+            let open = |q: &[f64; 6]| q[1] < 0.1 || q[1] > 1.0;
+            a[0] * b[0] > 0.0 || (open(a) && open(b))
+        };
+        let at = |first: f64, second: f64| [first, second, 0.3, 0.0, 0.0, 0.0];
+        let home = [0.0; 6];
+        let is_way = |from: &[f64; 6], over: &[[f64; 6]], to: &[f64; 6]| {
+            let places = [&[*from], over, &[*to]].concat();
+            places.windows(2).all(|ends| free(&ends[0], &ends[1]))
+        };
+        for (from, to, poses) in [
+            (at(1.0, 0.5), at(2.0, 0.5), 0),
+            (at(1.0, 0.0), at(-1.0, 0.5), 1),
+            (at(1.0, 0.5), at(-1.0, 0.5), 2),
+        ] {
+            let over = detour(&from, &to, &home, &[], &free);
+            assert_eq!(over.len(), poses, "{over:?}");
+            assert!(is_way(&from, &over, &to), "{over:?}");
+        }
+        // where home is no help, over another configuration
+        let narrow = |a: &[f64; 6], b: &[f64; 6]| a[0] * b[0] > 0.0 || (a[1] > 1.0 || b[1] > 1.0);
+        let others = [at(1.5, 0.2), at(1.2, 1.4)];
+        let found = detour(&at(1.0, 0.5), &at(-1.0, 0.5), &home, &others, &narrow);
+        assert_eq!(found, [at(1.2, 1.4)]);
+        assert!(detour(&at(1.0, 0.5), &at(-1.0, 0.5), &home, &[], &narrow).is_empty());
+    }
 
     #[test]
     fn every_configuration_comes_once_and_moves_are_free_where_there_is_a_way() {

@@ -132,7 +132,7 @@ pub fn simulate(
                 }
             };
             rows.push(Measurement {
-                line: rows.len() + 2,
+                line: (rows.len() + 2).into(),
                 id: (rows.len() + 1).to_string(),
                 q: command.q,
                 observed,

@@ -163,7 +163,7 @@ pub fn validate_telling(
     if let Some(row) = unknown.filter(|_| refit == Refit::No) {
         return Err(IdentifyError::Suspicious {
             message: format!(
-                "line {}: where point `{}` is on the tool is neither in the file nor in the profile",
+                "{}: where point `{}` is on the tool is neither in the file nor in the profile",
                 row.line,
                 row.point.as_deref().unwrap_or_default()
             ),

@@ -8,120 +8,153 @@ use crate::geometry::units::DEG;
 /// Languages a program can be written in.
 pub const LANGUAGES: [&str; 5] = ["rapid", "krl", "urscript", "fanuc", "inform"];
 
-fn degrees(q: &[f64; 6], less: f64) -> [String; 6] {
-    q.map(|angle| format!("{:.4}", (angle - less) / DEG))
+/// A configuration and the poses that the arm goes over before it comes to where it is approached from; joints in radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// What it goes over.
+    pub over: Vec<[f64; 6]>,
+    /// Where it is measured.
+    pub q: [f64; 6],
 }
 
-/// The program's text; `None` in a language not in [`LANGUAGES`], and in INFORM without `pulses_per_deg`. Joint angles in
-/// radians.
+/// One move.
+struct Step {
+    /// Number of the configuration, before its first move.
+    begins: Option<usize>,
+    q: [f64; 6],
+    /// Whether the arm comes slowly and stays to be measured.
+    measured: bool,
+}
+
+/// The moves of all configurations: what they go over, where they are approached from, the configuration.
+fn steps(stops: &[Stop], approach_rad: f64) -> Vec<Step> {
+    let mut steps = Vec::new();
+    for (i, stop) in stops.iter().enumerate() {
+        let approach = stop.q.map(|angle| angle - approach_rad);
+        let places = stop.over.iter().chain([&approach, &stop.q]);
+        let last = stop.over.len() + 1;
+        steps.extend(places.enumerate().map(|(k, q)| Step {
+            begins: (k == 0).then_some(i + 1),
+            q: *q,
+            measured: k == last,
+        }));
+    }
+    steps
+}
+
+fn degrees(q: &[f64; 6]) -> [String; 6] {
+    q.map(|angle| format!("{:.4}", angle / DEG))
+}
+
+/// The program's text; `None` in a language not in [`LANGUAGES`], and in INFORM without `pulses_per_deg`.
 #[must_use]
 pub fn program(
     language: &str,
-    joints: &[[f64; 6]],
+    stops: &[Stop],
     approach_rad: f64,
     pulses_per_deg: Option<[f64; 6]>,
 ) -> Option<String> {
-    let stops = joints
-        .iter()
-        .enumerate()
-        .map(|(i, q)| (i + 1, degrees(q, approach_rad), degrees(q, 0.0)));
+    let steps = steps(stops, approach_rad);
     let mut out = String::new();
     match language {
         "rapid" => {
             out += "MODULE Measure\n  PROC main()\n";
-            let target = |q: &[String; 6]| format!("[[{}],[9E9,9E9,9E9,9E9,9E9,9E9]]", q.join(","));
-            for (n, before, at) in stops {
-                out += &format!("    ! configuration {n}\n");
-                out += &format!("    MoveAbsJ {},v200,fine,tool0;\n", target(&before));
+            for step in &steps {
+                if let Some(number) = step.begins {
+                    out += &format!("    ! configuration {number}\n");
+                }
+                let speed = if step.measured { "v50" } else { "v200" };
+                let axes = degrees(&step.q).join(",");
                 out += &format!(
-                    "    MoveAbsJ {},v50,fine,tool0;\n    WaitTime 3;\n",
-                    target(&at)
+                    "    MoveAbsJ [[{axes}],[9E9,9E9,9E9,9E9,9E9,9E9]],{speed},fine,tool0;\n"
                 );
+                if step.measured {
+                    out += "    WaitTime 3;\n";
+                }
             }
             out += "  ENDPROC\nENDMODULE\n";
         }
         "krl" => {
             out += "DEF measure()\nBAS(#INITMOV,0)\nBAS(#VEL_PTP,20)\n";
-            let target = |q: &[String; 6]| {
-                let axes: Vec<String> = q
-                    .iter()
-                    .enumerate()
-                    .map(|(i, v)| format!("A{} {v}", i + 1))
-                    .collect();
-                format!("PTP {{{}}}\n", axes.join(","))
-            };
-            for (n, before, at) in stops {
-                out += &format!(
-                    "; configuration {n}\n{}{}WAIT SEC 3\n",
-                    target(&before),
-                    target(&at)
-                );
+            for step in &steps {
+                if let Some(number) = step.begins {
+                    out += &format!("; configuration {number}\n");
+                }
+                let axes = degrees(&step.q).into_iter().enumerate();
+                let axes: Vec<String> = axes.map(|(i, v)| format!("A{} {v}", i + 1)).collect();
+                out += &format!("PTP {{{}}}\n", axes.join(","));
+                if step.measured {
+                    out += "WAIT SEC 3\n";
+                }
             }
             out += "END\n";
         }
         "urscript" => {
             out += "def measure():\n";
-            let target = |q: &[String; 6], speed: f64| {
-                let axes: Vec<String> = q.iter().map(|v| format!("d2r({v})")).collect();
-                format!("  movej([{}], a=0.5, v={speed})\n", axes.join(", "))
-            };
-            for (n, before, at) in stops {
-                out += &format!(
-                    "  # configuration {n}\n{}{}  sleep(3)\n",
-                    target(&before, 0.5),
-                    target(&at, 0.1)
-                );
+            for step in &steps {
+                if let Some(number) = step.begins {
+                    out += &format!("  # configuration {number}\n");
+                }
+                let axes: Vec<String> = degrees(&step.q).map(|v| format!("d2r({v})")).into();
+                let speed = if step.measured { 0.1 } else { 0.5 };
+                out += &format!("  movej([{}], a=0.5, v={speed})\n", axes.join(", "));
+                if step.measured {
+                    out += "  sleep(3)\n";
+                }
             }
             out += "end\n";
         }
-        "fanuc" => return Some(fanuc(joints, approach_rad)),
-        "inform" => return Some(inform(joints, approach_rad, pulses_per_deg?)),
+        "fanuc" => return Some(fanuc(&steps)),
+        "inform" => return Some(inform(&steps, pulses_per_deg?)),
         _ => return None,
     }
     Some(out)
 }
 
-/// Two positions a configuration, in joints; the controller's J3 counts as the profile's joint 3 does.
-fn fanuc(joints: &[[f64; 6]], approach_rad: f64) -> String {
+/// A position a move, in joints; the controller's J3 counts as the profile's joint 3 does.
+fn fanuc(steps: &[Step]) -> String {
+    let measured = steps.iter().filter(|step| step.measured).count();
     let mut out = format!(
         "/PROG  MEASURE\n/ATTR\nLINE_COUNT\t= {};\nDEFAULT_GROUP\t= 1,*,*,*,*;\n/MN\n",
-        3 * joints.len()
+        steps.len() + measured
     );
     let mut places = String::new();
-    for (i, q) in joints.iter().enumerate() {
-        let (line, place) = (3 * i + 1, 2 * i + 1);
-        out += &format!("{line:4}:J P[{place}] 20% FINE    ;\n");
-        out += &format!("{:4}:J P[{}] 5% FINE    ;\n", line + 1, place + 1);
-        out += &format!("{:4}:  WAIT   3.00(sec) ;\n", line + 2);
-        for (place, less) in [(place, approach_rad), (place + 1, 0.0)] {
-            let [a, b, c, d, e, f] = q.map(|angle| format!("{:9.3}", (angle - less) / DEG));
-            places += &format!("P[{place}]{{\n   GP1:\n\tUF : 0, UT : 1,\t\n");
-            places += &format!("\tJ1={a} deg,\tJ2={b} deg,\tJ3={c} deg,\n");
-            places += &format!("\tJ4={d} deg,\tJ5={e} deg,\tJ6={f} deg\n}};\n");
+    let mut line = 0;
+    let mut add = |text: &str| {
+        line += 1;
+        out += &format!("{line:4}:{text} ;\n");
+    };
+    for (i, step) in steps.iter().enumerate() {
+        let (place, speed) = (i + 1, if step.measured { 5 } else { 20 });
+        add(&format!("J P[{place}] {speed}% FINE   "));
+        if step.measured {
+            add("  WAIT   3.00(sec)");
         }
+        let [a, b, c, d, e, f] = step.q.map(|angle| format!("{:9.3}", angle / DEG));
+        places += &format!("P[{place}]{{\n   GP1:\n\tUF : 0, UT : 1,\t\n");
+        places += &format!("\tJ1={a} deg,\tJ2={b} deg,\tJ3={c} deg,\n");
+        places += &format!("\tJ4={d} deg,\tJ5={e} deg,\tJ6={f} deg\n}};\n");
     }
     out + "/POS\n" + &places + "/END\n"
 }
 
-/// Two positions a configuration, in pulses; lines end as the controller's do.
-fn inform(joints: &[[f64; 6]], approach_rad: f64, pulses_per_deg: [f64; 6]) -> String {
+/// A position a move, in pulses; lines end as the controller's do.
+fn inform(steps: &[Step], pulses_per_deg: [f64; 6]) -> String {
     let mut head = format!(
         "/JOB\n//NAME MEASURE\n//POS\n///NPOS {},0,0,0,0,0\n///TOOL 0\n///POSTYPE PULSE\n///PULSE\n",
-        2 * joints.len()
+        steps.len()
     );
     let mut moves = "//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\n".to_owned();
-    for (i, q) in joints.iter().enumerate() {
-        for (place, less) in [(2 * i, approach_rad), (2 * i + 1, 0.0)] {
-            let pulses: [String; 6] = std::array::from_fn(|k| {
-                format!(
-                    "{:.0}",
-                    ((q[k] - less) / DEG * pulses_per_deg[k]).round() + 0.0
-                )
-            });
-            head += &format!("C{place:05}={}\n", pulses.join(","));
-        }
-        moves += &format!("MOVJ C{:05} VJ=20.00\n", 2 * i);
-        moves += &format!("MOVJ C{:05} VJ=5.00 PL=0\nTIMER T=3.00\n", 2 * i + 1);
+    for (place, step) in steps.iter().enumerate() {
+        let pulses: [String; 6] = std::array::from_fn(|k| {
+            format!("{:.0}", (step.q[k] / DEG * pulses_per_deg[k]).round() + 0.0)
+        });
+        head += &format!("C{place:05}={}\n", pulses.join(","));
+        moves += &if step.measured {
+            format!("MOVJ C{place:05} VJ=5.00 PL=0\nTIMER T=3.00\n")
+        } else {
+            format!("MOVJ C{place:05} VJ=20.00\n")
+        };
     }
     (head + &moves + "END\n").replace('\n', "\r\n")
 }
@@ -132,28 +165,32 @@ mod tests {
 
     #[test]
     fn every_configuration_is_reached_from_below() {
-        let joints = [[0.0, 0.1, -0.2, 0.3, 0.4, -0.5]];
+        let stops = [Stop {
+            over: vec![[0.5; 6]],
+            q: [0.0, 0.1, -0.2, 0.3, 0.4, -0.5],
+        }];
         for language in LANGUAGES {
             let text = program(
                 language,
-                &joints,
+                &stops,
                 5.0 * DEG,
                 Some([1000.0, -1000.0, 1000.0, 1000.0, 1000.0, 1000.0]),
             )
             .expect("a language of the list");
-            let [first, at, last] = match language {
-                "fanuc" => ["-5.000", "0.000", "22.918"],
+            let [over, first, at, last] = match language {
+                "fanuc" => ["28.648", "-5.000", "0.000", "22.918"],
                 // joint 2 counts the other way: 0.1 rad
-                "inform" => ["-5000,-730,", "0,-5730,", "22918"],
-                _ => ["-5.0000", "0.0000", "22.9183"],
+                "inform" => ["28648,-28648", "-5000,-730,", "0,-5730,", "22918"],
+                _ => ["28.6479", "-5.0000", "0.0000", "22.9183"],
             };
+            let between = text.find(over).expect("the pose between");
             let before = text.find(first).expect("the approach");
             assert!(
-                text[before + 1..].contains(at) && text.contains(last),
+                between < before && text[before + 1..].contains(at) && text.contains(last),
                 "{language}: {text}"
             );
         }
-        assert!(program("cobol", &joints, 0.0, None).is_none());
-        assert!(program("inform", &joints, 0.0, None).is_none());
+        assert!(program("cobol", &stops, 0.0, None).is_none());
+        assert!(program("inform", &stops, 0.0, None).is_none());
     }
 }

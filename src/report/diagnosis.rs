@@ -1,6 +1,6 @@
 //! What a diagnosis found: JSON for programs, sentences for people.
 
-use super::identification::{findings, spread};
+use super::identification::{findings, spread, with_file};
 use crate::diagnose::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{Diagnosis, Found, NoiseSource, Rival, Verdict};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -125,12 +125,12 @@ pub fn diagnosis(d: &Diagnosis, file: &str) -> Value {
             NoiseSource::Left => "residuals",
         },
         "left_mm": finite(mm_from_m(d.left_m)),
-        "outliers": d.outliers.iter().map(|o| json!({
-            "line": o.line, "id": o.id, "residual_mm": mm_from_m(o.length_m), "times_noise": finite(o.times),
-        })).collect::<Vec<_>>(),
-        "leverage": d.followed.iter().map(|f| json!({
-            "line": f.line, "id": f.id, "leverage": finite(f.leverage),
-        })).collect::<Vec<_>>(),
+        "outliers": d.outliers.iter().map(|o| with_file(json!({
+            "line": o.line.number, "id": o.id, "residual_mm": mm_from_m(o.length_m), "times_noise": finite(o.times),
+        }), &o.line)).collect::<Vec<_>>(),
+        "leverage": d.followed.iter().map(|f| with_file(json!({
+            "line": f.line.number, "id": f.id, "leverage": finite(f.leverage),
+        }), &f.line)).collect::<Vec<_>>(),
         "findings": findings(&d.remarks, file),
     })
 }

@@ -2,6 +2,7 @@
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
+use crate::identify::Line;
 use crate::identify::calibration::{Calibration, STRONG_CORRELATION};
 use crate::identify::doubt::Remark;
 use crate::identify::identifiability::Observability;
@@ -71,6 +72,15 @@ pub fn observability(o: &Observability) -> Value {
     })
 }
 
+/// What stands in a line, with the file where several are read as one.
+#[must_use]
+pub fn with_file(mut found: Value, line: &Line) -> Value {
+    if let Some(file) = &line.file {
+        found["file"] = json!(**file);
+    }
+    found
+}
+
 /// Remarks on measurements as findings.
 #[must_use]
 pub fn findings(remarks: &[Remark], file: &str) -> Vec<Finding> {
@@ -81,9 +91,9 @@ pub fn findings(remarks: &[Remark], file: &str) -> Vec<Finding> {
         } else {
             Severity::Note
         },
-        file: file.into(),
-        line: r.line,
-        column: usize::from(r.line > 0),
+        file: r.line.file.as_deref().unwrap_or(file).into(),
+        line: r.line.number,
+        column: usize::from(r.line.number > 0),
         message: r.message.clone(),
         hint: r.hint.clone(),
     };
@@ -132,14 +142,15 @@ pub fn calibration(calibration: &Calibration, file: &str) -> Value {
         .outliers
         .iter()
         .map(|o| {
-            json!({
-                "line": o.line, "id": o.id, "residual_mm": mm_from_m(o.length_m), "times_typical": o.times,
+            let found = json!({
+                "line": o.line.number, "id": o.id, "residual_mm": mm_from_m(o.length_m), "times_typical": o.times,
                 "limit": o.limit, "weight": o.weight,
                 "reason": format!(
                     "residual {:.3} mm is {:.1} times the typical one; the limit is {:.1}",
                     mm_from_m(o.length_m), o.times, o.limit
                 ),
-            })
+            });
+            with_file(found, &o.line)
         })
         .collect();
     let u = &calibration.uncertainty;

@@ -11,6 +11,7 @@ pub mod sweeps;
 pub(super) mod validation;
 
 use super::error::IdentifyError;
+use super::line::Line;
 
 /// Another reading of a file must be better by this factor to be suggested; by twice as much where the file as it is may be of an uncalibrated arm.
 const BETTER: f64 = 4.0;
@@ -19,6 +20,9 @@ const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows
 /// Residuals beyond this many of their stated standard deviations, or below one over it, are told.
 const SIGMA_FACTOR: f64 = 3.0;
 
+/// The line of what is no line's.
+const WHOLE_FILE: usize = 0;
+
 /// Something about the measurements that a person should look at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
@@ -26,19 +30,19 @@ pub struct Remark {
     pub id: &'static str,
     /// Whether it is more than a note.
     pub warning: bool,
-    /// Line of the measurements; 0 is the whole file.
-    pub line: usize,
+    /// Where in the measurements.
+    pub line: Line,
     /// What was found, with the evidence.
     pub message: String,
     /// The way out; empty where there is none.
     pub hint: String,
 }
 
-fn remark(id: &'static str, line: usize, message: String, hint: &str) -> Remark {
+fn remark(id: &'static str, line: impl Into<Line>, message: String, hint: &str) -> Remark {
     Remark {
         id,
         warning: true,
-        line,
+        line: line.into(),
         message,
         hint: hint.into(),
     }
@@ -62,7 +66,7 @@ fn sigma(times: f64) -> Option<Remark> {
         } else {
             "sigma_mm is one standard deviation of a coordinate; `poseshift diagnose` looks for what the model misses"
         };
-        return Some(remark("sigma-small", 0, message, hint));
+        return Some(remark("sigma-small", WHOLE_FILE, message, hint));
     }
     (times < SIGMA_FACTOR.recip()).then(|| {
         let message = format!(
@@ -70,6 +74,6 @@ fn sigma(times: f64) -> Option<Remark> {
             times.max(1e-9).recip()
         );
         let hint = "sigma_mm is one standard deviation of a coordinate in mm, not in micrometres";
-        remark("sigma-large", 0, message, hint)
+        remark("sigma-large", WHOLE_FILE, message, hint)
     })
 }

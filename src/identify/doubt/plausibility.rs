@@ -1,6 +1,6 @@
 //! A fit that no calibrated arm has, found before its values are believed.
 
-use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, remark, sigma, suspicious};
+use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, WHOLE_FILE, remark, sigma, suspicious};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::identify::calibration::Outlier;
 use crate::identify::contact::Contact;
@@ -81,7 +81,7 @@ pub fn doubt_fit(
     if missed > POOR_M || angle > POOR_RAD {
         remarks.push(remark(
             "poor-fit",
-            0,
+            WHOLE_FILE,
             format!(
                 "the fitted model misses by {:.3} mm and {:.3} deg rms, more than a calibrated arm does",
                 mm_from_m(missed),
@@ -186,7 +186,7 @@ pub fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
         mm_from_m(expected)
     );
     let hint = "measure configurations over the whole workspace: `poseshift plan` chooses them";
-    Some(remark("hardly-determined", 0, message, hint))
+    Some(remark("hardly-determined", WHOLE_FILE, message, hint))
 }
 
 /// Rows that do not fit the others: they are told, whatever the loss makes of them.
@@ -202,7 +202,7 @@ pub fn doubt_rows(outliers: &[Outlier]) -> Option<Remark> {
         worst.limit
     );
     let hint = "was the beam lost, the reflector not seated, the robot still moving? leave wrong rows out; `--loss tukey` ignores them";
-    Some(remark("outliers", worst.line, message, hint))
+    Some(remark("outliers", worst.line.clone(), message, hint))
 }
 
 /// Doubts identified values that no arm has.
@@ -237,7 +237,12 @@ pub fn doubt_values(
         if *times > ABSURD {
             return Err(suspicious(message, NOT_OF_THIS_ROBOT));
         }
-        remarks.push(remark("unusual-value", 0, message, NOT_OF_THIS_ROBOT));
+        remarks.push(remark(
+            "unusual-value",
+            WHOLE_FILE,
+            message,
+            NOT_OF_THIS_ROBOT,
+        ));
     }
     let negative = physical.clone().find(|(p, sigma)| {
         let kind = match p.subject {
@@ -258,7 +263,7 @@ pub fn doubt_values(
         );
         let hint =
             "it imitates another effect: `poseshift diagnose` looks for it; are the masses right?";
-        remarks.push(remark("negative-compliance", 0, message, hint));
+        remarks.push(remark("negative-compliance", WHOLE_FILE, message, hint));
     }
     Ok(remarks)
 }

@@ -9,6 +9,8 @@ pub(super) struct Reading {
     pub supposes: String,
     pub hint: String,
     pub measurements: Measurements,
+    /// Which two coordinates it exchanges: what is seen becomes its mirror image.
+    pub exchanged: Option<[&'static str; 2]>,
 }
 
 const IN_MILLIMETRES: &str = "x_mm,y_mm,z_mm and distance_mm are millimetres";
@@ -71,6 +73,7 @@ impl Readings<'_> {
             supposes: supposes.into(),
             hint: hint.into(),
             measurements,
+            exchanged: None,
         });
     }
 
@@ -109,9 +112,12 @@ impl Readings<'_> {
             let names = ["x_mm", "y_mm", "z_mm"];
             self.add(
                 format!("the columns {} and {} are swapped", names[a], names[b]),
-                "or one of the axes points the other way: the device's frame must be right-handed",
+                "the device's frame must be right-handed: look at the order of its columns and which way its axes point",
                 |_, row| row.observed = exchanged(row.observed, a, b),
             );
+            if let Some(added) = self.all.last_mut() {
+                added.exchanged = Some([names[a], names[b]]);
+            }
         }
     }
 

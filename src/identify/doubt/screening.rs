@@ -1,13 +1,15 @@
 //! Measurements that contradict the robot, the format or themselves, found before anything is believed.
 
 use super::readings::{Reading, readings};
-use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, remark, suspicious};
+use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, WHOLE_FILE, remark, suspicious};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Vector, dot, norm, sub};
-use crate::identify::error::IdentifyError;
-use crate::identify::measurements::{Measurements, Observed};
+use crate::identify::error::{FAR_OFF, IdentifyError};
+use crate::identify::line::Line;
+use crate::identify::measurements::{Measurement, Measurements, Observed};
 use crate::identify::problem::Problem;
 use crate::identify::start::{self, Start, spreads};
+use crate::identify::statistics::quantile;
 use crate::model::profile::Profile;
 
 /// A first guess that misses by less is not doubted, metres, if it is also less than [`GOOD_PART`].
@@ -24,12 +26,23 @@ const AS_WELL: f64 = 1.5;
 const TURNED_RAD: f64 = 3.0 * DEG;
 /// An axis 1 this far from where the profile has it is told, radians: gravity acts along the world's z.
 const TILTED_RAD: f64 = 3.0 * DEG;
+/// Exchanged columns are sure that leave axis 1 as near as this to where the profile has it, and others farther than
+/// [`TURNED_DEG`], degrees.
+const LEVEL_DEG: f64 = 15.0;
+const TURNED_DEG: f64 = 45.0;
 /// Joints that move less than this over all rows stand still, radians.
 const STILL_RAD: f64 = 0.5 * DEG;
 /// A tool that is fixed this far from where it was measured contradicts the measurements, metres.
 const CONTRADICTED_TOOL_M: f64 = 0.02;
 /// A tool this far from where the profile has it is worth a warning, metres.
 const WRONG_TOOL_M: f64 = 0.005;
+/// The way out of poses that are alike.
+const VARIETY: &str =
+    "measure configurations over the whole workspace: `poseshift plan` chooses them";
+/// Points that are less apart are in one place, metres.
+const ONE_PLACE_M: f64 = 1e-6;
+/// Points that are no farther than this from the middle of all are not doubted for it, metres.
+const NEAR_M: f64 = 10.0;
 /// Rows that are enough to try other readings of the file.
 const TRIED_ROWS: usize = 150;
 
@@ -41,7 +54,7 @@ pub fn doubt_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark>
     (compliance_asked && !masses).then(|| {
         remark(
             "no-masses",
-            0,
+            WHOLE_FILE,
             "the profile has no masses: compliance of the joints is not identified".into(),
             "give `bodies` and the tool's mass, or --level 2 if the arm is light and stiff",
         )
@@ -51,7 +64,7 @@ pub fn doubt_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark>
 /// What can be seen without a model: units of angles, joints that stand still, rows that repeat, points on a line.
 ///
 /// # Errors
-/// All poses alike; angles that must be radians; points on one line.
+/// All poses alike; the same orientation everywhere; a point far from all others; points in one place or on one line.
 pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark>, IdentifyError> {
     let rows = &measurements.rows;
     let mut remarks = Vec::new();
@@ -64,20 +77,28 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
         high - low
     };
     let still: Vec<usize> = (0..6).filter(|i| range(*i) < STILL_RAD).collect();
+    if rows.len() == 1 {
+        return Err(suspicious(
+            "there is one row: nothing of the arm follows from one pose".into(),
+            VARIETY,
+        ));
+    }
     if still.len() == 6 {
         let most = (0..6).map(range).fold(0.0, f64::max) / DEG;
         return Err(suspicious(
             format!(
-                "all {} rows have the same pose: no joint moves by more than {most:.3} deg",
-                rows.len()
+                "all {} rows have the same pose: no joint moves by more than {most:.3} deg, and {:.1} deg are needed{}",
+                rows.len(),
+                STILL_RAD / DEG,
+                duplicates(rows).map_or_else(String::new, |copies| format!("; {}", copies.message))
             ),
-            "measure configurations over the whole workspace: `poseshift plan` chooses them",
+            VARIETY,
         ));
     }
     for joint in &still {
         remarks.push(remark(
             "joint-never-moved",
-            0,
+            WHOLE_FILE,
             format!(
                 "joint {} never moves by more than {:.3} deg: its parameters cannot be told from those of its neighbours",
                 joint + 1,
@@ -86,38 +107,10 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
             "measure configurations in which every joint moves",
         ));
     }
-    let mut first: std::collections::HashMap<Vec<u64>, usize> = std::collections::HashMap::new();
-    let mut twice = Vec::new();
-    for row in rows {
-        let mut key: Vec<u64> = row.q.iter().map(|q| q.to_bits()).collect();
-        match row.observed {
-            Observed::Position(p) => key.extend(p.map(f64::to_bits)),
-            Observed::Pose(pose) => key.extend(pose.translation.map(f64::to_bits)),
-            Observed::Distance { distance_m, from_m } => {
-                key.push(distance_m.to_bits());
-                key.extend(from_m.map(f64::to_bits));
-            }
-            // the joint angles are the reading
-            Observed::Contact(kind) => key.push(kind as u64),
-        }
-        if let Some(line) = first.insert(key, row.line) {
-            twice.push((row.line, line));
-        }
-    }
-    if let Some((line, earlier)) = twice.first() {
-        remarks.push(remark(
-            "duplicate-rows",
-            *line,
-            format!(
-                "{} rows repeat an earlier one to the last digit, the first in line {line} that of line {earlier}: they count twice",
-                twice.len()
-            ),
-            "a device never repeats itself exactly: leave copies out",
-        ));
-    }
+    remarks.extend(duplicates(rows));
     let beyond = rows.iter().find_map(|row| {
         let joint = profile.mechanism.beyond_limit(&row.q, 5.0 * DEG)?;
-        Some((row.line, joint, row.q[joint]))
+        Some((row.line.clone(), joint, row.q[joint]))
     });
     if let Some((line, joint, q)) = beyond {
         remarks.push(remark(
@@ -143,18 +136,96 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
     let points: Vec<Vector> = rows.iter().filter_map(|r| r.observed.point_m()).collect();
     if points.len() == rows.len() && points.len() >= 3 {
         let [long, wide, _] = spreads(&points);
+        if long < ONE_PLACE_M {
+            let most = (0..6).map(range).fold(0.0, f64::max) / DEG;
+            return Err(suspicious(
+                format!(
+                    "all {} measured points are in one place, within {:.4} mm, though the joints move by up to {most:.1} deg",
+                    rows.len(),
+                    mm_from_m(long)
+                ),
+                "was the reflector followed? x_mm,y_mm,z_mm are what the device saw in each row",
+            ));
+        }
         if wide < 1e-3 * long.max(1e-6) {
+            refuse_far_off(measurements)?;
             return Err(suspicious(
                 format!(
                     "the measured points lie on one line: they spread {:.3} mm along it and {:.4} mm across",
                     mm_from_m(long),
                     mm_from_m(wide)
                 ),
-                "measure configurations over the whole workspace: `poseshift plan` chooses them",
+                VARIETY,
             ));
         }
     }
     Ok(remarks)
+}
+
+/// Rows that repeat an earlier one to the last digit.
+pub fn duplicates(rows: &[Measurement]) -> Option<Remark> {
+    let mut first: std::collections::HashMap<Vec<u64>, &Line> = std::collections::HashMap::new();
+    let mut twice = Vec::new();
+    for row in rows {
+        let mut key: Vec<u64> = row.q.iter().map(|q| q.to_bits()).collect();
+        match row.observed {
+            Observed::Position(p) => key.extend(p.map(f64::to_bits)),
+            Observed::Pose(pose) => key.extend(pose.translation.map(f64::to_bits)),
+            Observed::Distance { distance_m, from_m } => {
+                key.push(distance_m.to_bits());
+                key.extend(from_m.map(f64::to_bits));
+            }
+            // the joint angles are the reading
+            Observed::Contact(kind) => key.push(kind as u64),
+        }
+        if let Some(line) = first.insert(key, &row.line) {
+            twice.push((&row.line, line));
+        }
+    }
+    let (line, earlier) = twice.first()?;
+    Some(remark(
+        "duplicate-rows",
+        (*line).clone(),
+        format!(
+            "{} rows repeat an earlier one to the last digit, the first in {line} that of {earlier}: they count twice",
+            twice.len()
+        ),
+        "a device never repeats itself exactly: leave copies out",
+    ))
+}
+
+/// Where the middle of some numbers is.
+fn middle(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    quantile(&numbers, 0.5)
+}
+
+/// Refuses a point that is far from all others.
+///
+/// # Errors
+/// The farthest one, if there is any: no loss holds against it.
+pub fn refuse_far_off(measurements: &Measurements) -> Result<(), IdentifyError> {
+    let rows = measurements.rows.iter();
+    let seen: Vec<(&Line, Vector)> = rows
+        .filter_map(|row| Some((&row.line, row.observed.point_m()?)))
+        .collect();
+    if seen.len() < 3 {
+        return Ok(());
+    }
+    let centre: Vector = std::array::from_fn(|k| middle(seen.iter().map(|(_, p)| p[k]).collect()));
+    let away = |point: Vector| norm(sub(point, centre));
+    let half_m = middle(seen.iter().map(|(_, p)| away(*p)).collect());
+    let far = seen
+        .iter()
+        .max_by(|a, b| away(a.1).total_cmp(&away(b.1)))
+        .filter(|(_, p)| away(*p) > NEAR_M.max(FAR_OFF * half_m));
+    far.map_or(Ok(()), |(line, point)| {
+        Err(IdentifyError::FarOff {
+            line: (*line).clone(),
+            away_mm: mm_from_m(away(*point)),
+            half_mm: mm_from_m(half_m),
+        })
+    })
 }
 
 fn same_orientation(measurements: &Measurements) -> bool {
@@ -177,11 +248,12 @@ impl Fit {
         start.rms_m / start.spread_m.max(1e-9)
     }
 
-    /// Cosine of the angle between axis 1 and where the profile has it: devices are level more often than not.
-    fn upright(&self, profile: &Profile) -> f64 {
+    /// Angle between axis 1 and where the profile has it, degrees: devices are level more often than not.
+    fn tilt_deg(&self, profile: &Profile) -> f64 {
         let axis = |rotation: &crate::geometry::Rotation| rotation.axis(2);
         let base = &self.start.world_from_base.rotation;
-        dot(axis(base), axis(&profile.world_from_base.rotation))
+        let cosine = dot(axis(base), axis(&profile.world_from_base.rotation));
+        cosine.clamp(-1.0, 1.0).acos() / DEG
     }
 }
 
@@ -217,7 +289,7 @@ pub fn doubt_start(
     if tilt > TILTED_RAD && start.fixed_points.is_none() {
         remarks.push(remark(
             "base-tilted",
-            0,
+            WHOLE_FILE,
             format!(
                 "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame",
                 tilt / DEG
@@ -228,7 +300,7 @@ pub fn doubt_start(
     if let Some(count) = start.fixed_points.filter(|count| *count < 3) {
         remarks.push(remark(
             "base-not-determined",
-            0,
+            WHOLE_FILE,
             format!(
                 "distances from {count} fixed point{} do not tell how the base is turned: it is as in the profile, and its place follows from that",
                 if count == 1 { "" } else { "s" }
@@ -266,23 +338,55 @@ fn doubt_reading(profile: &Profile, measurements: &Measurements) -> Result<(), I
         return Ok(());
     }
     fits.retain(|fit| part(fit) <= AS_WELL * least);
-    fits.sort_by(|a, b| b.upright(profile).total_cmp(&a.upright(profile)));
+    fits.sort_by(|a, b| a.tilt_deg(profile).total_cmp(&b.tilt_deg(profile)));
     let best = &fits[0];
-    let mut as_well = String::new();
-    for other in fits.iter().skip(1).take(2) {
-        as_well += &format!("; as well if {}", other.reading.supposes);
-    }
+    let (supposes, as_well) = told_of(&fits, profile);
     Err(suspicious(
         format!(
             "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, where they spread {:.1} mm; if {}, {:.1} of {:.1} mm{as_well}",
             mm_from_m(start.rms_m),
             mm_from_m(start.spread_m),
-            best.reading.supposes,
+            supposes,
             mm_from_m(best.start.rms_m),
             mm_from_m(best.start.spread_m)
         ),
         &best.reading.hint,
     ))
+}
+
+/// What the first of some readings supposes, and what the others do.
+///
+/// A mirror image is mended by the exchange of any two coordinates: the exchanges differ only in how the base then stands.
+fn told_of(fits: &[Fit], profile: &Profile) -> (String, String) {
+    let as_well = |others: &mut dyn Iterator<Item = &Fit>| -> String {
+        let others = others.take(2);
+        others
+            .map(|fit| format!("; as well if {}", fit.reading.supposes))
+            .collect()
+    };
+    let exchanges: Vec<([&str; 2], f64)> = fits
+        .iter()
+        .filter_map(|fit| Some((fit.reading.exchanged?, fit.tilt_deg(profile))))
+        .collect();
+    let supposes = fits[0].reading.supposes.clone();
+    if fits[0].reading.exchanged.is_none() || exchanges.len() == 1 {
+        return (supposes, as_well(&mut fits.iter().skip(1)));
+    }
+    let tilts: Vec<String> = exchanges
+        .iter()
+        .map(|([a, b], tilt)| format!("{tilt:.1} deg with {a} and {b} exchanged"))
+        .collect();
+    let tilts = tilts.join(", ");
+    let others = fits.iter().filter(|fit| fit.reading.exchanged.is_none());
+    let others = as_well(&mut others.into_iter());
+    if exchanges[0].1 < LEVEL_DEG && exchanges[1].1 > TURNED_DEG {
+        let why = format!("; axis 1 then is off where the profile has it by {tilts}");
+        return (supposes, why + &others);
+    }
+    (
+        "they are a mirror image (two of the columns x_mm, y_mm, z_mm are swapped, or an axis points the other way)".into(),
+        format!("; which it is does not show: axis 1 then is off where the profile has it by {tilts}") + &others,
+    )
 }
 
 /// Tools that are elsewhere than the profile says.
@@ -303,7 +407,7 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
         if gap > WRONG_TOOL_M {
             remarks.push(remark(
                 "tool-elsewhere",
-                0,
+                WHOLE_FILE,
                 format!(
                     "the point measured on tool `{name}` is {:.1} mm from where the profile has it",
                     mm_from_m(gap)

@@ -1,10 +1,11 @@
 //! Sweeps of single joints that no base and tool of this robot explain.
 
 use super::screening::doubt_start;
-use super::{Remark, remark};
+use super::{Remark, WHOLE_FILE, remark};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector, add, norm, scale, sub};
 use crate::identify::error::IdentifyError;
+use crate::identify::line::Line;
 use crate::identify::measurements::{Measurement, Measurements, Observed};
 use crate::identify::start;
 use crate::model::Conditions;
@@ -61,7 +62,7 @@ pub fn doubt(
         }
         if missed_m > POOR_M {
             remarks.push(remark(
-                "poor-fit", 0,
+                "poor-fit", WHOLE_FILE,
                 format!(
                     "base and tool explain the sweeps to {:.2} mm rms only: few arms are so far from their drawing",
                     mm_from_m(missed_m)
@@ -75,7 +76,7 @@ pub fn doubt(
         let [distance_m, drawn_m] = relation.distance_m;
         if (angle - drawn).abs() > UNLIKE.0 || (distance_m - drawn_m).abs() > UNLIKE.1 {
             remarks.push(remark(
-                "axes-unlike", 0,
+                "axes-unlike", WHOLE_FILE,
                 format!(
                     "axes {} and {} are {:.3} deg and {:.2} mm apart; in the profile {:.3} deg and {:.2} mm",
                     relation.joints[0] + 1,
@@ -97,7 +98,7 @@ pub fn doubt(
             remarks.push(Remark {
                 warning: false,
                 ..remark(
-                    "tool-elsewhere", 0,
+                    "tool-elsewhere", WHOLE_FILE,
                     format!(
                         "the measured point is {:.1} mm from where the profile has the tool `{name}`",
                         mm_from_m(gap_m)
@@ -128,7 +129,7 @@ fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(
     let rows: Vec<_> = sweeps.iter().flat_map(|sweep| &sweep.rows).collect();
     let every = rows.len().div_ceil(TRIED_ROWS).max(1);
     let rows = rows.iter().step_by(every).map(|row| Measurement {
-        line: 0,
+        line: Line::default(),
         id: String::new(),
         q: row.q,
         observed: Observed::Position(row.point_m),

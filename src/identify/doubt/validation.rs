@@ -1,7 +1,7 @@
 //! Doubts of a validation: measurements that are not of this robot, or not as the file says.
 
-use super::screening::{doubt_start, look};
-use super::{Remark, remark, sigma};
+use super::screening::{doubt_start, duplicates, look, refuse_far_off};
+use super::{Remark, WHOLE_FILE, remark, sigma};
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::Measurements;
 use crate::identify::start;
@@ -19,17 +19,21 @@ const HOPELESS_MM: f64 = 20.0;
 /// What can be seen before any model is judged, as `calibrate` sees it.
 ///
 /// # Errors
-/// Another reading of the file fits much better.
+/// Another reading of the file fits much better; a point far from all others.
 pub fn before(
     profile: &Profile,
     measurements: &Measurements,
     refit: Refit,
 ) -> Result<Vec<Remark>, IdentifyError> {
+    refuse_far_off(measurements)?;
     let mut remarks = match look(profile, measurements) {
         Ok(remarks) => remarks,
         // one pose or one line may be what is to be judged
         Err(IdentifyError::Suspicious { message, hint }) => {
-            vec![remark("little-variety", 0, message, &hint)]
+            let mut remarks = vec![remark("little-variety", WHOLE_FILE, message, &hint)];
+            remarks.extend(duplicates(&measurements.rows));
+            // what follows from poses that differ does not from these
+            return Ok(remarks);
         }
         Err(other) => return Err(other),
     };
@@ -64,7 +68,7 @@ pub fn after(
     });
     if let Some((_, frames)) = missed.filter(|(_, frames)| frames.rms >= HOPELESS_MM) {
         remarks.push(remark(
-            "poor-fit", 0,
+            "poor-fit", WHOLE_FILE,
             format!(
                 "the nominal arm misses by {:.1} mm rms with base and tool fitted to these rows: no arm is that far from its drawing",
                 frames.rms
@@ -90,7 +94,7 @@ pub fn after(
                 "is it the profile of this arm? was the arm repaired or its joints set anew since the calibration?",
             )
         };
-        remarks.push(remark("worse-than-nominal", 0, message, hint));
+        remarks.push(remark("worse-than-nominal", WHOLE_FILE, message, hint));
     }
     remarks.extend(normalised.filter(|_| moved.is_none()).and_then(sigma));
     remarks

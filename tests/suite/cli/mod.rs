@@ -2,6 +2,7 @@
 
 mod compensate;
 mod fuzzed;
+mod hostile;
 mod identify;
 mod jobs_and_tables_of_poses;
 mod outputs;

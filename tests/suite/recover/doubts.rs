@@ -184,6 +184,18 @@ fn units_zeros_and_orders_of_other_makers_are_suggested() {
         swapped.contains("if the columns x_mm and y_mm are swapped"),
         "{swapped}"
     );
+    // of a device that lies on a corner no exchange does
+    let lying = Rotation::about_x(0.7) * Rotation::about_y(0.6);
+    let mirrored = refused(&|_, row| {
+        moved(row, |p| {
+            let [x, y, z] = lying * p;
+            [y, x, z]
+        });
+    });
+    assert!(
+        mirrored.contains("if they are a mirror image") && mirrored.contains("x_mm and z_mm"),
+        "{mirrored}"
+    );
 }
 
 #[test]

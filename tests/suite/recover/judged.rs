@@ -44,14 +44,14 @@ fn pose_accuracy_and_repeatability_are_those_worked_out_by_hand() {
         }
         // the first and third from above: means (0.3, 0.05, 0) and (0.1, -0.05, 0)
         row.conditions.direction = [if k % 2 == 0 { 1.0 } else { -1.0 }; 6];
-        row.line = 100 + k;
+        row.line = (100 + k).into();
         seen.rows.push(row);
     }
     let found = validate(&profile, &seen, Refit::No, None).expect("a validation");
     let [repeated] = found.repeated.as_slice() else {
         panic!("{:?}", found.repeated);
     };
-    assert_eq!((repeated.line, repeated.count), (100, 4));
+    assert_eq!((repeated.line.number, repeated.count), (100, 4));
     assert!((repeated.accuracy_mm - 0.2).abs() < 1e-9);
     // 0.15 + 3 sqrt(4 · 0.05² / 3)
     assert!((repeated.repeatability_mm - 0.323_205_080_756_888).abs() < 1e-9);
@@ -82,7 +82,7 @@ fn unknown_directions_are_no_direction_and_distances_are_those_worked_out_by_han
                 let way = if cycle == 1 { 1.0 } else { -1.0 };
                 row.conditions.direction = [0.0, way, 0.0, way, 0.0, 0.0];
             }
-            row.line = line;
+            row.line = line.into();
             line += 1;
             seen.rows.push(row);
         }
@@ -99,7 +99,8 @@ fn unknown_directions_are_no_direction_and_distances_are_those_worked_out_by_han
     let [distance] = found.repeated_distances.as_slice() else {
         panic!("{:?}", found.repeated_distances);
     };
-    assert_eq!((distance.lines, distance.count), ([100, 101], 3));
+    let lines = distance.lines.each_ref().map(|line| line.number);
+    assert_eq!((lines, distance.count), ([100, 101], 3));
     assert!((distance.distance_mm - apart(pa, pb) - 0.2).abs() < 1e-9);
     assert!((distance.accuracy_mm - 0.2).abs() < 1e-9);
     assert!((distance.commanded_accuracy_mm - 0.2).abs() < 1e-9);

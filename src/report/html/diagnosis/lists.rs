@@ -175,7 +175,7 @@ fn outliers(page: &mut Page, found: &Diagnosis) {
     }
     let table = Table {
         columns: vec![
-            Column::counts("line", list.iter().map(|o| o.line)),
+            Column::counts("line", list.iter().map(|o| o.line.number)),
             Column::texts("id", list.iter().map(|o| o.id.clone())),
             Column::numbers(
                 "residual",
@@ -199,7 +199,7 @@ fn followed(page: &mut Page, found: &Diagnosis) {
     }
     let table = Table {
         columns: vec![
-            Column::counts("line", list.iter().map(|f| f.line)),
+            Column::counts("line", list.iter().map(|f| f.line.number)),
             Column::texts("id", list.iter().map(|f| f.id.clone())),
             Column::numbers(
                 "leverage",

@@ -210,7 +210,7 @@ fn show_outliers(page: &mut Page, found: &Calibration) {
     }
     let table = Table {
         columns: vec![
-            Column::counts("line", list.iter().map(|o| o.line)),
+            Column::counts("line", list.iter().map(|o| o.line.number)),
             Column::texts("id", list.iter().map(|o| o.id.clone())),
             Column::numbers(
                 "residual",

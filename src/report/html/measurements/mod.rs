@@ -71,7 +71,7 @@ fn row_table(rows: &Rows, places: &[Vector]) -> (Table, usize) {
         .fold([0.0; 3], |sum, p| crate::geometry::add(sum, *p));
     let middle = rows.centre_m.unwrap_or_else(|| scale(1.0 / count, mean));
     let mut columns = vec![
-        Column::counts("line", all.iter().map(|row| of(row).line)),
+        Column::counts("line", all.iter().map(|row| of(row).line.number)),
         Column::texts(
             "id",
             all.iter()

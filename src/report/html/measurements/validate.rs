@@ -106,7 +106,7 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
         };
         let table = Table {
             columns: vec![
-                Column::counts("line", list.iter().map(|r| r.line)),
+                Column::counts("line", list.iter().map(|r| r.line.number)),
                 Column::counts("count", list.iter().map(|r| r.count)),
                 Column::numbers("AP", "mm", mm(&|r| r.commanded_accuracy_mm)),
                 Column::numbers("AP, real model", "mm", mm(&|r| r.accuracy_mm)),
@@ -129,8 +129,8 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
         };
         let table = Table {
             columns: vec![
-                Column::counts("line", list.iter().map(|r| r.lines[0])),
-                Column::counts("to line", list.iter().map(|r| r.lines[1])),
+                Column::counts("line", list.iter().map(|r| r.lines[0].number)),
+                Column::counts("to line", list.iter().map(|r| r.lines[1].number)),
                 Column::counts("count", list.iter().map(|r| r.count)),
                 Column::numbers(
                     "distance",

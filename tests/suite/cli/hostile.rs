@@ -1,0 +1,189 @@
+//! Measurements that nobody measured: each is refused or told with file, line, value and limit.
+
+use crate::support::{poseshift, repository, scratch};
+use serde_json::Value;
+use std::path::Path;
+
+const TRUTH: &str = "robots/abb_irb120_thesis.yaml";
+
+/// Status, report and what is told.
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, Value, String) {
+    let output = poseshift()
+        .current_dir(folder)
+        .args(arguments)
+        .arg("--profile")
+        .arg(repository(TRUTH))
+        .arg("--json")
+        .output()
+        .expect("the program starts");
+    (
+        output.status.code(),
+        serde_json::from_slice(&output.stdout).unwrap_or(Value::Null),
+        String::from_utf8_lossy(&output.stderr).into_owned(),
+    )
+}
+
+/// A folder with the measurements `m.csv` of 40 planned configurations, and these as cells; the first row is the header.
+fn measured() -> (tempfile::TempDir, Vec<Vec<String>>) {
+    let folder = scratch();
+    for arguments in [
+        &[
+            "plan",
+            "--count",
+            "40",
+            "--candidates",
+            "400",
+            "-o",
+            "q.csv",
+        ][..],
+        &[
+            "simulate",
+            "--joints",
+            "q.csv",
+            "--noise-mm",
+            "0.03",
+            "-o",
+            "m.csv",
+        ],
+    ] {
+        let (status, _, told) = run(folder.path(), arguments);
+        assert_eq!(status, Some(0), "{told}");
+    }
+    let text = std::fs::read_to_string(folder.path().join("m.csv")).expect("measurements");
+    let rows = text
+        .lines()
+        .map(|line| line.split(',').map(str::to_owned).collect());
+    let rows = rows.collect();
+    (folder, rows)
+}
+
+fn write(folder: &Path, name: &str, rows: &[Vec<String>]) {
+    let lines: Vec<String> = rows.iter().map(|row| row.join(",")).collect();
+    std::fs::write(folder.join(name), lines.join("\n") + "\n").expect("scratch");
+}
+
+fn column(rows: &[Vec<String>], name: &str) -> usize {
+    let at = rows[0].iter().position(|column| column == name);
+    at.expect("a column of the file")
+}
+
+fn finding<'a>(report: &'a Value, id: &str) -> &'a Value {
+    let findings = report["findings"].as_array().expect("findings");
+    let found = findings.iter().find(|finding| finding["id"] == id);
+    found.unwrap_or_else(|| panic!("no {id} in {findings:?}"))
+}
+
+#[test]
+fn numbers_and_points_out_of_the_world_are_refused_with_their_line() {
+    let (folder, rows) = measured();
+    for (name, value, words) in [
+        (
+            "x_mm",
+            "1e300",
+            ["m.csv:6:", "x_mm: 1e300 is beyond", "1e8 mm"],
+        ),
+        (
+            "q2_deg",
+            "-1e300",
+            ["m.csv:6:", "q2_deg: -1e300 is beyond", "1e5 deg"],
+        ),
+        ("z_mm", "9e7", ["line 6", "8999", "limit is 100 times"]),
+    ] {
+        let mut bad = rows.clone();
+        bad[5][column(&rows, name)] = value.into();
+        write(folder.path(), "m.csv", &bad);
+        for command in ["calibrate", "validate"] {
+            let (status, _, told) = run(folder.path(), &[command, "--measurements", "m.csv"]);
+            assert_eq!(status, Some(2), "{command} {name}: {told}");
+            for word in words {
+                assert!(told.contains(word), "{command} {word}: {told}");
+            }
+        }
+    }
+}
+
+#[test]
+fn points_in_one_place_and_poses_that_are_one_are_told_with_the_evidence() {
+    let (folder, rows) = measured();
+    let x = column(&rows, "x_mm");
+    let mut still = rows.clone();
+    let first: Vec<String> = rows[1][x..x + 3].to_vec();
+    for row in &mut still[1..] {
+        row.splice(x..x + 3, first.clone());
+    }
+    write(folder.path(), "m.csv", &still);
+    let (status, _, told) = run(folder.path(), &["calibrate", "--measurements", "m.csv"]);
+    assert!(
+        status == Some(2) && told.contains("all 40 measured points are in one place"),
+        "{told}"
+    );
+
+    let mut copies = vec![rows[0].clone()];
+    copies.extend(std::iter::repeat_n(rows[1].clone(), 50));
+    write(folder.path(), "m.csv", &copies);
+    let (status, _, told) = run(folder.path(), &["calibrate", "--measurements", "m.csv"]);
+    assert_eq!(status, Some(2), "{told}");
+    for word in [
+        "all 50 rows have the same pose",
+        "49 rows repeat",
+        "line 3",
+        "0.5 deg",
+    ] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+    let (status, report, told) = run(folder.path(), &["validate", "--measurements", "m.csv"]);
+    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(finding(&report, "duplicate-rows")["line"], 3);
+    let variety = finding(&report, "little-variety")["message"].as_str();
+    assert!(
+        variety.is_some_and(|m| m.contains("all 50 rows")),
+        "{variety:?}"
+    );
+}
+
+#[test]
+fn what_is_found_in_one_of_several_files_names_it() {
+    let (folder, rows) = measured();
+    let mut second = vec![rows[0].clone()];
+    second.extend(rows[21..].iter().cloned());
+    // a copy of a row of the other file, and a beam that was lost
+    second[4] = rows[2].clone();
+    let z = column(&rows, "z_mm");
+    let lost = second[9][z].parse::<f64>().expect("a number") + 7.0;
+    second[9][z] = lost.to_string();
+    write(folder.path(), "a.csv", &rows[..21]);
+    write(folder.path(), "b.csv", &second);
+    let files = ["--measurements", "a.csv", "--measurements", "b.csv"];
+    for command in ["calibrate", "validate"] {
+        let arguments = [&[command][..], &files].concat();
+        let (status, report, told) = run(folder.path(), &arguments);
+        assert_eq!(status, Some(0), "{told}");
+        let copy = finding(&report, "duplicate-rows");
+        assert_eq!((&copy["file"], &copy["line"]), (&"b.csv".into(), &5.into()));
+        let message = copy["message"].as_str().expect("a message");
+        assert!(
+            message.contains("in line 5 of b.csv that of line 3 of a.csv"),
+            "{message}"
+        );
+        if command == "calibrate" {
+            let doubt = finding(&report, "outliers");
+            assert_eq!(
+                (&doubt["file"], &doubt["line"]),
+                (&"b.csv".into(), &10.into())
+            );
+            let outlier = &report["outliers"][0];
+            assert_eq!(
+                (&outlier["file"], &outlier["line"]),
+                (&"b.csv".into(), &10.into())
+            );
+        }
+    }
+    let tool = column(&rows, "tool");
+    second[7][tool] = "gripper".into();
+    write(folder.path(), "b.csv", &second);
+    let (status, _, told) = run(folder.path(), &[&["calibrate"][..], &files].concat());
+    assert!(
+        status == Some(2) && told.contains("line 8 of b.csv: the profile has no tool `gripper`"),
+        "{told}"
+    );
+}
