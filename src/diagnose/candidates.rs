@@ -136,7 +136,7 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
 }
 
 /// The smallest value of a parameter that is physical, SI.
-fn least(kind: Kind, parameter: usize) -> Option<f64> {
+pub(super) fn least(kind: Kind, parameter: usize) -> Option<f64> {
     match (kind, parameter) {
         (Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance, _)
         | (Kind::ComplianceKnee, 1)

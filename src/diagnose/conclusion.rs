@@ -7,7 +7,7 @@ use super::diagnosis::{
 };
 use super::poses::{Telling, telling};
 use super::proof::{Proof, held_out};
-use super::refit::refit;
+use super::refit::{Beyond, Refit, refit};
 use super::search::{Chosen, Scored};
 use super::session::{Session, Trust, for_choice};
 use super::stand_ins::{StandIn, impossible, stand_ins};
@@ -38,6 +38,8 @@ const TELLING: usize = 12;
 const OUTLIER: f64 = 1.6;
 /// So many functions of one joint's angle, a harmonic among them, are the series of another.
 const SERIES: usize = 3;
+/// A value fitted along is clearly below zero by more than this many standard deviations.
+const CLEARLY: f64 = 5.0;
 /// A row is followed where so much of its own numbers is in its expectation.
 const FOLLOWED: f64 = 0.7;
 
@@ -252,6 +254,7 @@ fn doubts(attempt: &Attempt, found: &[Found], rivals: &[Rival]) -> Vec<String> {
             "geometry or compliance in the profile are off as a whole (p = {p:.1e}): calibrate anew"
         ));
     }
+    reasons.extend(pushing(&attempt.refit));
     if let Some(scale) = attempt.louder {
         let source = if attempt.session.problem.sigma_assumed {
             "repeated poses show"
@@ -263,6 +266,24 @@ fn doubts(attempt: &Attempt, found: &[Found], rivals: &[Rival]) -> Vec<String> {
         ));
     }
     reasons
+}
+
+/// Values fitted along that nothing physical has, one sentence for each.
+fn pushing(refit: &Refit) -> Vec<String> {
+    let clear = refit.impossible.iter().filter(|b| b.sigmas > CLEARLY);
+    let sentence = |beyond: &Beyond| {
+        let effect = &refit.estimate.effects[beyond.slot.effect];
+        let parameter = &effect.definition().parameters[beyond.slot.parameter];
+        let value = effect.parameters[beyond.slot.parameter] / parameter.unit.in_si();
+        format!(
+            "{} fits the measurements with {} = {value:.2e}, {:.0} standard deviations below zero: no spring is like that, \
+             something else is missing or the masses are wrong",
+            effect.label(),
+            parameter.key,
+            beyond.sigmas
+        )
+    };
+    clear.map(sentence).collect()
 }
 
 /// Effects that functions outside the registry explain more than, one sentence for each function.

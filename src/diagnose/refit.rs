@@ -1,5 +1,6 @@
 //! The effects' values with everything fitted together, without linearisation, and the improved profile.
 
+use super::candidates::least;
 use super::fit::{Fit, Held};
 use super::search::Chosen;
 use super::table::{Layout, add_scaled, table};
@@ -19,10 +20,21 @@ pub struct Refit {
     pub places: Vec<usize>,
     /// Standard deviation of each sought parameter of each effect, SI.
     pub sigmas: Vec<Vec<f64>>,
+    /// What was fitted along and came out where nothing physical is.
+    pub impossible: Vec<Beyond>,
     /// The last fit, of the residuals at the estimate.
     pub fit: Fit,
     /// Residuals at the estimate, in standard deviations of the rows.
     pub residual: Vec<f64>,
+}
+
+/// A value that is smaller than any that is physical.
+#[derive(Clone, Copy, Debug)]
+pub struct Beyond {
+    /// Which.
+    pub slot: Slot,
+    /// How far below, in its standard deviations.
+    pub sigmas: f64,
 }
 
 /// Puts effects found into an estimate; returns where they stand.
@@ -109,10 +121,12 @@ pub fn refit(
                 .iter()
                 .map(|c| own.by_ref().take(c.candidate.sought.len()).collect())
                 .collect();
+            let impossible = beyond(&estimate, problem, &fit, &residual, &held);
             return Refit {
                 estimate,
                 places,
                 sigmas,
+                impossible,
                 fit,
                 residual,
             };
@@ -136,6 +150,37 @@ pub fn refit(
         }
         turn += 1;
     }
+}
+
+/// Values of the problem's own parameters that lie below what is physical.
+fn beyond(
+    estimate: &Estimate,
+    problem: &Problem,
+    fit: &Fit,
+    residual: &[f64],
+    held: &[Held],
+) -> Vec<Beyond> {
+    let free = problem.parameters.iter().zip(held).enumerate();
+    let below = free.filter_map(|(i, (parameter, own))| {
+        let Subject::Effect(slot) = parameter.subject else {
+            return None;
+        };
+        let effect = &estimate.effects[slot.effect];
+        let by = least(effect.kind, slot.parameter)? - effect.parameters[slot.parameter];
+        if by <= 0.0 || own.share < 1.0 {
+            return None;
+        }
+        let mut others = held.to_vec();
+        others.remove(i);
+        let without = fit.with_held(residual, &others);
+        let projections = without.projections(&[own.column.to_vec()]);
+        let sigma = without.deviations(&[&projections[0]])[0] * parameter.scale;
+        Some(Beyond {
+            slot,
+            sigmas: by / sigma,
+        })
+    });
+    below.collect()
 }
 
 /// Moves parameters that their calibration holds, by what the residuals say beyond chance.

@@ -1,7 +1,7 @@
 //! `diagnose` from outside: report, files, exit status, bad input.
 
 use super::{group, without_sigma};
-use crate::support::{poseshift, scratch};
+use crate::support::{poseshift, run, scratch, text};
 use crate::trial::{Case, case};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -370,4 +370,69 @@ fn without_a_noise_to_judge_by_nothing_is_named() {
     let (status, out, error) = diagnosed(&case, &[]);
     assert_eq!((status, out.as_str()), (2, ""));
     assert!(error.contains("too few"), "{error}");
+}
+
+#[test]
+fn a_spring_that_would_push_is_no_answer() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let with = |name: &str, compliance: &str| {
+        let text = text("robots/abb_irb120_thesis.yaml");
+        let (before, after) = text
+            .split_once("joint: 2, rad_per_n_m: ")
+            .expect("a spring of joint 2");
+        let (_, after) = after.split_once('}').expect("its end");
+        let path = at(name);
+        std::fs::write(
+            &path,
+            format!("{before}joint: 2, rad_per_n_m: {compliance}}}{after}"),
+        )
+        .expect("a writable folder");
+        path
+    };
+    let (stiff, pushing) = (with("stiff.yaml", "0"), with("pushing.yaml", "-6e-5"));
+    let (joints, measured) = (at("joints.csv"), at("measured.csv"));
+    let told = |arguments: &[&str]| {
+        let (status, out, error) = run(arguments);
+        assert!(status < 2, "{error}");
+        out
+    };
+    told(&[
+        "plan",
+        "--profile",
+        &stiff,
+        "--count",
+        "150",
+        "--candidates",
+        "500",
+        "--starts",
+        "1",
+        "-o",
+        &joints,
+    ]);
+    told(&[
+        "simulate",
+        "--profile",
+        &pushing,
+        "--joints",
+        &joints,
+        "--noise-mm",
+        "0.03",
+        "--seed",
+        "1",
+        "-o",
+        &measured,
+    ]);
+    let json = told(&[
+        "diagnose",
+        "--profile",
+        &stiff,
+        "--measurements",
+        &measured,
+        "--json",
+    ]);
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(report["verdict"], "undetermined", "{report:#}");
+    let reasons = report["reasons"].to_string();
+    assert!(reasons.contains("below zero"), "{reasons}");
 }
