@@ -154,7 +154,7 @@ fn the_same_holds_where_joint_6_is_found_by_iteration() {
     - {effect: link_geometry, link: 6, alpha_deg: -0.08, a_mm: 0.25}
 ";
     let tool = "tools:
-  artifact: {frame: {x_mm: 20, y_mm: -10, z_mm: 250, rx_deg: 0, ry_deg: 30, rz_deg: 0}}";
+  artifact: {frame: {x_mm: 50, y_mm: 25, z_mm: 100, rx_deg: 0, ry_deg: 0, rz_deg: 0}}";
     let nominal = text("robots/yaskawa_ma1400.yaml");
     let calibrated = nominal
         .replace("effects: []", effects)
