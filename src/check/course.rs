@@ -268,6 +268,15 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
+    /// Whether the joints' values and rates have bounds that say something.
+    pub fn is_bounded(&self) -> bool {
+        self.joints.iter().all(|joint| {
+            joint.value.radius < 1.0
+                && joint.slope.radius.is_finite()
+                && joint.bend.radius.is_finite()
+        })
+    }
+
     /// Whether these joints lie within the bounds: with those of both ends in one piece the way between them has no leap.
     pub fn holds(&self, joints: &[f64; 6]) -> bool {
         let within =
@@ -344,17 +353,14 @@ impl Leg<'_> {
                 (joints, exact)
             }
         };
-        let bounded = joints.iter().all(|joint| {
-            joint.value.radius < 1.0
-                && joint.slope.radius.is_finite()
-                && joint.bend.radius.is_finite()
-        });
-        Piece {
+        let mut piece = Piece {
             from,
             to,
             joints,
-            certified: certified && bounded,
-        }
+            certified,
+        };
+        piece.certified &= piece.is_bounded();
+        piece
     }
 
     /// The whole move in pieces whose bounds are tight enough to work with.

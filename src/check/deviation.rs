@@ -18,6 +18,8 @@ const CLOSE_RAD: f64 = 2e-6;
 const CLOSE_PART: f64 = 0.01;
 /// Intervals are halved at most so often; what remains open is told by its bound.
 const DEEPEST: u32 = 12;
+/// … and so often where the joints' rates have no bound, so that there are only samples.
+const SAMPLED: u32 = 5;
 
 /// The error of a tool's path.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -94,6 +96,7 @@ struct Sample {
 struct Open {
     a: Sample,
     b: Sample,
+    /// How often it may still be halved.
     depth: u32,
 }
 
@@ -138,17 +141,15 @@ pub(crate) fn path_error(
     let mut open = Vec::new();
     let mut last = sample(0.0, &leg.start);
     seen(&last, &mut low);
-    let mut uncertain = Vec::new();
+    let mut all_certain = true;
     for piece in pieces {
         let end = sample(piece.to, &last.joints);
         seen(&end, &mut low);
-        if !piece.certified {
-            uncertain.push(piece);
-        }
+        all_certain &= piece.certified;
         open.push(Open {
             a: last,
             b: end,
-            depth: 0,
+            depth: if piece.is_bounded() { DEEPEST } else { SAMPLED },
         });
         last = end;
     }
@@ -183,22 +184,23 @@ pub(crate) fn path_error(
         let is_close = close(bound.0, low.0, CLOSE_M) && close(bound.1, low.1, CLOSE_RAD);
         if is_close && is_whole {
             high = (high.0.max(bound.0), high.1.max(bound.1));
-        } else if depth < DEEPEST {
+        } else if depth > 0 {
             for (a, b) in [(a, middle), (middle, b)] {
                 open.push(Open {
                     a,
                     b,
-                    depth: depth + 1,
+                    depth: depth - 1,
                 });
             }
         } else if is_whole && bound.0.is_finite() && bound.1.is_finite() {
             high = (high.0.max(bound.0), high.1.max(bound.1));
         } else {
-            // it leaps from one posture to another, or at a singularity nothing bounds the joints' rates: what is between the samples is unknown
+            // it leaps from one posture to another, or at a singularity nothing bounds the joints' rates: what is between the
+            // samples is unknown
             found.certified = false;
         }
     }
-    found.certified &= uncertain.is_empty();
+    found.certified &= all_certain;
     found.sampled = Separation {
         distance_m: low.0,
         angle_rad: angle(low.1),
