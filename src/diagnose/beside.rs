@@ -169,20 +169,8 @@ impl Kept {
 #[cfg(test)]
 mod tests {
     use super::super::fit::Held;
-    use super::super::table::Layout;
+    use super::super::table::{Layout, noise};
     use super::*;
-
-    /// Numbers that look random, and are the same each time.
-    fn noise(seed: u64, count: usize) -> Column {
-        let mut state = seed;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
-        (0..count).map(|_| next()).collect()
-    }
 
     fn held(columns: &[Column], share: f64, sought: bool) -> Vec<Held<'_>> {
         let each = columns.iter();

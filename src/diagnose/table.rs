@@ -165,3 +165,16 @@ pub fn lengths_m(problem: &Problem, layout: &Layout, residual: &[f64]) -> Vec<f6
         })
         .collect()
 }
+
+/// Numbers that look random, and are the same each time.
+#[cfg(test)]
+pub(super) fn noise(seed: u64, count: usize) -> Column {
+    let mut state = seed;
+    let mut next = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    (0..count).map(|_| next()).collect()
+}

@@ -357,19 +357,8 @@ impl Plain {
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::noise;
     use super::*;
-
-    /// Numbers that look random, and are the same each time.
-    fn noise(seed: u64, count: usize) -> Column {
-        let mut state = seed;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
-        (0..count).map(|_| next()).collect()
-    }
 
     fn held(columns: &[Column]) -> Vec<Held<'_>> {
         let shares = [1.0, 1.0, 0.4, 0.1];
