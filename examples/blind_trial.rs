@@ -1,10 +1,6 @@
 //! How often `diagnose` names what is hidden in a robot: seeded cases, diagnosed without the answer.
 //!
-//! `cargo run --release --example blind_trial -- [--only GROUP] [--first N] [--count N] [--seed K] [--rows N] [--list] [--cases]
-//! [--oracle] [--in-turn]`
-//!
-//! `--oracle` also fits the effects that are hidden, known by name, and says what they reach on rows not used: no method does
-//! better but by chance. `--in-turn` runs one case after another, so that their times are those of one diagnosis on all cores.
+//! `cargo run --release --example blind_trial -- --help` lists what can be asked.
 
 #[path = "../tests/physics/mod.rs"]
 #[allow(dead_code)]
@@ -13,6 +9,7 @@ mod physics;
 #[allow(dead_code)]
 mod trial;
 
+use clap::Parser;
 use poseshift::diagnose::candidates::MOST_ORDERS;
 use poseshift::diagnose::{Diagnosis, Options, Verdict, diagnose};
 use poseshift::identify::parameters::Pick;
@@ -21,6 +18,47 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 use trial::{Case, GROUPS, Group, NOISE_MM, case, label};
+
+/// Hide effects in robots, diagnose without the answer, and count how often it is right
+#[derive(Parser)]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command")]
+struct Trial {
+    /// Groups of cases, by their names; all without
+    #[arg(long, value_name = "GROUP", value_delimiter = ',', value_parser = GROUPS.map(|group| group.name))]
+    only: Vec<String>,
+    /// Number of the first case
+    #[arg(long, default_value_t = 0)]
+    first: usize,
+    /// How many cases of each group
+    #[arg(long, default_value_t = 192, value_parser = at_least_one)]
+    count: usize,
+    /// Seed
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Poses of each case
+    #[arg(long, default_value_t = 150)]
+    rows: usize,
+    /// Count by effect where two are hidden, too
+    #[arg(long)]
+    list: bool,
+    /// Print each case
+    #[arg(long)]
+    cases: bool,
+    /// Fit the effects that are hidden, known by name, too: no method does better but by chance
+    #[arg(long)]
+    oracle: bool,
+    /// Run one case after another, so that their times are those of one diagnosis on all cores
+    #[arg(long)]
+    in_turn: bool,
+}
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("no cases tell nothing".into()),
+        Ok(count) => Ok(count),
+        Err(error) => Err(error.to_string()),
+    }
+}
 
 struct Told {
     what: String,
@@ -186,33 +224,19 @@ fn print_case(group: &Group, told: &Told) {
 }
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let value = |name: &str| {
-        arguments
-            .iter()
-            .position(|a| a == name)
-            .and_then(|i| arguments.get(i + 1))
-    };
-    let number =
-        |name: &str, default: usize| value(name).and_then(|v| v.parse().ok()).unwrap_or(default);
-    let (count, seed, rows) = (
-        number("--count", 192),
-        number("--seed", 1) as u64,
-        number("--rows", 150),
-    );
-    let is_given = |name: &str| arguments.iter().any(|a| a == name);
-    let (first, list) = (number("--first", 0), is_given("--list"));
+    let asked = Trial::parse();
+    let cases = asked.first..asked.first + asked.count;
     for group in &GROUPS {
-        if value("--only").is_some_and(|only| !only.split(',').any(|o| o == group.name)) {
+        if !asked.only.is_empty() && !asked.only.iter().any(|only| only == group.name) {
             continue;
         }
-        let one = |n| run(group, n, seed, rows, is_given("--oracle"));
-        let all: Vec<Told> = if is_given("--in-turn") {
-            (first..first + count).map(one).collect()
+        let one = |n| run(group, n, asked.seed, asked.rows, asked.oracle);
+        let all: Vec<Told> = if asked.in_turn {
+            cases.clone().map(one).collect()
         } else {
-            (first..first + count).into_par_iter().map(one).collect()
+            cases.clone().into_par_iter().map(one).collect()
         };
-        if is_given("--cases") {
+        if asked.cases {
             for told in &all {
                 print_case(group, told);
             }
@@ -272,7 +296,7 @@ fn main() {
             }
         }
         for (what, (right, of, wrong)) in &table {
-            if group.hidden < 2 || list {
+            if group.hidden < 2 || asked.list {
                 let wrong: Vec<String> = wrong.iter().map(|(w, n)| format!("{n} {w}")).collect();
                 println!("  {what:40} {right:3} of {of:3}  {}", wrong.join(", "));
             }
@@ -295,7 +319,7 @@ fn main() {
                 }
             }
         }
-        if list {
+        if asked.list {
             for told in all.iter().filter(|t| !t.right(group)) {
                 println!(
                     "  #{:3} {:.1} x {}{}: named {} [{}] {}",
