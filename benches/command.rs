@@ -39,7 +39,8 @@ fn read_and_write(criterion: &mut Criterion) {
             b.iter_batched(
                 || edits[0].clone(),
                 |edits| {
-                    let program = language.read(&sources, &settings).expect("a program");
+                    let program =
+                        poseshift::motion::read(language, &sources, &settings).expect("a program");
                     (program.targets.len(), edits.apply(&sources[0].bytes))
                 },
                 BatchSize::LargeInput,

@@ -36,6 +36,7 @@ pub mod geometry;
 pub mod identify;
 pub mod inverse;
 pub mod model;
+pub mod motion;
 pub mod program;
 pub mod register;
 pub mod report;

@@ -53,7 +53,7 @@ pub fn check(id: &str, bytes: &[u8]) {
         pulses_per_deg: calibrated.pulses_per_deg,
         ..Settings::default()
     };
-    let Ok(program) = language.read(&sources, &settings) else {
+    let Ok(program) = poseshift::motion::read(*language, &sources, &settings) else {
         return;
     };
     for number in &program.numbers {
@@ -80,8 +80,7 @@ pub fn check(id: &str, bytes: &[u8]) {
         }
         let written = [Source::new(sources[0].name.clone(), edits.apply(bytes))];
         assert_eq!(Marker::find(&written[0].bytes).is_some(), is_marked || Marker::find(bytes).is_some());
-        let again = language
-            .read(&written, &settings)
+        let again = poseshift::motion::read(*language, &written, &settings)
             .expect("what is written is a program");
         assert_eq!(
             (again.targets.len(), again.moves.len()),

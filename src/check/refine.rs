@@ -16,8 +16,7 @@ use crate::inverse::{Inverse, Status};
 use crate::model::Conditions;
 use crate::program::number::{Fraction, Style};
 use crate::program::{
-    Between, Displacement, Edits, Insertion, Motion, Posture, Replacements, Role, Settings, Shape,
-    Value,
+    Between, Displacement, Edits, Insertion, Motion, Posture, Replacements, Role, Settings, Value,
 };
 use rayon::prelude::*;
 
@@ -154,7 +153,7 @@ impl Job<'_> {
     /// The joints at a stop when the compensated program runs.
     fn joints_at(&self, motion: usize) -> Option<[f64; 6]> {
         let stop = self.walk.route.stops[motion]?;
-        let target = self.walk.route.program.moves[motion].target;
+        let target = self.walk.route.program.moves[motion].target?;
         let report = &self.compensation.targets[target];
         Some(report.q.filter(|_| report.changed).unwrap_or(stop.q))
     }
@@ -164,7 +163,7 @@ impl Job<'_> {
         let motion = &program.moves[index];
         let leg = self.walk.leg(index, self.options.turning)?;
         let stop = self.walk.route.stops[index]?;
-        let is_pose = program.targets[motion.target].layout.shape == Shape::Pose;
+        let is_pose = program.goes_to_pose(motion);
         let via = (motion.motion == Motion::ArcEnd)
             .then(|| index.checked_sub(1))
             .flatten()
@@ -189,8 +188,9 @@ impl Job<'_> {
         }
         let each = if via.is_some() { 2 } else { 1 };
         // the point of an arc that had a name is a target of its own now
-        let named =
-            via.is_some_and(|via| program.targets[program.moves[via].target].name.is_some());
+        let named = via
+            .and_then(|via| program.target_of(&program.moves[via])?.name.as_ref())
+            .is_some();
         let change = |what| {
             Some(Change {
                 file: motion.file as usize,
@@ -400,7 +400,9 @@ impl Job<'_> {
     fn numbers(&self, leg: &Leg, index: usize, point: &Point) -> Vec<Vec<u8>> {
         let (program, language) = (&self.walk.route.program, self.subject.language);
         let motion = &program.moves[index];
-        let target = &program.targets[motion.target];
+        let target = program
+            .target_of(motion)
+            .expect("moves that are refined have a target");
         let source = &self.subject.sources[target.file as usize];
         let numbers = program.numbers_of(target);
         let text = |i: usize| {

@@ -104,7 +104,7 @@ impl Tracer<'_> {
         let mut traced = Traced {
             motion: index,
             counterpart: part.map_or(index, |part| part.motion),
-            target: motion.target,
+            target: motion.target?,
             file: motion.file as usize,
             line: source.line_column(motion.offset as usize).0,
             commanded: stop.pose,

@@ -456,8 +456,7 @@ fn render(
         }
         written.push(Source::new(source.name.clone(), edits.apply(&source.bytes)));
     }
-    let same = language
-        .read(&written, &settings)
+    let same = crate::motion::read(language, &written, &settings)
         .is_ok_and(|after| targets.contains(&after.targets.len()) && after.moves.len() == moves);
     if !same {
         let message = "internal error: the rewritten program does not read back as the same program; nothing is written";

@@ -19,7 +19,7 @@ fn is_displaced(motion: &Move) -> bool {
 /// The targets that points are derived from.
 pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
     let displaced = job.program.moves.iter().filter(|m| is_displaced(m));
-    displaced.map(|motion| motion.target).collect()
+    displaced.filter_map(|motion| motion.target).collect()
 }
 
 /// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that points are derived from.
@@ -30,12 +30,15 @@ pub(super) fn check(
     findings: &mut Vec<Finding>,
 ) {
     for motion in job.program.moves.iter().filter(|m| is_displaced(m)) {
-        let found = drafts.binary_search_by_key(&motion.target, |draft| draft.target as usize);
-        let (Ok(draft), Some(fake)) = (found, fakes.get(&motion.target)) else {
+        let Some(target) = motion.target else {
+            continue;
+        };
+        let found = drafts.binary_search_by_key(&target, |draft| draft.target as usize);
+        let (Ok(draft), Some(fake)) = (found, fakes.get(&target)) else {
             continue;
         };
         let task = job.task(&drafts[draft]);
-        let name = name_of(job, motion.target);
+        let name = name_of(job, target);
         let finding = match landing(job, &task, fake, motion) {
             None => {
                 let message = format!(

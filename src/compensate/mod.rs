@@ -25,7 +25,7 @@ mod rewrite;
 pub(crate) mod route;
 
 use outcome::Tally;
-pub use outcome::{Compensation, Summary, TargetReport, meaning};
+pub use outcome::{Compensation, Summary, TargetReport};
 pub use placement::{Given, MeasuredFrameError, PlacementError};
 use placement::{Place, Setting};
 use rewrite::Portion;
@@ -35,6 +35,7 @@ use crate::geometry::Pose;
 use crate::inverse::{Arm, Branch, Inverse, Status, Targets, Unsupported, solve_batch};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+pub use crate::program::meaning;
 use crate::program::{Edits, Language, Program, ReadError, Settings, Source, Value};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -275,7 +276,7 @@ pub fn compensate(
         pulses_per_deg: profile.pulses_per_deg,
         accept_absolutely_accurate: options.accept_absolutely_accurate,
     };
-    let mut program = language.read(sources, &settings)?;
+    let mut program = crate::motion::read(language, sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
     if program.targets.is_empty()

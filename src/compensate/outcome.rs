@@ -4,7 +4,7 @@ use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
 use crate::inverse::{Branch, Outcome, Status};
-use crate::program::{Decoded, Edits, Program, Settings, Shape, Target};
+use crate::program::{Edits, Program, Settings, Shape, Target};
 use std::collections::BTreeMap;
 
 /// A program with fake targets, not yet written.
@@ -161,7 +161,7 @@ impl Tally {
 /// Names each target's first tool and frame.
 pub(super) fn name_places(job: &Job, reports: &mut [TargetReport]) {
     for motion in job.program.moves.iter().rev() {
-        if let Some(report) = reports.get_mut(motion.target) {
+        if let Some(report) = motion.target.and_then(|target| reports.get_mut(target)) {
             (report.tool, report.frame) = (Some(small(motion.tool)), Some(small(motion.frame)));
         }
     }
@@ -177,17 +177,4 @@ pub(super) fn sort(job: &Job, findings: &mut [Finding]) {
 /// An index that is kept small.
 pub(super) fn small(index: usize) -> u32 {
     u32::try_from(index).expect("a program's text is below 4 GiB")
-}
-
-/// What the numbers of a target mean; a blocked target may have none.
-#[must_use]
-pub fn meaning(
-    language: &dyn crate::program::Language,
-    program: &Program,
-    settings: &Settings,
-    target: usize,
-) -> Option<Decoded> {
-    let target = &program.targets[target];
-    let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
-    (!numbers.is_empty()).then(|| language.decode(target.layout, &numbers, settings))
 }

@@ -209,15 +209,13 @@ pub(super) fn place(
     // the first move to each target, and whether another one contradicts it
     let mut first: Vec<Option<(usize, bool)>> = vec![None; program.targets.len()];
     let place_of = |motion: &Move| place_of(job, motion);
-    for (index, motion) in program
-        .moves
-        .iter()
-        .enumerate()
-        .filter(|(_, motion)| !stays(motion.target))
-    {
+    for (index, motion) in program.moves.iter().enumerate() {
+        let Some(target) = motion.target.filter(|target| !stays(*target)) else {
+            continue;
+        };
         let place = known(job, motion)?;
-        match &mut first[motion.target] {
-            None => first[motion.target] = Some((index, false)),
+        match &mut first[target] {
+            None => first[target] = Some((index, false)),
             Some((other, contradicted)) => {
                 let before = &program.moves[*other];
                 if !*contradicted && !job.setting.is_same(place_of(before), place) {
@@ -238,7 +236,8 @@ pub(super) fn place(
 
 /// The place that a move gives its target.
 fn place_of(job: &Job, motion: &Move) -> Place {
-    let is_joints = job.program.targets[motion.target].layout.shape == Shape::Joints;
+    let target = motion.target.map(|target| &job.program.targets[target]);
+    let is_joints = target.is_some_and(|target| target.layout.shape == Shape::Joints);
     let world = job.setting.frames.len() - 1;
     Place {
         tool: motion.tool,
@@ -280,14 +279,14 @@ fn shared(job: &Job, a: &Move, b: &Move) -> Finding {
     };
     let message = format!(
         "{} is used with different tools or work frames (lines {} and {}): one fake target cannot serve both",
-        name_of(job, a.target),
+        name_of(job, a.target.expect("moves that share a target have one")),
         line(a),
         line(b)
     );
     job.at_target(
         "target-shared",
         Severity::Error,
-        a.target,
+        a.target.expect("moves that share a target have one"),
         message,
         "give each use a target of its own",
     )

@@ -1,7 +1,6 @@
 //! Which of the inverse's solutions the program means: by its configuration data where the controller honours them, and by
 //! the way it comes from the target before.
 
-use super::outcome::meaning;
 use super::placement::{Place, name_of};
 use super::{Draft, Job, Task};
 use crate::finding::{Finding, Severity};
@@ -9,7 +8,7 @@ use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
 use crate::model::effects::Need;
-use crate::program::{Configuration, Decoded, Displacement, Role, Value};
+use crate::program::{Configuration, Decoded, Displacement, Role, Value, meaning};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
 const BORDER_RAD: f64 = 0.05 * DEG;
@@ -78,7 +77,13 @@ pub(super) fn choose(
                 ..Path::default()
             };
         }
-        let target = motion.target;
+        let Some(target) = motion.target else {
+            path = Path {
+                file: motion.file,
+                ..Path::default()
+            };
+            continue;
+        };
         let index = seen[target].unwrap_or_else(|| {
             let start = motion.near.as_deref().copied().or(path.joints);
             let task = task(

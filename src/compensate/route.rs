@@ -3,7 +3,7 @@
 
 use super::placement::{Given, Setting};
 use super::posture::{self, Path};
-use super::{CompensateError, Equipped, Job, Options, Task, equip, outcome, placement};
+use super::{CompensateError, Equipped, Job, Options, Task, equip, placement};
 use crate::finding::Finding;
 use crate::geometry::Pose;
 use crate::inverse::Branch;
@@ -51,7 +51,7 @@ pub(crate) fn route(
         // nothing is rewritten
         accept_absolutely_accurate: true,
     };
-    let mut program = language.read(sources, &settings)?;
+    let mut program = crate::motion::read(language, sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
     let options = Options {
@@ -72,8 +72,8 @@ pub(crate) fn route(
     };
     let mut places = Vec::with_capacity(program.moves.len());
     for motion in &program.moves {
-        let target = &program.targets[motion.target];
-        let has_numbers = !program.numbers_of(target).is_empty();
+        let target = motion.target.map(|target| &program.targets[target]);
+        let has_numbers = target.is_some_and(|target| !program.numbers_of(target).is_empty());
         places.push(if has_numbers {
             Some(placement::known(&job, motion)?)
         } else {
@@ -92,15 +92,17 @@ pub(crate) fn route(
         }
         let start = motion.near.as_deref().copied().or(path.joints);
         let honoured = motion.configured && motion.near.is_none();
-        let task = posture::task(
-            &job,
-            motion.target,
-            *place,
-            &motion.displacement,
-            honoured,
-            start,
-            &mut findings,
-        );
+        let task = motion.target.and_then(|target| {
+            posture::task(
+                &job,
+                target,
+                *place,
+                &motion.displacement,
+                honoured,
+                start,
+                &mut findings,
+            )
+        });
         let stop = task.map(|task| {
             let q = controller_joints(&job, &task);
             path.go(q);
@@ -134,7 +136,7 @@ pub(crate) fn route(
 
 /// The joints that the controller itself computes: with its own calibrated chain where it has one.
 fn controller_joints(job: &Job, task: &Task) -> [f64; 6] {
-    let decoded = outcome::meaning(job.language, job.program, job.settings, task.target);
+    let decoded = crate::program::meaning(job.language, job.program, job.settings, task.target);
     let is_joints = matches!(decoded.map(|d| d.value), Some(Value::Joints(_)));
     match &job.equipped(task.tool).calibrated_controller {
         Some(controller) if !is_joints => {

@@ -11,10 +11,12 @@ mod error;
 pub mod fanuc;
 pub mod inform;
 mod insert;
+mod kit;
 pub mod krl;
 mod marker;
 pub mod number;
 pub mod rapid;
+pub mod script;
 mod source;
 pub mod urscript;
 
@@ -22,6 +24,7 @@ pub use edit::Edits;
 pub use error::ReadError;
 pub use insert::{Between, Inserted, Insertion, Replacements};
 pub use marker::Marker;
+pub use script::{Instruction, Place, Script};
 pub use source::Source;
 
 use crate::finding::Finding;
@@ -98,7 +101,38 @@ pub trait Language: Sync {
     ///
     /// # Errors
     /// Where the text is not a program of this language or is broken.
-    fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError>;
+    fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError> {
+        let _ = (sources, settings);
+        unreachable!("a language without `script`")
+    }
+
+    /// Translates program files that belong together into statements.
+    ///
+    /// # Errors
+    /// Where the text is not a program of this language or is broken.
+    fn script(&self, sources: &[Source], settings: &Settings) -> Option<Result<Script, ReadError>> {
+        let _ = (sources, settings);
+        None
+    }
+
+    /// A tool (`is_tool`) or a work frame of its parts; where it cannot be one a remark says why.
+    ///
+    /// # Errors
+    /// Where a part is a number that no robot can use.
+    fn frame_of(
+        &self,
+        is_tool: bool,
+        name: &str,
+        parts: &[script::Part],
+        sources: &[Source],
+    ) -> Result<Result<script::NamedFrame, script::Remark>, ReadError> {
+        let _ = (is_tool, parts, sources);
+        Ok(Ok(script::NamedFrame {
+            name: name.into(),
+            pose: None,
+            load: None,
+        }))
+    }
 
     /// Name of the work frame that targets without one stand in: the world unless the command line gives another for it.
     fn frame_of_unframed(&self) -> Option<&'static str> {
@@ -354,7 +388,7 @@ impl Pace {
     }
 }
 
-/// One use of a target by a move instruction, in the order of the text.
+/// One use of a target by a move instruction with one tool in one work frame, in the order of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
     /// Index of the file in the sources.
@@ -363,8 +397,8 @@ pub struct Move {
     pub offset: u32,
     /// How the robot gets there.
     pub motion: Motion,
-    /// Where to.
-    pub target: TargetId,
+    /// Where to; `None` where only the running program knows, or nobody does.
+    pub target: Option<TargetId>,
     /// With which tool.
     pub tool: ToolId,
     /// In which work frame.
@@ -377,6 +411,53 @@ pub struct Move {
     pub near: Option<Box<[f64; 6]>>,
     /// How fast, and with which corner.
     pub pace: Pace,
+    /// On the way the orientation is free: only the end counts.
+    pub free_orientation: bool,
+    /// Index in [`Program::instructions`].
+    pub instruction: u32,
+    /// The moves that may come before it, see [`Program::before`].
+    pub before: Before,
+    /// Where its tool is written, where that is not its declaration.
+    pub tool_written: Option<Place>,
+    /// Likewise its work frame.
+    pub frame_written: Option<Place>,
+}
+
+impl Default for Move {
+    /// A joint move to nowhere.
+    fn default() -> Self {
+        Self {
+            file: 0,
+            offset: 0,
+            motion: Motion::Joint,
+            target: None,
+            tool: 0,
+            frame: 0,
+            displacement: Displacement::None,
+            configured: false,
+            near: None,
+            pace: Pace::default(),
+            free_orientation: false,
+            instruction: 0,
+            before: Before::Start,
+            tool_written: None,
+            frame_written: None,
+        }
+    }
+}
+
+/// The moves that may come before a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Before {
+    /// None: the program starts with it.
+    #[default]
+    Start,
+    /// Any, or ones that are not known.
+    Anywhere,
+    /// One, by its index in [`Program::moves`].
+    One(u32),
+    /// Several, by index in [`Program::befores`].
+    Several(u32),
 }
 
 /// A tool that moves name.
@@ -421,11 +502,23 @@ pub struct Program {
     pub tools: Vec<Tool>,
     /// Work frames as moves use them.
     pub frames: Vec<Frame>,
+    /// What moves say, with the bytes where they say it.
+    pub instructions: Vec<Instruction>,
+    /// Moves that come before others where there are several.
+    pub befores: Vec<Box<[Before]>>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }
 
 impl Program {
+    /// The moves that may come before a move: each [`Before::Start`], [`Before::Anywhere`] or [`Before::One`].
+    pub fn before<'a>(&'a self, motion: &'a Move) -> &'a [Before] {
+        match motion.before {
+            Before::Several(at) => &self.befores[at as usize],
+            _ => std::slice::from_ref(&motion.before),
+        }
+    }
+
     /// Gives back the memory that lists of unknown length took too much.
     pub fn shrink_to_fit(&mut self) {
         self.targets.shrink_to_fit();
@@ -433,9 +526,35 @@ impl Program {
         self.moves.shrink_to_fit();
     }
 
+    /// The target of a move.
+    #[must_use]
+    pub fn target_of(&self, motion: &Move) -> Option<&Target> {
+        motion.target.map(|target| &self.targets[target])
+    }
+
+    /// Whether a move goes to a pose with numbers in the files.
+    #[must_use]
+    pub fn goes_to_pose(&self, motion: &Move) -> bool {
+        self.target_of(motion)
+            .is_some_and(|target| target.layout.shape == Shape::Pose)
+    }
+
     /// The numbers of one target.
     #[must_use]
     pub fn numbers_of(&self, target: &Target) -> &[Number] {
         &self.numbers[target.numbers.start as usize..target.numbers.end as usize]
     }
+}
+
+/// What the numbers of a target mean; a blocked target may have none.
+#[must_use]
+pub fn meaning(
+    language: &dyn Language,
+    program: &Program,
+    settings: &Settings,
+    target: TargetId,
+) -> Option<Decoded> {
+    let target = &program.targets[target];
+    let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
+    (!numbers.is_empty()).then(|| language.decode(target.layout, &numbers, settings))
 }

@@ -10,7 +10,7 @@ use super::{MoveReport, Options, Subject, limits, nominal};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{norm, scale, sub};
-use crate::program::{Motion, Shape};
+use crate::program::Motion;
 
 /// What every move is judged with.
 pub(super) struct Job<'a> {
@@ -49,11 +49,11 @@ impl Job<'_> {
             file: motion.file as usize,
             line: source.line_column(motion.offset as usize).0,
             kind: motion.motion,
-            target: program.targets[motion.target]
-                .name
-                .as_deref()
+            target: program
+                .target_of(motion)
+                .and_then(|target| target.name.as_deref())
                 .map(str::to_owned),
-            in_joints: program.targets[motion.target].layout.shape == Shape::Joints,
+            in_joints: !program.goes_to_pose(motion),
             commanded: stop.pose,
             target_error: landed.separation(&wanted_end),
             uncertainty_m: arms.spread.as_ref().map(|spread| {

@@ -22,10 +22,13 @@
 mod header;
 mod records;
 
+use super::kit::check_bytes;
+use super::script::{
+    Builder, Expr, Held, Instruction, NamedFrame, Place, Script, Span, Start, ValueId, short,
+};
 use super::{
-    About, Configuration, Decoded, Displacement, Frame, FrameId, Language, Layout, Marker, Motion,
-    Move, Number, Posture, Program, ReadError, Role, Settings, Shape, Source, Target, Tool, ToolId,
-    Value, number,
+    About, Configuration, Decoded, Language, Layout, Marker, Motion, Number, Posture, ReadError,
+    Role, Settings, Shape, Source, Target, Value, number,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
@@ -80,13 +83,8 @@ impl Language for Csv {
         header::recognises(source)
     }
 
-    fn read(&self, sources: &[Source], _: &Settings) -> Result<Program, ReadError> {
-        let mut reader = Reader::default();
-        for (file, source) in sources.iter().enumerate() {
-            check_text(source)?;
-            reader.read(source, index(file))?;
-        }
-        Ok(reader.program)
+    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
+        Some(script(sources))
     }
 
     fn frame_of_unframed(&self) -> Option<&'static str> {
@@ -166,17 +164,31 @@ impl Language for Csv {
     }
 }
 
-/// Reads tables into one program.
+/// Each file is a routine, each row a move.
+fn script(sources: &[Source]) -> Result<Script, ReadError> {
+    let mut reader = Reader::default();
+    let flag = Held::Flag(true);
+    reader.honoured = reader.builder.script.value(flag);
+    for (file, source) in sources.iter().enumerate() {
+        check_bytes(source)?;
+        reader.table(source, short(file))?;
+    }
+    Ok(reader.builder.finish())
+}
+
+/// Reads tables into one script.
 #[derive(Default)]
 struct Reader {
-    program: Program,
-    tools: HashMap<String, ToolId>,
+    builder: Builder,
+    tools: HashMap<String, ValueId>,
     /// By name and whether a cell gives it.
-    frames: HashMap<(String, bool), FrameId>,
+    frames: HashMap<(String, bool), ValueId>,
+    /// Branches are honoured where there are any.
+    honoured: ValueId,
 }
 
 impl Reader {
-    fn read(&mut self, source: &Source, file: u32) -> Result<(), ReadError> {
+    fn table(&mut self, source: &Source, file: u32) -> Result<(), ReadError> {
         let mut records = Records::of(&source.bytes);
         let mut cells = Vec::new();
         let unclosed = |at| {
@@ -194,9 +206,14 @@ impl Reader {
         let header = read_header(source, &cells)?;
         // one line a row: lists that grow leave holes in the memory
         let rows = memchr::memchr_iter(b'\n', &source.bytes).count();
-        self.program.targets.reserve(rows);
-        self.program.moves.reserve(rows);
-        self.program.numbers.reserve(rows * header.numbers.len());
+        let script = &mut self.builder.script;
+        script.targets.reserve(rows);
+        script.instructions.reserve(rows);
+        script.statements.reserve(rows);
+        script.numbers.reserve(rows * header.numbers.len());
+        let place = Place { file, offset: 0 };
+        let routine = self.builder.declare("", place, Start::Called);
+        self.builder.open(routine);
         while records.next(&mut cells).map_err(unclosed)? {
             self.row(source, file, &header, &cells)?;
         }
@@ -216,13 +233,13 @@ impl Reader {
             let expected = "as many cells as the header has";
             return Err(unexpected(source, last.end, found, expected));
         }
-        let offset = index(cells[0].start - usize::from(cells[0].quoted));
-        let start = index(self.program.numbers.len());
+        let offset = short(cells[0].start - usize::from(cells[0].quoted));
+        let start = short(self.builder.script.numbers.len());
         for &column in &header.numbers {
             let found = read_number(source, cells[column])?;
-            self.program.numbers.push(found);
+            self.builder.script.numbers.push(found);
         }
-        let values = &self.program.numbers[start as usize..];
+        let values = &self.builder.script.numbers[start as usize..];
         if header.shape == Shape::Pose {
             let length = Quaternion(std::array::from_fn(|i| values[3 + i].value)).norm();
             if !LENGTH.contains(&length) {
@@ -255,58 +272,61 @@ impl Reader {
         let name = text(header.id).filter(|name| !name.is_empty());
         let tool = self.tool(text(header.tool).unwrap_or_default());
         let frame = self.frame(text(header.frame).unwrap_or_default());
-        let program = &mut self.program;
-        program.targets.push(Target {
+        let script = &mut self.builder.script;
+        script.targets.push(Target {
             name: name.map(Into::into),
             file,
             offset,
             layout: header.layout(branch.transpose()?),
-            numbers: start..index(program.numbers.len()),
+            numbers: start..short(script.numbers.len()),
             blocked: false,
         });
-        program.moves.push(Move {
-            file,
-            offset,
+        let target = script.targets.len() - 1;
+        let end = short(cells.last().expect("a record has a cell").end);
+        self.builder.go(Instruction {
+            end,
             motion: match header.shape {
                 Shape::Pose => Motion::Linear,
                 Shape::Joints => Motion::Joint,
             },
-            target: program.targets.len() - 1,
-            tool,
-            frame,
-            displacement: Displacement::None,
-            configured: header.branch.is_some(),
+            target: Expr::Target(target),
+            tool: Expr::Value(tool),
+            frame: Expr::Value(frame),
+            configured: match header.branch {
+                Some(_) => Expr::Value(self.honoured),
+                None => Expr::Absent,
+            },
             near,
-            pace: crate::program::Pace::default(),
+            target_span: Span { start: offset, end },
+            ..Instruction::at(Place { file, offset })
         });
         Ok(())
     }
 
-    fn tool(&mut self, name: String) -> ToolId {
-        let tools = &mut self.program.tools;
+    fn tool(&mut self, name: String) -> ValueId {
+        let script = &mut self.builder.script;
         *self.tools.entry(name).or_insert_with_key(|name| {
-            tools.push(Tool {
-                name: name.clone(),
-                flange_from_tool: None,
+            script.value(Held::Frame(NamedFrame {
+                name: name.as_str().into(),
+                pose: None,
                 load: None,
-            });
-            tools.len() - 1
+            }))
         })
     }
 
-    fn frame(&mut self, name: String) -> FrameId {
+    fn frame(&mut self, name: String) -> ValueId {
         let is_named = !name.is_empty();
         let name = if is_named { name } else { WORLD.to_owned() };
-        let frames = &mut self.program.frames;
+        let script = &mut self.builder.script;
         *self
             .frames
             .entry((name, is_named))
             .or_insert_with_key(|(name, is_named)| {
-                frames.push(Frame {
-                    name: name.clone(),
-                    world_from_frame: (*is_named && name == WORLD).then(Pose::identity),
-                });
-                frames.len() - 1
+                script.value(Held::Frame(NamedFrame {
+                    name: name.as_str().into(),
+                    pose: (*is_named && name == WORLD).then(Pose::identity),
+                    load: None,
+                }))
             })
     }
 }
@@ -350,7 +370,7 @@ fn read_number(source: &Source, cell: Cell) -> Result<Number, ReadError> {
     let text = &source.bytes[cell.start..cell.end];
     match (number::parse(text), u16::try_from(text.len())) {
         (Some(value), Ok(length)) => Ok(Number {
-            start: index(cell.start),
+            start: short(cell.start),
             length,
             value,
         }),
@@ -403,28 +423,6 @@ fn unexpected(source: &Source, at: usize, found: String, expected: &'static str)
         column,
         found,
         expected,
-    }
-}
-
-/// A place or count in 32 bits; larger files are refused.
-fn index(place: usize) -> u32 {
-    u32::try_from(place).expect("sources are smaller than 4 GiB")
-}
-
-/// No text has a zero byte, and places are kept in 32 bits.
-fn check_text(source: &Source) -> Result<(), ReadError> {
-    let limit = u32::MAX as usize;
-    let (file, size) = (source.name.clone(), source.bytes.len());
-    if size >= limit {
-        return Err(ReadError::TooLarge { file, size, limit });
-    }
-    match memchr::memchr(0, &source.bytes) {
-        Some(offset) => Err(ReadError::Binary {
-            file,
-            byte: 0,
-            offset,
-        }),
-        None => Ok(()),
     }
 }
 

@@ -1,9 +1,11 @@
 //! Tables of poses and joints.
 
 use super::*;
+use crate::program::Program;
 
 fn read(text: &str) -> Result<Program, ReadError> {
-    Csv.read(
+    crate::motion::read(
+        &Csv,
         &[Source::new("p.csv", text.as_bytes().to_vec())],
         &Settings::default(),
     )
@@ -248,7 +250,7 @@ proptest::proptest! {
         for bytes in [bytes, random] {
             let source = Source::new("x", bytes);
             let _ = Csv.recognises(&source);
-            if let Ok(program) = Csv.read(std::slice::from_ref(&source), &Settings::default()) {
+            if let Ok(program) = crate::motion::read(&Csv, std::slice::from_ref(&source), &Settings::default()) {
                 for number in &program.numbers {
                     let start = number.start as usize;
                     let text = &source.bytes[start..start + usize::from(number.length)];

@@ -93,7 +93,7 @@ impl Copied {
     fn of(source: &Source, program: &Program, insertion: &Insertion) -> Option<Self> {
         let bytes = &source.bytes;
         let motion = &program.moves[insertion.motion];
-        let target = &program.targets[motion.target];
+        let target = &program.targets[motion.target?];
         let span = instruction(bytes, motion.offset as usize)?;
         let before = head(bytes, span.start)?;
         let is_arc = insertion.between.iter().any(|b| b.via.is_some());
@@ -200,7 +200,7 @@ pub(super) fn insert(
     let mut inserted = Inserted::default();
     for insertion in insertions {
         let motion = &program.moves[insertion.motion];
-        let target = &program.targets[motion.target];
+        let target = &program.targets[motion.target.expect("inserted moves have a target")];
         let own = target.file as usize == file;
         let copied = Copied::of(source, program, insertion).filter(|_| own);
         let (next, length) = (points.next, points.text.len());

@@ -399,13 +399,14 @@ impl<'a> Resolver<'a> {
             file: listing.file,
             offset: use_.place.offset,
             motion,
-            target,
+            target: Some(target),
             tool,
             frame,
             displacement,
             configured: !extras.wrist_joint,
             near: None,
             pace: crate::program::Pace::default(),
+            ..Move::default()
         });
     }
 

@@ -394,7 +394,11 @@ fn a_register_as_index_means_any_point() {
     let points = usual("1") + &usual("2");
     let lines = "L P[R[1]] 9mm/sec FINE ;\nL P[R[2:x]] 9mm/sec FINE ;\nL P[1] 9mm/sec FINE ;";
     let program = read(lines, &points);
-    let to: Vec<usize> = program.moves.iter().map(|used| used.target).collect();
+    let to: Vec<usize> = program
+        .moves
+        .iter()
+        .map(|used| used.target.unwrap())
+        .collect();
     assert_eq!(to, [0, 1, 0]);
     assert_eq!(program.findings, []);
 }

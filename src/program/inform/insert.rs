@@ -166,7 +166,7 @@ impl<'a> Copied<'a> {
             let through = &program.moves[insertion.motion.checked_sub(1)?];
             via = Some(plain_move(bytes, through.offset as usize, verbs)?);
         }
-        let at = line_start(bytes, program.targets[motion.target].offset as usize);
+        let at = line_start(bytes, program.targets[motion.target?].offset as usize);
         let (start, above) = *job
             .lines
             .iter()
@@ -258,7 +258,7 @@ pub(super) fn insert(
         };
         for (insertion, done) in insertions.iter().zip(&mut inserted.moves) {
             let motion = &program.moves[insertion.motion];
-            let target = &program.targets[motion.target];
+            let target = &program.targets[motion.target.expect("inserted moves have a target")];
             let inside = |offset: u32| (job.start..job.end).contains(&(offset as usize));
             let own = target.file as usize == file && inside(target.offset);
             if !own || !inside(motion.offset) {

@@ -412,7 +412,7 @@ impl Resolver<'_> {
                 file: job.file,
                 offset,
                 motion,
-                target,
+                target: Some(target),
                 tool,
                 frame,
                 displacement: if is_shifted {
@@ -423,6 +423,7 @@ impl Resolver<'_> {
                 configured: kind == Kind::Joint,
                 near: None,
                 pace: crate::program::Pace::default(),
+                ..Move::default()
             };
             self.report.program.moves.push(used.clone());
             // the same variable elsewhere stands for the same point: the robot is there already
@@ -434,7 +435,7 @@ impl Resolver<'_> {
                 let target = self.target(owner, point);
                 let moves = &mut self.report.program.moves;
                 moves.push(Move {
-                    target,
+                    target: Some(target),
                     ..used.clone()
                 });
             }

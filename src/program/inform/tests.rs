@@ -58,7 +58,10 @@ fn header_lines_hold_until_they_are_set_anew() {
         .map(|m| {
             let frame = &program.frames[m.frame];
             (
-                program.targets[m.target].name.as_deref().expect("a name"),
+                program.targets[m.target.unwrap()]
+                    .name
+                    .as_deref()
+                    .expect("a name"),
                 program.tools[m.tool].name.as_str(),
                 frame.name.as_str(),
                 frame.world_from_frame.is_some(),
@@ -393,7 +396,10 @@ fn variables_belong_to_all_jobs() {
     let user = job("", "MOVJ P018 VJ=5").replace("//NAME A", "//NAME B");
     let program = read_files(&[&holder, &user], &Settings::default()).expect("jobs");
     assert_eq!(program.targets.len(), 2);
-    assert_eq!((program.moves[1].file, program.moves[1].target), (1, 0));
+    assert_eq!(
+        (program.moves[1].file, program.moves[1].target.unwrap()),
+        (1, 0)
+    );
     assert_eq!(ids(&program), ["position-variable"]);
     // the same variable with another value
     let other =
@@ -409,7 +415,7 @@ fn variables_belong_to_all_jobs() {
     let program = read_files(&[&holder, &user, &copy], &Settings::default()).expect("jobs");
     let files: Vec<_> = program.targets.iter().map(|t| t.file).collect();
     assert_eq!(files, [0, 0, 2]);
-    let mut gone: Vec<_> = program.moves.iter().map(|m| m.target).collect();
+    let mut gone: Vec<_> = program.moves.iter().map(|m| m.target.unwrap()).collect();
     gone.sort_unstable();
     assert_eq!(gone, [0, 1, 2]);
     // assigned in one job, used in the other

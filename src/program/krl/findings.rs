@@ -198,7 +198,7 @@ impl<'a> Report<'a> {
             program.targets.push(target);
         }
         for motion in &mut program.moves {
-            motion.target = new_ids[motion.target];
+            motion.target = motion.target.map(|target| new_ids[target]);
         }
         program
     }

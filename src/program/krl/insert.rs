@@ -113,13 +113,13 @@ pub(super) fn insert(
     let motion = &program.moves[insertion.motion];
     let source = &sources[motion.file as usize];
     let bytes = &source.bytes;
-    let target = &program.targets[motion.target];
+    let target = &program.targets[motion.target?];
     let start = motion.offset as usize;
     let blanks = indent(bytes, start)?;
     let is_arc = insertion.between.iter().any(|b| b.via.is_some());
     let (spans, end) = positions(bytes, start, if is_arc { 2 } else { 1 })?;
     let before = insertion.motion.checked_sub(if is_arc { 2 } else { 1 })?;
-    let before = &program.targets[program.moves[before].target];
+    let before = &program.targets[program.moves[before].target?];
     if !stands_still(sources, before, target) {
         return None;
     }

@@ -367,13 +367,14 @@ impl<'a, 's> Moves<'a, 's> {
             file: statement.place.file,
             offset: statement.place.offset,
             motion: with.motion,
-            target,
+            target: Some(target),
             tool,
             frame,
             displacement: with.displacement,
             configured: with.path == Path::Joint,
             near: None,
             pace: crate::program::Pace::default(),
+            ..Move::default()
         });
     }
 

@@ -74,7 +74,7 @@ fn to(program: &Program) -> Vec<&str> {
     let names = program
         .moves
         .iter()
-        .map(|m| program.targets[m.target].name.as_deref());
+        .map(|m| program.targets[m.target.unwrap()].name.as_deref());
     names.map(|name| name.unwrap_or("-")).collect()
 }
 
@@ -107,7 +107,7 @@ fn taught_points_are_data_and_moves_use_them() {
 #[test]
 fn keys_stand_in_any_case_and_order() {
     let program = path("LIN XP2\nLIN XP3\nPTP {A6 6,a5 5,A4 4,A3 3,A2 2,A1 1,E1 400}");
-    let [first, second, third] = [0, 1, 2].map(|at| program.moves[at].target);
+    let [first, second, third] = [0, 1, 2].map(|at| program.moves[at].target.unwrap());
     assert_eq!(
         values(&program, first),
         [4.0, 5.0, 6.0, 0.0, 0.0, 0.0, 2.0, 35.0]
@@ -279,7 +279,7 @@ fn the_same_name_in_two_modules_is_two_points() {
     let x: Vec<f64> = program
         .moves
         .iter()
-        .map(|used| values(&program, used.target)[0])
+        .map(|used| values(&program, used.target.unwrap())[0])
         .collect();
     assert_eq!(x, [1.0, 2.0]);
 }

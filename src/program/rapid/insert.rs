@@ -71,7 +71,7 @@ pub(super) fn insert(
     let motion = &program.moves[insertion.motion];
     let source = &sources[motion.file as usize];
     let bytes = &source.bytes;
-    let target = &program.targets[motion.target];
+    let target = &program.targets[motion.target?];
     let span = instruction(bytes, motion.offset as usize)?;
     let word = bytes[span.clone()]
         .iter()
@@ -86,12 +86,12 @@ pub(super) fn insert(
     let mut via = None;
     if is_arc {
         let before = &program.moves[insertion.motion.checked_sub(1)?];
-        let through = &program.targets[before.target];
+        let through = &program.targets[before.target?];
         let inside = through.file == motion.file;
         via = Some(argument(bytes, &all, through, inside)?);
     }
     let before = insertion.motion.checked_sub(if is_arc { 2 } else { 1 })?;
-    let before = &program.targets[program.moves[before].target];
+    let before = &program.targets[program.moves[before].target?];
     if !stands_still(sources, program, before, target) {
         return None;
     }

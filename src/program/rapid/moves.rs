@@ -488,13 +488,14 @@ impl<'a> Moves<'a> {
                 file: statement.place.file,
                 offset: statement.place.offset,
                 motion: with.motion,
-                target,
+                target: Some(target),
                 tool,
                 frame,
                 displacement,
                 configured: with.configured,
                 near: None,
                 pace: with.pace,
+                ..Move::default()
             });
         }
     }

@@ -53,7 +53,7 @@ fn to(program: &Program) -> Vec<&str> {
     let names = program
         .moves
         .iter()
-        .map(|m| program.targets[m.target].name.as_deref());
+        .map(|m| program.targets[m.target.unwrap()].name.as_deref());
     names.map(|name| name.unwrap_or("-")).collect()
 }
 
@@ -164,7 +164,7 @@ fn displacements_add_up_and_unknown_ones_are_told() {
     assert!((turn.in_tool.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
     assert!(matches!(&by[3], Displacement::By(both) if both.in_frame_m == [-0.05, 0.1, 0.1]));
     assert_eq!(by[4..], [Displacement::Unknown, Displacement::Unknown]);
-    assert!(program.moves.iter().all(|m| m.target == 0));
+    assert!(program.moves.iter().all(|m| m.target.unwrap() == 0));
 }
 
 #[test]
@@ -340,7 +340,11 @@ fn local_data_hide_others_and_double_names_are_ambiguous() {
     ];
     let program = read_files(&two.each_ref().map(String::as_str)).expect("three modules");
     assert_eq!(
-        program.moves.iter().map(|m| m.target).collect::<Vec<_>>(),
+        program
+            .moves
+            .iter()
+            .map(|m| m.target.unwrap())
+            .collect::<Vec<_>>(),
         [0, 1, 0]
     );
     let three = [&two[0], &file("b", &declare("", 2)), &two[2]];

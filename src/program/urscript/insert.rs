@@ -78,7 +78,7 @@ pub(super) fn insert(
     let motion = &program.moves[insertion.motion];
     let source = &sources[motion.file as usize];
     let bytes = &source.bytes;
-    let target = &program.targets[motion.target];
+    let target = &program.targets[motion.target?];
     let start = motion.offset as usize;
     let blanks = indent(bytes, start)?;
     let open = start + memchr::memchr(b'(', &bytes[start..])?;
@@ -95,7 +95,7 @@ pub(super) fn insert(
     let (mut via, mut end_at) = (None, 0);
     if is_arc {
         let through = &program.moves[insertion.motion.checked_sub(1)?];
-        let through = &program.targets[through.target];
+        let through = &program.targets[through.target?];
         via = Some(place(bytes, through, &value(bytes, all.first()?).1)?);
         end_at = 1;
     }

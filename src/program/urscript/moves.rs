@@ -159,13 +159,14 @@ impl<'p, 's> Moves<'p, 's> {
             file: self.file,
             offset: step.offset,
             motion: step.motion,
-            target,
+            target: Some(target),
             tool,
             frame,
             displacement,
             configured: false,
             near: near.map(Box::new),
             pace: crate::program::Pace::default(),
+            ..Move::default()
         });
     }
 
@@ -468,7 +469,9 @@ impl<'p, 's> Moves<'p, 's> {
             }
             for motion in &mut self.program.moves {
                 if motion.file == self.file {
-                    motion.target = first_target + place[motion.target - first_target];
+                    motion.target = motion
+                        .target
+                        .map(|t| first_target + place[t - first_target]);
                 }
             }
             for at in 0..targets.len() {

@@ -25,7 +25,7 @@ fn path(lines: &str) -> Program {
 
 fn to(program: &Program) -> Vec<String> {
     let name = |used: &Move| {
-        let target = &program.targets[used.target];
+        let target = &program.targets[used.target.unwrap()];
         let name = target.name.as_deref().unwrap_or("-");
         format!("{name}{}", if target.blocked { "!" } else { "" })
     };
@@ -314,7 +314,11 @@ fn names_are_those_of_their_function() {
     assert_eq!(program.findings, []);
     assert_eq!(program.targets.len(), 2);
     assert_eq!(
-        program.moves.iter().map(|m| m.target).collect::<Vec<_>>(),
+        program
+            .moves
+            .iter()
+            .map(|m| m.target.unwrap())
+            .collect::<Vec<_>>(),
         [0, 1, 1]
     );
     let program =

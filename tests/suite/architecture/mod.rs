@@ -15,8 +15,14 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("diagnose", &["geometry", "identify", "model"]),
     ("program", &["geometry", "finding"]),
     (
-        "compensate",
+        "motion",
         &["finding", "geometry", "inverse", "model", "program"],
+    ),
+    (
+        "compensate",
+        &[
+            "finding", "geometry", "inverse", "model", "motion", "program",
+        ],
     ),
     ("urdf", &["geometry", "model"]),
     (
@@ -27,6 +33,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "geometry",
             "inverse",
             "model",
+            "motion",
             "program",
         ],
     ),
@@ -55,6 +62,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "identify",
             "inverse",
             "model",
+            "motion",
             "program",
             "register",
             "report",

@@ -6,6 +6,7 @@ use nalgebra::{Matrix6, Vector6};
 use poseshift::geometry::{Pose, sub};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model};
+use poseshift::motion;
 use poseshift::program::{self, Settings, Source, Value};
 use rs_opw_kinematics::glam::{DMat3, DQuat, DVec3};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
@@ -97,25 +98,25 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
             pulses_per_deg: profile.pulses_per_deg,
             ..Settings::default()
         };
-        let after = language.read(&written, &settings).expect("a program");
-        let before = language
-            .read(&sources(&folder.join("in")), &settings)
-            .expect("a program");
+        let after = motion::read(language, &written, &settings).expect("a program");
+        let before =
+            motion::read(language, &sources(&folder.join("in")), &settings).expect("a program");
         let targets = report["targets"].as_array().expect("a list");
         assert_eq!(targets.len(), after.targets.len());
-        for motion in &after.moves {
-            let told = &targets[motion.target];
+        for used in &after.moves {
+            let Some(target) = used.target else { continue };
+            let told = &targets[target];
             if told["status"] != "converged" || told["fake"].is_null() {
                 continue;
             }
-            let (tool, frame) = (&after.tools[motion.tool], &after.frames[motion.frame]);
+            let (tool, frame) = (&after.tools[used.tool], &after.frames[used.frame]);
             let (Some(flange_from_tool), Some(world_from_frame)) =
                 (tool.flange_from_tool, frame.world_from_frame)
             else {
                 continue;
             };
             let value = |program: &program::Program| {
-                let target = &program.targets[motion.target];
+                let target = &program.targets[target];
                 let numbers: Vec<f64> =
                     program.numbers_of(target).iter().map(|n| n.value).collect();
                 language.decode(target.layout, &numbers, &settings).value

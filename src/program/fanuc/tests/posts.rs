@@ -60,12 +60,12 @@ fn outputs_of_post_processors_have_the_known_targets() {
         let mut turned = 0;
         let mut configured = 0;
         for (k, used) in program.moves.iter().enumerate() {
-            let target = &program.targets[used.target];
+            let target = &program.targets[used.target.unwrap()];
             let point = &truth["progs"]["PGA"][k];
             let joint = |i: usize| number(&point["joints_deg"][i]);
             let decoded = Fanuc.decode(
                 target.layout,
-                &values(&program, used.target),
+                &values(&program, used.target.unwrap()),
                 &Settings::default(),
             );
             match decoded.value {
@@ -87,7 +87,7 @@ fn outputs_of_post_processors_have_the_known_targets() {
                         behind_axis_1: branch.behind_axis_1,
                         behind_lower_arm: branch.behind_lower_arm,
                     };
-                    let flags = values(&program, used.target)[PLAIN..].to_vec();
+                    let flags = values(&program, used.target.unwrap())[PLAIN..].to_vec();
                     assert_eq!(config::data(&posture).to_vec(), flags, "{name} {k}");
                     configured += 1;
                     // the post writes the turns of joints 1, 4 and 6

@@ -46,7 +46,7 @@ fn outputs_of_post_processors_have_the_known_targets() {
         let mut known = points.iter();
         let mut before: Option<Pose> = None;
         for used in &program.moves {
-            let target = &program.targets[used.target];
+            let target = &program.targets[used.target.unwrap()];
             let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
             let value = Inform.decode(target.layout, &numbers, &settings).value;
             match value {

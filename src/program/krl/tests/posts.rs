@@ -60,8 +60,8 @@ fn outputs_of_post_processors_have_the_known_targets_and_frames() {
         assert_eq!(counts, (60, 60), "{names:?}");
         assert_eq!(program.findings, [], "{names:?}");
         for (k, used) in program.moves.iter().enumerate() {
-            let numbers = values(&program, used.target);
-            let layout = program.targets[used.target].layout;
+            let numbers = values(&program, used.target.unwrap());
+            let layout = program.targets[used.target.unwrap()].layout;
             let decoded = Krl.decode(layout, &numbers, &Settings::default());
             let point = &truth["progs"]["PGA"][k];
             match decoded.value {
@@ -115,10 +115,10 @@ fn status_and_turn_of_known_joints_are_those_of_the_post() {
         let [rear, lower, flip] = [0, 1, 2].map(|i| point["RLF"][i] != 0.0);
         assert_eq!(flags, [u32::from(rear), u32::from(!lower)], "{k}");
         assert_eq!(status::status(&posture) >> 2 == 1, flip, "{k}");
-        if program.targets[used.target].layout != CONFIGURED {
+        if program.targets[used.target.unwrap()].layout != CONFIGURED {
             continue;
         }
-        let numbers = values(&program, used.target);
+        let numbers = values(&program, used.target.unwrap());
         let found = (whole(numbers[6]), whole(numbers[7]));
         assert_eq!(
             found,

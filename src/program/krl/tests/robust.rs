@@ -56,7 +56,7 @@ fn check(sources: &[Source], program: &Program) {
         assert!(places.windows(2).all(|pair| pair[0].1 <= pair[1].0));
     }
     for used in &program.moves {
-        assert!(used.target < program.targets.len());
+        assert!(used.target.unwrap() < program.targets.len());
         assert!(used.tool < program.tools.len() && used.frame < program.frames.len());
     }
 }

@@ -45,7 +45,7 @@ fn samples_have_targets_and_nothing_to_complain_about() {
         assert_eq!(counts, (targets, moves), "{case}");
         assert_eq!(program.findings, [], "{case}");
         for used in &program.moves {
-            if program.targets[used.target].layout.shape == Shape::Pose {
+            if program.targets[used.target.unwrap()].layout.shape == Shape::Pose {
                 assert!(program.tools[used.tool].flange_from_tool.is_some());
                 assert!(program.frames[used.frame].world_from_frame.is_some());
             }

@@ -58,7 +58,7 @@ fn outputs_of_post_processors_have_the_known_targets_and_frames() {
             assert!(frame.is_some_and(|s| s.distance_m < 1e-9 && s.angle_rad < 1e-5));
         }
         for (k, used) in program.moves.iter().enumerate() {
-            let target = &program.targets[used.target];
+            let target = &program.targets[used.target.unwrap()];
             let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
             let decoded = Rapid.decode(target.layout, &numbers, &Settings::default());
             let point = &truth["progs"]["PGA"][k];

@@ -61,7 +61,7 @@ fn outputs_of_post_processors_have_the_known_targets_and_tool() {
         };
         let mut k = 0;
         for used in &program.moves {
-            let target = &program.targets[used.target];
+            let target = &program.targets[used.target.unwrap()];
             let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
             match UrScript
                 .decode(target.layout, &numbers, &Settings::default())

@@ -40,7 +40,7 @@ proptest::proptest! {
             }
             let targets = program.targets.iter().map(|target| target.offset);
             assert!(targets.is_sorted());
-            assert!(program.moves.iter().all(|used| used.target < program.targets.len()));
+            assert!(program.moves.iter().all(|used| used.target.unwrap() < program.targets.len()));
         }
     }
 }

@@ -1,0 +1,132 @@
+//! What a variable may hold: one value, several, or something that only the running program knows.
+
+use crate::program::script::{DisplacementId, RemarkId, ValueId};
+use std::collections::HashMap;
+
+/// A write, as an index of the script's statements; or the declaration.
+pub(super) type Site = u32;
+/// The declaration of a variable.
+pub(super) const DECLARED: Site = u32::MAX;
+
+/// One thing that a variable may hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Atom {
+    /// A position with numbers in the files, displaced.
+    Target {
+        target: u32,
+        displacement: DisplacementId,
+    },
+    /// A position with numbers in the files of which some are written over.
+    Changed { target: u32 },
+    /// A value of the script, or of the flow's own behind those.
+    Value(ValueId),
+    /// Only the running program knows.
+    Unknown(RemarkId),
+    /// More than are told apart, or what a routine wrote that is not in the files.
+    Anything,
+    /// A routine that is not in the files may have set something else since.
+    Doubt,
+}
+
+/// Values that are told apart.
+const MOST_VALUES: usize = 4;
+
+/// What a variable may hold, each with the write that put it there; by [`Atom`], an index of [`Holdings`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Holding(u32);
+
+/// Nothing.
+pub(super) const NOTHING: Holding = Holding(0);
+
+/// Every holding once.
+#[derive(Debug)]
+pub(super) struct Holdings {
+    list: Vec<Box<[(Atom, Site)]>>,
+    ids: HashMap<Box<[(Atom, Site)]>, u32>,
+    joins: HashMap<(u32, u32), u32>,
+}
+
+impl Holdings {
+    pub fn new() -> Self {
+        let nothing: Box<[(Atom, Site)]> = Box::default();
+        Self {
+            list: vec![nothing.clone()],
+            ids: HashMap::from([(nothing, 0)]),
+            joins: HashMap::new(),
+        }
+    }
+
+    pub fn of(&self, holding: Holding) -> &[(Atom, Site)] {
+        &self.list[holding.0 as usize]
+    }
+
+    /// One thing.
+    pub fn one(&mut self, atom: Atom, site: Site) -> Holding {
+        self.intern(vec![(atom, site)])
+    }
+
+    /// Any of these.
+    pub fn intern(&mut self, mut atoms: Vec<(Atom, Site)>) -> Holding {
+        atoms.sort_unstable();
+        atoms.dedup_by_key(|(atom, _)| *atom);
+        let values = atoms.iter().filter(|(atom, _)| *atom != Atom::Doubt);
+        if values.count() > MOST_VALUES {
+            let site = atoms.iter().map(|(_, site)| *site).min();
+            let site = site.unwrap_or(DECLARED);
+            atoms = vec![(Atom::Anything, site)];
+        }
+        if atoms.iter().any(|(atom, _)| *atom == Atom::Anything) {
+            atoms.retain(|(atom, _)| *atom == Atom::Anything);
+        }
+        let atoms = atoms.into_boxed_slice();
+        let list = &mut self.list;
+        let id = *self.ids.entry(atoms).or_insert_with_key(|atoms| {
+            list.push(atoms.clone());
+            crate::program::script::short(list.len() - 1)
+        });
+        Holding(id)
+    }
+
+    /// What either may hold.
+    pub fn join(&mut self, a: Holding, b: Holding) -> Holding {
+        if a == b || b == NOTHING {
+            return a;
+        }
+        if a == NOTHING {
+            return b;
+        }
+        let key = (a.0.min(b.0), a.0.max(b.0));
+        if let Some(&joined) = self.joins.get(&key) {
+            return Holding(joined);
+        }
+        let both = [self.of(a), self.of(b)].concat();
+        let joined = self.intern(both);
+        self.joins.insert(key, joined.0);
+        joined
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_either_may_hold_is_kept_once_with_its_first_write() {
+        let mut all = Holdings::new();
+        let (a, b) = (
+            all.one(Atom::Value(1), 7),
+            all.intern(vec![(Atom::Value(1), 3), (Atom::Value(2), 9)]),
+        );
+        let joined = all.join(a, b);
+        assert_eq!(all.of(joined), [(Atom::Value(1), 3), (Atom::Value(2), 9)]);
+        assert_eq!(all.join(joined, a), joined);
+        assert_eq!(all.join(NOTHING, a), a);
+    }
+
+    #[test]
+    fn more_than_four_are_not_told_apart() {
+        let mut all = Holdings::new();
+        let many = all.intern((0..5).map(|i| (Atom::Value(i), i)).collect());
+        assert_eq!(all.of(many), [(Atom::Anything, 0)]);
+    }
+}

@@ -1,0 +1,983 @@
+//! From what may hold at each move to moves, and what is wrong with their targets.
+
+use super::before::{ANYWHERE, START, Stop};
+use super::flow::{Flow, Reached};
+use super::holding::{Atom, DECLARED, Holding, NOTHING, Site};
+use crate::finding::{Finding, Severity};
+use crate::program::script::{
+    DISPLACED_SOMEHOW, Expr, Held, Instruction, NOT_DISPLACED, NamedFrame, Place, Remark, RemarkId,
+    Script, ValueId, short,
+};
+use crate::program::{
+    Before, Displacement, Frame, FrameId, Language, Load, Move, Program, ReadError, Settings,
+    Shape, Source, TargetId, Tool, ToolId, Value as Meaning,
+};
+use std::collections::{HashMap, HashSet};
+
+/// Uses of elements of arrays that are listed; beyond, an element is listed once.
+const MOST_USES: usize = 500_000;
+
+/// The moves of a script.
+///
+/// # Errors
+/// Where a tool or frame that is used has a number no robot can use.
+pub(super) fn resolve(
+    language: &dyn Language,
+    sources: &[Source],
+    settings: &Settings,
+    mut script: Script,
+) -> Result<Program, ReadError> {
+    let mut program = Program {
+        targets: std::mem::take(&mut script.targets),
+        numbers: std::mem::take(&mut script.numbers),
+        findings: std::mem::take(&mut script.findings),
+        ..Program::default()
+    };
+    let flow = Flow::of(&script);
+    let mut resolver = Resolver {
+        language,
+        sources,
+        settings,
+        script: &script,
+        flow,
+        report: Report::new(sources, &mut program),
+        tools: HashMap::new(),
+        frames: HashMap::new(),
+        used: Vec::new(),
+        as_frames: HashMap::new(),
+        doubted: Vec::new(),
+        stops: Vec::new(),
+        full: false,
+    };
+    resolver.used = vec![false; resolver.report.program.targets.len()];
+    resolver.list()?;
+    resolver.link();
+    resolver.judge_doubts();
+    resolver.judge_targets();
+    resolver.report.finish();
+    drop(resolver);
+    program.instructions = script.instructions;
+    Ok(program)
+}
+
+/// Why a tool or frame is not known.
+type Refused = (Cause, Option<Site>);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Cause {
+    /// A remark of the reader.
+    Said(RemarkId),
+    /// Several, or unknown ones.
+    Chosen,
+    /// A value that is no tool or frame.
+    NoFrame,
+}
+
+struct Resolver<'a, 'p> {
+    language: &'a dyn Language,
+    sources: &'a [Source],
+    settings: &'a Settings,
+    script: &'a Script,
+    flow: Flow<'a>,
+    report: Report<'a, 'p>,
+    tools: HashMap<(Atom, Option<ValueId>), Result<ToolId, Refused>>,
+    frames: HashMap<Atom, Result<FrameId, Refused>>,
+    /// Targets that moves go to.
+    used: Vec<bool>,
+    /// Targets that are tools or frames, and where.
+    as_frames: HashMap<TargetId, Place>,
+    /// Moves whose tool, frame or mode is in doubt: target, and the call.
+    doubted: Vec<(TargetId, Site)>,
+    /// Moves of each stop.
+    stops: Vec<(u32, u32)>,
+    full: bool,
+}
+
+/// One of the tools or frames that a move may have.
+type Choice<Id> = (Result<Id, Refused>, Option<Place>);
+
+impl Resolver<'_, '_> {
+    /// Lists the moves of all stops in the order of the text.
+    fn list(&mut self) -> Result<(), ReadError> {
+        let mut order: Vec<Stop> = (0..short(self.flow.reached.len()))
+            .filter(|stop| self.flow.reached[*stop as usize].is_some())
+            .collect();
+        let place = |stop: &Stop| {
+            let instruction = self.flow.instructions[*stop as usize];
+            let place = self.script.instructions[instruction as usize].place;
+            (place.file, place.offset, instruction, *stop)
+        };
+        if !order.is_sorted_by_key(place) {
+            order.sort_unstable_by_key(place);
+        }
+        self.stops = vec![(0, 0); self.flow.reached.len()];
+        self.report.program.moves.reserve(order.len());
+        for stop in order {
+            let first = short(self.report.program.moves.len());
+            self.stop(stop)?;
+            let end = short(self.report.program.moves.len());
+            self.stops[stop as usize] = (first, end);
+        }
+        Ok(())
+    }
+
+    fn stop(&mut self, stop: Stop) -> Result<(), ReadError> {
+        let script = self.script;
+        let at = self.flow.instructions[stop as usize];
+        let instruction = &script.instructions[at as usize];
+        let reached = self.flow.reached[stop as usize].expect("stops that are reached are listed");
+        let guards = self.guards(reached.guard, instruction);
+        let loads = self.loads(reached.load);
+        let mut tools: Vec<Choice<ToolId>> = Vec::with_capacity(1);
+        for (atom, site) in self.atoms(reached.tool) {
+            if atom == Atom::Doubt {
+                continue;
+            }
+            for &load in &loads {
+                let tool = self.tool(atom, load)?;
+                tools.push((tool, self.written(site, instruction)));
+            }
+        }
+        let mut frames: Vec<Choice<FrameId>> = Vec::with_capacity(1);
+        for (atom, site) in self.atoms(reached.frame) {
+            if atom == Atom::Doubt {
+                continue;
+            }
+            let frame = self.frame(atom)?;
+            frames.push((frame, self.written(site, instruction)));
+        }
+        let configured = self.flags(reached.configured);
+        let mut listed = Listed {
+            at,
+            instruction,
+            tools,
+            frames,
+            configured,
+            guards,
+            doubts: self.doubts(&reached),
+        };
+        match reached.target {
+            None => self.fixed(instruction.target, instruction.displacement, &mut listed),
+            Some(held) => {
+                for (atom, site) in self.atoms(held) {
+                    self.go_to(atom, Some(site), instruction.displacement, &mut listed);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What a holding may be; where nothing is known that is one thing, too.
+    fn atoms(&self, holding: Holding) -> Vec<(Atom, Site)> {
+        let atoms = self.flow.holdings.of(holding);
+        if atoms.iter().all(|(atom, _)| *atom == Atom::Doubt) {
+            let mut all = vec![(Atom::Value(ValueId::MAX), DECLARED)];
+            all.extend_from_slice(atoms);
+            return all;
+        }
+        atoms.to_vec()
+    }
+
+    /// Where something is written, where that is elsewhere than in the move.
+    fn written(&self, site: Site, instruction: &Instruction) -> Option<Place> {
+        let place = self.flow.place_of(site);
+        place.filter(|place| *place != instruction.place)
+    }
+
+    fn doubts(&self, reached: &Reached) -> Option<Site> {
+        let of = |holding: Holding| {
+            let atoms = self.flow.holdings.of(holding).iter();
+            atoms
+                .filter(|(atom, _)| *atom == Atom::Doubt)
+                .map(|(_, site)| *site)
+                .next()
+        };
+        of(reached.tool).or(of(reached.frame)).or(of(reached.guard))
+    }
+
+    /// What speaks against a move; what is only worth a word is said.
+    fn guards(&mut self, guard: Holding, instruction: &Instruction) -> Vec<(RemarkId, Site)> {
+        let mut refused = Vec::new();
+        if guard == NOTHING {
+            return refused;
+        }
+        for (atom, site) in self.atoms(guard) {
+            let remark = match atom {
+                Atom::Value(value) if value != ValueId::MAX => match self.flow.value(value) {
+                    Held::Remark(remark) => *remark,
+                    _ => continue,
+                },
+                Atom::Unknown(remark) => remark,
+                _ => continue,
+            };
+            if self.script.remarks[remark as usize].severity == Severity::Error {
+                refused.push((remark, site));
+            } else {
+                let place = self.flow.place_of(site).unwrap_or(instruction.place);
+                self.report
+                    .say_once(&self.script.remarks[remark as usize], place);
+            }
+        }
+        refused
+    }
+
+    fn loads(&self, holding: Holding) -> Vec<Option<ValueId>> {
+        let loads = self.flow.holdings.of(holding).iter();
+        let mut loads: Vec<Option<ValueId>> = loads
+            .filter_map(|(atom, _)| match atom {
+                Atom::Value(value) => Some(Some(*value)),
+                Atom::Doubt => None,
+                _ => Some(None),
+            })
+            .collect();
+        if loads.is_empty() {
+            loads.push(None);
+        }
+        loads.dedup();
+        loads
+    }
+
+    fn flags(&self, holding: Holding) -> Vec<bool> {
+        let mut flags = Vec::with_capacity(1);
+        for (atom, _) in self.flow.holdings.of(holding) {
+            let flag = match atom {
+                Atom::Value(value) => match self.flow.value(*value) {
+                    Held::Flag(flag) => Some(*flag),
+                    _ => None,
+                },
+                Atom::Doubt => continue,
+                _ => None,
+            };
+            let both = [true, false];
+            let either = flag.as_ref().map_or(&both[..], std::slice::from_ref);
+            for flag in either {
+                if !flags.contains(flag) {
+                    flags.push(*flag);
+                }
+            }
+        }
+        if flags.is_empty() {
+            flags.push(false);
+        }
+        flags
+    }
+
+    // ---- tools and frames
+
+    /// The pose, name and load of what a move has as a tool or frame.
+    fn named(
+        &mut self,
+        atom: Atom,
+        is_tool: bool,
+    ) -> Result<Result<NamedFrame, Refused>, ReadError> {
+        let nameless = NamedFrame {
+            name: Box::default(),
+            pose: None,
+            load: None,
+        };
+        Ok(match atom {
+            Atom::Value(ValueId::MAX) => Ok(nameless),
+            Atom::Value(value) => match self.flow.value(value).clone() {
+                Held::Frame(frame) => Ok(frame),
+                Held::Record { name, parts } => {
+                    let parts = self.flow.parts_of(&parts);
+                    let found = self
+                        .language
+                        .frame_of(is_tool, &name, &parts, self.sources)?;
+                    match found {
+                        Ok(frame) => Ok(frame),
+                        Err(remark) => {
+                            let known = self.report.remark(remark);
+                            Err((Cause::Said(known), None))
+                        }
+                    }
+                }
+                Held::Number(number) => Ok(NamedFrame {
+                    name: number.to_string().into(),
+                    ..nameless
+                }),
+                Held::Remark(remark) => Err((Cause::Said(remark), None)),
+                Held::Actual | Held::Load(_) | Held::Flag(_) => Err((Cause::NoFrame, None)),
+            },
+            Atom::Target {
+                target,
+                displacement: NOT_DISPLACED,
+            } => self.target_as_frame(target as usize),
+            Atom::Target { .. } | Atom::Changed { .. } | Atom::Anything | Atom::Doubt => {
+                Err((Cause::Chosen, None))
+            }
+            Atom::Unknown(remark) => Err((Cause::Said(remark), None)),
+        })
+    }
+
+    /// A position that stands for a tool or frame.
+    fn target_as_frame(&mut self, target: TargetId) -> Result<NamedFrame, Refused> {
+        let program = &*self.report.program;
+        let found = &program.targets[target];
+        let place = Place {
+            file: found.file,
+            offset: found.offset,
+        };
+        let name = found.name.clone().unwrap_or_default();
+        let meaning = crate::program::meaning(self.language, program, self.settings, target);
+        self.as_frames.entry(target).or_insert(place);
+        match meaning.map(|decoded| decoded.value) {
+            Some(Meaning::Pose(pose)) => Ok(NamedFrame {
+                name,
+                pose: Some(pose),
+                load: None,
+            }),
+            _ => Err((Cause::NoFrame, None)),
+        }
+    }
+
+    fn tool(
+        &mut self,
+        atom: Atom,
+        load: Option<ValueId>,
+    ) -> Result<Result<ToolId, Refused>, ReadError> {
+        if let Some(known) = self.tools.get(&(atom, load)) {
+            return Ok(*known);
+        }
+        let named = self.named(atom, true)?;
+        let own_load = match load.map(|load| self.flow.value(load)) {
+            Some(Held::Load(load)) => Some(*load),
+            _ => None,
+        };
+        let made = named.map(|frame| {
+            let load: Option<Load> = own_load.unwrap_or(frame.load);
+            let tools = &mut self.report.program.tools;
+            tools.push(Tool {
+                name: frame.name.into(),
+                flange_from_tool: frame.pose,
+                load,
+            });
+            tools.len() - 1
+        });
+        self.tools.insert((atom, load), made);
+        Ok(made)
+    }
+
+    fn frame(&mut self, atom: Atom) -> Result<Result<FrameId, Refused>, ReadError> {
+        if let Some(known) = self.frames.get(&atom) {
+            return Ok(*known);
+        }
+        let named = self.named(atom, false)?;
+        let made = named.map(|frame| {
+            let frames = &mut self.report.program.frames;
+            frames.push(Frame {
+                name: frame.name.into(),
+                world_from_frame: frame.pose,
+            });
+            frames.len() - 1
+        });
+        self.frames.insert(atom, made);
+        Ok(made)
+    }
+
+    // ---- targets
+
+    /// Lists the moves to an expression that says the same whatever was before.
+    fn fixed(&mut self, value: Expr, displacement: u32, listed: &mut Listed) {
+        let script = self.script;
+        match value {
+            Expr::Absent | Expr::Variable(_) | Expr::Element { .. } => {
+                self.go_nowhere(listed);
+            }
+            Expr::Target(target) => self.go_target(target, displacement, listed),
+            Expr::Value(value) => self.go_to(Atom::Value(value), None, displacement, listed),
+            Expr::Unknown(remark) => self.go_to(Atom::Unknown(remark), None, displacement, listed),
+            Expr::Displaced { base, by } => {
+                let by = both(displacement, by);
+                self.fixed(script.lists[base as usize], by, listed);
+            }
+            Expr::Any { first, end } => {
+                let many = self.report.program.moves.len() + (end - first) as usize > MOST_USES;
+                for inner in &script.lists[first as usize..end as usize] {
+                    if many && matches!(inner, Expr::Target(target) if self.used[*target]) {
+                        self.too_many(listed.instruction.place);
+                        continue;
+                    }
+                    match *inner {
+                        Expr::Variable(variable) => {
+                            let declared = script.variables[variable as usize].declared;
+                            self.fixed(declared, displacement, listed);
+                        }
+                        other => self.fixed(other, displacement, listed),
+                    }
+                }
+                if first == end {
+                    self.go_nowhere(listed);
+                }
+            }
+        }
+    }
+
+    fn too_many(&mut self, place: Place) {
+        if std::mem::replace(&mut self.full, true) {
+            return;
+        }
+        let message = format!(
+            "from here on moves to elements of arrays are not checked: there are more than {MOST_USES}"
+        );
+        let hint = "give fewer files in one call";
+        let severity = Severity::Error;
+        self.report
+            .say("too-many-uses", severity, place, message, hint);
+    }
+
+    fn go_to(&mut self, atom: Atom, site: Option<Site>, displacement: u32, listed: &mut Listed) {
+        let script = self.script;
+        match atom {
+            Atom::Target {
+                target,
+                displacement: of,
+            } => self.go_target(target as usize, both(displacement, of), listed),
+            Atom::Changed { target } => {
+                let because = site.and_then(|site| self.flow.place_of(site));
+                self.report.block(
+                    target as usize,
+                    "target-assigned-at-run-time",
+                    "the running program changes this target",
+                    "correct the value where the program computes it, or keep the target out of the path",
+                    because,
+                );
+                self.go_target(target as usize, displacement, listed);
+            }
+            Atom::Value(ValueId::MAX) | Atom::Doubt => self.go_nowhere(listed),
+            Atom::Value(value) => {
+                match self.flow.value(value) {
+                    Held::Actual => self.report.say(
+                        "run-time-position",
+                        Severity::Note,
+                        listed.instruction.place,
+                        "this move goes to where the robot itself was; that is right as it is"
+                            .into(),
+                        "",
+                    ),
+                    Held::Remark(remark) => {
+                        let remark = &script.remarks[*remark as usize];
+                        self.report.say_once(remark, listed.instruction.place);
+                    }
+                    _ => self.computed(listed.instruction.place),
+                }
+                self.go_nowhere(listed);
+            }
+            Atom::Unknown(remark) => {
+                let remark = &script.remarks[remark as usize];
+                self.report.say_once(remark, listed.instruction.place);
+                self.go_nowhere(listed);
+            }
+            Atom::Anything => {
+                self.computed(listed.instruction.place);
+                self.go_nowhere(listed);
+            }
+        }
+    }
+
+    fn computed(&mut self, place: Place) {
+        let message = "the position that this move goes to is known at run time only; the move stays as it is";
+        let hint = "write the position with numbers where it must be exact";
+        let severity = Severity::Warning;
+        self.report
+            .say("computed-target", severity, place, message.into(), hint);
+    }
+
+    /// A move to somewhere: nothing is rewritten, and what follows does not know where it comes from.
+    fn go_nowhere(&mut self, listed: &Listed) {
+        let tool = listed.tools.iter().find_map(|(tool, _)| tool.ok());
+        let frame = listed.frames.iter().find_map(|(frame, _)| frame.ok());
+        self.push(
+            None,
+            (tool.unwrap_or(0), None),
+            (frame.unwrap_or(0), None),
+            false,
+            Displacement::None,
+            listed,
+        );
+    }
+
+    fn go_target(&mut self, target: TargetId, displacement: u32, listed: &Listed) {
+        self.used[target] = true;
+        for &(remark, site) in &listed.guards {
+            let because = self.flow.place_of(site);
+            let remark = &self.script.remarks[remark as usize];
+            let because = because.or(Some(listed.instruction.place));
+            self.report
+                .block(target, remark.id, &remark.text, remark.hint, because);
+        }
+        if let Some(site) = listed.doubts {
+            self.doubted.push((target, site));
+        }
+        let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
+        let displacement = match self.script.displacements.get(displacement as usize) {
+            Some(displacement) => displacement.clone(),
+            None => Displacement::Unknown,
+        };
+        let place = listed.instruction.place;
+        let refused = |choice: &Option<(Refused, Option<Place>)>| *choice;
+        let mut tools: Vec<(ToolId, Option<Place>)> = Vec::with_capacity(1);
+        for (tool, written) in &listed.tools {
+            match tool {
+                Ok(tool) => tools.push((*tool, *written)),
+                Err(why) => {
+                    if !is_joints {
+                        self.refuse(target, refused(&Some((*why, *written))), "tool", place);
+                    }
+                }
+            }
+        }
+        let mut frames: Vec<(FrameId, Option<Place>)> = Vec::with_capacity(1);
+        for (frame, written) in &listed.frames {
+            match frame {
+                Ok(frame) => frames.push((*frame, *written)),
+                Err(why) => {
+                    if !is_joints {
+                        self.refuse(
+                            target,
+                            refused(&Some((*why, *written))),
+                            "work frame",
+                            place,
+                        );
+                    }
+                }
+            }
+        }
+        if tools.is_empty() {
+            let unknown = self.unknown_tool();
+            tools.push((unknown, None));
+        }
+        if frames.is_empty() {
+            let unknown = self.unknown_frame();
+            frames.push((unknown, None));
+        }
+        for &tool in &tools {
+            for &frame in &frames {
+                for &configured in &listed.configured {
+                    self.push(
+                        Some(target),
+                        tool,
+                        frame,
+                        configured,
+                        displacement.clone(),
+                        listed,
+                    );
+                }
+            }
+        }
+    }
+
+    /// The tool of a joint target whose tool nobody knows.
+    fn unknown_tool(&mut self) -> ToolId {
+        let key = (Atom::Anything, None);
+        if let Some(Ok(known)) = self.tools.get(&key) {
+            return *known;
+        }
+        let tools = &mut self.report.program.tools;
+        tools.push(Tool {
+            name: String::new(),
+            flange_from_tool: None,
+            load: None,
+        });
+        let made = tools.len() - 1;
+        self.tools.insert(key, Ok(made));
+        made
+    }
+
+    fn unknown_frame(&mut self) -> FrameId {
+        let key = Atom::Anything;
+        if let Some(Ok(known)) = self.frames.get(&key) {
+            return *known;
+        }
+        let frames = &mut self.report.program.frames;
+        frames.push(Frame {
+            name: String::new(),
+            world_from_frame: None,
+        });
+        let made = frames.len() - 1;
+        self.frames.insert(key, Ok(made));
+        made
+    }
+
+    fn refuse(
+        &mut self,
+        target: TargetId,
+        why: Option<(Refused, Option<Place>)>,
+        what: &str,
+        place: Place,
+    ) {
+        let Some(((cause, site), written)) = why else {
+            return;
+        };
+        let because = site
+            .and_then(|site| self.flow.place_of(site))
+            .or(written)
+            .or(Some(place));
+        match cause {
+            Cause::Said(remark) => {
+                let remark = self.report.remark_of(self.script, remark).clone();
+                self.report
+                    .block(target, remark.id, &remark.text, remark.hint, because);
+            }
+            Cause::Chosen => self.report.block(
+                target,
+                "frame-chosen-at-run-time",
+                &format!("only the running program knows the {what}"),
+                "set the tool and the work frame before the move in the same routine",
+                because,
+            ),
+            Cause::NoFrame => self.report.block(
+                target,
+                "frame-chosen-at-run-time",
+                &format!("what the program gives as its {what} is none"),
+                "set the tool and the work frame before the move in the same routine",
+                because,
+            ),
+        }
+    }
+
+    fn push(
+        &mut self,
+        target: Option<TargetId>,
+        (tool, tool_written): (ToolId, Option<Place>),
+        (frame, frame_written): (FrameId, Option<Place>),
+        configured: bool,
+        displacement: Displacement,
+        listed: &Listed,
+    ) {
+        let Listed {
+            at, instruction, ..
+        } = listed;
+        self.report.program.moves.push(Move {
+            file: instruction.place.file,
+            offset: instruction.place.offset,
+            motion: instruction.motion,
+            target,
+            tool,
+            frame,
+            displacement,
+            configured,
+            near: instruction.near.clone(),
+            pace: instruction.pace,
+            free_orientation: instruction.free_orientation,
+            instruction: *at,
+            before: Before::Start,
+            tool_written,
+            frame_written,
+        });
+    }
+
+    // ---- the moves before
+
+    /// Puts moves in the place of stops.
+    fn link(&mut self) {
+        let mut lists: HashMap<u32, Before> = HashMap::new();
+        for stop in 0..self.flow.reached.len() {
+            let Some(reached) = self.flow.reached[stop] else {
+                continue;
+            };
+            let (first, end) = self.stops[stop];
+            let before = match lists.get(&reached.before.0) {
+                Some(before) => *before,
+                None => {
+                    let before = self.moves_of(&reached);
+                    if !matches!(before, Before::One(_)) {
+                        lists.insert(reached.before.0, before);
+                    }
+                    before
+                }
+            };
+            for motion in &mut self.report.program.moves[first as usize..end as usize] {
+                motion.before = before;
+            }
+        }
+    }
+
+    /// The moves of the stops before one.
+    fn moves_of(&mut self, reached: &Reached) -> Before {
+        let mut all = Vec::new();
+        for &stop in self.flow.sets.of(&reached.before) {
+            match stop {
+                START => all.push(Before::Start),
+                ANYWHERE => all.push(Before::Anywhere),
+                stop => {
+                    let (first, end) = self.stops[stop as usize];
+                    if first == end || end - first > MOST_ALTERNATIVES {
+                        all.push(Before::Anywhere);
+                    } else {
+                        all.extend((first..end).map(Before::One));
+                    }
+                }
+            }
+        }
+        match all.as_slice() {
+            [] => Before::Anywhere,
+            [one] => *one,
+            _ => {
+                let lists = &mut self.report.program.befores;
+                lists.push(all.into());
+                Before::Several(short(lists.len() - 1))
+            }
+        }
+    }
+
+    // ---- what concerns the whole
+
+    /// A routine that is not in the files may set another tool or frame: that matters where moves use more than one.
+    fn judge_doubts(&mut self) {
+        let doubted = std::mem::take(&mut self.doubted);
+        if doubted.is_empty() {
+            return;
+        }
+        let program = &*self.report.program;
+        let poses = program.moves.iter().filter(|motion| {
+            let target = motion.target.map(|target| &program.targets[target]);
+            target.is_some_and(|target| target.layout.shape == Shape::Pose)
+        });
+        let mut ids: Vec<(ToolId, FrameId)> = poses.map(|m| (m.tool, m.frame)).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        let poses_of_tools: HashSet<ToolId> = ids.iter().map(|(tool, _)| *tool).collect();
+        let poses_of_frames: HashSet<FrameId> = ids.iter().map(|(_, frame)| *frame).collect();
+        if poses_of_tools.len() < 2 && poses_of_frames.len() < 2 {
+            return;
+        }
+        for (target, site) in doubted {
+            if self.report.program.targets[target].layout.shape == Shape::Joints {
+                continue;
+            }
+            let because = self.flow.place_of(site);
+            self.report.block(
+                target,
+                "frame-chosen-at-run-time",
+                "a routine that is not in the files is called and may set another tool or work frame",
+                "give the file with the routine too, or set both behind the call",
+                because,
+            );
+        }
+    }
+
+    /// Targets that are given away, that are frames too, or that nothing uses; writes that nothing sees.
+    fn judge_targets(&mut self) {
+        for (target, site) in std::mem::take(&mut self.flow.given_away) {
+            let because = self.flow.place_of(site);
+            self.used[target as usize] = true;
+            self.report.block(
+                target as usize,
+                "target-passed-to-routine",
+                "this target is given to a routine that is not in the files, which may use it with any tool and work frame",
+                "give the file with the routine too, or move to the target where its tool and work frame are named",
+                because,
+            );
+        }
+        let mut as_frames: Vec<_> = self.as_frames.drain().collect();
+        as_frames.sort_unstable();
+        for (target, place) in as_frames {
+            if self.used[target] {
+                self.report.block(
+                    target,
+                    "target-used-as-frame",
+                    "this target is a tool or work frame, too",
+                    "give the frame a variable of its own",
+                    Some(place),
+                );
+            } else {
+                // a frame is no target: it stays
+                self.report.program.targets[target].blocked = true;
+                self.used[target] = true;
+            }
+        }
+        self.tell_unused();
+        self.tell_operators();
+    }
+
+    /// Targets that no move uses stay where others are used; once a file.
+    fn tell_unused(&mut self) {
+        if !self.used.contains(&true) {
+            return;
+        }
+        let mut by_file: Vec<(u32, TargetId, usize)> = Vec::new();
+        for target in 0..self.used.len() {
+            if self.used[target] {
+                continue;
+            }
+            let found = &mut self.report.program.targets[target];
+            found.blocked = true;
+            match by_file.last_mut() {
+                Some((file, _, count)) if *file == found.file => *count += 1,
+                _ => by_file.push((found.file, target, 1)),
+            }
+        }
+        for (file, first, count) in by_file {
+            let found = &self.report.program.targets[first];
+            let place = Place {
+                file,
+                offset: found.offset,
+            };
+            let name = found.name.as_deref().unwrap_or("at this place");
+            let message = format!(
+                "no move uses {count} of the targets (the first is {name}); they stay as they are"
+            );
+            let hint = "give the files that use them too, if there are any";
+            self.report
+                .say("target-unused-here", Severity::Note, place, message, hint);
+        }
+    }
+
+    /// Writes of routines that nothing calls reach no other routine.
+    fn tell_operators(&mut self) {
+        let mut said = HashSet::new();
+        for (variable, site) in std::mem::take(&mut self.flow.by_operator) {
+            let of = &self.script.variables[variable as usize];
+            if of.shared || matches!(of.declared, Expr::Absent) {
+                continue;
+            }
+            let Some(place) = self.flow.place_of(site) else {
+                continue;
+            };
+            if said.insert(variable) {
+                let message = format!(
+                    "nothing in the files calls the routine that writes {} here: other routines are taken to have what is declared",
+                    of.name
+                );
+                let hint = "give the file that calls it too";
+                self.report
+                    .say("write-not-called", Severity::Warning, place, message, hint);
+            }
+        }
+    }
+}
+
+/// Moves of one stop that are told apart as predecessors.
+const MOST_ALTERNATIVES: u32 = 16;
+
+/// Two displacements one after another.
+fn both(a: u32, b: u32) -> u32 {
+    match (a, b) {
+        (NOT_DISPLACED, other) | (other, NOT_DISPLACED) => other,
+        _ => DISPLACED_SOMEHOW,
+    }
+}
+
+/// What a move has, before its targets are listed.
+struct Listed<'a> {
+    at: u32,
+    instruction: &'a Instruction,
+    tools: Vec<Choice<ToolId>>,
+    frames: Vec<Choice<FrameId>>,
+    configured: Vec<bool>,
+    guards: Vec<(RemarkId, Site)>,
+    doubts: Option<Site>,
+}
+
+/// Collects findings.
+struct Report<'a, 'p> {
+    sources: &'a [Source],
+    program: &'p mut Program,
+    /// Remarks of tools and frames, behind those of the script.
+    remarks: Vec<Remark>,
+    said: HashSet<(TargetId, &'static str)>,
+    once: HashSet<(&'static str, Place)>,
+    places: Vec<(Place, Finding)>,
+}
+
+/// Identifiers of the report's own remarks begin here.
+const OWN_REMARKS: RemarkId = 1 << 31;
+
+impl<'a, 'p> Report<'a, 'p> {
+    fn new(sources: &'a [Source], program: &'p mut Program) -> Self {
+        Self {
+            sources,
+            program,
+            remarks: Vec::new(),
+            said: HashSet::new(),
+            once: HashSet::new(),
+            places: Vec::new(),
+        }
+    }
+
+    fn remark(&mut self, remark: Remark) -> RemarkId {
+        self.remarks.push(remark);
+        OWN_REMARKS + short(self.remarks.len() - 1)
+    }
+
+    fn remark_of<'r>(&'r self, script: &'r Script, remark: RemarkId) -> &'r Remark {
+        match remark.checked_sub(OWN_REMARKS) {
+            Some(own) => &self.remarks[own as usize],
+            None => &script.remarks[remark as usize],
+        }
+    }
+
+    fn say(
+        &mut self,
+        id: &'static str,
+        severity: Severity,
+        place: Place,
+        message: String,
+        hint: &str,
+    ) {
+        if self.once.insert((id, place)) {
+            let source = &self.sources[place.file as usize];
+            let finding = source.finding(place.offset as usize, id, severity, message, hint);
+            self.places.push((place, finding));
+        }
+    }
+
+    /// A remark at a place, once.
+    fn say_once(&mut self, remark: &Remark, place: Place) {
+        let text = remark.text.to_string();
+        self.say(remark.id, remark.severity, place, text, remark.hint);
+    }
+
+    /// The target has to stay as it is; `because` is where the program says so. Joint targets stay unless they are asked for.
+    fn block(
+        &mut self,
+        target: TargetId,
+        id: &'static str,
+        wrong: &str,
+        hint: &str,
+        because: Option<Place>,
+    ) {
+        if !self.said.insert((target, id)) {
+            return;
+        }
+        let blocked = &mut self.program.targets[target];
+        blocked.blocked = true;
+        let place = Place {
+            file: blocked.file,
+            offset: blocked.offset,
+        };
+        let severity = match blocked.layout.shape {
+            Shape::Pose => Severity::Error,
+            Shape::Joints => Severity::Warning,
+        };
+        let name = blocked.name.as_deref().unwrap_or("target");
+        let see = match because.filter(|because| *because != place) {
+            None => String::new(),
+            Some(because) => {
+                let source = &self.sources[because.file as usize];
+                let (line, _) = source.line_column(because.offset as usize);
+                format!(" (see {} line {line})", source.name)
+            }
+        };
+        let message = format!("{name}: {wrong}{see}");
+        let source = &self.sources[place.file as usize];
+        let finding = source.finding(place.offset as usize, id, severity, message, hint);
+        self.places.push((place, finding));
+    }
+
+    /// Adds the findings to those of the reader, by file and place.
+    fn finish(&mut self) {
+        let order: HashMap<&str, usize> = self
+            .sources
+            .iter()
+            .map(|s| s.name.as_str())
+            .zip(0..)
+            .collect();
+        let found = std::mem::take(&mut self.places);
+        let findings = &mut self.program.findings;
+        findings.extend(found.into_iter().map(|(_, finding)| finding));
+        findings
+            .sort_by_cached_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
+    }
+}

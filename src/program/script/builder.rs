@@ -1,0 +1,265 @@
+//! Puts statements together: blocks become labels, branches and jumps.
+
+use super::{
+    Call, Instruction, Label, Place, Routine, RoutineId, Script, Start, Statement, Write, short,
+};
+use std::collections::HashMap;
+
+/// Adds the statements of routines to a script, one routine after another.
+///
+/// What does not fit together (an end without a beginning, a block left open) is passed over: readers say what is wrong with
+/// the text, and the flow then is that of the text without the lone word.
+#[derive(Debug, Default)]
+pub struct Builder {
+    /// What is put together.
+    pub script: Script,
+    open: Vec<Block>,
+    /// Labels of the present routine by the reader's own key.
+    named: HashMap<u64, Label>,
+    /// Begin of the present routine's statements and moves.
+    routine: Option<(RoutineId, u32, u32)>,
+}
+
+/// A block that is open.
+#[derive(Debug)]
+enum Block {
+    Choice {
+        /// Where the next branch begins.
+        next: Option<Label>,
+        end: Label,
+    },
+    Loop {
+        top: Label,
+        end: Label,
+    },
+}
+
+impl Builder {
+    /// Begins a routine that is already among the script's routines.
+    pub fn open(&mut self, routine: RoutineId) {
+        self.close();
+        let statements = short(self.script.statements.len());
+        let instructions = short(self.script.instructions.len());
+        self.routine = Some((routine, statements, instructions));
+    }
+
+    /// Adds a routine without statements yet, so that calls can name it.
+    pub fn declare(&mut self, name: impl Into<Box<str>>, place: Place, start: Start) -> RoutineId {
+        self.script.routines.push(Routine {
+            name: name.into(),
+            place,
+            start,
+            statements: 0..0,
+            instructions: 0..0,
+        });
+        short(self.script.routines.len() - 1)
+    }
+
+    /// Ends the present routine; blocks that are open end there.
+    pub fn close(&mut self) {
+        while let Some(block) = self.open.pop() {
+            self.end(block);
+        }
+        self.named.clear();
+        if let Some((routine, statements, instructions)) = self.routine.take() {
+            let ends = (
+                short(self.script.statements.len()),
+                short(self.script.instructions.len()),
+            );
+            let routine = &mut self.script.routines[routine as usize];
+            routine.statements = statements..ends.0;
+            routine.instructions = instructions..ends.1;
+        }
+    }
+
+    /// The script, finished.
+    #[must_use]
+    pub fn finish(mut self) -> Script {
+        self.close();
+        self.script
+    }
+
+    /// A move.
+    pub fn go(&mut self, instruction: Instruction) {
+        let at = short(self.script.instructions.len());
+        self.script.instructions.push(instruction);
+        self.script.statements.push(Statement::Move(at));
+    }
+
+    /// A write.
+    pub fn write(&mut self, write: Write) {
+        let at = short(self.script.writes.len());
+        self.script.writes.push(write);
+        self.script.statements.push(Statement::Write(at));
+    }
+
+    /// A call.
+    pub fn call(&mut self, call: Call) {
+        let at = short(self.script.calls.len());
+        self.script.calls.push(call);
+        self.script.statements.push(Statement::Call(at));
+    }
+
+    fn new_label(&mut self) -> Label {
+        self.script.labels += 1;
+        self.script.labels - 1
+    }
+
+    fn put(&mut self, label: Label) {
+        self.script.statements.push(Statement::Label(label));
+    }
+
+    fn jump(&mut self, label: Label) {
+        self.script.statements.push(Statement::Jump(label));
+    }
+
+    fn branch(&mut self, label: Label) {
+        self.script.statements.push(Statement::Branch(label));
+    }
+
+    /// `IF … THEN`: the statements that follow may be passed over.
+    pub fn begin_if(&mut self) {
+        let (next, end) = (self.new_label(), self.new_label());
+        self.branch(next);
+        self.open.push(Block::Choice {
+            next: Some(next),
+            end,
+        });
+    }
+
+    /// `TEST`, `SWITCH`: statements follow in branches, each begun by [`Self::next_branch`].
+    pub fn begin_choice(&mut self) {
+        let (next, end) = (self.new_label(), self.new_label());
+        self.jump(next);
+        self.open.push(Block::Choice {
+            next: Some(next),
+            end,
+        });
+    }
+
+    /// `ELSEIF`, `CASE`: another branch that may be passed over; `ELSE`, `DEFAULT`: the last one.
+    pub fn next_branch(&mut self, is_last: bool) {
+        let Some(Block::Choice { next, end }) = self.open.last_mut() else {
+            return;
+        };
+        let (before, end) = (next.take(), *end);
+        self.jump(end);
+        if let Some(before) = before {
+            self.put(before);
+        }
+        if !is_last {
+            let following = self.new_label();
+            self.branch(following);
+            if let Some(Block::Choice { next, .. }) = self.open.last_mut() {
+                *next = Some(following);
+            }
+        }
+    }
+
+    /// `ENDIF`, `ENDTEST`, `ENDSWITCH`.
+    pub fn end_choice(&mut self) {
+        if matches!(self.open.last(), Some(Block::Choice { .. })) {
+            let block = self.open.pop().expect("a block is open");
+            self.end(block);
+        }
+    }
+
+    /// Begins a loop. `may_pass`: its statements may be passed over (`WHILE`, `FOR`; not `REPEAT`, `LOOP`).
+    pub fn begin_loop(&mut self, may_pass: bool) {
+        let (top, end) = (self.new_label(), self.new_label());
+        self.put(top);
+        if may_pass {
+            self.branch(end);
+        }
+        self.open.push(Block::Loop { top, end });
+    }
+
+    /// Ends a loop. `endless`: it is left by [`Self::leave_loop`] only.
+    pub fn end_loop(&mut self, endless: bool) {
+        let Some(Block::Loop { top, end }) = self.open.last() else {
+            return;
+        };
+        let (top, end) = (*top, *end);
+        self.open.pop();
+        if endless {
+            self.jump(top);
+        } else {
+            self.branch(top);
+        }
+        self.put(end);
+    }
+
+    /// Ends what is open: a loop as one that may be left, or a choice.
+    fn end(&mut self, block: Block) {
+        match block {
+            Block::Choice { next, end } => {
+                if let Some(next) = next {
+                    self.put(next);
+                }
+                self.put(end);
+            }
+            Block::Loop { top, end } => {
+                self.branch(top);
+                self.put(end);
+            }
+        }
+    }
+
+    fn innermost_loop(&self) -> Option<(Label, Label)> {
+        self.open.iter().rev().find_map(|block| match block {
+            Block::Loop { top, end } => Some((*top, *end)),
+            Block::Choice { .. } => None,
+        })
+    }
+
+    /// `EXIT`, `break`: behind the innermost loop.
+    pub fn leave_loop(&mut self) {
+        if let Some((_, end)) = self.innermost_loop() {
+            self.jump(end);
+        }
+    }
+
+    /// `continue`: the top of the innermost loop.
+    pub fn repeat_loop(&mut self) {
+        if let Some((top, _)) = self.innermost_loop() {
+            self.jump(top);
+        }
+    }
+
+    fn named(&mut self, key: u64) -> Label {
+        if let Some(label) = self.named.get(&key) {
+            return *label;
+        }
+        let label = self.new_label();
+        self.named.insert(key, label);
+        label
+    }
+
+    /// A label of the text, by a key of the reader's own in this routine.
+    pub fn label(&mut self, key: u64) {
+        let label = self.named(key);
+        self.put(label);
+    }
+
+    /// `GOTO`, `JMP LBL`.
+    pub fn go_to(&mut self, key: u64) {
+        let label = self.named(key);
+        self.jump(label);
+    }
+
+    /// A jump that may be made, or not: `IF …, JMP LBL[…]`, `Skip,LBL[…]`.
+    pub fn may_go_to(&mut self, key: u64) {
+        let label = self.named(key);
+        self.branch(label);
+    }
+
+    /// Back to the caller.
+    pub fn back(&mut self) {
+        self.script.statements.push(Statement::Return);
+    }
+
+    /// The program ends.
+    pub fn exit(&mut self) {
+        self.script.statements.push(Statement::Exit);
+    }
+}
