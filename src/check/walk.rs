@@ -133,6 +133,7 @@ impl Walk {
         let pace = Pace {
             start_joints: options.start_joints,
             exact: true,
+            strict: true,
             directed: true,
             turning: options.turning,
         };

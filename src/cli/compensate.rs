@@ -144,13 +144,6 @@ impl Compensate {
             profile_sha256: &profile_sha256,
         };
         let mut told = tell(&header, &compensation, output);
-        let same_arm = profile.real_effects() == profile.controller_effects();
-        if same_arm && compensation.summary.compensated == 0 && !output.json && !output.quiet {
-            told += &layout::fitted(&format!(
-                "nothing to correct: {} has no calibration that differs from the controller's model",
-                self.profile.display()
-            ));
-        }
         if refined.moves > 0 && !output.json && !output.quiet {
             told += &format!(
                 "{} moves inserted, so that the path is within {} mm\n",

@@ -120,9 +120,6 @@ pub fn compensate(
         pulses_per_deg: profile.pulses_per_deg,
         accept_absolutely_accurate: options.accept_absolutely_accurate,
     };
-    if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
-        return Err(CompensateError::NothingToCorrect);
-    }
     let mut program = crate::motion::read(language, sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
@@ -154,6 +151,9 @@ pub fn compensate(
     let arrivals = walk::walk(&job.ground, &pace, &mut findings);
     let mut approaches = approach::gather(&job, &arrivals, &mut findings);
     refuse_strange_robots(&job, &findings)?;
+    if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
+        return Err(CompensateError::NothingToCorrect);
+    }
     let outcomes = solve::solve(&job, &arrivals, &pace, &mut approaches, &mut findings);
     drop(arrivals);
     let Rewritten {

@@ -23,8 +23,6 @@ const ROUNDING_LIMIT: Separation = Separation {
     distance_m: 0.01 * MM,
     angle_rad: 0.01 * DEG,
 };
-/// Decimals of a millimetre that targets have at least, so that rounding stays below a micrometre.
-const LEAST_DECIMALS: usize = 3;
 /// Nearer to a singularity than this the joints move much for a small shift.
 const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
 const NEAR_AXIS_1_M: f64 = 5.0 * MM;
@@ -271,8 +269,11 @@ fn styles(
         Role::Configuration,
     ]
     .map(|role| {
-        let decimals = job.options.decimals.unwrap_or(LEAST_DECIMALS);
-        let at_least = job.ground.language.decimals(role, decimals);
+        let language = job.ground.language;
+        let at_least = match job.options.decimals {
+            Some(decimals) => language.decimals(role, decimals),
+            None => language.least_decimals(role),
+        };
         let texts = numbers
             .iter()
             .zip(roles)

@@ -60,6 +60,8 @@ pub(crate) struct Arrival {
     pub honoured: bool,
 }
 
+/// Name of the finding about a path that ends in another configuration than the file gives.
+pub(crate) const CONFIGURATION_CHANGE: &str = "configuration-change";
 /// No arrival.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
@@ -107,6 +109,8 @@ pub(crate) struct Pace {
     /// Joints are those of a controller that computes with a calibrated chain of its own, where it does; else those of the
     /// nominal arm.
     pub exact: bool,
+    /// A path that ends in another configuration than the file gives is an error.
+    pub strict: bool,
     /// Directions of arrival matter.
     pub directed: bool,
     /// How the controller turns the tool on its path.
@@ -424,13 +428,13 @@ impl Walker<'_, '_> {
                 ground.name_of(target)
             );
             let hint = "check the configuration data, and that robot, tool and frame are those of the program";
-            self.findings.push(ground.at_target(
-                "configuration-mismatch",
-                Severity::Warning,
-                target,
-                message,
-                hint,
-            ));
+            let (id, severity) = if self.pace.strict {
+                (CONFIGURATION_CHANGE, Severity::Error)
+            } else {
+                ("configuration-mismatch", Severity::Warning)
+            };
+            let finding = ground.at_target(id, severity, target, message, hint);
+            self.findings.push(finding);
         }
         let as_it_is = Posture {
             branch,

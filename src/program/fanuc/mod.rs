@@ -167,6 +167,14 @@ impl Language for Fanuc {
         }
     }
 
+    /// Fields of a fixed width have three decimals.
+    fn least_decimals(&self, role: Role) -> usize {
+        match role {
+            Role::Position | Role::Orientation | Role::Joint => 3,
+            Role::Configuration => 0,
+        }
+    }
+
     fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
         let first: [f64; PLAIN] = numbers[..PLAIN].try_into().expect("six numbers at least");
         match layout.shape {

@@ -147,6 +147,15 @@ impl Language for Inform {
         }
     }
 
+    /// Fields have three decimals of a millimetre and four of a degree.
+    fn least_decimals(&self, role: Role) -> usize {
+        match role {
+            Role::Position => 3,
+            Role::Orientation => 4,
+            Role::Joint | Role::Configuration => 0,
+        }
+    }
+
     fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded {
         let n: &[f64; 6] = numbers.try_into().expect("a position has six numbers");
         let (value, configuration) = match layout.shape {
