@@ -1,13 +1,12 @@
 //! The report of `check`: `check/1`, its text, and `JUnit` XML.
 
-use super::one_or_many;
+use super::{junit, one_or_many};
 use crate::check::baseline::{Comparison, text as baseline_text};
 use crate::check::collision::Clearance;
 use crate::check::{Check, MoveReport, Scene, Summary};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::{Language, Motion};
-use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -246,14 +245,14 @@ pub fn junit(header: &Header, check: &Check, comparison: Option<&Comparison>) ->
             .or_default()
             .push(message);
     }
-    let mut report = Report::new("poseshift check");
+    let mut suites = Vec::new();
     for (index, input) in header.inputs.iter().enumerate() {
-        let mut suite = TestSuite::new(input.as_str());
+        let mut cases = Vec::new();
         for entry in check.moves.iter().filter(|entry| entry.file == index) {
             let found = failures.remove(&(input.as_str(), entry.line));
             let target = entry.target.as_deref().unwrap_or("target");
             let name = format!("line {}: {} to {target}", entry.line, kind(entry.kind));
-            suite.add_test_case(case(&name, input, found));
+            cases.push((name, found.unwrap_or_default()));
         }
         // what belongs to no move: the whole file, a declaration, a move that is gone
         let rest: Vec<_> = failures
@@ -263,24 +262,9 @@ pub fn junit(header: &Header, check: &Check, comparison: Option<&Comparison>) ->
             .collect();
         for key in rest {
             let found = failures.remove(&key);
-            suite.add_test_case(case(&format!("line {}", key.1), input, found));
+            cases.push((format!("line {}", key.1), found.unwrap_or_default()));
         }
-        report.add_test_suite(suite);
+        suites.push(junit::Suite { name: input, cases });
     }
-    report.to_string().unwrap_or_default()
-}
-
-fn case(name: &str, file: &str, failures: Option<Vec<String>>) -> TestCase {
-    let status = match failures {
-        None => TestCaseStatus::success(),
-        Some(messages) => {
-            let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-            status.set_message(messages.first().cloned().unwrap_or_default());
-            status.set_description(messages.join("\n"));
-            status
-        }
-    };
-    let mut case = TestCase::new(name, status);
-    case.set_classname(file);
-    case
+    junit::xml("poseshift check", &suites)
 }

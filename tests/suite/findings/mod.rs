@@ -1,0 +1,84 @@
+//! The table of findings: one for all, and the same as what modules say of themselves.
+
+use crate::support::{files_below, repository, run};
+use poseshift::finding::{Severity, TABLE, kind};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+const LANGUAGES: [&str; 6] = ["csv", "fanuc", "inform", "krl", "rapid", "urscript"];
+
+/// Every text of the source that is in quotes, the table itself left out.
+fn quoted() -> BTreeSet<String> {
+    let source = repository("src");
+    let mut words = BTreeSet::new();
+    for file in files_below(&source) {
+        if file.extension().is_none_or(|e| e != "rs") || file.starts_with("finding") {
+            continue;
+        }
+        let text = std::fs::read_to_string(source.join(file)).expect("source");
+        words.extend(text.split('"').map(str::to_owned));
+    }
+    words
+}
+
+#[test]
+fn the_table_is_sorted_has_each_id_once_and_none_that_nothing_finds() {
+    let ids: Vec<&str> = TABLE.iter().map(|kind| kind.id).collect();
+    let sorted: Vec<&str> = ids
+        .iter()
+        .copied()
+        .collect::<BTreeSet<_>>()
+        .into_iter()
+        .collect();
+    assert_eq!(ids, sorted);
+    let words = quoted();
+    for kind in TABLE {
+        assert!(words.contains(kind.id), "nothing finds {}", kind.id);
+        assert!(!kind.meaning.is_empty() && !kind.remedy.is_empty());
+        assert!(!kind.commands.is_empty(), "{}", kind.id);
+    }
+}
+
+#[test]
+fn languages_say_of_their_findings_what_the_table_says() {
+    for language in LANGUAGES {
+        let module = format!("src/program/{language}/mod.rs");
+        let text = crate::support::text(&module);
+        let mut told = BTreeMap::new();
+        for line in text.lines() {
+            let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+            if let ["//!", id, severity @ ("error" | "warning" | "note"), ..] = cells.as_slice() {
+                told.insert(id.trim_matches('`').to_owned(), (*severity).to_owned());
+            }
+        }
+        let of_table = TABLE
+            .iter()
+            .filter(|kind| kind.languages.contains(&language));
+        let word = |severity: Severity| format!("{severity:?}").to_lowercase();
+        let known: BTreeMap<String, String> = of_table
+            .map(|kind| (kind.id.to_owned(), word(kind.severity)))
+            .collect();
+        assert_eq!(told, known, "{module}");
+    }
+}
+
+#[test]
+fn explain_tells_one_finding_and_asks_back_for_none() {
+    let (status, out, _) = run(&["explain", "near-singularity"]);
+    assert_eq!(status, 0);
+    let of = kind("near-singularity").expect("in the table");
+    let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat(&out).contains(of.meaning) && flat(&out).contains(of.remedy),
+        "{out}"
+    );
+    let (status, _, told) = run(&["explain", "near-nothing"]);
+    assert_eq!(status, 2);
+    assert!(told.contains("near-singularity"), "{told}");
+    let (_, out, _) = run(&["explain", "--json"]);
+    let report: Value = serde_json::from_str(&out).expect("JSON");
+    assert_eq!(
+        report["findings"].as_array().map(Vec::len),
+        Some(TABLE.len())
+    );
+}
