@@ -3,7 +3,7 @@
 use super::layout;
 use super::programs::read_programs;
 use super::telling::ReportFile;
-use super::{Answer, Output, files, json_text, print, values};
+use super::{Answer, Output, files, print, values};
 use crate::check::trace::trace;
 use crate::check::{self, CheckError, Options, Scene, Subject, Turning, baseline};
 use crate::geometry::units::{DEG, MM};
@@ -12,10 +12,11 @@ use crate::motion::Given;
 use crate::program::Source;
 use crate::report;
 use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
+use crate::task::check::{Checked as Run, Header};
 use crate::task::files::write_all;
 use crate::task::meshes::Loader;
 use crate::task::programs::{common_language, explain, language_by_id};
-use crate::task::{Failure, ProfileFile, text};
+use crate::task::{Document, Failure, ProfileFile, text};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -133,21 +134,21 @@ impl Check {
             names(&sources),
             nominal.as_deref().map(names).unwrap_or_default(),
         );
-        let header = report::check::Header {
+        let header = Header {
             inputs: &inputs,
             nominal: &originals,
             language,
             profile_sha256: &profile_sha256,
             scene: &scene,
         };
-        let comparison = self.compare(&report::check::json(&header, &found, None))?;
+        let run = Run::new(&header, &found, None);
+        let comparison = self.compare(&run)?;
         let mut outputs = Vec::new();
         if let (Some(path), true) = (&self.baseline, self.update_baseline) {
-            let text = json_text(&report::check::json(&header, &found, None));
-            outputs.push((path.clone(), text.into_bytes()));
+            outputs.push((path.clone(), run.json().into_bytes()));
         }
         if let Some(path) = &self.junit {
-            let xml = report::check::junit(&header, &found, comparison.as_ref());
+            let xml = report::check::junit(&run, comparison.as_ref());
             outputs.push((path.clone(), xml.into_bytes()));
         }
         let worse = comparison.as_ref().map_or(0, |c| c.worse.len());
@@ -169,7 +170,12 @@ impl Check {
         });
         outputs.extend(self.report.output(page.as_ref()));
         write_all(&outputs)?;
-        print(&self.tell(&header, &found, comparison.as_ref(), &meshes.notes, output))?;
+        print(&self.tell(
+            &Run::new(&header, &found, comparison.as_ref()),
+            found.is_refused(),
+            &meshes.notes,
+            output,
+        ))?;
         let worse = worse > 0;
         Ok(if found.is_refused() || worse {
             Answer::No
@@ -235,7 +241,7 @@ impl Check {
     }
 
     /// The comparison with the stored run; none where there is no baseline, or where it is to be written for the first time.
-    fn compare(&self, now: &serde_json::Value) -> Result<Option<baseline::Comparison>, Failure> {
+    fn compare(&self, now: &Run) -> Result<Option<baseline::Comparison>, Failure> {
         let Some(path) = &self.baseline else {
             return Ok(None);
         };
@@ -254,35 +260,28 @@ impl Check {
             mm: self.tolerance,
             deg: self.tolerance,
         };
-        Ok(Some(baseline::compare(&before, now, tolerances)))
+        let now = serde_json::to_value(now).expect("numbers under text keys");
+        Ok(Some(baseline::compare(&before, &now, tolerances)))
     }
 
-    fn tell(
-        &self,
-        header: &report::check::Header,
-        found: &check::Check,
-        comparison: Option<&baseline::Comparison>,
-        notes: &[String],
-        output: Output,
-    ) -> String {
+    fn tell(&self, found: &Run, refused: bool, notes: &[String], output: Output) -> String {
         if output.json {
-            return json_text(&report::check::json(header, found, comparison));
+            return found.json();
         }
         let mut text = String::new();
         if output.verbose {
             let lines = notes.iter().map(|note| format!("note: {note}\n"));
             text += &layout::fitted(&lines.collect::<String>());
         }
-        let refused = found.is_refused();
         if !output.quiet || refused {
-            text += &layout::findings(&found.findings, output.verbose);
+            text += &layout::findings(found.findings, output.verbose);
         }
         if output.quiet {
-            if let Some(comparison) = comparison.filter(|c| !c.worse.is_empty()) {
+            if let Some(comparison) = found.baseline.filter(|c| !c.worse.is_empty()) {
                 text += &layout::fitted(&baseline::text(comparison));
             }
         } else {
-            text += &layout::fitted(&report::check::text(header, found, comparison));
+            text += &layout::fitted(&report::check::text(found));
         }
         if let (Some(path), true) = (&self.baseline, self.update_baseline && !output.quiet) {
             text += &format!("stored as {}\n", path.display());

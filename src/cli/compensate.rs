@@ -4,7 +4,7 @@ use super::layout;
 use super::programs::programs_in;
 use super::telling::ReportFile;
 use super::way::Drawing;
-use super::{Answer, Output, files, json_text, print, values};
+use super::{Answer, Output, files, print, values};
 use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
 use crate::compensate::{Compensation, Given, Options, compensate};
@@ -13,11 +13,12 @@ use crate::geometry::units::m_from_mm;
 use crate::model::profile::Profile;
 use crate::program::{Language, Marker, Source};
 use crate::report;
+use crate::task::compensate::{Compensated, Header};
 use crate::task::files::{same_file, sha256, write_all};
 use crate::task::programs::{
     common_language, explain, language_by_id, refuse_doubtful, refuse_marked,
 };
-use crate::task::{Failure, frame};
+use crate::task::{Document, Failure, frame};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -134,7 +135,7 @@ impl Compensate {
         let refused = compensation.is_refused();
         let writes = !refused || self.keep_going;
         let outputs = found.iter().filter(|_| writes);
-        let header = report::compensation::Header {
+        let header = Header {
             inputs: sources.iter().map(|s| s.name.clone()).collect(),
             outputs: outputs
                 .map(|job| job.output.display().to_string())
@@ -339,13 +340,10 @@ fn render(
 }
 
 /// What is printed when all is done.
-fn tell(
-    header: &report::compensation::Header,
-    compensation: &Compensation,
-    output: Output,
-) -> String {
+fn tell(header: &Header, compensation: &Compensation, output: Output) -> String {
+    let found = Compensated::new(header, compensation);
     if output.json {
-        return json_text(&report::compensation::json(header, compensation));
+        return found.json();
     }
     let written = !header.outputs.is_empty();
     let mut text = String::new();
@@ -353,7 +351,11 @@ fn tell(
         text += &layout::findings(&compensation.findings, output.verbose);
     }
     if !output.quiet {
-        text += &layout::fitted(&report::compensation::text(header, compensation));
+        text += &layout::fitted(&report::compensation::text(
+            &found,
+            header.inputs.len(),
+            header.language,
+        ));
     }
     match header.outputs.as_slice() {
         [] => {

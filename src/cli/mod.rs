@@ -186,12 +186,6 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// A JSON document as it is printed.
-fn json_text(value: &impl serde::Serialize) -> String {
-    serde_json::to_string_pretty(value).expect("a report holds only finite numbers and text keys")
-        + "\n"
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

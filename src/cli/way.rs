@@ -4,10 +4,10 @@ use crate::check::trace::{Traced, trace};
 use crate::compensate::{Compensation, Options};
 use crate::model::profile::Profile;
 use crate::program::{Language, Source};
-use crate::report;
 use crate::report::html::page::Page;
 use crate::report::html::programs::{Compensated, SAMPLES, Scenery, add_written, compensate_page};
 use crate::task::ProfileFile;
+use crate::task::compensate::Header;
 use crate::task::meshes::Loader;
 
 /// The report while it is made: the program as it was, then as it is written.
@@ -19,7 +19,7 @@ pub struct Drawing {
 impl Drawing {
     /// The program as it was.
     pub fn begin(
-        header: &report::compensation::Header,
+        header: &Header,
         compensation: &Compensation,
         file: &ProfileFile,
         options: &Options,

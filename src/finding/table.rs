@@ -214,6 +214,14 @@ pub const TABLE: &[Kind] = &[
         &[],
     ),
     row(
+        "direction-uncertain",
+        Warning,
+        "the text does not tell in which direction joints with backlash come to the target",
+        "come to the target on a longer move",
+        &["compensate", "check"],
+        &[],
+    ),
+    row(
         "displaced-target",
         Warning,
         "a point that a move displaces from its target is compensated with the target, not for itself; an error beyond the limit",
@@ -742,6 +750,14 @@ pub const TABLE: &[Kind] = &[
         &["fanuc"],
     ),
     row(
+        "run-time-position",
+        Note,
+        "a move goes to where the robot itself was; that is right as it is",
+        "it stays as it is",
+        &["compensate", "check"],
+        &[],
+    ),
+    row(
         "scale",
         Warning,
         "TO is larger or smaller than FROM",
@@ -1052,5 +1068,13 @@ pub const TABLE: &[Kind] = &[
         "start the job with a position in pulses",
         &["compensate", "check"],
         &["inform"],
+    ),
+    row(
+        "write-not-called",
+        Warning,
+        "a routine that changes a target or a frame is called by none of these files",
+        "give the file that calls it, too",
+        &["compensate", "check"],
+        &[],
     ),
 ];

@@ -9,10 +9,8 @@ pub mod layout;
 mod text;
 
 use crate::finding::Finding;
-use crate::geometry::Pose;
-use crate::task::{Document, parts};
+use crate::task::Document;
 use html::page::Page;
-use serde_json::{Value, json};
 
 /// How a text is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,20 +34,6 @@ pub trait Report: Document {
     /// What a person should look at.
     fn findings(&self) -> &[Finding] {
         &[]
-    }
-}
-
-/// A pose for reports: position, angles and quaternion.
-pub fn pose(pose: &Pose) -> Value {
-    serde_json::to_value(parts::Pose::from(pose)).expect("numbers under text keys")
-}
-
-/// Nothing, a name, or a list of names.
-fn one_or_many(names: &[String]) -> Value {
-    match names {
-        [] => Value::Null,
-        [one] => json!(one),
-        many => json!(many),
     }
 }
 

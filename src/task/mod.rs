@@ -21,6 +21,8 @@
 pub mod axes;
 pub mod calibrate;
 pub mod catalogue;
+pub mod check;
+pub mod compensate;
 pub mod diagnose;
 pub mod explain;
 mod failure;

@@ -1,8 +1,8 @@
 //! JSON Schemas of the files and reports, by name.
 
 use super::{
-    Document, axes, calibrate, catalogue, diagnose, explain, fk, handeye, hexapod, ik, plan,
-    profile, register, simulate, validate,
+    Document, axes, calibrate, catalogue, check, compensate, diagnose, explain, fk, handeye,
+    hexapod, ik, plan, profile, register, simulate, validate,
 };
 use crate::check::cell::Cell;
 use crate::model::profile::Profile;
@@ -29,6 +29,16 @@ pub const SCHEMAS: &[Format] = &[
     format("profile", "robot profile (YAML)", Profile::schema),
     format("cell", "cell (YAML)", Cell::schema),
     format("frame", "frame file (YAML)", Frame::schema),
+    format(
+        "compensation",
+        "compensate --json",
+        of::<compensate::Compensated>,
+    ),
+    format(
+        "check",
+        "check --json, and the baseline that it stores",
+        of::<check::Checked>,
+    ),
     format(
         "calibration",
         "calibrate --json",

@@ -82,3 +82,43 @@ fn explain_tells_one_finding_and_asks_back_for_none() {
         Some(TABLE.len())
     );
 }
+
+/// Whether a text is a name in kebab-case of several words.
+fn is_id(text: &str) -> bool {
+    text.contains('-')
+        && text.starts_with(|c: char| c.is_ascii_lowercase())
+        && !text.ends_with('-')
+        && text
+            .chars()
+            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+}
+
+#[test]
+fn what_the_source_finds_is_in_the_table() {
+    let source = repository("src");
+    let mut seen = BTreeSet::new();
+    for file in files_below(&source) {
+        if file.extension().is_none_or(|e| e != "rs") || file.starts_with("finding") {
+            continue;
+        }
+        let text = std::fs::read_to_string(source.join(&file)).expect("source");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines: Vec<&str> = code.lines().collect();
+        for (n, line) in lines.iter().enumerate() {
+            // an id stands before its severity
+            let behind = &lines[n..lines.len().min(n + 3)];
+            let has_severity = behind.iter().any(|line| line.contains("Severity::"));
+            let before = n.checked_sub(1).map_or("", |n| lines[n]);
+            let is_remark = [before, line]
+                .iter()
+                .any(|line| line.contains("remark(") || line.contains("warning("));
+            for word in line.split('"').skip(1).step_by(2) {
+                if is_id(word) && (has_severity || is_remark) {
+                    assert!(kind(word).is_some(), "{}: {word}", file.display());
+                    seen.insert(word.to_owned());
+                }
+            }
+        }
+    }
+    assert!(seen.len() > 80, "{}", seen.len());
+}

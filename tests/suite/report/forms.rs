@@ -219,13 +219,10 @@ fn every_report_is_what_its_schema_says() {
             .arg("--json")
             .output()
             .expect("the program starts");
-        if !is_known {
-            assert!(
-                ["", "compensation", "check"].contains(&name),
-                "no schema of {kind}"
-            );
+        if kind.is_empty() {
             continue;
         }
+        assert!(is_known, "no schema of {kind}");
         let schema: Value = serde_json::from_str(&run(&["schema", name]).1).expect("a schema");
         let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(faults(&schema, &report), Vec::<String>::new(), "{line}");
