@@ -79,6 +79,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "geometry",
             "identify",
             "model",
+            "motion",
             "program",
             "register",
             "report",

@@ -201,7 +201,7 @@ fn text_json_and_page_of_every_command_tell_the_same_numbers() {
         kinds.insert(kind.split('/').next().unwrap_or_default().to_owned());
     }
     assert!(unknown.is_empty(), "not in the JSON: {unknown:#?}");
-    assert!(told > 500 && drawn > 500, "{told} {drawn}");
+    assert!(told > 500 && drawn > 300, "{told} {drawn}");
     assert!(kinds.len() > 12, "{kinds:?}");
 }
 
