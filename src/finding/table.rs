@@ -70,28 +70,12 @@ pub const TABLE: &[Kind] = &[
         &[],
     ),
     row(
-        "axis-count",
-        Error,
-        "a position in pulses or degrees does not have six axes",
-        "compensate jobs of arms with six axes",
-        &["compensate", "check"],
-        &["inform"],
-    ),
-    row(
         "bad-touch",
         Warning,
         "a touch contradicts the others and is left out (--robust)",
         "touch it again",
         &["register"],
         &[],
-    ),
-    row(
-        "base-axis",
-        Error,
-        "the robot stands on a base axis that is not at zero",
-        "move the base axis to zero in the job",
-        &["compensate", "check"],
-        &["inform"],
     ),
     row(
         "base-not-determined",
@@ -262,6 +246,14 @@ pub const TABLE: &[Kind] = &[
         &["fanuc"],
     ),
     row(
+        "external-axis",
+        Error,
+        "a base or station axis is not at zero",
+        "move that axis to zero in the job",
+        &["compensate", "check"],
+        &["inform"],
+    ),
+    row(
         "external-tcp",
         Error,
         "the robot holds the work piece (`#TCP`)",
@@ -299,7 +291,7 @@ pub const TABLE: &[Kind] = &[
         "only the running program knows which tool or frame a move has",
         "name the tool and the frame in the move",
         &["compensate", "check"],
-        &["rapid", "krl", "fanuc"],
+        &["rapid", "krl", "fanuc", "inform"],
     ),
     row(
         "frame-known-at-run-time",
@@ -755,7 +747,7 @@ pub const TABLE: &[Kind] = &[
         "a move goes to where the robot itself was; that is right as it is",
         "it stays as it is",
         &["compensate", "check"],
-        &[],
+        &["inform"],
     ),
     row(
         "scale",
@@ -920,10 +912,10 @@ pub const TABLE: &[Kind] = &[
     row(
         "target-not-six-axes",
         Error,
-        "group 1 of the point is not that of an arm with six joints",
+        "the target does not have the six joints of the arm",
         "compensate programs of arms with six joints",
         &["compensate", "check"],
-        &["fanuc"],
+        &["fanuc", "inform"],
     ),
     row(
         "target-passed-to-function",
@@ -939,7 +931,7 @@ pub const TABLE: &[Kind] = &[
         "the target is handed to a routine, which may use it with any tool and frame",
         "move to the target where its tool and frame are named",
         &["compensate", "check"],
-        &["rapid", "krl"],
+        &["rapid", "krl", "inform"],
     ),
     row(
         "target-shared",
@@ -971,7 +963,7 @@ pub const TABLE: &[Kind] = &[
         "no move of the program uses these points",
         "they are compensated as their own frame and tool say",
         &["compensate", "check"],
-        &["fanuc"],
+        &["fanuc", "inform"],
     ),
     row(
         "target-used-as-frame",
@@ -1075,6 +1067,6 @@ pub const TABLE: &[Kind] = &[
         "a routine that changes a target or a frame is called by none of these files",
         "give the file that calls it, too",
         &["compensate", "check"],
-        &[],
+        &["inform"],
     ),
 ];
