@@ -10,8 +10,8 @@
 use super::before::{ANYWHERE, Before, START, Sets, Stop};
 use super::holding::{Atom, DECLARED, Holding, Holdings, NOTHING, Site};
 use crate::program::script::{
-    Argument, Call, DISPLACED_SOMEHOW, Expr, Held, How, Label, NOT_DISPLACED, Part, PartValue,
-    RoutineId, Script, Start, Statement, ValueId, VariableId, Write, Written, short,
+    Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, NOT_DISPLACED, Part,
+    PartValue, RoutineId, Script, Start, Statement, ValueId, VariableId, Write, Written, short,
 };
 use std::collections::{BinaryHeap, HashMap};
 use std::rc::Rc;
@@ -680,6 +680,12 @@ impl<'a> Flow<'a> {
             let one = self.variable(state, variable);
             guard = self.holdings.join(guard, one);
         }
+        for expected in &*script.expected[instruction.expected as usize] {
+            if let Some(site) = self.differs(state, expected) {
+                let one = self.holdings.one(Atom::Unknown(expected.remark), site);
+                guard = self.holdings.join(guard, one);
+            }
+        }
         self.reached[stop as usize] = Some(Reached {
             tool: self.evaluate(state, instruction.tool, site),
             frame: self.evaluate(state, instruction.frame, site),
@@ -712,6 +718,21 @@ impl<'a> Flow<'a> {
             Some(&also) => self.holdings.join(held, also),
             None => held,
         }
+    }
+
+    /// Where a variable was given the number that it certainly holds in the place of the one that a move expects.
+    fn differs(&mut self, state: &State, expected: &Expected) -> Option<Site> {
+        let held = self.variable(state, expected.variable);
+        let atoms = self.holdings.of(held);
+        let is_other = |atom: &Atom| {
+            matches!(atom, Atom::Value(value)
+                if matches!(self.value(*value), Held::Number(number) if *number != expected.number))
+        };
+        let (_, site) = atoms.first()?;
+        atoms
+            .iter()
+            .all(|(atom, _)| is_other(atom))
+            .then_some(*site)
     }
 
     /// Whether an expression says the same whatever was before.

@@ -818,7 +818,7 @@ impl Resolver<'_, '_> {
 
     /// Targets that no move uses stay where others are used; once a file.
     fn tell_unused(&mut self) {
-        if !self.used.contains(&true) {
+        if !self.script.is_closed && !self.used.contains(&true) {
             return;
         }
         let mut by_file: Vec<(u32, TargetId, usize)> = Vec::new();
@@ -854,7 +854,7 @@ impl Resolver<'_, '_> {
         let mut said = HashSet::new();
         for (variable, site) in std::mem::take(&mut self.flow.by_operator) {
             let of = &self.script.variables[variable as usize];
-            if of.shared || matches!(of.declared, Expr::Absent) {
+            if of.shared || matches!(of.declared, Expr::Absent | Expr::Unknown(_)) {
                 continue;
             }
             let Some(place) = self.flow.place_of(site) else {
