@@ -11,9 +11,10 @@ use super::before::{ANYWHERE, Before, START, Sets, Stop};
 use super::holding::{Atom, DECLARED, Holding, Holdings, NOTHING, Site};
 use crate::program::script::{
     Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, NOT_DISPLACED, Part,
-    PartValue, RoutineId, Script, Start, Statement, ValueId, VariableId, Write, Written, short,
+    PartValue, RoutineId, Script, Start, Statement, TableId, ValueId, VariableId, Write, Written,
+    short,
 };
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::{BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
 
 /// Calls inside calls that are told apart.
@@ -23,6 +24,8 @@ const MOST_TIMES: usize = 3;
 const MOST_MORE: usize = 20_000;
 /// Times that what is kept from run to run, or written at any time, is gone through.
 const MOST_ROUNDS: usize = 8;
+/// Entries of a table that all its writes by unknown numbers may reach; beyond, they hold anywhere.
+const MOST_WRITES: usize = 1_000_000;
 /// Statements gone through, times those of the instances, after which the flow gives up.
 const MOST_VISITS: usize = 200;
 
@@ -102,6 +105,8 @@ pub(super) struct Flow<'a> {
     fixed: Vec<Holding>,
     /// Variables in slots.
     tracked: Vec<VariableId>,
+    /// Tables that are written at so many places by numbers that only the running program knows, that what is written holds anywhere.
+    loose: HashSet<TableId>,
     /// What routines that run at any time may write, by variable.
     anytime: HashMap<VariableId, Holding>,
     label_places: Vec<u32>,
@@ -147,6 +152,7 @@ impl<'a> Flow<'a> {
             slots: Vec::new(),
             fixed: Vec::new(),
             tracked: Vec::new(),
+            loose: HashSet::new(),
             anytime: HashMap::new(),
             label_places,
             instances: Vec::new(),
@@ -192,6 +198,7 @@ impl<'a> Flow<'a> {
         let count = script.variables.len();
         let mut writes: Vec<(u32, Site)> = vec![(0, DECLARED); count];
         let mut whole: Vec<Option<Expr>> = vec![None; count];
+        let mut any: HashMap<TableId, usize> = HashMap::new();
         for (at, statement) in script.statements.iter().enumerate() {
             let mut note = |variable: VariableId, value: Option<Expr>| {
                 let (n, site) = &mut writes[variable as usize];
@@ -205,11 +212,7 @@ impl<'a> Flow<'a> {
                     match (write.variable, &write.how) {
                         (Written::One(variable), How::Whole(value)) => note(variable, Some(*value)),
                         (Written::One(variable), _) => note(variable, None),
-                        (Written::AnyOf(table), _) => {
-                            for variable in script.tables[table as usize].entries.values() {
-                                note(*variable, None);
-                            }
-                        }
+                        (Written::AnyOf(table), _) => *any.entry(table).or_insert(0_usize) += 1,
                     }
                 }
                 Statement::Call(call) => {
@@ -233,6 +236,22 @@ impl<'a> Flow<'a> {
                     }
                 }
                 _ => {}
+            }
+        }
+        for (table, times) in any {
+            let entries = &script.tables[table as usize].entries;
+            let is_loose = times.saturating_mul(entries.len()) > MOST_WRITES;
+            for &variable in entries.values() {
+                writes[variable as usize].0 += 2;
+                whole[variable as usize] = None;
+                if is_loose {
+                    let changed = self.changed(variable);
+                    let changed = self.holdings.one(changed, DECLARED);
+                    self.anytime.insert(variable, changed);
+                }
+            }
+            if is_loose {
+                self.loose.insert(table);
             }
         }
         for variable in 0..count {
@@ -756,6 +775,7 @@ impl<'a> Flow<'a> {
                 let holding = self.written(write, variable, site, state);
                 self.set(state, variable, holding);
             }
+            Written::AnyOf(table) if self.loose.contains(&table) => {}
             Written::AnyOf(table) => {
                 for variable in self.script.tables[table as usize].entries.values() {
                     let held = self.variable(state, *variable);
@@ -764,6 +784,16 @@ impl<'a> Flow<'a> {
                     self.set(state, *variable, either);
                 }
             }
+        }
+    }
+
+    /// What a variable holds that something may have written: its own position with other numbers, or anything.
+    fn changed(&self, variable: VariableId) -> Atom {
+        match self.script.variables[variable as usize].declared {
+            Expr::Target(target) => Atom::Changed {
+                target: short(target),
+            },
+            _ => Atom::Anything,
         }
     }
 
@@ -896,12 +926,7 @@ impl<'a> Flow<'a> {
                 }
             }
             if let Some(variable) = argument.back.filter(|_| call.callees.is_empty()) {
-                let own = match self.script.variables[variable as usize].declared {
-                    Expr::Target(target) => Atom::Changed {
-                        target: short(target),
-                    },
-                    _ => Atom::Anything,
-                };
+                let own = self.changed(variable);
                 let changed = self.holdings.one(own, site);
                 self.set(state, variable, changed);
             }
