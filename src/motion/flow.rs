@@ -315,7 +315,15 @@ impl<'a> Flow<'a> {
             }
             Expr::Displaced { base, by } => {
                 let base = of_variable(self, script.lists[base as usize]);
+                let is_actual = |flow: &Self, atom: &Atom| matches!(atom, Atom::Value(value) if *flow.value(*value) == Held::Actual);
+                let atoms = self.holdings.of(base).iter();
+                let actual: Vec<Atom> = atoms
+                    .map(|(atom, _)| *atom)
+                    .filter(|atom| is_actual(self, atom))
+                    .collect();
                 self.map(base, |atom| match atom {
+                    // arithmetic on where the robot was
+                    atom if actual.contains(&atom) => Atom::Anything,
                     Atom::Target {
                         target,
                         displacement: NOT_DISPLACED,
