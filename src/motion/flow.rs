@@ -130,6 +130,10 @@ pub(super) struct Flow<'a> {
     /// Where variables are written in routines that nothing in the files calls.
     pub by_operator: Vec<(VariableId, Site)>,
     is_concurrent: bool,
+    /// With what routines are started beside others.
+    started: HashMap<RoutineId, State>,
+    /// What those that start others write, by variable.
+    beside: HashMap<VariableId, Holding>,
 }
 
 impl<'a> Flow<'a> {
@@ -169,10 +173,30 @@ impl<'a> Flow<'a> {
             given_away: Vec::new(),
             by_operator: Vec::new(),
             is_concurrent: false,
+            started: HashMap::new(),
+            beside: HashMap::new(),
         };
         flow.track();
-        flow.run_concurrent();
-        flow.run_entries();
+        for _ in 0..MOST_ROUNDS {
+            let before = (
+                flow.started.clone(),
+                flow.beside.clone(),
+                flow.anytime.clone(),
+            );
+            flow.forget();
+            flow.run_concurrent();
+            flow.run_entries();
+            if flow.started.is_empty()
+                || before
+                    == (
+                        flow.started.clone(),
+                        flow.beside.clone(),
+                        flow.anytime.clone(),
+                    )
+            {
+                break;
+            }
+        }
         flow.run_dead();
         flow.given_away.sort_unstable();
         flow.given_away.dedup();
@@ -215,7 +239,7 @@ impl<'a> Flow<'a> {
                         (Written::AnyOf(table), _) => *any.entry(table).or_insert(0_usize) += 1,
                     }
                 }
-                Statement::Call(call) => {
+                Statement::Call(call) | Statement::Start(call) => {
                     let call = &script.calls[*call as usize];
                     for argument in self.arguments(call) {
                         for variable in [argument.parameter, argument.back].into_iter().flatten() {
@@ -420,6 +444,10 @@ impl<'a> Flow<'a> {
             let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);
             self.anytime.insert(variable, joined);
+        } else if !self.started.is_empty() {
+            let before = self.beside.get(&variable).copied().unwrap_or(NOTHING);
+            let joined = self.holdings.join(before, holding);
+            self.beside.insert(variable, joined);
         }
         if let Some(slot) = self.slots[variable as usize]
             && state.holds[slot as usize] != holding
@@ -643,6 +671,9 @@ impl<'a> Flow<'a> {
                             None => return visits,
                         }
                     }
+                }
+                Statement::Start(call) => {
+                    self.start(&script.calls[call as usize], at, &state);
                 }
                 Statement::Label(label) => {
                     self.arrive(instance, label, &state);
@@ -953,15 +984,7 @@ impl<'a> Flow<'a> {
         let mut behind = call.foreign.then(|| start.clone());
         for &routine in &*call.callees {
             let callee = self.called(instance, statement, routine);
-            let mut entry = start.clone();
-            for argument in self.arguments(call) {
-                if let Some(parameter) = argument.parameter
-                    && self.script.variables[parameter as usize].routine == Some(routine)
-                {
-                    let held = self.evaluate(&start, argument.value, statement);
-                    self.set(&mut entry, parameter, held);
-                }
-            }
+            let entry = self.entry_of(call, routine, statement, &start);
             let waiting = &mut self.instances[callee as usize].waiting;
             if !waiting.contains(&(instance, statement)) {
                 waiting.push((instance, statement));
@@ -977,6 +1000,32 @@ impl<'a> Flow<'a> {
             });
         }
         behind
+    }
+
+    /// The state in which a call enters a routine: what it is given is bound.
+    fn entry_of(&mut self, call: &Call, routine: RoutineId, site: Site, start: &State) -> State {
+        let mut entry = start.clone();
+        for argument in self.arguments(call) {
+            if let Some(parameter) = argument.parameter
+                && self.script.variables[parameter as usize].routine == Some(routine)
+            {
+                let held = self.evaluate(start, argument.value, site);
+                self.set(&mut entry, parameter, held);
+            }
+        }
+        entry
+    }
+
+    /// Notes with what routines are started that then run beside the others.
+    fn start(&mut self, call: &Call, site: Site, state: &State) {
+        for &routine in &*call.callees {
+            let mut entry = self.entry_of(call, routine, site, state);
+            entry.before = self.sets.one(ANYWHERE);
+            if let Some(before) = self.started.get(&routine).cloned() {
+                entry = self.join(&before, &entry);
+            }
+            self.started.insert(routine, entry);
+        }
     }
 
     /// The state that a routine leaves, with the caller's own variables as they were.
@@ -1022,12 +1071,26 @@ impl<'a> Flow<'a> {
         if concurrent.is_empty() {
             return;
         }
+        let mut by_others = vec![false; self.script.routines.len()];
+        for statement in &self.script.statements {
+            if let Statement::Start(call) = statement {
+                for &routine in &*self.script.calls[*call as usize].callees {
+                    by_others[routine as usize] = true;
+                }
+            }
+        }
         self.is_concurrent = true;
         for _ in 0..MOST_ROUNDS {
             let before = self.anytime.clone();
             self.forget();
-            let state = self.declared_state(ANYWHERE);
+            let declared = self.declared_state(ANYWHERE);
             for &routine in &concurrent {
+                let state = match self.started.get(&routine).cloned() {
+                    Some(state) => self.with_beside(state),
+                    // nothing has been seen to start it yet
+                    None if by_others[routine as usize] => continue,
+                    None => declared.clone(),
+                };
                 let instance = self.instance(routine, 0, NO_INSTANCE);
                 self.enter(instance, &state);
             }
@@ -1037,6 +1100,19 @@ impl<'a> Flow<'a> {
             }
         }
         self.is_concurrent = false;
+    }
+
+    /// A state in which all that others write meanwhile may hold.
+    fn with_beside(&mut self, mut state: State) -> State {
+        let mut holds = state.holds.to_vec();
+        for (variable, &written) in &self.beside {
+            if let Some(slot) = self.slots[*variable as usize] {
+                let slot = slot as usize;
+                holds[slot] = self.holdings.join(holds[slot], written);
+            }
+        }
+        state.holds = Rc::new(holds);
+        state
     }
 
     fn forget(&mut self) {
@@ -1179,7 +1255,7 @@ impl<'a> Flow<'a> {
         Some(match script.statements.get(site as usize)? {
             Statement::Move(at) => script.instructions[*at as usize].place,
             Statement::Write(at) => script.writes[*at as usize].place,
-            Statement::Call(at) => script.calls[*at as usize].place,
+            Statement::Call(at) | Statement::Start(at) => script.calls[*at as usize].place,
             _ => return None,
         })
     }

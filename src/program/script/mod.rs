@@ -292,6 +292,8 @@ pub enum Statement {
     Write(u32),
     /// Index in [`Script::calls`].
     Call(u32),
+    /// Starts routines that then run beside this one ([`Start::Concurrent`]): index in [`Script::calls`].
+    Start(u32),
     /// Statements come here.
     Label(Label),
     /// Goes on there, or with the next statement.
