@@ -94,7 +94,8 @@ impl Portion {
         report.before = worst(group.iter().map(|(approach, _)| uncorrected(job, approach)));
         self.findings.extend(singularity(job, approach, outcome));
         self.findings.extend(other_posture(job, approach, outcome));
-        if shift.distance_m < NO_SHIFT.distance_m && shift.angle_rad < NO_SHIFT.angle_rad {
+        let moved = job.ground.off_part(wanted).separation(&given);
+        if moved.distance_m < NO_SHIFT.distance_m && moved.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
         let Some(written) = self.written(job, approach, fake, fractions) else {
