@@ -252,11 +252,9 @@ fn a_profile_that_corrects_nothing_marks_nothing() {
 #[test]
 fn conf_off_lasts_across_calls() {
     // row r
-    let text = format!(
-        "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\ngo;\nENDPROC\n\
-         PROC go()\nMoveL [[420,0,400],[0,0,1,0],[1,1,1,1],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n"
-    );
-    let done = done(&[PLAIN], &[("t.mod", &text)]);
+    let text = "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\ngo;\nENDPROC\n\
+         PROC go()\nMoveL [[420,0,400],[0,0,1,0],[1,1,1,1],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+    let done = done(&[PLAIN], &[("t.mod", text)]);
     assert!(
         !done
             .findings
