@@ -289,6 +289,12 @@ fn rounding_finding(
     rounding: Separation,
     shift: Separation,
 ) -> Finding {
+    // what a field for joints takes is that
+    let severity = if job.ground.is_joints(approach.target as usize) {
+        Severity::Warning
+    } else {
+        Severity::Error
+    };
     let message = format!(
         "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg off its wanted pose; the limit is 0.010 mm and 0.010 deg (the shift is {:.3} mm, {:.3} deg)",
         job.ground.name_of(approach.target as usize),
@@ -299,7 +305,7 @@ fn rounding_finding(
     );
     job.ground.at_target(
         "rounding",
-        Severity::Error,
+        severity,
         approach.target as usize,
         message,
         "--decimals 4 writes more",

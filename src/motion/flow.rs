@@ -88,6 +88,20 @@ enum From {
     Dead,
 }
 
+/// The name of a record and what its parts are.
+type Content = (Box<str>, Vec<(u8, u64)>);
+
+/// What a part is, to compare.
+fn bits(value: PartValue) -> (u8, u64) {
+    match value {
+        PartValue::Number(number) => (0, number.to_bits()),
+        PartValue::Flag(flag) => (1, flag.into()),
+        PartValue::Text { empty } => (2, empty.into()),
+        PartValue::Missing => (3, 0),
+        PartValue::Computed => (4, 0),
+    }
+}
+
 /// The flow through a script.
 pub(super) struct Flow<'a> {
     script: &'a Script,
@@ -97,6 +111,8 @@ pub(super) struct Flow<'a> {
     pub made: Vec<Held>,
     more_parts: Vec<Part>,
     made_parts: HashMap<(ValueId, u32, u32), Option<ValueId>>,
+    /// Records that writes of parts made, by what is in them: what comes round again is the same.
+    made_records: HashMap<Content, ValueId>,
     /// Slots of the variables of each routine's own.
     locals: HashMap<RoutineId, Vec<u32>>,
     /// The slot of each variable that is tracked.
@@ -134,6 +150,8 @@ pub(super) struct Flow<'a> {
     started: HashMap<RoutineId, State>,
     /// What those that start others write, by variable.
     beside: HashMap<VariableId, Holding>,
+    /// The instance whose text is gone through that nothing reaches.
+    dead: Option<u32>,
 }
 
 impl<'a> Flow<'a> {
@@ -152,6 +170,7 @@ impl<'a> Flow<'a> {
             made: Vec::new(),
             more_parts: Vec::new(),
             made_parts: HashMap::new(),
+            made_records: HashMap::new(),
             locals: HashMap::new(),
             slots: Vec::new(),
             fixed: Vec::new(),
@@ -175,6 +194,7 @@ impl<'a> Flow<'a> {
             is_concurrent: false,
             started: HashMap::new(),
             beside: HashMap::new(),
+            dead: None,
         };
         flow.track();
         for _ in 0..MOST_ROUNDS {
@@ -573,11 +593,11 @@ impl<'a> Flow<'a> {
 
     fn arrive(&mut self, instance: u32, label: Label, state: &State) {
         let place = self.label_places[label as usize];
-        if place == u32::MAX {
-            // the text has no such label: nothing is known to follow
+        let key = (instance, label);
+        // the text may have no such label: nothing is known to follow; what is reached is not reached from dead text
+        if place == u32::MAX || self.dead == Some(instance) && self.visited[place as usize] {
             return;
         }
-        let key = (instance, label);
         let joined = match self.at_labels.get(&key) {
             Some((old, _)) => {
                 let old = old.clone();
@@ -693,6 +713,9 @@ impl<'a> Flow<'a> {
     }
 
     fn leave(&mut self, instance: u32, state: &State) {
+        if self.dead == Some(instance) && self.instances[instance as usize].entry.is_some() {
+            return;
+        }
         let joined = match &self.instances[instance as usize].exit {
             Some(exit) => {
                 let exit = exit.clone();
@@ -810,6 +833,9 @@ impl<'a> Flow<'a> {
             Written::AnyOf(table) => {
                 for variable in self.script.tables[table as usize].entries.values() {
                     let held = self.variable(state, *variable);
+                    if !matches!(write.how, How::Whole(_)) && self.is_in_parts(held, *variable) {
+                        continue;
+                    }
                     let holding = self.written(write, *variable, site, state);
                     let either = self.holdings.join(held, holding);
                     self.set(state, *variable, either);
@@ -826,6 +852,26 @@ impl<'a> Flow<'a> {
             },
             _ => Atom::Anything,
         }
+    }
+
+    /// Whether a variable holds its own target, of which some parts may be written over: once more changes nothing.
+    fn is_in_parts(&self, held: Holding, variable: VariableId) -> bool {
+        let Expr::Target(own) = self.script.variables[variable as usize].declared else {
+            return false;
+        };
+        let atoms = self.holdings.of(held).iter().map(|(atom, _)| *atom);
+        let own = short(own);
+        atoms
+            .clone()
+            .any(|atom| atom == Atom::Changed { target: own })
+            && atoms.clone().all(|atom| match atom {
+                Atom::Changed { target } => target == own,
+                Atom::Target {
+                    target,
+                    displacement,
+                } => target == own && displacement == NOT_DISPLACED,
+                _ => false,
+            })
     }
 
     /// What a variable holds behind a write.
@@ -920,6 +966,13 @@ impl<'a> Flow<'a> {
         if same {
             return Some(value);
         }
+        let content = (
+            name.clone(),
+            all.iter().map(|part| bits(part.value)).collect(),
+        );
+        if let Some(&known) = self.made_records.get(&content) {
+            return Some(known);
+        }
         let start = short(script.parts.len() + self.more_parts.len());
         self.more_parts.extend(all);
         let end = short(script.parts.len() + self.more_parts.len());
@@ -927,7 +980,9 @@ impl<'a> Flow<'a> {
             name,
             parts: start..end,
         });
-        Some(short(script.values.len() + self.made.len() - 1))
+        let made = short(script.values.len() + self.made.len() - 1);
+        self.made_records.insert(content, made);
+        Some(made)
     }
 
     /// The parts of a record.
@@ -1243,6 +1298,7 @@ impl<'a> Flow<'a> {
                 let instance =
                     instance.unwrap_or_else(|| self.instance(short(routine), 0, NO_INSTANCE));
                 own = Some(Some(instance));
+                self.dead = Some(instance);
                 self.push(instance, at, From::Dead);
                 self.run_work();
             }
