@@ -86,8 +86,8 @@ struct Resolver<'a, 'p> {
     used: Vec<bool>,
     /// Targets that are tools or frames, and where.
     as_frames: HashMap<TargetId, Place>,
-    /// Moves whose tool, frame or mode is in doubt: target, and the call.
-    doubted: Vec<(TargetId, Site)>,
+    /// Moves whose tool, frame or mode is in doubt: target, the call, and whether it is the tool alone.
+    doubted: Vec<(TargetId, Site, bool)>,
     /// Moves of each stop.
     stops: Vec<(u32, u32)>,
     full: bool,
@@ -147,9 +147,13 @@ impl Resolver<'_, '_> {
             frames.push((frame, self.written(site, instruction)));
         }
         let configured = self.flags(reached.configured);
+        let free_orientation =
+            instruction.free_orientation || self.flags(reached.wrist).contains(&true);
         let mut listed = Listed {
             at,
+            stop,
             instruction,
+            free_orientation,
             tools,
             frames,
             configured,
@@ -159,6 +163,11 @@ impl Resolver<'_, '_> {
         match reached.target {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
             Some(held) => {
+                let atoms = self.flow.holdings.of(held).iter();
+                if atoms.filter(|(atom, _)| *atom != Atom::Doubt).count() == 0 {
+                    // nothing that runs before writes it
+                    self.computed(instruction.place);
+                }
                 for (atom, site) in self.atoms(held) {
                     self.go_to(atom, Some(site), instruction.displacement, &mut listed);
                 }
@@ -184,7 +193,8 @@ impl Resolver<'_, '_> {
         place.filter(|place| *place != instruction.place)
     }
 
-    fn doubts(&self, reached: &Reached) -> Option<Site> {
+    /// The call that leaves tool, frame or mode in doubt, and whether it is the tool alone.
+    fn doubts(&self, reached: &Reached) -> Option<(Site, bool)> {
         let of = |holding: Holding| {
             let atoms = self.flow.holdings.of(holding).iter();
             atoms
@@ -192,7 +202,10 @@ impl Resolver<'_, '_> {
                 .map(|(_, site)| *site)
                 .next()
         };
-        of(reached.tool).or(of(reached.frame)).or(of(reached.guard))
+        let others = of(reached.frame).or(of(reached.guard));
+        others
+            .map(|site| (site, false))
+            .or(of(reached.tool).map(|site| (site, true)))
     }
 
     /// What speaks against a move; what is only worth a word is said.
@@ -377,12 +390,16 @@ impl Resolver<'_, '_> {
 
     // ---- targets
 
-    /// Lists the moves to an expression that says the same whatever was before.
+    /// Lists the moves to an expression that says the same whatever was before, or to each of several.
     fn fixed(&mut self, value: Expr, displacement: u32, listed: &mut Listed) {
         let script = self.script;
         match value {
-            Expr::Absent | Expr::Variable(_) | Expr::Element { .. } => {
-                self.go_nowhere(listed);
+            Expr::Absent | Expr::Element { .. } => self.go_nowhere(listed),
+            Expr::Variable(variable) => {
+                let held = self.flow.chosen_at(listed.stop, variable);
+                for (atom, site) in self.atoms(held) {
+                    self.go_to(atom, Some(site), displacement, listed);
+                }
             }
             Expr::Target(target) => self.go_target(target, displacement, listed),
             Expr::Value(value) => self.go_to(Atom::Value(value), None, displacement, listed),
@@ -394,17 +411,15 @@ impl Resolver<'_, '_> {
             Expr::Any { first, end } => {
                 let many = self.report.program.moves.len() + (end - first) as usize > MOST_USES;
                 for inner in &script.lists[first as usize..end as usize] {
-                    if many && matches!(inner, Expr::Target(target) if self.used[*target]) {
+                    let own = match *inner {
+                        Expr::Variable(variable) => script.variables[variable as usize].declared,
+                        other => other,
+                    };
+                    if many && matches!(own, Expr::Target(target) if self.used[target]) {
                         self.too_many(listed.instruction.place);
                         continue;
                     }
-                    match *inner {
-                        Expr::Variable(variable) => {
-                            let declared = script.variables[variable as usize].declared;
-                            self.fixed(declared, displacement, listed);
-                        }
-                        other => self.fixed(other, displacement, listed),
-                    }
+                    self.fixed(*inner, displacement, listed);
                 }
                 if first == end {
                     self.go_nowhere(listed);
@@ -447,7 +462,7 @@ impl Resolver<'_, '_> {
             Atom::Value(ValueId::MAX) | Atom::Doubt => self.go_nowhere(listed),
             Atom::Value(value) => {
                 match self.flow.value(value) {
-                    Held::Actual => self.report.say(
+                    Held::Actual if displacement == NOT_DISPLACED => self.report.say(
                         "run-time-position",
                         Severity::Note,
                         listed.instruction.place,
@@ -506,8 +521,8 @@ impl Resolver<'_, '_> {
             self.report
                 .block(target, remark.id, &remark.text, remark.hint, because);
         }
-        if let Some(site) = listed.doubts {
-            self.doubted.push((target, site));
+        if let Some((site, tool_alone)) = listed.doubts {
+            self.doubted.push((target, site, tool_alone));
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
         let displacement = match self.script.displacements.get(displacement as usize) {
@@ -659,7 +674,7 @@ impl Resolver<'_, '_> {
             configured,
             near: instruction.near.clone(),
             pace: instruction.pace,
-            free_orientation: instruction.free_orientation,
+            free_orientation: listed.free_orientation,
             instruction: *at,
             before: Before::Start,
             tool_written,
@@ -737,12 +752,23 @@ impl Resolver<'_, '_> {
         let mut ids: Vec<(ToolId, FrameId)> = poses.map(|m| (m.tool, m.frame)).collect();
         ids.sort_unstable();
         ids.dedup();
-        let poses_of_tools: HashSet<ToolId> = ids.iter().map(|(tool, _)| *tool).collect();
-        let poses_of_frames: HashSet<FrameId> = ids.iter().map(|(_, frame)| *frame).collect();
-        if poses_of_tools.len() < 2 && poses_of_frames.len() < 2 {
-            return;
+        let frames: HashSet<FrameId> = ids.iter().map(|(_, frame)| *frame).collect();
+        // tools that differ in their load alone are one here
+        let mut tools: Vec<&Tool> = Vec::new();
+        let used: HashSet<ToolId> = ids.iter().map(|(tool, _)| *tool).collect();
+        for tool in used.into_iter().map(|tool| &program.tools[tool]) {
+            let same = |known: &&Tool| {
+                known.name == tool.name && known.flange_from_tool == tool.flange_from_tool
+            };
+            if tools.len() < 2 && !tools.iter().any(same) {
+                tools.push(tool);
+            }
         }
-        for (target, site) in doubted {
+        let (several_tools, several_frames) = (tools.len() > 1, frames.len() > 1);
+        for (target, site, tool_alone) in doubted {
+            if !several_tools && (tool_alone || !several_frames) {
+                continue;
+            }
             if self.report.program.targets[target].layout.shape == Shape::Joints {
                 continue;
             }
@@ -759,6 +785,13 @@ impl Resolver<'_, '_> {
 
     /// Targets that are given away, that are frames too, or that nothing uses; writes that nothing sees.
     fn judge_targets(&mut self) {
+        for &(target, remark) in &self.script.refused {
+            if self.used[target] {
+                let remark = &self.script.remarks[remark as usize];
+                self.report
+                    .block(target, remark.id, &remark.text, remark.hint, None);
+            }
+        }
         for (target, site) in std::mem::take(&mut self.flow.given_away) {
             let because = self.flow.place_of(site);
             self.used[target as usize] = true;
@@ -768,6 +801,18 @@ impl Resolver<'_, '_> {
                 "this target is given to a routine that is not in the files, which may use it with any tool and work frame",
                 "give the file with the routine too, or move to the target where its tool and work frame are named",
                 because,
+            );
+        }
+        let mut lost: Vec<u32> = self.flow.holdings.lost.drain().collect();
+        lost.sort_unstable();
+        for target in lost {
+            self.used[target as usize] = true;
+            self.report.block(
+                target as usize,
+                "too-many-uses",
+                "a move may go to this and to so many other targets that they are not told apart",
+                "give fewer files in one call",
+                None,
             );
         }
         let mut as_frames: Vec<_> = self.as_frames.drain().collect();
@@ -793,7 +838,7 @@ impl Resolver<'_, '_> {
 
     /// Targets that no move uses stay where others are used; once a file.
     fn tell_unused(&mut self) {
-        if !self.used.contains(&true) {
+        if !self.script.is_closed && !self.used.contains(&true) {
             return;
         }
         let mut by_file: Vec<(u32, TargetId, usize)> = Vec::new();
@@ -829,7 +874,11 @@ impl Resolver<'_, '_> {
         let mut said = HashSet::new();
         for (variable, site) in std::mem::take(&mut self.flow.by_operator) {
             let of = &self.script.variables[variable as usize];
-            if of.shared || matches!(of.declared, Expr::Absent) {
+            // a mode that is off is off when another routine starts
+            let is_mode = matches!(of.declared, Expr::Value(value)
+                if matches!(self.flow.value(value), Held::Flag(_)));
+            let is_unknown = matches!(of.declared, Expr::Absent | Expr::Unknown(_));
+            if of.shared || is_mode || is_unknown {
                 continue;
             }
             let Some(place) = self.flow.place_of(site) else {
@@ -862,12 +911,14 @@ fn both(a: u32, b: u32) -> u32 {
 /// What a move has, before its targets are listed.
 struct Listed<'a> {
     at: u32,
+    stop: Stop,
     instruction: &'a Instruction,
+    free_orientation: bool,
     tools: Vec<Choice<ToolId>>,
     frames: Vec<Choice<FrameId>>,
     configured: Vec<bool>,
     guards: Vec<(RemarkId, Site)>,
-    doubts: Option<Site>,
+    doubts: Option<(Site, bool)>,
 }
 
 /// Collects findings.

@@ -14,6 +14,7 @@ mod insert;
 mod kit;
 pub mod krl;
 mod marker;
+mod names;
 pub mod number;
 pub mod rapid;
 pub mod script;

@@ -50,9 +50,9 @@ fn outputs_of_post_processors_have_the_known_targets() {
         let bytes = std::fs::read(folder.join("fanuc").join(name)).expect("a program");
         let source = Source::new(name, bytes);
         assert!(Fanuc.recognises(&source));
-        let program = Fanuc
-            .read(std::slice::from_ref(&source), &Settings::default())
-            .expect("a program");
+        let program =
+            crate::motion::read(&Fanuc, std::slice::from_ref(&source), &Settings::default())
+                .expect("a program");
         assert_eq!((program.targets.len(), program.moves.len()), (60, 60));
         assert_eq!(program.findings, [], "{name}");
         let unchanged = crate::program::Edits::default().apply(&source.bytes);
