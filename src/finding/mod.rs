@@ -21,6 +21,7 @@ pub enum Severity {
 
 /// Something in a program that a person should look at.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(into = "Written")]
 pub struct Finding {
     /// Stable name in kebab-case.
     pub id: &'static str,
@@ -36,6 +37,49 @@ pub struct Finding {
     pub message: String,
     /// The way out; empty where there is none.
     pub hint: String,
+    /// It was an error, and the user takes it: `--accept`.
+    pub accepted: bool,
+}
+
+/// A finding as reports have it.
+#[derive(Serialize, JsonSchema)]
+struct Written {
+    /// Stable name in kebab-case.
+    id: &'static str,
+    /// How much it matters.
+    severity: Severity,
+    /// The file as the user named it.
+    file: String,
+    /// Line, from 1; 0 where the finding concerns the whole file.
+    line: usize,
+    /// Column in bytes, from 1; 0 where the finding concerns the whole file.
+    column: usize,
+    /// What was found, with the value and the limit.
+    message: String,
+    /// The way out; empty where there is none.
+    hint: String,
+    /// It was an error, and the user takes it.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    accepted: bool,
+    /// What it was called in earlier versions.
+    #[serde(skip_serializing_if = "<[_]>::is_empty", default)]
+    was: &'static [&'static str],
+}
+
+impl From<Finding> for Written {
+    fn from(finding: Finding) -> Self {
+        Self {
+            id: finding.id,
+            severity: finding.severity,
+            file: finding.file,
+            line: finding.line,
+            column: finding.column,
+            message: finding.message,
+            hint: finding.hint,
+            accepted: finding.accepted,
+            was: kind(finding.id).map_or(&[], |kind| kind.was),
+        }
+    }
 }
 
 impl Finding {
@@ -54,6 +98,7 @@ impl Finding {
             column: 0,
             message: message.into(),
             hint: String::new(),
+            accepted: false,
         }
     }
 

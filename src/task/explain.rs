@@ -21,6 +21,10 @@ pub struct Explanation {
     pub commands: &'static [&'static str],
     /// The languages in whose programs it is found; none where it is not a matter of the language.
     pub languages: &'static [&'static str],
+    /// What it was called in earlier versions.
+    pub was: &'static [&'static str],
+    /// Whether `--accept` takes it.
+    pub acceptable: bool,
 }
 
 impl From<&Kind> for Explanation {
@@ -32,6 +36,8 @@ impl From<&Kind> for Explanation {
             remedy: kind.remedy,
             commands: kind.commands,
             languages: kind.languages,
+            was: kind.was,
+            acceptable: kind.severity == Severity::Error && !kind.never_accepted,
         }
     }
 }

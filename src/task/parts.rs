@@ -381,6 +381,7 @@ pub fn findings(remarks: &[Remark], file: &str) -> Vec<Finding> {
         column: usize::from(r.line.number > 0),
         message: r.message.clone(),
         hint: r.hint.clone(),
+        accepted: false,
     };
     remarks.iter().map(one).collect()
 }

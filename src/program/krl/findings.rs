@@ -169,6 +169,7 @@ impl<'a> Report<'a> {
             column,
             message,
             hint: hint.to_owned(),
+            accepted: false,
         });
     }
 

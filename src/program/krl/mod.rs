@@ -6,30 +6,7 @@
 //! is worked out over branches, loops and calls (`flow`), from $TOOL and $BASE themselves, BAS, FDAT of inline forms, WITH,
 //! `TOOL_DATA` and `BASE_DATA` (`places`). Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere.
 //!
-//! # Findings
-//!
-//! | id | severity | meaning |
-//! |---|---|---|
-//! | `target-assigned-at-run-time` | error | the running program changes the target |
-//! | `target-has-expressions` | error | parts of the target are expressions, not numbers |
-//! | `partial-target` | error | components are missing, which keep the value of the position before |
-//! | `target-passed-to-routine` | error | the target is handed to a routine |
-//! | `target-name-ambiguous` | error | a name is declared more than once, and its use does not tell which is meant |
-//! | `target-used-as-frame` | error | the target is a tool or base, too |
-//! | `frame-assigned-at-run-time` | error | the running program changes the tool or base |
-//! | `frame-chosen-at-run-time` | error | ways that meet, an expression or a routine outside the files decide the tool or base |
-//! | `frame-name-ambiguous` | error | `TOOL_DATA` or `BASE_DATA` is declared more than once with different values |
-//! | `moving-frame` | error | the base hangs on another kinematic |
-//! | `external-tcp` | error | the robot holds the work piece (`#TCP`) |
-//! | `absolutely-accurate` | error | S bit 4: the controller corrects the target itself; with `--force` a warning, once a file |
-//! | `computed-target` | error | a move goes to a position that only the running program knows |
-//! | `target-not-in-files` | error | a move goes to a target that the files do not declare |
-//! | `relative-move` | error | a _REL move from a position that the text does not tell |
-//! | `target-copied` | warning | another target is computed from this one |
-//! | `long-line` | warning | new numbers may make the line longer than the controller takes |
-//! | `relative-joint-move` | note | a _REL move of axes |
-//! | `joint-target-not-in-files` | note | a move goes to axes without a value in the files, such as XHOME |
-//! | `target-never-used` | note | no move in the program of this data list goes to the target; it stays |
+//! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! For joint targets, which stay unless asked for, the first twelve are warnings.
 //!

@@ -505,6 +505,7 @@ mod tests {
             column: 1,
             message: "\u{2028}\"quoted\" & <b>bold</b> \u{fc}".into(),
             hint: String::new(),
+            accepted: false,
         }
     }
 

@@ -256,5 +256,6 @@ fn warning(id: &'static str, file: &str, line: usize, message: String) -> Findin
         column: usize::from(line > 0),
         message,
         hint: BY_HAND.into(),
+        accepted: false,
     }
 }

@@ -1,11 +1,10 @@
 //! The table of findings: one for all, and the same as what modules say of themselves.
 
 use crate::support::{files_below, repository, run};
-use poseshift::finding::{Severity, TABLE, kind};
+use poseshift::finding::{TABLE, kind};
+use poseshift::program::LANGUAGES;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-
-const LANGUAGES: [&str; 6] = ["csv", "fanuc", "inform", "krl", "rapid", "urscript"];
 
 /// Every text of the source that is in quotes, the table itself left out.
 fn quoted() -> BTreeSet<String> {
@@ -39,34 +38,65 @@ fn the_table_is_sorted_has_each_id_once_and_none_that_nothing_finds() {
     }
 }
 
+/// The code of a file of the source, without its tests and comments.
+fn code(text: &str) -> String {
+    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let lines = code.lines();
+    lines
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .fold(String::new(), |all, line| all + line + "\n")
+}
+
 #[test]
-fn languages_say_of_their_findings_what_the_table_says() {
-    let mut severities: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for language in LANGUAGES {
-        let module = format!("src/program/{language}/mod.rs");
-        let text = crate::support::text(&module);
-        let mut told = BTreeSet::new();
-        for line in text.lines() {
-            let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-            if let ["//!", id, severity @ ("error" | "warning" | "note"), ..] = cells.as_slice() {
-                let id = id.trim_matches('`').to_owned();
-                let of_id = severities.entry(id.clone()).or_default();
-                of_id.insert((*severity).to_owned());
-                told.insert(id);
+fn the_languages_of_a_finding_are_the_folders_that_find_it() {
+    let languages: Vec<&str> = LANGUAGES.iter().map(|l| l.about().id).collect();
+    let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    let source = repository("src");
+    for file in files_below(&source) {
+        let name = file.to_string_lossy().into_owned();
+        if !name.ends_with(".rs") || name.starts_with("finding") || name.contains("/tests") {
+            continue;
+        }
+        let folder = name
+            .strip_prefix("program/")
+            .and_then(|name| name.split('/').next());
+        let language = folder.and_then(|folder| languages.iter().find(|l| **l == folder));
+        let text = code(&std::fs::read_to_string(source.join(&file)).expect("source"));
+        for word in text.split('"').skip(1).step_by(2) {
+            if let Some(kind) = kind(word).filter(|kind| kind.id == word) {
+                // what is found outside the folders is found in all languages
+                found
+                    .entry(kind.id)
+                    .or_default()
+                    .insert(language.map_or("all", |l| l));
             }
         }
-        let of_table = TABLE
-            .iter()
-            .filter(|kind| kind.languages.contains(&language));
-        let known: BTreeSet<String> = of_table.map(|kind| kind.id.to_owned()).collect();
-        assert_eq!(told, known, "{module}");
     }
-    // what one language lets through with a warning another has to refuse: the table has the worse
-    for (id, told) in severities {
-        let of_table = kind(&id).expect("in the table").severity;
-        let word = |severity: Severity| format!("{severity:?}").to_lowercase();
-        assert!(told.contains(&word(of_table)), "{id}: {told:?}");
+    for kind in TABLE {
+        let of_table: BTreeSet<&str> = kind.languages.iter().copied().collect();
+        let folders = found.remove(kind.id).unwrap_or_default();
+        let folders = if folders.contains("all") {
+            BTreeSet::new()
+        } else {
+            folders
+        };
+        assert_eq!(of_table, folders, "{}", kind.id);
     }
+}
+
+#[test]
+fn earlier_names_lead_to_the_finding_and_are_none_of_today() {
+    let today: BTreeSet<&str> = TABLE.iter().map(|kind| kind.id).collect();
+    let mut earlier = BTreeSet::new();
+    for of in TABLE {
+        for was in of.was {
+            assert!(!today.contains(was) && earlier.insert(*was), "{was}");
+            assert_eq!(kind(was).map(|kind| kind.id), Some(of.id));
+        }
+    }
+    let (status, out, _) = run(&["explain", "incremental-move"]);
+    assert_eq!(status, 0);
+    assert!(out.contains("relative-move"), "{out}");
 }
 
 #[test]
