@@ -10,6 +10,7 @@ use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
 use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use crate::geometry::units::MM;
+use crate::inverse::Methods;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::program::{LANGUAGES, Language, Marker, Source};
 use crate::report;
@@ -52,6 +53,9 @@ pub struct Compensate {
     /// What to do with joint targets
     #[arg(long, value_enum, default_value = "keep")]
     joint_targets: JointTargets,
+    /// How to search the joints of the real arm
+    #[arg(long, value_enum, default_value = "auto")]
+    method: Search,
     /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
@@ -70,6 +74,15 @@ pub struct Compensate {
     language: Option<String>,
     #[command(flatten)]
     report: ReportFile,
+}
+
+/// How to search the joints of the real arm
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Search {
+    /// Pose shift, and damped Newton where it stalls
+    Auto,
+    /// Pose shift alone; where it stalls the target is refused
+    PoseShift,
 }
 
 /// What to do with joint targets
@@ -205,6 +218,10 @@ impl Compensate {
             decimals: self.decimals.map(usize::from),
             summary_only: !each,
             accept_absolutely_accurate: self.force,
+            methods: match self.method {
+                Search::Auto => Methods::Auto,
+                Search::PoseShift => Methods::PoseShift,
+            },
         })
     }
 

@@ -56,7 +56,7 @@ pub struct Ik {
     /// Tool of the profile (default: its only one)
     #[arg(long, value_name = "NAME")]
     tool: Option<String>,
-    /// Every solution, one a branch
+    /// Every solution: one a branch, or as many as there are with an offset wrist (`branch/number`)
     #[arg(long)]
     all: bool,
 }
@@ -120,7 +120,9 @@ impl Fk {
 
 struct Solved {
     id: String,
-    solution: usize,
+    branch: u8,
+    /// Which of the answers on the branch, where it may hold several.
+    root: Option<u8>,
     outcome: crate::inverse::Outcome,
 }
 
@@ -155,6 +157,18 @@ impl Ik {
             } else {
                 middle(&profile)
             };
+            if self.all && inverse.arm.has_offset_wrist() {
+                // the real arm's answer is sought from the nominal one
+                for answer in inverse.arm.solve_all(&wanted, &near) {
+                    solved.push(Solved {
+                        id: row.id(number + 1),
+                        branch: answer.branch.number(),
+                        root: Some(answer.root),
+                        outcome: inverse.solve(&wanted, answer.branch, &answer.q),
+                    });
+                }
+                continue;
+            }
             let branches = if self.all {
                 Branch::ALL.to_vec()
             } else if table.has("branch") {
@@ -172,7 +186,8 @@ impl Ik {
                 let outcome = inverse.solve(&wanted, branch, &near);
                 solved.push(Solved {
                     id: row.id(number + 1),
-                    solution: usize::from(branch.number()),
+                    branch: branch.number(),
+                    root: None,
                     outcome,
                 });
             }
@@ -216,7 +231,7 @@ fn print_solutions(solved: &[Solved], output: Output) -> Result<(), Failure> {
             .iter()
             .map(|s| {
                 json!({
-                    "id": s.id, "solution": s.solution, "joints_deg": s.outcome.q.map(|q| q / DEG),
+                    "id": s.id, "solution": s.branch, "root": s.root, "joints_deg": s.outcome.q.map(|q| q / DEG),
                     "residual_mm": mm_from_m(s.outcome.residual.distance_m), "residual_deg": s.outcome.residual.angle_rad / DEG,
                     "iterations": s.outcome.iterations, "status": s.outcome.status.id(),
                 })
@@ -242,10 +257,11 @@ fn print_solutions(solved: &[Solved], output: Output) -> Result<(), Failure> {
         ]
         .map(cell)
         .join(",");
+        let root = s.root.map_or_else(String::new, |root| format!("/{root}"));
         text.push_str(&format!(
-            "{},{},{numbers},{residual},{},{}\n",
+            "{},{}{root},{numbers},{residual},{},{}\n",
             s.id,
-            s.solution,
+            s.branch,
             s.outcome.iterations,
             s.outcome.status.id()
         ));

@@ -32,7 +32,7 @@ use rewrite::Portion;
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::inverse::{Arm, Branch, Inverse, Status, Targets, Unsupported, solve_batch};
+use crate::inverse::{Arm, Branch, Inverse, Methods, Status, Targets, Unsupported, solve_batch_by};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use crate::program::{Edits, Language, Program, ReadError, Settings, Source, Value};
@@ -58,6 +58,8 @@ pub struct Options {
     pub summary_only: bool,
     /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
     pub accept_absolutely_accurate: bool,
+    /// Which methods may search the joints of the real arm.
+    pub methods: Methods,
 }
 
 /// Why nothing could be compensated.
@@ -402,7 +404,8 @@ fn solve(job: &Job, drafts: &[Draft], findings: &mut Vec<Finding>) -> Solved {
         let wanted: Vec<_> = tasks.iter().map(|task| task.wanted).collect();
         let branches: Vec<_> = tasks.iter().map(|task| task.branch).collect();
         let near: Vec<_> = tasks.iter().map(|task| task.nominal_q).collect();
-        let outcomes = solve_batch(
+        let outcomes = solve_batch_by(
+            job.options.methods,
             &inverse,
             Targets {
                 wanted: &wanted,

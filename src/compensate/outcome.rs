@@ -3,7 +3,7 @@
 use super::{Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
-use crate::inverse::{Branch, Outcome, Status};
+use crate::inverse::{Branch, Method, Outcome, Status};
 use crate::program::{Decoded, Edits, Program, Settings, Shape, Target};
 use std::collections::BTreeMap;
 
@@ -78,6 +78,12 @@ pub struct TargetReport {
     pub rounding: Separation,
     /// Evaluations of the real model.
     pub iterations: u32,
+    /// Those of the pose shift.
+    pub shift_evaluations: u32,
+    /// Those of damped Newton.
+    pub newton_evaluations: u32,
+    /// By which method the search ended; `None` where there was none.
+    pub method: Option<Method>,
     /// The branch of the inverse.
     pub branch: Option<Branch>,
     /// How the search ended; `None` where there was none.
@@ -98,6 +104,9 @@ impl TargetReport {
             residual: solved.map_or(none, |(_, outcome)| outcome.residual),
             rounding: none,
             iterations: solved.map_or(0, |(_, outcome)| outcome.iterations),
+            shift_evaluations: solved.map_or(0, |(_, outcome)| outcome.shift_evaluations),
+            newton_evaluations: solved.map_or(0, |(_, outcome)| outcome.newton_evaluations),
+            method: solved.map(|(_, outcome)| outcome.method),
             branch: solved.map(|(task, _)| task.branch),
             status: solved.map(|(_, outcome)| outcome.status),
             changed: false,

@@ -7,7 +7,7 @@ use super::{Draft, Job, Task};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
-use crate::inverse::{Arm, Branch};
+use crate::inverse::{Ambiguous, Answer, Arm, Branch};
 use crate::model::effects::Need;
 use crate::program::{Configuration, Decoded, Displacement, Role, Value};
 
@@ -217,6 +217,16 @@ fn choose_way(job: &Job, asked: &Asked, findings: &mut Vec<Finding>) -> Option<W
         honoured,
         start,
     } = asked;
+    if arm.has_offset_wrist() {
+        match on_track(asked) {
+            Ok(None) => {}
+            Ok(way) => return way,
+            Err(ambiguous) => {
+                findings.push(unclear(job, *target, &ambiguous));
+                return None;
+            }
+        }
+    }
     // along a path the next posture is mostly on the branch of the last one; the others are tried where it does not fit
     if let Some(before) = start {
         let way = way(arm, wanted, arm.posture(before).0, before, configuration);
@@ -288,6 +298,51 @@ fn choose_way(job: &Job, asked: &Asked, findings: &mut Vec<Finding>) -> Option<W
     None
 }
 
+/// The answer of an arm with an offset wrist that the configuration means, by its track from the posture before where several
+/// have it. `None` where none has it.
+fn on_track(asked: &Asked) -> Result<Option<Way>, Ambiguous> {
+    let (arm, wanted) = (asked.arm, &asked.wanted);
+    let middle = arm
+        .mechanism()
+        .joints
+        .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
+    let before = asked.start.as_ref();
+    if let Some(q) = before.and_then(|before| arm.follow(before, wanted).ok()) {
+        let way = configured(arm, arm.posture(&q).0, q, &asked.configuration);
+        if let Some(way) = way.filter(|way| way.configured) {
+            return Ok(Some(way));
+        }
+    }
+    let near = asked.start.unwrap_or(middle);
+    let way = |answer: &Answer| configured(arm, answer.branch, answer.q, &asked.configuration);
+    let is_meant = |answer: &Answer| way(answer).is_some_and(|way| way.configured);
+    let chosen = arm.choose(wanted, &near, before, is_meant)?;
+    Ok(chosen.as_ref().and_then(way))
+}
+
+/// Several postures of one branch have the configuration that the file gives.
+fn unclear(job: &Job, target: usize, ambiguous: &Ambiguous) -> Finding {
+    let joints = |answer: &Answer| {
+        let q = answer.q.map(|q| format!("{:.1}", q / DEG));
+        format!("({})", q.join(", "))
+    };
+    let candidates: Vec<String> = ambiguous.candidates.iter().map(joints).collect();
+    let message = format!(
+        "{} postures at {} have the configuration that the file gives, and no straight way from a target before leads to one of \
+         them (joints {} deg)",
+        candidates.len(),
+        name_of(job, target),
+        candidates.join(" or ")
+    );
+    job.at_target(
+        "configuration-ambiguous",
+        Severity::Error,
+        target,
+        message,
+        "put a joint target before it",
+    )
+}
+
 /// Whether a posture follows the one before without a change of branch or a turn in between.
 fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
     (0..6).all(|i| (q[i] - before[i]).abs() < 45.0 * DEG)
@@ -306,8 +361,17 @@ fn way(
     if solution.beyond > 0.0 {
         return None;
     }
+    configured(arm, branch, solution.q, configuration)
+}
+
+/// A solution with the turns that the configuration data and the limits ask for; `None` beyond a limit.
+fn configured(
+    arm: &Arm,
+    branch: Branch,
+    mut q: [f64; 6],
+    configuration: &Configuration,
+) -> Option<Way> {
     let mechanism = arm.mechanism();
-    let mut q = solution.q;
     let mut in_ranges = true;
     for i in 0..6 {
         let limits = (
