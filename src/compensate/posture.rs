@@ -307,15 +307,18 @@ fn on_track(asked: &Asked) -> Result<Option<Way>, Ambiguous> {
         .joints
         .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
     let before = asked.start.as_ref();
+    // a robot that does not honour its configuration goes on as it came
+    let free = !asked.honoured && before.is_some();
+    let fits = |way: &Way| free || way.configured;
     if let Some(q) = before.and_then(|before| arm.follow(before, wanted).ok()) {
         let way = configured(arm, arm.posture(&q).0, q, &asked.configuration);
-        if let Some(way) = way.filter(|way| way.configured) {
+        if let Some(way) = way.filter(fits) {
             return Ok(Some(way));
         }
     }
     let near = asked.start.unwrap_or(middle);
     let way = |answer: &Answer| configured(arm, answer.branch, answer.q, &asked.configuration);
-    let is_meant = |answer: &Answer| way(answer).is_some_and(|way| way.configured);
+    let is_meant = |answer: &Answer| way(answer).as_ref().is_some_and(fits);
     let chosen = arm.choose(wanted, &near, before, is_meant)?;
     Ok(chosen.as_ref().and_then(way))
 }
@@ -328,7 +331,7 @@ fn unclear(job: &Job, target: usize, ambiguous: &Ambiguous) -> Finding {
     };
     let candidates: Vec<String> = ambiguous.candidates.iter().map(joints).collect();
     let message = format!(
-        "{} postures at {} have the configuration that the file gives, and no straight way from a target before leads to one of \
+        "{} postures at {} have the configuration that the file gives, and no straight path from a target before leads to one of \
          them (joints {} deg)",
         candidates.len(),
         name_of(job, target),

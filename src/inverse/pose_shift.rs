@@ -256,8 +256,9 @@ impl Inverse {
                     return outcome;
                 }
             }
-        } else if self.is_hopeless(start) {
-            return failed(q, start.missing(), start.beyond, 0);
+        }
+        if self.is_hopeless(start) {
+            return failed(q, start.missing(), start.beyond, newton);
         }
         let nominal = self.arm.solve_branch(wanted, branch, near);
         let found = newton::solve(self, wanted, branch, near, &q, &nominal.q);

@@ -1,4 +1,4 @@
-//! The answer that a straight way of the tool leads to, and the one that a configuration means.
+//! The answer that a straight path of the tool leads to, and the one that a configuration means.
 //!
 //! Where a branch holds several answers, the letters that a program carries do not tell them apart. What the arm does is
 //! known where it comes from a known posture: it follows one connected track.
@@ -6,18 +6,18 @@
 use super::closed_form::{Answer, Arm};
 use crate::geometry::{Pose, Rotation, add, scale, sub, wrap};
 
-/// Steps that the way is cut into at first, and the shortest ones, as parts of it.
+/// Steps that the path is cut into at first, and the shortest ones, as parts of it.
 const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 1024.0];
 /// A joint turns by less than this in one step, radians.
 const MOST_STEP_RAD: f64 = 0.35;
-/// Nearer to a fold than this, radians, two answers cannot be told apart on the way: they are some three degrees apart.
+/// Nearer to a fold than this, radians, two answers cannot be told apart on the path: they are some three degrees apart.
 const NEAR_FOLD_RAD: f64 = 0.02;
 
-/// A way on which the track of a posture ends.
+/// A path on which the track of a posture ends.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the track of joint angles ends after {:.0} % of the straight way", 100.0 * after)]
+#[error("the track of joint angles ends after {:.0} % of the straight path", 100.0 * after)]
 pub struct TrackEnds {
-    /// After which part of the way.
+    /// After which part of the path.
     pub after: f64,
 }
 
@@ -30,12 +30,12 @@ pub struct Ambiguous {
 }
 
 impl Arm {
-    /// The joint angles of the nominal arm at `to` when its tool goes there on a straight way, turning evenly, from where it
+    /// The joint angles of the nominal arm at `to` when its tool goes there on a straight path, turning evenly, from where it
     /// is at `from`: those on the same connected track.
     ///
     /// # Errors
-    /// Where the track ends on the way: out of reach, or at a singularity (for an arm with an offset wrist at a fold), beyond
-    /// which it may go on in two ways.
+    /// Where the track ends before: out of reach, or at a singularity (for an arm with an offset wrist at a fold), beyond
+    /// which there are two ways to go on.
     pub fn follow(&self, from: &[f64; 6], to: &Pose) -> Result<[f64; 6], TrackEnds> {
         let start = self.forward(from);
         let turn = (to.rotation * start.rotation.transpose()).vector();

@@ -196,13 +196,12 @@ impl Arm {
         middle: &[f64; 6],
     ) -> [Jet; 6] {
         let (signs, near) = (signs.map(Jet::constant), middle.map(Jet::constant));
-        if self.wrist != Wrist::Offset {
-            return self.solve(world_from_tool, signs, &near).q;
-        }
         let target = self.last_row(world_from_tool);
-        // a track may have left the branch that it began on
-        let signs = self.posture(middle).0.signs().map(Jet::constant);
-        let (rows, _) = self.enclose_offset(&target, half_width, signs, middle);
+        let (rows, _) = match self.wrist {
+            Wrist::Spherical => self.solve_spherical(&target, signs, &near),
+            Wrist::Offset => self.enclose_offset(&target, half_width, middle),
+            Wrist::Parallel => self.solve_parallel(&target, signs, &near),
+        };
         let angles = self.angles(&self.turns_of(rows), &near);
         self.mechanism.controller(&angles)
     }

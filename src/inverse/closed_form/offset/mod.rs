@@ -265,9 +265,10 @@ impl Arm {
         &self,
         target: &Pose<Jet>,
         half_width: f64,
-        [front, before, _]: [Jet; 3],
         near: &[f64; 6],
     ) -> ([Turn<Jet>; 6], Jet) {
+        // a track may have left the branch that it began on
+        let [front, before, _] = self.posture(near).0.signs().map(Jet::constant);
         let given = self.row(5, Turn::of(self.mechanism.commanded(near)[5]));
         let middle = Pose {
             rotation: Rotation(target.rotation.0.map(|row| row.map(|x| x.value.middle))),
