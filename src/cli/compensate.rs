@@ -7,6 +7,7 @@ use super::way::Drawing;
 use super::{Answer, Output, files, print, values};
 use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
+use crate::compensate::Methods;
 use crate::compensate::{Compensation, Given, Options, compensate};
 use crate::geometry::units::MM;
 use crate::geometry::units::m_from_mm;
@@ -58,6 +59,9 @@ pub struct Compensate {
     /// What to do with joint targets
     #[arg(long, value_enum, default_value = "keep")]
     joint_targets: JointTargets,
+    /// How to search the joints of the real arm
+    #[arg(long, value_enum, default_value = "auto")]
+    method: Search,
     /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
@@ -82,6 +86,15 @@ pub struct Compensate {
     language: Option<String>,
     #[command(flatten)]
     report: ReportFile,
+}
+
+/// How to search the joints of the real arm
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Search {
+    /// Pose shift, and damped Newton where it stalls
+    Auto,
+    /// Pose shift alone; where it stalls the target is refused
+    PoseShift,
 }
 
 /// What to do with joint targets
@@ -212,6 +225,10 @@ impl Compensate {
                 .as_deref()
                 .map(values::joints)
                 .transpose()?,
+            methods: match self.method {
+                Search::Auto => Methods::Auto,
+                Search::PoseShift => Methods::PoseShift,
+            },
         })
     }
 

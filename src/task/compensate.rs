@@ -5,7 +5,7 @@ use super::parts::{Names, Pose};
 use crate::compensate::{Compensation, meaning};
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::inverse::Status;
+use crate::inverse::{Method, Status};
 use crate::program::{Language, Source, Value};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -58,8 +58,14 @@ pub struct Target {
     pub rounding_mm: f64,
     /// Their angle.
     pub rounding_deg: f64,
-    /// Steps of the search.
+    /// Evaluations of the real model.
     pub iterations: u32,
+    /// Which method found it: `pose-shift` or `newton`.
+    pub method: Option<&'static str>,
+    /// Evaluations by pose shift.
+    pub shift_evaluations: u32,
+    /// Evaluations by Newton's method.
+    pub newton_evaluations: u32,
     /// The configuration.
     pub branch: Option<String>,
     /// How the search ended.
@@ -126,6 +132,9 @@ impl Targets<'_> {
             rounding_mm: mm_from_m(t.rounding.distance_m),
             rounding_deg: t.rounding.angle_rad / DEG,
             iterations: t.iterations,
+            method: t.method.map(Method::id),
+            shift_evaluations: t.shift_evaluations,
+            newton_evaluations: t.newton_evaluations,
             branch: t.branch.map(|b| b.to_string()),
             status: t.status.map(Status::id),
             changed: t.changed,
