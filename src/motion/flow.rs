@@ -36,6 +36,7 @@ pub(super) struct Reached {
     pub frame: Holding,
     pub load: Holding,
     pub configured: Holding,
+    pub wrist: Holding,
     /// `None` where the instruction's own expression says it whatever was before.
     pub target: Option<Holding>,
     /// What speaks against the move.
@@ -115,6 +116,8 @@ pub(super) struct Flow<'a> {
     size: usize,
     /// By stop.
     pub reached: Vec<Option<Reached>>,
+    /// What variables hold where a move goes to one of several positions.
+    chosen: HashMap<Stop, Rc<Vec<Holding>>>,
     /// Instruction of each stop.
     pub instructions: Vec<u32>,
     /// Targets that are given to routines that are not in the files, and the call's statement.
@@ -155,6 +158,7 @@ impl<'a> Flow<'a> {
             visited: vec![false; script.statements.len()],
             size: 0,
             reached: Vec::new(),
+            chosen: HashMap::new(),
             instructions: Vec::new(),
             given_away: Vec::new(),
             by_operator: Vec::new(),
@@ -315,20 +319,28 @@ impl<'a> Flow<'a> {
             }
             Expr::Displaced { base, by } => {
                 let base = of_variable(self, script.lists[base as usize]);
-                self.map(base, |atom| match atom {
-                    Atom::Target {
-                        target,
-                        displacement: NOT_DISPLACED,
-                    } => Atom::Target {
-                        target,
-                        displacement: by,
-                    },
-                    Atom::Target { target, .. } => Atom::Target {
-                        target,
-                        displacement: DISPLACED_SOMEHOW,
-                    },
-                    other => other,
-                })
+                let atoms = self.holdings.of(base).to_vec();
+                let displaced = atoms.into_iter().map(|(atom, site)| {
+                    let atom = match atom {
+                        Atom::Target {
+                            target,
+                            displacement: NOT_DISPLACED,
+                        } => Atom::Target {
+                            target,
+                            displacement: by,
+                        },
+                        Atom::Target { target, .. } => Atom::Target {
+                            target,
+                            displacement: DISPLACED_SOMEHOW,
+                        },
+                        // beside where the robot itself was nothing is as it is
+                        Atom::Value(value) if *self.value(value) == Held::Actual => Atom::Anything,
+                        other => other,
+                    };
+                    (atom, site)
+                });
+                let displaced = displaced.collect();
+                self.holdings.intern(displaced)
             }
             Expr::Variable(_) => of_variable(self, value),
             Expr::Element { table, number } => {
@@ -361,13 +373,6 @@ impl<'a> Flow<'a> {
                 all
             }
         }
-    }
-
-    fn map(&mut self, holding: Holding, change: impl Fn(Atom) -> Atom) -> Holding {
-        let atoms = self.holdings.of(holding);
-        let changed = atoms.iter().map(|(atom, site)| (change(*atom), *site));
-        let changed = changed.collect();
-        self.holdings.intern(changed)
     }
 
     fn variable(&mut self, state: &State, variable: VariableId) -> Holding {
@@ -579,6 +584,8 @@ impl<'a> Flow<'a> {
     /// Nothing is told apart any more: everything that is written is unknown.
     fn give_up(&mut self) {
         self.work.clear();
+        self.chosen.clear();
+        self.holdings.lose_all();
         let unknown = self.holdings.one(Atom::Anything, DECLARED);
         let before = self.sets.one(ANYWHERE);
         for reached in self.reached.iter_mut().flatten() {
@@ -660,7 +667,12 @@ impl<'a> Flow<'a> {
         let stop = of.first_stop + (at - first);
         let target = match instruction.target {
             Expr::Absent | Expr::Target(_) | Expr::Value(_) | Expr::Unknown(_) => None,
-            Expr::Any { .. } if self.is_fixed(instruction.target) => None,
+            other if self.is_choice(other) => {
+                if !self.is_fixed(other) {
+                    self.chosen.insert(stop, Rc::clone(&state.holds));
+                }
+                None
+            }
             other => Some(self.evaluate(state, other, site)),
         };
         let mut guard = NOTHING;
@@ -673,11 +685,33 @@ impl<'a> Flow<'a> {
             frame: self.evaluate(state, instruction.frame, site),
             load: self.evaluate(state, instruction.load, site),
             configured: self.evaluate(state, instruction.configured, site),
+            wrist: self.evaluate(state, instruction.wrist, site),
             target,
             guard,
             before: state.before,
         });
         state.before = self.sets.one(stop);
+    }
+
+    /// Whether an expression is one of several, displaced or not: the resolver looks at each of them.
+    fn is_choice(&self, value: Expr) -> bool {
+        match value {
+            Expr::Any { .. } => true,
+            Expr::Displaced { base, .. } => self.is_choice(self.script.lists[base as usize]),
+            _ => false,
+        }
+    }
+
+    /// What a variable holds at a stop that goes to one of several positions.
+    pub fn chosen_at(&mut self, stop: Stop, variable: VariableId) -> Holding {
+        let held = match (self.slots[variable as usize], self.chosen.get(&stop)) {
+            (Some(slot), Some(holds)) => holds[slot as usize],
+            _ => self.fixed[variable as usize],
+        };
+        match self.anytime.get(&variable) {
+            Some(&also) => self.holdings.join(held, also),
+            None => held,
+        }
     }
 
     /// Whether an expression says the same whatever was before.
@@ -966,6 +1000,7 @@ impl<'a> Flow<'a> {
         self.at_labels.clear();
         self.at_calls.clear();
         self.reached.clear();
+        self.chosen.clear();
         self.instructions.clear();
         self.size = 0;
     }

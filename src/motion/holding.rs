@@ -1,7 +1,7 @@
 //! What a variable may hold: one value, several, or something that only the running program knows.
 
 use crate::program::script::{DisplacementId, RemarkId, ValueId};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A write, as an index of the script's statements; or the declaration.
 pub(super) type Site = u32;
@@ -30,6 +30,8 @@ pub(super) enum Atom {
 
 /// Values that are told apart.
 const MOST_VALUES: usize = 4;
+/// Positions with numbers in the files that are told apart: a routine may be called for each of an array.
+const MOST_TARGETS: usize = 64;
 
 /// What a variable may hold, each with the write that put it there; by [`Atom`], an index of [`Holdings`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -44,6 +46,8 @@ pub(super) struct Holdings {
     list: Vec<Box<[(Atom, Site)]>>,
     ids: HashMap<Box<[(Atom, Site)]>, u32>,
     joins: HashMap<(u32, u32), u32>,
+    /// Targets of holdings with more than are told apart.
+    pub lost: HashSet<u32>,
 }
 
 impl Holdings {
@@ -53,6 +57,7 @@ impl Holdings {
             list: vec![nothing.clone()],
             ids: HashMap::from([(nothing, 0)]),
             joins: HashMap::new(),
+            lost: HashSet::new(),
         }
     }
 
@@ -69,14 +74,28 @@ impl Holdings {
     pub fn intern(&mut self, mut atoms: Vec<(Atom, Site)>) -> Holding {
         atoms.sort_unstable();
         atoms.dedup_by_key(|(atom, _)| *atom);
-        let values = atoms.iter().filter(|(atom, _)| *atom != Atom::Doubt);
-        if values.count() > MOST_VALUES {
+        let is_target = |atom: &Atom| matches!(atom, Atom::Target { .. } | Atom::Changed { .. });
+        let targets = atoms.iter().filter(|(atom, _)| is_target(atom)).count();
+        let doubts = atoms
+            .iter()
+            .filter(|(atom, _)| *atom == Atom::Doubt)
+            .count();
+        if targets > MOST_TARGETS || atoms.len() - targets - doubts > MOST_VALUES {
             let site = atoms.iter().map(|(_, site)| *site).min();
-            let site = site.unwrap_or(DECLARED);
-            atoms = vec![(Atom::Anything, site)];
+            atoms.push((Atom::Anything, site.unwrap_or(DECLARED)));
+        }
+        if targets > MOST_TARGETS {
+            self.lost
+                .extend(atoms.iter().filter_map(|(atom, _)| match atom {
+                    Atom::Target { target, .. } | Atom::Changed { target } => Some(*target),
+                    _ => None,
+                }));
+            atoms.retain(|(atom, _)| !is_target(atom));
         }
         if atoms.iter().any(|(atom, _)| *atom == Atom::Anything) {
-            atoms.retain(|(atom, _)| *atom == Atom::Anything);
+            atoms.retain(|(atom, _)| *atom == Atom::Anything || is_target(atom));
+            atoms.sort_unstable();
+            atoms.dedup_by_key(|(atom, _)| *atom);
         }
         let atoms = atoms.into_boxed_slice();
         let list = &mut self.list;
@@ -85,6 +104,15 @@ impl Holdings {
             crate::program::script::short(list.len() - 1)
         });
         Holding(id)
+    }
+
+    /// Nothing is told apart any more.
+    pub fn lose_all(&mut self) {
+        let atoms = self.list.iter().flatten();
+        self.lost.extend(atoms.filter_map(|(atom, _)| match atom {
+            Atom::Target { target, .. } | Atom::Changed { target } => Some(*target),
+            _ => None,
+        }));
     }
 
     /// What either may hold.
@@ -128,5 +156,23 @@ mod tests {
         let mut all = Holdings::new();
         let many = all.intern((0..5).map(|i| (Atom::Value(i), i)).collect());
         assert_eq!(all.of(many), [(Atom::Anything, 0)]);
+    }
+
+    #[test]
+    fn targets_stay_beside_what_is_not_known_and_are_kept_in_mind_where_they_are_too_many() {
+        let mut all = Holdings::new();
+        let target = |target| Atom::Target {
+            target,
+            displacement: 0,
+        };
+        let few = all.intern(vec![
+            (target(1), 3),
+            (Atom::Anything, 4),
+            (Atom::Value(0), 5),
+        ]);
+        assert_eq!(all.of(few), [(target(1), 3), (Atom::Anything, 4)]);
+        let many = all.intern((0..65).map(|i| (target(i), i)).collect());
+        assert_eq!(all.of(many), [(Atom::Anything, 0)]);
+        assert_eq!(all.lost.len(), 65);
     }
 }

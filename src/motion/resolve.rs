@@ -147,9 +147,13 @@ impl Resolver<'_, '_> {
             frames.push((frame, self.written(site, instruction)));
         }
         let configured = self.flags(reached.configured);
+        let free_orientation =
+            instruction.free_orientation || self.flags(reached.wrist).contains(&true);
         let mut listed = Listed {
             at,
+            stop,
             instruction,
+            free_orientation,
             tools,
             frames,
             configured,
@@ -377,12 +381,16 @@ impl Resolver<'_, '_> {
 
     // ---- targets
 
-    /// Lists the moves to an expression that says the same whatever was before.
+    /// Lists the moves to an expression that says the same whatever was before, or to each of several.
     fn fixed(&mut self, value: Expr, displacement: u32, listed: &mut Listed) {
         let script = self.script;
         match value {
-            Expr::Absent | Expr::Variable(_) | Expr::Element { .. } => {
-                self.go_nowhere(listed);
+            Expr::Absent | Expr::Element { .. } => self.go_nowhere(listed),
+            Expr::Variable(variable) => {
+                let held = self.flow.chosen_at(listed.stop, variable);
+                for (atom, site) in self.atoms(held) {
+                    self.go_to(atom, Some(site), displacement, listed);
+                }
             }
             Expr::Target(target) => self.go_target(target, displacement, listed),
             Expr::Value(value) => self.go_to(Atom::Value(value), None, displacement, listed),
@@ -394,17 +402,15 @@ impl Resolver<'_, '_> {
             Expr::Any { first, end } => {
                 let many = self.report.program.moves.len() + (end - first) as usize > MOST_USES;
                 for inner in &script.lists[first as usize..end as usize] {
-                    if many && matches!(inner, Expr::Target(target) if self.used[*target]) {
+                    let own = match *inner {
+                        Expr::Variable(variable) => script.variables[variable as usize].declared,
+                        other => other,
+                    };
+                    if many && matches!(own, Expr::Target(target) if self.used[target]) {
                         self.too_many(listed.instruction.place);
                         continue;
                     }
-                    match *inner {
-                        Expr::Variable(variable) => {
-                            let declared = script.variables[variable as usize].declared;
-                            self.fixed(declared, displacement, listed);
-                        }
-                        other => self.fixed(other, displacement, listed),
-                    }
+                    self.fixed(*inner, displacement, listed);
                 }
                 if first == end {
                     self.go_nowhere(listed);
@@ -659,7 +665,7 @@ impl Resolver<'_, '_> {
             configured,
             near: instruction.near.clone(),
             pace: instruction.pace,
-            free_orientation: instruction.free_orientation,
+            free_orientation: listed.free_orientation,
             instruction: *at,
             before: Before::Start,
             tool_written,
@@ -759,6 +765,13 @@ impl Resolver<'_, '_> {
 
     /// Targets that are given away, that are frames too, or that nothing uses; writes that nothing sees.
     fn judge_targets(&mut self) {
+        for &(target, remark) in &self.script.refused {
+            if self.used[target] {
+                let remark = &self.script.remarks[remark as usize];
+                self.report
+                    .block(target, remark.id, &remark.text, remark.hint, None);
+            }
+        }
         for (target, site) in std::mem::take(&mut self.flow.given_away) {
             let because = self.flow.place_of(site);
             self.used[target as usize] = true;
@@ -768,6 +781,18 @@ impl Resolver<'_, '_> {
                 "this target is given to a routine that is not in the files, which may use it with any tool and work frame",
                 "give the file with the routine too, or move to the target where its tool and work frame are named",
                 because,
+            );
+        }
+        let mut lost: Vec<u32> = self.flow.holdings.lost.drain().collect();
+        lost.sort_unstable();
+        for target in lost {
+            self.used[target as usize] = true;
+            self.report.block(
+                target as usize,
+                "too-many-uses",
+                "a move may go to this and to so many other targets that they are not told apart",
+                "give fewer files in one call",
+                None,
             );
         }
         let mut as_frames: Vec<_> = self.as_frames.drain().collect();
@@ -862,7 +887,9 @@ fn both(a: u32, b: u32) -> u32 {
 /// What a move has, before its targets are listed.
 struct Listed<'a> {
     at: u32,
+    stop: Stop,
     instruction: &'a Instruction,
+    free_orientation: bool,
     tools: Vec<Choice<ToolId>>,
     frames: Vec<Choice<FrameId>>,
     configured: Vec<bool>,

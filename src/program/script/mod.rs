@@ -78,6 +78,8 @@ pub struct Script {
     pub arguments: Vec<Argument>,
     /// Sets of variables that may refuse a move, see [`Instruction::guards`].
     pub guards: Vec<Box<[VariableId]>>,
+    /// What speaks against targets themselves, should a move go to them.
+    pub refused: Vec<(TargetId, RemarkId)>,
     /// How many labels there are.
     pub labels: u32,
     /// What the reader saw that a person should look at.
@@ -103,6 +105,7 @@ impl Default for Script {
             calls: Vec::new(),
             arguments: Vec::new(),
             guards: vec![Box::default()],
+            refused: Vec::new(),
             labels: 0,
             findings: Vec::new(),
         }
@@ -333,6 +336,8 @@ pub struct Instruction {
     pub load: Expr,
     /// Whether the controller honours configuration data in this move: a flag.
     pub configured: Expr,
+    /// A flag of the controller that leaves the orientation free on the way, too.
+    pub wrist: Expr,
     /// The joints, radians, from which the controller's inverse starts.
     pub near: Option<Box<[f64; 6]>>,
     /// Added to the target by the instruction itself.
@@ -359,6 +364,7 @@ impl Instruction {
             frame: Expr::Absent,
             load: Expr::Absent,
             configured: Expr::Absent,
+            wrist: Expr::Absent,
             near: None,
             displacement: NOT_DISPLACED,
             guards: 0,
