@@ -9,6 +9,7 @@
 mod before;
 mod flow;
 mod holding;
+mod readers;
 mod resolve;
 
 use crate::program::{Before, Language, Program, ReadError, Settings, Source};
