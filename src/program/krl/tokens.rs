@@ -3,14 +3,11 @@
 //! A statement is one line; nothing goes on to the next. Nothing is decoded or copied. Bytes of 0x80 and above count as
 //! letters, so Latin-1 and UTF-8 both pass. A line may end with LF, CR LF or CR.
 
+use crate::program::script::short;
 use crate::program::{ReadError, Source};
 
-/// A place in the sources.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Place {
-    pub file: u32,
-    pub offset: u32,
-}
+/// What reading gives where it fails.
+pub type Read<T> = Result<T, Fault>;
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,18 +129,6 @@ impl Fault {
     }
 }
 
-/// Offset of a byte; [`super::check_bytes`] keeps files below 4 GiB.
-#[allow(clippy::cast_possible_truncation)]
-pub fn offset(at: usize) -> u32 {
-    at as u32
-}
-
-/// Index in a list that has fewer entries than a file of 4 GiB has bytes.
-#[allow(clippy::cast_possible_truncation)]
-pub fn index(at: usize) -> u32 {
-    at as u32
-}
-
 const LETTER: u8 = 1;
 const DIGIT: u8 = 2;
 
@@ -224,8 +209,8 @@ impl<'a> Cursor<'a> {
         if start >= self.end || first == b';' {
             return Token {
                 kind: Kind::End,
-                start: offset(start),
-                end: offset(start),
+                start: short(start),
+                end: short(start),
             };
         }
         let kind = match first {
@@ -247,8 +232,8 @@ impl<'a> Cursor<'a> {
         };
         Token {
             kind,
-            start: offset(start),
-            end: offset(self.at),
+            start: short(start),
+            end: short(self.at),
         }
     }
 
@@ -256,6 +241,15 @@ impl<'a> Cursor<'a> {
     pub fn peek(&self) -> Token {
         let mut copy = *self;
         copy.next()
+    }
+
+    /// The line from a byte to another.
+    pub fn part(&self, at: usize, end: usize) -> Self {
+        Self {
+            bytes: self.bytes,
+            at,
+            end,
+        }
     }
 
     /// Takes the next token where it is this sign.
@@ -329,7 +323,7 @@ impl<'a> Cursor<'a> {
                 Kind::Sign(b']') => depth -= 1,
                 Kind::End => {
                     return Err(Fault::Unclosed {
-                        at: offset(open),
+                        at: short(open),
                         what: "a bracket",
                     });
                 }
