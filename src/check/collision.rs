@@ -14,12 +14,12 @@
 //! # Source
 //! B. Mirtich, J. Canny, "Impulse-based simulation" (1995) (conservative advancement); S. Piyavskii (1972) (the search).
 
-use super::course::{Leg, Piece};
 use super::query::{Body, Nearest};
 use super::scene::{FixedForm, Other, Scene, Watched};
 use crate::geometry::{Jet, Pose, Vector, norm};
 use crate::model::Model;
 use crate::model::effects::Deflection;
+use crate::motion::course::{Leg, Piece};
 use std::collections::BinaryHeap;
 
 /// The bound is within this of the nearest sample, metres.

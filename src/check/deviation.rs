@@ -7,9 +7,9 @@
 //! The pose's difference has twelve components: three of the position, and nine of the rotation matrices, whose Frobenius
 //! norm is `2√2 sin(φ/2)` at an angle φ.
 
-use super::course::{Leg, Piece};
 use crate::geometry::{Jet, Pose, Scalar, Separation, norm, sub};
 use crate::model::Model;
+use crate::motion::course::{Leg, Piece};
 
 /// Halving ends where the bound is within this of the largest sample, metres and radians, …
 const CLOSE_M: f64 = 1e-6;
@@ -74,10 +74,10 @@ impl Wanted<'_> {
         let s = k(self.from) + s * k(self.to - self.from);
         // of another move only a joint path needs its joints, which are linear in s
         let joints = match &self.leg.course {
-            super::course::Course::Joint { from, to } => {
+            crate::motion::course::Course::Joint { from, to } => {
                 std::array::from_fn(|i| k(from[i]) + k(to[i] - from[i]) * s)
             }
-            super::course::Course::Tool(_) => *joints,
+            crate::motion::course::Course::Tool(_) => *joints,
         };
         self.leg.controller_pose(s, &joints, self.controller_jet)
     }

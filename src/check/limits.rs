@@ -1,8 +1,8 @@
 //! What a move asks of the joints: limits, singularities, rates, turns.
 
-use super::course::{Course, Leg, Piece};
 use crate::geometry::Jet;
 use crate::inverse::Margins;
+use crate::motion::course::{Course, Leg, Piece};
 
 /// The least room of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,12 +3,12 @@
 //! A refined program has targets between those of the original. A move belongs to the original's next move whose end its own
 //! landing is at; what comes before it on the same way are parts of that move.
 
-use super::course::Course;
 use super::walk::Walk;
 use super::{CheckError, Options, Subject};
 use crate::geometry::units::MM;
 use crate::geometry::{Pose, norm, sub};
 use crate::model::Conditions;
+use crate::motion::course::Course;
 use crate::program::Motion;
 
 /// A landing this near to a wanted pose is the landing at it, metres.
@@ -30,7 +30,7 @@ pub(crate) struct Part {
 impl Part {
     /// Where the tool is wanted at its end.
     pub fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
-        let stop = original.route.stops[self.motion].expect("a part's move ends at a stop");
+        let stop = original.stops[self.motion].expect("a part's move ends at a stop");
         if self.to >= 1.0 {
             return stop.pose;
         }
@@ -49,8 +49,8 @@ pub(crate) fn align(
     subject: &Subject,
     options: &Options,
 ) -> Result<Vec<Option<Part>>, CheckError> {
-    let ours = &walk.route.program.moves;
-    let theirs = &original.route.program.moves;
+    let ours = &walk.program.moves;
+    let theirs = &original.program.moves;
     let counterpart = |at: usize| {
         let sources = subject.nominal.unwrap_or(&[]);
         let (file, line) = theirs.get(at).map_or((String::new(), 0), |motion| {
@@ -72,7 +72,7 @@ pub(crate) fn align(
         if let Some(at) = alike {
             return Err(counterpart(at));
         }
-        let known = |i: &usize| original.route.stops[*i].is_some();
+        let known = |i: &usize| original.stops[*i].is_some();
         return Ok((0..ours.len())
             .map(|i| Some(i).filter(known).map(whole))
             .collect());
@@ -85,7 +85,7 @@ pub(crate) fn align(
             next += 1;
             continue;
         }
-        let Some(stop) = original.route.stops[next] else {
+        let Some(stop) = original.stops[next] else {
             if mine >= ours.len() {
                 return Err(counterpart(next));
             }
@@ -95,7 +95,7 @@ pub(crate) fn align(
         };
         let first = mine;
         let lands = |at: usize| {
-            let ours = walk.route.stops[at]?;
+            let ours = walk.stops[at]?;
             // a joint target that was kept does not land where the original wanted it
             let kept = (0..6).all(|k| (ours.q[k] - stop.q[k]).abs() < KEPT_RAD);
             let conditions = Conditions {

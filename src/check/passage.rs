@@ -1,14 +1,14 @@
 //! Moves of joints that no program describes: whether the arm is clear everywhere on its way.
 
 use super::collision::clearance;
-use super::course::{Course, Leg};
 use super::scene::Scene;
 use super::walk::{Arms, Which};
-use crate::compensate::{Equipped, mount};
 use crate::geometry::units::MM;
 use crate::inverse::Unsupported;
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
+use crate::motion::arms::Equipped;
+use crate::motion::course::{Course, Leg};
 
 /// Bodies farther apart than this beyond what is required are only known to be, metres.
 const HORIZON_M: f64 = 1.0 * MM;
@@ -25,7 +25,7 @@ impl Passage {
     /// # Errors
     /// An arm without a closed-form inverse.
     pub fn new(profile: &Profile, tool: &Mounted) -> Result<Self, Unsupported> {
-        let equipped = mount(profile, tool)?;
+        let equipped = Equipped::of(profile, tool)?;
         let arms = Arms::of(&equipped, profile, tool);
         Ok(Self { equipped, arms })
     }

@@ -4,7 +4,6 @@
 //! path error is above the limit is halved, each half again, until every part is within it: the new targets are poses of the
 //! wanted path, brought through the real inverse like all others. An arc stays an arc, through a new point for each part.
 
-use super::course::{Course, Leg, ToolCourse};
 use super::deviation::{self, Models, Wanted};
 use super::walk::Walk;
 use super::{CheckError, Options, Subject};
@@ -14,9 +13,10 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Jet, Pose};
 use crate::inverse::{Inverse, Status};
 use crate::model::Conditions;
+use crate::motion::course::{Course, Leg, ToolCourse};
 use crate::program::number::{Fraction, Style};
 use crate::program::{
-    Between, Displacement, Edits, Insertion, Motion, Posture, Replacements, Role, Settings, Value,
+    Between, Displacement, Edits, Insertion, Posture, Replacements, Role, Settings, Value,
 };
 use rayon::prelude::*;
 
@@ -72,7 +72,7 @@ pub fn refine(
             ..Settings::default()
         },
     };
-    let changes: Vec<Change> = (0..walk.route.stops.len())
+    let changes: Vec<Change> = (0..walk.stops.len())
         .into_par_iter()
         .filter_map(|index| job.refine_move(index))
         .collect();
@@ -93,7 +93,7 @@ pub fn refine(
         if insertions.is_empty() {
             continue;
         }
-        let program = &walk.route.program;
+        let program = &walk.program;
         let inserted = subject
             .language
             .insert(subject.sources, program, file, &insertions);
@@ -151,24 +151,21 @@ struct Job<'a> {
 
 impl Job<'_> {
     /// The joints at a stop when the compensated program runs.
-    fn joints_at(&self, motion: usize) -> Option<[f64; 6]> {
-        let stop = self.walk.route.stops[motion]?;
-        let target = self.walk.route.program.moves[motion].target?;
+    fn joints_at(&self, index: usize) -> Option<[f64; 6]> {
+        let stop = self.walk.stops[index]?;
+        let target = self.walk.motion(index).target?;
         let report = &self.compensation.targets[target];
         Some(report.q.filter(|_| report.changed).unwrap_or(stop.q))
     }
 
     fn refine_move(&self, index: usize) -> Option<Change> {
-        let program = &self.walk.route.program;
-        let motion = &program.moves[index];
+        let program = &self.walk.program;
+        let motion = self.walk.motion(index);
         let leg = self.walk.leg(index, self.options.turning)?;
-        let stop = self.walk.route.stops[index]?;
+        let stop = self.walk.stops[index]?;
         let is_pose = program.goes_to_pose(motion);
-        let via = (motion.motion == Motion::ArcEnd)
-            .then(|| index.checked_sub(1))
-            .flatten()
-            .filter(|via| program.moves[*via].motion == Motion::ArcVia);
-        let start = self.joints_at(via.unwrap_or(index).checked_sub(1)?)?;
+        let via = self.walk.via(index);
+        let start = self.joints_at(self.walk.start(index)?)?;
         let end = self.joints_at(index)?;
         let arms = self.walk.arms(&stop);
         let controller = |q: &[f64; 6]| arms.plain.controller.forward(q, &Conditions::default());
@@ -189,7 +186,7 @@ impl Job<'_> {
         let each = if via.is_some() { 2 } else { 1 };
         // the point of an arc that had a name is a target of its own now
         let named = via
-            .and_then(|via| program.target_of(&program.moves[via])?.name.as_ref())
+            .and_then(|via| program.target_of(self.walk.motion(via))?.name.as_ref())
             .is_some();
         let change = |what| {
             Some(Change {
@@ -222,6 +219,9 @@ impl Job<'_> {
                 hint,
             )));
         }
+        if !self.walk.is_only(index) {
+            return failed("the robot comes here from several moves");
+        }
         if !is_pose {
             return failed("its target is given in joints");
         }
@@ -246,7 +246,7 @@ impl Job<'_> {
             freed,
         };
         let insertion = Insertion {
-            motion: index,
+            motion: self.walk.index(index),
             between,
         };
         change(What::Insert(insertion, count))
@@ -271,7 +271,7 @@ impl Job<'_> {
 
     /// The real inverse of the wanted pose at `s`.
     fn point(&self, leg: &Leg, index: usize, s: f64, near: &[f64; 6]) -> Option<Point> {
-        let stop = self.walk.route.stops[index]?;
+        let stop = self.walk.stops[index]?;
         let arms = self.walk.arms(&stop);
         let nominal = leg.joints(s, near);
         let wanted = leg.controller_pose(s, &nominal, &arms.plain.controller);
@@ -314,7 +314,7 @@ impl Job<'_> {
 
     /// The bound of the error of a part, metres.
     fn error(&self, leg: &Leg, index: usize, a: &Point, b: &Point, through: Option<&Pose>) -> f64 {
-        let stop = self.walk.route.stops[index].expect("a leg ends at a stop");
+        let stop = self.walk.stops[index].expect("a leg ends at a stop");
         let arms = self.walk.arms(&stop);
         let part = self.part(leg, a, b, through);
         let wanted = Wanted {
@@ -398,8 +398,8 @@ impl Job<'_> {
 
     /// The text of each number of a target at a point, in the manner of the move's own target.
     fn numbers(&self, leg: &Leg, index: usize, point: &Point) -> Vec<Vec<u8>> {
-        let (program, language) = (&self.walk.route.program, self.subject.language);
-        let motion = &program.moves[index];
+        let (program, language) = (&self.walk.program, self.subject.language);
+        let motion = self.walk.motion(index);
         let target = program
             .target_of(motion)
             .expect("moves that are refined have a target");
@@ -411,7 +411,7 @@ impl Job<'_> {
         };
         let roles = language.roles(target.layout);
         let mut values: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-        let frame = self.walk.route.frames[motion.frame].unwrap_or_else(Pose::identity);
+        let frame = self.walk.frames[motion.frame].unwrap_or_else(Pose::identity);
         let value = Value::Pose(frame.inverse() * point.fake);
         let posture = |q: &[f64; 6]| {
             let (branch, _) = leg.equipped.arm.posture(q);
@@ -421,7 +421,7 @@ impl Job<'_> {
                 behind_lower_arm: branch.behind_lower_arm,
             }
         };
-        let stop = self.walk.route.stops[index].expect("a leg ends at a stop");
+        let stop = self.walk.stops[index].expect("a leg ends at a stop");
         let (before, after) = (posture(&stop.q), posture(&point.q));
         language.encode(
             target.layout,

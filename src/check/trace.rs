@@ -1,9 +1,9 @@
 //! The way of the real tool beside the wanted one, move by move, in samples to draw: nothing is judged and nothing bounded.
 
-use super::course::Leg;
 use super::deviation::Wanted;
 use super::{CheckError, Options, Subject, Walk, nominal};
 use crate::geometry::{Pose, Vector};
+use crate::motion::course::Leg;
 use crate::program::Motion;
 use rayon::prelude::*;
 
@@ -58,7 +58,7 @@ pub fn trace(
         .as_ref()
         .map(|original| nominal::align(&walk, original, subject, options))
         .transpose()?;
-    let count = walk.route.stops.len();
+    let count = walk.stops.len();
     let samples = (total / count.max(1)).clamp(1, MOST);
     let tracer = Tracer {
         subject,
@@ -90,11 +90,11 @@ struct Tracer<'a> {
 
 impl Tracer<'_> {
     fn trace(&self, index: usize) -> Option<Traced> {
-        let motion = &self.walk.route.program.moves[index];
+        let motion = self.walk.motion(index);
         if motion.motion == Motion::ArcVia {
             return None;
         }
-        let stop = self.walk.route.stops[index]?;
+        let stop = self.walk.stops[index]?;
         let part = match self.parts {
             Some(parts) => Some(parts[index]?),
             None => None,
@@ -102,8 +102,11 @@ impl Tracer<'_> {
         let source = &self.subject.sources[motion.file as usize];
         let leg = self.walk.leg(index, self.options.turning);
         let mut traced = Traced {
-            motion: index,
-            counterpart: part.map_or(index, |part| part.motion),
+            motion: self.walk.index(index),
+            counterpart: match (self.original, part) {
+                (Some(original), Some(part)) => original.index(part.motion),
+                _ => self.walk.index(index),
+            },
             target: motion.target?,
             file: motion.file as usize,
             line: source.line_column(motion.offset as usize).0,
@@ -134,7 +137,7 @@ impl Tracer<'_> {
         };
         let wanted = match &of_original {
             Some((leg, original, part)) => {
-                let stop = original.route.stops[part.motion]?;
+                let stop = original.stops[part.motion]?;
                 let arms = original.arms(&stop);
                 Wanted {
                     leg,

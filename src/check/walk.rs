@@ -2,15 +2,23 @@
 
 use super::Options;
 use super::collision::Mover;
-use super::course::{Course, Leg, ToolCourse, Turning};
 use super::deviation::Models;
 use super::uncertainty::Spread;
-use crate::compensate::route::{Route, Stop, route};
-use crate::compensate::{CompensateError, Equipped};
+use crate::compensate::CompensateError;
+use crate::finding::Finding;
 use crate::geometry::Jet;
+use crate::geometry::Pose;
+use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
-use crate::program::{Language, Motion, Move, Source};
+use crate::motion::arms::Equipped;
+use crate::motion::course::{Course, Leg, ToolCourse, Turning};
+use crate::motion::ground::Ground;
+use crate::motion::setting::Setting;
+use crate::motion::walk::{self, Arrival, Pace};
+use crate::program::{
+    Displacement, Language, Motion, Move, Program, Settings, Shape, Source, Value,
+};
 
 /// Models of one tool, for plain numbers and for bounds.
 pub(super) struct Arms {
@@ -63,10 +71,35 @@ pub(super) enum Which {
     Controller,
 }
 
+/// The end of one move, reached from one other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// Index of the tool in the program.
+    pub tool: usize,
+    /// Where the controller believes the tool to be, in the world.
+    pub pose: Pose,
+    /// The branch of the inverse that the program means.
+    pub branch: Branch,
+    /// The controller's joint angles, radians.
+    pub q: [f64; 6],
+    /// Direction in which each joint last moved.
+    pub direction: [i8; 6],
+    /// The stop where the move begins; `None` where that is not known.
+    pub before: Option<usize>,
+}
+
 /// A program that can be walked: its moves as legs.
 pub(super) struct Walk {
-    pub route: Route,
-    pub arms: Vec<Option<Arms>>,
+    pub program: Program,
+    pub findings: Vec<Finding>,
+    /// In the order of the text, one for each stop that a move begins at; `None` where it is unknown where the robot is then.
+    pub stops: Vec<Option<Stop>>,
+    /// The move of each stop.
+    motions: Vec<usize>,
+    /// `world_from_frame` by index of the program's work frames, as far as anybody knows them.
+    pub frames: Vec<Option<Pose>>,
+    equipped: Vec<Option<Equipped>>,
+    arms: Vec<Option<Arms>>,
 }
 
 impl Walk {
@@ -76,18 +109,95 @@ impl Walk {
         profile: &Profile,
         options: &Options,
     ) -> Result<Self, CompensateError> {
-        let route = route(language, sources, profile, &options.given)?;
-        let arms = route
-            .arms
+        let settings = Settings {
+            pulses_per_deg: profile.pulses_per_deg,
+            // nothing is rewritten
+            accept_absolutely_accurate: true,
+        };
+        let mut program = crate::motion::read(language, sources, &settings)?;
+        program.shrink_to_fit();
+        let mut findings = std::mem::take(&mut program.findings);
+        let has_numbers = |motion: &Move| {
+            let target = program.target_of(motion);
+            target.is_some_and(|target| !program.numbers_of(target).is_empty())
+        };
+        let ground = Ground::new::<CompensateError>(
+            language,
+            &settings,
+            &program,
+            sources,
+            profile,
+            &options.given,
+            has_numbers,
+        )?;
+        let pace = Pace {
+            start_joints: options.start_joints,
+            exact: true,
+            strict: true,
+            directed: true,
+            turning: options.turning,
+        };
+        let arrivals = walk::walk(&ground, &pace, &mut findings);
+        let mut order: Vec<usize> = (0..arrivals.all.len()).collect();
+        let key = |at: usize| (arrivals.all[at].motion, arrivals.all[at].from);
+        order.sort_by_key(|&at| key(at));
+        let mut places = vec![0; order.len()];
+        for (place, &at) in order.iter().enumerate() {
+            places[at] = place;
+        }
+        let stop = |arrival: &Arrival| {
+            let pose = stop_pose(&ground, arrival)?;
+            Some(Stop {
+                tool: program.moves[arrival.motion as usize].tool,
+                pose,
+                branch: arrival.branch,
+                q: arrival.q,
+                direction: arrival.direction,
+                before: places.get(arrival.from as usize).copied(),
+            })
+        };
+        let stops = order.iter().map(|&at| stop(&arrivals.all[at])).collect();
+        let motions = order
             .iter()
-            .zip(&route.tools)
+            .map(|&at| arrivals.all[at].motion as usize)
+            .collect();
+        let Ground {
+            arms: equipped,
+            setting: Setting { tools, frames },
+            ..
+        } = ground;
+        let arms = equipped
+            .iter()
+            .zip(&tools)
             .map(|(equipped, tool)| Some(Arms::of(equipped.as_ref()?, profile, tool.as_ref()?)))
             .collect();
-        Ok(Self { route, arms })
+        Ok(Self {
+            program,
+            findings,
+            stops,
+            motions,
+            frames,
+            equipped,
+            arms,
+        })
     }
 
-    pub fn motion(&self, index: usize) -> &Move {
-        &self.route.program.moves[index]
+    /// Index of the move of a stop.
+    pub fn index(&self, stop: usize) -> usize {
+        self.motions[stop]
+    }
+
+    /// The move of a stop.
+    pub fn motion(&self, stop: usize) -> &Move {
+        &self.program.moves[self.motions[stop]]
+    }
+
+    /// Whether its move ends at this stop only.
+    pub fn is_only(&self, stop: usize) -> bool {
+        let same = |other: Option<usize>| {
+            other.and_then(|other| self.motions.get(other)) == Some(&self.motions[stop])
+        };
+        !same(stop.checked_sub(1)) && !same(Some(stop + 1))
     }
 
     pub fn arms(&self, stop: &Stop) -> &Arms {
@@ -97,7 +207,7 @@ impl Walk {
     }
 
     pub fn equipped(&self, stop: &Stop) -> &Equipped {
-        self.route.arms[stop.tool]
+        self.equipped[stop.tool]
             .as_ref()
             .expect("a stop's tool has an arm")
     }
@@ -123,22 +233,32 @@ impl Walk {
         }
     }
 
+    /// The point on the way of the arc that ends at a stop.
+    pub fn via(&self, stop: usize) -> Option<usize> {
+        if self.motion(stop).motion != Motion::ArcEnd {
+            return None;
+        }
+        let before = self.stops[stop]?.before?;
+        (self.motion(before).motion == Motion::ArcVia).then_some(before)
+    }
+
+    /// The stop where the move to a stop begins; of an arc that before the point on its way.
+    pub fn start(&self, stop: usize) -> Option<usize> {
+        let last = self.via(stop).unwrap_or(stop);
+        self.stops[last]?.before
+    }
+
     /// The move from the stop before, where both are known; arcs are one leg at their end.
     pub fn leg(&self, index: usize, turning: Turning) -> Option<Leg<'_>> {
-        let moves = &self.route.program.moves;
-        let (motion, stop) = (&moves[index], self.route.stops[index]?);
+        let (motion, stop) = (self.motion(index), self.stops[index]?);
         if motion.motion == Motion::ArcVia {
             return None;
         }
-        let (mut before, mut via) = (index.checked_sub(1)?, None);
-        if motion.motion == Motion::ArcEnd && moves[before].motion == Motion::ArcVia {
-            via = Some(self.route.stops[before]?);
-            before = before.checked_sub(1)?;
-        }
-        if moves[before].file != motion.file {
-            return None;
-        }
-        let start = self.route.stops[before]?;
+        let via = match self.via(index) {
+            Some(via) => Some(self.stops[via]?),
+            None => None,
+        };
+        let start = self.stops[self.start(index)?]?;
         let equipped = self.equipped(&stop);
         // another tool on the same joints
         let from = if start.tool == stop.tool {
@@ -160,11 +280,34 @@ impl Walk {
             _ => Course::Tool(ToolCourse::straight(&from, &stop.pose, turning)),
         };
         Some(Leg {
-            branch: equipped.arm.posture(&start.q).0,
+            // the branch of the path's end is that of the whole path; at its beginning it may be open
+            branch: match motion.motion {
+                Motion::Joint => equipped.arm.posture(&start.q).0,
+                _ => stop.branch,
+            },
             equipped,
             course,
             start: start.q,
             conditions: self.conditions(&stop),
         })
     }
+}
+
+/// Where the controller believes the tool to be at the end of a move; `None` where that is not known.
+fn stop_pose(ground: &Ground, arrival: &Arrival) -> Option<Pose> {
+    let motion = &ground.program.moves[arrival.motion as usize];
+    let target = motion
+        .target
+        .filter(|_| arrival.known && !arrival.displaced)?;
+    let value =
+        crate::program::meaning(ground.language, ground.program, ground.settings, target)?.value;
+    let value = match (value, &motion.displacement) {
+        (Value::Pose(pose), Displacement::By(shift)) => Value::Pose(shift.apply(&pose)),
+        (value, _) => value,
+    };
+    ground.equipped(motion.tool)?;
+    let frame = ground.frame_of(motion);
+    let is_pose = ground.program.targets[target].layout.shape == Shape::Pose;
+    (!is_pose || ground.setting.frames[frame].is_some())
+        .then(|| ground.wanted(&value, motion.tool, frame))
 }

@@ -9,10 +9,10 @@ use crate::check::cell::Cell;
 use crate::check::mesh::Mesh;
 use crate::check::trace::trace;
 use crate::check::{self, CheckError, Meshes, Options, Scene, Subject, Turning, baseline};
-use crate::compensate::Given;
 use crate::geometry::units::{DEG, MM};
 use crate::model::profile::Profile;
 use crate::model::shape::{Form, Shape};
+use crate::motion::Given;
 use crate::program::Source;
 use crate::report;
 use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
@@ -64,6 +64,9 @@ pub struct Check {
     /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
+    /// Joints of the robot when a program starts, degrees: they tell the first posture and direction
+    #[arg(long, value_name = "Q1,…,Q6", allow_hyphen_values = true)]
+    start_joints: Option<String>,
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
@@ -217,6 +220,11 @@ impl Check {
             max_path_error_m: self.max_path_error.map(|mm| mm * MM),
             horizon_m: self.horizon * MM,
             limit_margin_rad: self.limit_margin * DEG,
+            start_joints: self
+                .start_joints
+                .as_deref()
+                .map(values::joints)
+                .transpose()?,
             ..Options::default()
         })
     }

@@ -10,6 +10,7 @@ use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
 use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use crate::geometry::units::MM;
+use crate::geometry::units::m_from_mm;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::program::{LANGUAGES, Language, Marker, Source};
 use crate::report;
@@ -65,6 +66,12 @@ pub struct Compensate {
     /// Where a work object stands in the world: a frame file. Like --frame, but a program that declares it elsewhere is refused
     #[arg(long = "wobj", value_name = "NAME=FRAME.yaml")]
     wobjs: Vec<String>,
+    /// Joints of the robot when a program starts, degrees: they tell the first posture and direction
+    #[arg(long, value_name = "Q1,…,Q6", allow_hyphen_values = true)]
+    start_joints: Option<String>,
+    /// How far points that the running program derives from a target may land off their own wanted pose, mm
+    #[arg(long, value_name = "MM", default_value_t = 0.05)]
+    max_derived_error: f64,
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
@@ -137,13 +144,6 @@ impl Compensate {
             profile_sha256: &profile_sha256,
         };
         let mut told = tell(&header, &compensation, output);
-        let same_arm = profile.real_effects() == profile.controller_effects();
-        if same_arm && compensation.summary.compensated == 0 && !output.json && !output.quiet {
-            told += &layout::fitted(&format!(
-                "nothing to correct: {} has no calibration that differs from the controller's model",
-                self.profile.display()
-            ));
-        }
         if refined.moves > 0 && !output.json && !output.quiet {
             told += &format!(
                 "{} moves inserted, so that the path is within {} mm\n",
@@ -205,6 +205,12 @@ impl Compensate {
             decimals: self.decimals.map(usize::from),
             summary_only: !each,
             accept_absolutely_accurate: self.force,
+            max_derived_error_m: Some(m_from_mm(self.max_derived_error)),
+            start_joints: self
+                .start_joints
+                .as_deref()
+                .map(values::joints)
+                .transpose()?,
         })
     }
 
@@ -477,11 +483,11 @@ pub(super) fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
                 _ => Failure::new(read.to_string()),
             }
         }
-        CompensateError::Placement(unknown) => match source_of(&unknown.file) {
+        CompensateError::Placement(unknown) => match source_of(&unknown.missing[0].file) {
             Some(source) => Failure::at(
                 source,
-                unknown.line,
-                unknown.column,
+                unknown.missing[0].line,
+                unknown.missing[0].column,
                 None,
                 unknown.message(),
                 unknown.hint(),
@@ -492,6 +498,10 @@ pub(super) fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             Failure::with_hint(format!("--wobj: {error}"), error.hint())
         }
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
+        CompensateError::NothingToCorrect => Failure::with_hint(
+            error.to_string(),
+            "`poseshift calibrate` identifies effects; with --work-offset the part is moved without any",
+        ),
         CompensateError::NothingInReach { .. } => Failure::with_hint(
             error.to_string(),
             "check the tool and the work frame, too; nothing is written",

@@ -22,6 +22,29 @@ pub fn pose(text: &str) -> Option<Pose> {
     ]))
 }
 
+/// Joints `q1,…,q6` in degrees, as radians.
+pub fn joints(text: &str) -> Result<[f64; 6], Failure> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
+        .collect();
+    let numbers = numbers.unwrap_or_default();
+    if numbers.len() > 6 {
+        return Err(Failure::with_hint(
+            format!("--start-joints {text}: more than six joints"),
+            "the profile describes no external axes",
+        ));
+    }
+    let joints: Result<[f64; 6], _> = numbers.try_into();
+    let joints = joints.map_err(|_| {
+        Failure::with_hint(
+            format!("--start-joints {text}: these are not six finite numbers"),
+            "give the controller's joints in degrees: --start-joints 0,-90,90,0,90,0",
+        )
+    })?;
+    Ok(joints.map(|q| q * DEG))
+}
+
 /// `[NAME=]VALUE`: the name, if there is one, and the value's text.
 pub fn named(text: &str) -> (Option<String>, &str) {
     match text.split_once('=') {

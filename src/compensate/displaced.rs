@@ -1,15 +1,15 @@
 //! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction along; here is told how far
 //! from their own wanted poses they land.
 
-use super::placement::name_of;
-use super::{Draft, Job, Task};
+use super::Job;
+use super::approach::Approach;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
-use crate::geometry::{Pose, Separation};
-use crate::program::{Displacement, Move};
+use crate::geometry::{Pose, Rotation, Separation};
+use crate::program::{Displacement, Move, Shift};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Landing farther from the wanted pose than this is a warning, metres.
+/// Landing farther from the wanted pose than this, by default, metres.
 const LIMIT_M: f64 = 0.05 * MM;
 
 fn is_displaced(motion: &Move) -> bool {
@@ -18,83 +18,124 @@ fn is_displaced(motion: &Move) -> bool {
 
 /// The targets that points are derived from.
 pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
-    let displaced = job.program.moves.iter().filter(|m| is_displaced(m));
+    let displaced = job.ground.program.moves.iter().filter(|m| is_displaced(m));
     displaced.filter_map(|motion| motion.target).collect()
 }
 
 /// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that points are derived from.
 pub(super) fn check(
     job: &Job,
-    drafts: &[Draft],
+    approaches: &[Approach],
     fakes: &BTreeMap<usize, Pose>,
     findings: &mut Vec<Finding>,
 ) {
-    for motion in job.program.moves.iter().filter(|m| is_displaced(m)) {
+    let ground = &job.ground;
+    let limit_m = job.options.max_derived_error_m.unwrap_or(LIMIT_M);
+    for motion in ground.program.moves.iter().filter(|m| is_displaced(m)) {
         let Some(target) = motion.target else {
             continue;
         };
-        let found = drafts.binary_search_by_key(&target, |draft| draft.target as usize);
-        let (Ok(draft), Some(fake)) = (found, fakes.get(&target)) else {
+        let at = approaches.partition_point(|approach| (approach.target as usize) < target);
+        let approach = approaches
+            .get(at)
+            .filter(|approach| approach.target as usize == target);
+        let (Some(approach), Some(fake)) = (approach, fakes.get(&target)) else {
             continue;
         };
-        let task = job.task(&drafts[draft]);
-        let name = name_of(job, target);
-        let finding = match landing(job, &task, fake, motion) {
-            None => {
+        let name = ground.name_of(target);
+        let hint = "give the point a target of its own if it must be exact; --max-derived-error raises the limit";
+        let finding = match &motion.displacement {
+            Displacement::None => continue,
+            Displacement::Unknown => {
+                let near = SOMEHOW
+                    .iter()
+                    .filter_map(|shift| landing(job, approach, fake, shift));
+                let most = near.map(|gap| gap.distance_m).fold(0.0, f64::max);
                 let message = format!(
-                    "a point derived from {name} at run time takes its correction along; how well is unknown"
+                    "a point derived from {name} at run time takes its correction along: up to {:.0} mm from it that is {:.3} mm off \
+                     (the limit is {:.3} mm)",
+                    mm_from_m(SOMEHOW_M),
+                    mm_from_m(most),
+                    mm_from_m(limit_m)
                 );
-                let hint = "give the point a target of its own if it must be exact";
-                job.finding(
-                    "displacement-unknown",
-                    Severity::Warning,
-                    motion.file,
-                    motion.offset,
-                    message,
-                    hint,
-                )
+                let severity = if most > limit_m {
+                    Severity::Error
+                } else {
+                    Severity::Warning
+                };
+                ground.at_move("displacement-unknown", severity, motion, message, hint)
             }
-            Some(gap) => {
-                let severity = if gap.distance_m > LIMIT_M {
+            Displacement::By(shift) => {
+                let Some(gap) = landing(job, approach, fake, shift) else {
+                    let message = format!("a point derived from {name} is out of reach");
+                    let severity = Severity::Warning;
+                    findings.push(ground.at_move(
+                        "displaced-target",
+                        severity,
+                        motion,
+                        message,
+                        hint,
+                    ));
+                    continue;
+                };
+                let severity = if gap.distance_m > limit_m {
                     Severity::Warning
                 } else {
                     Severity::Note
                 };
                 let message = format!(
-                    "a point derived from {name} takes its correction along and lands {:.3} mm beside its own wanted pose",
+                    "a point derived from {name} takes its correction along and lands {:.3} mm off its own wanted pose",
                     mm_from_m(gap.distance_m)
                 );
-                let hint = "give the point a target of its own if it must be exact";
-                job.finding(
-                    "displaced-target",
-                    severity,
-                    motion.file,
-                    motion.offset,
-                    message,
-                    hint,
-                )
+                ground.at_move("displaced-target", severity, motion, message, hint)
             }
         };
         findings.push(finding);
     }
 }
 
-/// How far from its wanted pose a displaced use of a target lands; `None` where that cannot be told.
-fn landing(job: &Job, task: &Task, fake_in_frame: &Pose, motion: &Move) -> Option<Separation> {
-    let Displacement::By(shift) = &motion.displacement else {
-        return None;
-    };
-    let wanted_from_frame = job.on_part(*job.world_from_frame(task.frame));
-    let wanted = wanted_from_frame * shift.apply(&(wanted_from_frame.inverse() * task.wanted));
-    let given = *job.world_from_frame(task.frame) * shift.apply(fake_in_frame);
-    let equipped = job.equipped(task.tool);
-    let (q, reached) = equipped.controller_joints(&given, task.branch, &task.nominal_q);
-    let landed = || {
-        equipped
-            .inverse
-            .real
-            .forward(&q, &job.conditions(task))
+/// How far a sensor or a register usually displaces a point, metres.
+const SOMEHOW_M: f64 = 10.0 * MM;
+
+/// Displacements that stand for one that only the running program knows.
+static SOMEHOW: [Shift; 6] = {
+    const fn along(in_frame_m: [f64; 3]) -> Shift {
+        Shift {
+            in_frame_m,
+            in_tool: Pose {
+                rotation: Rotation([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+                translation: [0.0; 3],
+            },
+        }
+    }
+    [
+        along([SOMEHOW_M, 0.0, 0.0]),
+        along([-SOMEHOW_M, 0.0, 0.0]),
+        along([0.0, SOMEHOW_M, 0.0]),
+        along([0.0, -SOMEHOW_M, 0.0]),
+        along([0.0, 0.0, SOMEHOW_M]),
+        along([0.0, 0.0, -SOMEHOW_M]),
+    ]
+};
+
+/// How far from its wanted pose a displaced use of a target lands; `None` where the controller does not reach it.
+fn landing(
+    job: &Job,
+    approach: &Approach,
+    fake_in_frame: &Pose,
+    shift: &Shift,
+) -> Option<Separation> {
+    let ground = &job.ground;
+    let world_from_frame = *ground.world_from_frame(approach.frame as usize);
+    let wanted_from_frame = ground.on_part(world_from_frame);
+    let in_frame = wanted_from_frame.inverse() * approach.wanted(job);
+    let wanted = wanted_from_frame * shift.apply(&in_frame);
+    let given = world_from_frame * shift.apply(fake_in_frame);
+    let equipped = ground.arm_with(approach.tool as usize);
+    let (q, reached) = equipped.controller_joints(&given, approach.branch, &approach.nominal_q);
+    let real = &equipped.inverse.real;
+    reached.then(|| {
+        real.forward(&q, &approach.conditions(job))
             .separation(&wanted)
-    };
-    reached.then(landed)
+    })
 }

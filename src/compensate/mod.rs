@@ -17,30 +17,32 @@
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
 
+mod approach;
 mod displaced;
 mod outcome;
-mod placement;
-mod posture;
 mod rewrite;
-pub(crate) mod route;
+mod shared;
+mod solve;
 
+use approach::Approach;
 use outcome::Tally;
 pub use outcome::{Compensation, Summary, TargetReport};
-pub use placement::{Given, MeasuredFrameError, PlacementError};
-use placement::{Place, Setting};
 use rewrite::Portion;
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::inverse::{Arm, Branch, Inverse, Status, Targets, Unsupported, solve_batch};
-use crate::model::profile::{Mounted, Profile};
-use crate::model::{Conditions, Model};
+use crate::inverse::{Outcome, Unsupported};
+use crate::model::profile::Profile;
+use crate::motion::ground::Ground;
+use crate::motion::setting;
+use crate::motion::walk::{self, Pace};
+pub use crate::motion::{Given, MeasuredFrameError, PlacementError};
 pub use crate::program::meaning;
-use crate::program::{Edits, Language, Program, ReadError, Settings, Source, Value};
+use crate::program::{Edits, Language, ReadError, Settings, Source};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Targets solved by one thread at a time.
+/// Targets rewritten by one thread at a time.
 const CHUNK: usize = 512;
 
 /// What the user decides.
@@ -59,6 +61,11 @@ pub struct Options {
     pub summary_only: bool,
     /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
     pub accept_absolutely_accurate: bool,
+    /// How far points that the running program derives from a target may land off their wanted pose, metres; 0.05 mm where
+    /// it is not given.
+    pub max_derived_error_m: Option<f64>,
+    /// The joints in which the robot stands when a program starts, radians.
+    pub start_joints: Option<[f64; 6]>,
 }
 
 /// Why nothing could be compensated.
@@ -76,6 +83,11 @@ pub enum CompensateError {
     /// The arm has no closed-form inverse.
     #[error(transparent)]
     Arm(#[from] Unsupported),
+    /// There is nothing to correct.
+    #[error(
+        "the profile has no effect that moves the tool: the program would be marked as compensated and be the same"
+    )]
+    NothingToCorrect,
     /// Not one of several targets can be reached.
     #[error("none of the {targets} targets is within reach: is this the profile of this robot?")]
     NothingInReach {
@@ -89,183 +101,15 @@ const FEW: usize = 3;
 
 /// What every step looks at.
 struct Job<'a> {
-    language: &'a dyn Language,
-    settings: &'a Settings,
-    program: &'a Program,
-    sources: &'a [Source],
-    profile: &'a Profile,
+    ground: Ground<'a>,
     options: &'a Options,
-    setting: Setting,
-    /// The arm with each of the program's tools that a target needs.
-    arms: Vec<Option<Equipped>>,
-}
-
-/// An arm with one of the program's tools.
-pub(crate) struct Equipped {
-    pub(crate) arm: Arm,
-    pub(crate) controller: Model,
-    /// The inverse of a controller that computes with a calibrated chain of its own.
-    pub(crate) calibrated_controller: Option<Inverse>,
-    /// The real arm without conditions.
-    pub(crate) inverse: Inverse,
-}
-
-impl Equipped {
-    /// The joints that the controller computes for `world_from_tool` near others, and whether they reach it.
-    fn controller_joints(
-        &self,
-        world_from_tool: &Pose,
-        branch: Branch,
-        near: &[f64; 6],
-    ) -> ([f64; 6], bool) {
-        match &self.calibrated_controller {
-            None => {
-                let solution = self.arm.solve_branch(world_from_tool, branch, near);
-                (solution.q, solution.beyond == 0.0)
-            }
-            Some(controller) => {
-                let outcome = controller.solve(world_from_tool, branch, near);
-                let missed = matches!(outcome.status, Status::OutOfReach | Status::NotConverged);
-                (outcome.q, !missed)
-            }
-        }
-    }
-}
-
-/// A target whose tool, frame and branch are known.
-#[derive(Clone, Copy, Debug)]
-struct Task {
-    /// Index in [`Program::targets`].
-    target: usize,
-    /// Index of its tool.
-    tool: usize,
-    /// Index of its work frame.
-    frame: usize,
-    /// Where the simulation wants the tool, in the world.
-    wanted: Pose,
-    branch: Branch,
-    /// The controller's joints at the wanted pose.
-    nominal_q: [f64; 6],
-    /// Direction in which each joint last moved, where an effect depends on it.
-    direction: [i8; 6],
-    /// The controller goes by the target's configuration data.
-    honoured: bool,
-}
-
-/// A task as it is kept: all but what the program's text tells again.
-#[derive(Clone, Copy, Debug)]
-struct Draft {
-    nominal_q: [f64; 6],
-    target: u32,
-    tool: u32,
-    frame: u32,
-    branch: Branch,
-    direction: [i8; 6],
-    honoured: bool,
-}
-
-impl Draft {
-    fn of(task: &Task) -> Self {
-        Self {
-            nominal_q: task.nominal_q,
-            target: outcome::small(task.target),
-            tool: outcome::small(task.tool),
-            frame: outcome::small(task.frame),
-            branch: task.branch,
-            direction: task.direction,
-            honoured: task.honoured,
-        }
-    }
-}
-
-impl Job<'_> {
-    fn equipped(&self, tool: usize) -> &Equipped {
-        self.arms[tool]
-            .as_ref()
-            .expect("an arm was made for each tool that a target needs")
-    }
-
-    fn world_from_frame(&self, frame: usize) -> &Pose {
-        self.setting.frames[frame]
-            .as_ref()
-            .expect("a placed target has a known frame")
-    }
-
-    /// A pose that the program means, where the part as it stands has it.
-    fn on_part(&self, wanted: Pose) -> Pose {
-        self.options
-            .work_offset
-            .map_or(wanted, |offset| offset * wanted)
-    }
-
-    /// Where a target's numbers want the tool, in the world.
-    fn wanted(&self, value: &Value, tool: usize, frame: usize) -> Pose {
-        let controller = &self.equipped(tool).controller;
-        self.on_part(match value {
-            Value::Joints(q) => controller.forward(q, &Conditions::default()),
-            Value::Pose(frame_from_tool) => *self.world_from_frame(frame) * *frame_from_tool,
-        })
-    }
-
-    /// The task of a draft.
-    fn task(&self, draft: &Draft) -> Task {
-        let (target, tool, frame) = (draft.target, draft.tool, draft.frame);
-        let (target, tool, frame) = (target as usize, tool as usize, frame as usize);
-        let decoded = meaning(self.language, self.program, self.settings, target);
-        let value = decoded.expect("a task's target has numbers").value;
-        Task {
-            target,
-            tool,
-            frame,
-            wanted: self.wanted(&value, tool, frame),
-            branch: draft.branch,
-            nominal_q: draft.nominal_q,
-            direction: draft.direction,
-            honoured: draft.honoured,
-        }
-    }
-
-    /// The conditions of one task.
-    fn conditions(&self, task: &Task) -> Conditions {
-        Conditions {
-            direction: task.direction.map(f64::from),
-            ..self.equipped(task.tool).inverse.conditions
-        }
-    }
-
-    /// A finding at a byte of a source.
-    fn finding(
-        &self,
-        id: &'static str,
-        severity: Severity,
-        file: u32,
-        offset: u32,
-        message: String,
-        hint: &str,
-    ) -> Finding {
-        let source = &self.sources[file as usize];
-        source.finding(offset as usize, id, severity, message, hint)
-    }
-
-    /// A finding at a target.
-    fn at_target(
-        &self,
-        id: &'static str,
-        severity: Severity,
-        target: usize,
-        message: String,
-        hint: &str,
-    ) -> Finding {
-        let target = &self.program.targets[target];
-        self.finding(id, severity, target.file, target.offset, message, hint)
-    }
 }
 
 /// Computes fake targets for a program and the edits that put them in its files.
 ///
 /// # Errors
-/// If the program cannot be read, a tool or frame is unknown, or the arm has no closed-form inverse. A target that cannot be
-/// compensated is a [`Finding`] of severity error instead.
+/// If the program cannot be read, a tool or frame is unknown, the arm has no inverse, or the profile corrects nothing. A target
+/// that cannot be compensated is a [`Finding`] of severity error instead.
 pub fn compensate(
     language: &dyn Language,
     sources: &[Source],
@@ -286,38 +130,40 @@ pub fn compensate(
         let hint = "a program that calls others is compensated together with them";
         findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
     }
-    placement::check_measured(&program, &options.given)?;
-    let setting = Setting::of(language, &program, profile, &options.given);
-    let mut job = Job {
+    setting::check_measured(&program, &options.given)?;
+    let joints = options.correct_joint_targets;
+    let mut ground = Ground::new::<CompensateError>(
         language,
-        settings: &settings,
-        program: &program,
+        &settings,
+        &program,
         sources,
         profile,
-        options,
-        setting,
-        arms: Vec::new(),
+        &options.given,
+        |motion| approach::needs(&program, joints, motion),
+    )?;
+    ground.work_offset = options.work_offset;
+    let job = Job { ground, options };
+    let pace = Pace {
+        start_joints: options.start_joints,
+        directed: solve::is_directed(&job),
+        ..Pace::default()
     };
-    let places = placement::place(&job, &mut findings)?;
-    job.arms = equip(&job, &places)?;
-    let drafts = posture::choose(&job, &places, &mut findings);
-    let placed = places.iter().flatten().count();
-    let out_of_reach = findings
-        .iter()
-        .filter(|finding| finding.id == posture::OUT_OF_REACH)
-        .count();
-    if placed >= FEW && out_of_reach == placed {
-        return Err(CompensateError::NothingInReach { targets: placed });
+    let arrivals = walk::walk(&job.ground, &pace, &mut findings);
+    let mut approaches = approach::gather(&job, &arrivals, &mut findings);
+    refuse_strange_robots(&job, &findings)?;
+    if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
+        return Err(CompensateError::NothingToCorrect);
     }
-    drop(places);
-    let Solved {
+    let outcomes = solve::solve(&job, &arrivals, &pace, &mut approaches, &mut findings);
+    drop(arrivals);
+    let Rewritten {
         reports: mut targets,
         edits,
         tally,
         fakes,
-    } = solve(&job, &drafts, &mut findings);
-    displaced::check(&job, &drafts, &fakes, &mut findings);
-    drop(drafts);
+    } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
+    displaced::check(&job, &approaches, &fakes, &mut findings);
+    drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
     outcome::sort(&job, &mut findings);
     let (compensated, summary) = tally.finish();
@@ -332,46 +178,34 @@ pub fn compensate(
     })
 }
 
-/// The arm with each tool that a placed target needs.
-fn equip(job: &Job, places: &[Option<Place>]) -> Result<Vec<Option<Equipped>>, Unsupported> {
-    let mut arms: Vec<Option<Equipped>> = job.setting.tools.iter().map(|_| None).collect();
-    for Place { tool, .. } in places.iter().flatten() {
-        if arms[*tool].is_none() {
-            let mounted = job.setting.tools[*tool]
-                .as_ref()
-                .expect("a placed target has a known tool");
-            arms[*tool] = Some(mount(job.profile, mounted)?);
-        }
+/// Where not one of several targets is within reach, the profile is that of another robot.
+fn refuse_strange_robots(job: &Job, findings: &[Finding]) -> Result<(), CompensateError> {
+    let program = job.ground.program;
+    let mut asked: Vec<usize> = program
+        .moves
+        .iter()
+        .filter_map(|motion| motion.target)
+        .filter(|target| !approach::stays(job, *target) && !job.ground.is_joints(*target))
+        .collect();
+    asked.sort_unstable();
+    asked.dedup();
+    let mut beyond: Vec<(&str, usize, usize)> = findings
+        .iter()
+        .filter(|finding| finding.id == crate::motion::OUT_OF_REACH)
+        .map(|finding| (finding.file.as_str(), finding.line, finding.column))
+        .collect();
+    beyond.sort_unstable();
+    beyond.dedup();
+    if asked.len() >= FEW && beyond.len() >= asked.len() {
+        return Err(CompensateError::NothingInReach {
+            targets: asked.len(),
+        });
     }
-    Ok(arms)
+    Ok(())
 }
 
-/// The arm with one tool.
-pub(crate) fn mount(profile: &Profile, tool: &Mounted) -> Result<Equipped, Unsupported> {
-    let conditions = Conditions::default();
-    let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)?;
-    let inverse = Inverse {
-        arm: arm.clone(),
-        real: profile.real_model(tool, &conditions),
-        conditions,
-    };
-    let controller = profile.controller_model(tool);
-    let is_calibrated = !profile.controller_effects().is_empty();
-    let calibrated_controller = is_calibrated.then(|| Inverse {
-        arm: arm.clone(),
-        real: controller.clone(),
-        conditions,
-    });
-    Ok(Equipped {
-        arm,
-        controller,
-        calibrated_controller,
-        inverse,
-    })
-}
-
-/// What became of all tasks.
-struct Solved {
+/// What became of all targets.
+struct Rewritten {
     /// Of each of the program's targets, unless only the summary is asked for.
     reports: Vec<TargetReport>,
     /// Of each source.
@@ -381,82 +215,77 @@ struct Solved {
     fakes: BTreeMap<usize, Pose>,
 }
 
-/// Solves and rewrites all tasks, those with the same tool and conditions side by side, on all processors.
-fn solve(job: &Job, drafts: &[Draft], findings: &mut Vec<Finding>) -> Solved {
-    let mut alike: BTreeMap<(u32, [i8; 6]), Vec<u32>> = BTreeMap::new();
-    for (index, draft) in drafts.iter().enumerate() {
-        let same = alike.entry((draft.tool, draft.direction)).or_default();
-        same.push(outcome::small(index));
-    }
+/// Puts the fake targets into edits, on all processors.
+fn rewrite_all(
+    job: &Job,
+    approaches: &[Approach],
+    outcomes: &[Outcome],
+    findings: &mut Vec<Finding>,
+) -> Rewritten {
     let fractions = rewrite::fractions(job);
-    let chunks: Vec<&[u32]> = alike
-        .values()
-        .flat_map(|indices| indices.chunks(CHUNK))
-        .collect();
-    let solve_chunk = |chunk: &&[u32]| {
-        let draft = |index: &u32| job.task(&drafts[*index as usize]);
-        let tasks: Vec<Task> = chunk.iter().map(draft).collect();
-        let inverse = Inverse {
-            conditions: job.conditions(&tasks[0]),
-            ..job.equipped(tasks[0].tool).inverse.clone()
-        };
-        let wanted: Vec<_> = tasks.iter().map(|task| task.wanted).collect();
-        let branches: Vec<_> = tasks.iter().map(|task| task.branch).collect();
-        let near: Vec<_> = tasks.iter().map(|task| task.nominal_q).collect();
-        let outcomes = solve_batch(
-            &inverse,
-            Targets {
-                wanted: &wanted,
-                branches: &branches,
-                near: &near,
-            },
-        );
+    let mut groups: Vec<std::ops::Range<usize>> = Vec::with_capacity(approaches.len());
+    let mut from = 0;
+    for at in 1..=approaches.len() {
+        if at == approaches.len() || approaches[at].target != approaches[from].target {
+            groups.push(from..at);
+            from = at;
+        }
+    }
+    if approaches.is_empty() {
+        groups.clear();
+    }
+    let rewrite = |groups: &[std::ops::Range<usize>]| {
         let mut portion = Portion::default();
-        for (task, outcome) in tasks.iter().zip(&outcomes) {
-            portion.add(job, task, outcome, &fractions);
+        let mut group = Vec::with_capacity(1);
+        for range in groups {
+            group.clear();
+            group.extend(range.clone().map(|at| (approaches[at], outcomes[at])));
+            portion.add(job, &group, &fractions);
         }
         portion
     };
     let reported = if job.options.summary_only {
         0
     } else {
-        job.program.targets.len()
+        job.ground.program.targets.len()
     };
     let bases = displaced::bases(job);
-    let mut solved = Solved {
+    let mut all = Rewritten {
         reports: vec![TargetReport::new(None); reported],
         edits: room_for_edits(job),
         tally: Tally::new(job),
         fakes: BTreeMap::new(),
     };
+    let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
     // a few chunks for each thread at a time: what they return is not in memory twice for a long program
     for some in chunks.chunks(4 * rayon::current_num_threads()) {
-        let portions: Vec<Portion> = some.par_iter().map(solve_chunk).collect();
+        let portions: Vec<Portion> = some.par_iter().map(|groups| rewrite(groups)).collect();
         for portion in portions {
             for (target, report) in portion.reports {
-                solved.tally.add(job, target, &report);
+                all.tally.add(job, target, &report);
                 if let Some(fake) = report.fake.filter(|_| bases.contains(&target)) {
-                    solved.fakes.insert(target, fake);
+                    all.fakes.insert(target, fake);
                 }
                 if reported > 0 {
-                    solved.reports[target] = report;
+                    all.reports[target] = report;
                 }
             }
             for (source, changes) in &portion.edits {
-                solved.edits[*source as usize].append(changes);
+                all.edits[*source as usize].append(changes);
             }
             findings.extend(portion.findings);
         }
     }
-    solved
+    all
 }
 
 /// For each file an empty list with room for new text in place of all numbers of its targets.
 fn room_for_edits(job: &Job) -> Vec<Edits> {
-    let mut room = vec![(0, 0); job.sources.len()];
-    for target in &job.program.targets {
+    let program = job.ground.program;
+    let mut room = vec![(0, 0); job.ground.sources.len()];
+    for target in &program.targets {
         let (spans, bytes) = &mut room[target.file as usize];
-        for number in job.program.numbers_of(target) {
+        for number in program.numbers_of(target) {
             *spans += 1;
             *bytes += usize::from(number.length) + 1;
         }

@@ -1,6 +1,7 @@
 //! What compensating a program gave.
 
-use super::{Job, Task};
+use super::Job;
+use super::approach::Approach;
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
 use crate::inverse::{Branch, Outcome, Status};
@@ -51,6 +52,12 @@ pub struct Summary {
     pub mean_shift_m: f64,
     /// Largest shift.
     pub max_shift_m: f64,
+    /// Largest distance from the wanted pose with the targets as they were.
+    pub max_before_m: f64,
+    /// Their mean.
+    pub mean_before_m: f64,
+    /// Mean distance from the wanted pose with the numbers as written.
+    pub mean_after_m: f64,
     /// Largest residual of the search.
     pub max_residual_m: f64,
     /// Farthest landing from the wanted pose with the numbers as written.
@@ -72,6 +79,8 @@ pub struct TargetReport {
     pub q: Option<[f64; 6]>,
     /// From wanted to fake.
     pub shift: Separation,
+    /// How far from the wanted pose the real tool lands with the target as it was.
+    pub before: Separation,
     /// What the search left.
     pub residual: Separation,
     /// How far from the wanted pose the real tool lands with the numbers as written.
@@ -87,7 +96,7 @@ pub struct TargetReport {
 }
 
 impl TargetReport {
-    pub(super) fn new(solved: Option<(&Task, &Outcome)>) -> Self {
+    pub(super) fn new(solved: Option<(&Approach, &Outcome)>) -> Self {
         let none = Separation::default();
         Self {
             tool: None,
@@ -95,10 +104,11 @@ impl TargetReport {
             fake: None,
             q: solved.map(|(_, outcome)| outcome.q),
             shift: none,
+            before: none,
             residual: solved.map_or(none, |(_, outcome)| outcome.residual),
             rounding: none,
             iterations: solved.map_or(0, |(_, outcome)| outcome.iterations),
-            branch: solved.map(|(task, _)| task.branch),
+            branch: solved.map(|(approach, _)| approach.branch),
             status: solved.map(|(_, outcome)| outcome.status),
             changed: false,
         }
@@ -110,13 +120,17 @@ pub(super) struct Tally {
     summary: Summary,
     /// All shifts added up, metres.
     shifts_m: f64,
+    /// Targets that were solved, and their distances from the wanted pose before and after, added up, metres.
+    solved: usize,
+    before_m: f64,
+    after_m: f64,
     compensated: Vec<bool>,
 }
 
 impl Tally {
     /// Nothing is changed yet.
     pub fn new(job: &Job) -> Self {
-        let targets = &job.program.targets;
+        let targets = &job.ground.program.targets;
         let is_joints = |target: &&Target| target.layout.shape == Shape::Joints;
         Self {
             summary: Summary {
@@ -125,13 +139,16 @@ impl Tally {
                 ..Summary::default()
             },
             shifts_m: 0.0,
-            compensated: vec![false; job.sources.len()],
+            solved: 0,
+            before_m: 0.0,
+            after_m: 0.0,
+            compensated: vec![false; job.ground.sources.len()],
         }
     }
 
     /// Adds one target.
     pub fn add(&mut self, job: &Job, target: usize, report: &TargetReport) {
-        let target = &job.program.targets[target];
+        let target = &job.ground.program.targets[target];
         let summary = &mut self.summary;
         if report.changed {
             summary.compensated += 1;
@@ -139,6 +156,10 @@ impl Tally {
             self.shifts_m += report.shift.distance_m;
         }
         if report.status == Some(Status::Converged) {
+            self.solved += 1;
+            self.before_m += report.before.distance_m;
+            self.after_m += report.rounding.distance_m;
+            summary.max_before_m = summary.max_before_m.max(report.before.distance_m);
             self.compensated[target.file as usize] = true;
             summary.max_shift_m = summary.max_shift_m.max(report.shift.distance_m);
             summary.max_residual_m = summary.max_residual_m.max(report.residual.distance_m);
@@ -154,13 +175,17 @@ impl Tally {
         if summary.compensated > 0 {
             summary.mean_shift_m = self.shifts_m / summary.compensated as f64;
         }
+        if self.solved > 0 {
+            summary.mean_before_m = self.before_m / self.solved as f64;
+            summary.mean_after_m = self.after_m / self.solved as f64;
+        }
         (self.compensated, summary)
     }
 }
 
 /// Names each target's first tool and frame.
 pub(super) fn name_places(job: &Job, reports: &mut [TargetReport]) {
-    for motion in job.program.moves.iter().rev() {
+    for motion in job.ground.program.moves.iter().rev() {
         if let Some(report) = motion.target.and_then(|target| reports.get_mut(target)) {
             (report.tool, report.frame) = (Some(small(motion.tool)), Some(small(motion.frame)));
         }
@@ -168,10 +193,11 @@ pub(super) fn name_places(job: &Job, reports: &mut [TargetReport]) {
 }
 
 /// Brings findings into the order of the files.
-pub(super) fn sort(job: &Job, findings: &mut [Finding]) {
-    let names = job.sources.iter().enumerate();
+pub(super) fn sort(job: &Job, findings: &mut Vec<Finding>) {
+    let names = job.ground.sources.iter().enumerate();
     let order: BTreeMap<&str, usize> = names.map(|(i, s)| (s.name.as_str(), i)).collect();
     findings.sort_by_cached_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
+    findings.dedup();
 }
 
 /// An index that is kept small.

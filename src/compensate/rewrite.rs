@@ -1,26 +1,27 @@
 //! New numbers in the place of the old ones, read back to tell what rounding costs.
 
+use super::Job;
+use super::approach::Approach;
 use super::outcome::TargetReport;
-use super::placement::name_of;
-use super::{Job, Task};
+use super::shared::{self, Fake};
 use crate::finding::{Finding, Severity};
+use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
-use crate::geometry::{Pose, Separation};
 use crate::inverse::{Arm, Outcome, Status};
-use crate::model::Conditions;
 use crate::program::number::{self, Fraction, Style};
 use crate::program::{Edits, Number, Posture, Role, Shape, Target, Value};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// A shift below this is none: the target's text stays as it is.
 const NO_SHIFT: Separation = Separation {
     distance_m: 1e-9,
     angle_rad: 1e-9,
 };
-/// Rounding that costs more than this, and more than a tenth of the shift, is worth a finding.
+/// More than this may not be left by rounding.
 const ROUNDING_LIMIT: Separation = Separation {
     distance_m: 0.01 * MM,
-    angle_rad: 0.02 * DEG,
+    angle_rad: 0.01 * DEG,
 };
 /// Nearer to a singularity than this the joints move much for a small shift.
 const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
@@ -38,11 +39,11 @@ pub(super) struct Portion {
 
 /// How each source writes magnitudes below one.
 pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
-    let mut fractions: Vec<Option<Fraction>> = vec![None; job.sources.len()];
-    for target in &job.program.targets {
+    let mut fractions: Vec<Option<Fraction>> = vec![None; job.ground.sources.len()];
+    for target in &job.ground.program.targets {
         let fraction = &mut fractions[target.file as usize];
         if fraction.is_none() {
-            let numbers = job.program.numbers_of(target);
+            let numbers = job.ground.program.numbers_of(target);
             *fraction = numbers
                 .iter()
                 .find_map(|n| Fraction::shown_by(text(job, target, n)));
@@ -55,97 +56,127 @@ pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
 }
 
 impl Portion {
-    /// Writes the new text of one target, where it converged, and reports on it.
-    pub fn add(&mut self, job: &Job, task: &Task, outcome: &Outcome, fractions: &[Fraction]) {
-        let mut report = TargetReport::new(Some((task, outcome)));
-        if outcome.status == Status::Converged {
-            self.add_converged(job, task, outcome, fractions, &mut report);
+    /// Writes the new text of one target, where it converged from wherever the robot comes, and reports on it.
+    pub fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
+        let (approach, outcome) = &group[0];
+        let mut report = TargetReport::new(Some((approach, outcome)));
+        let lost = group
+            .iter()
+            .find(|(_, outcome)| outcome.status != Status::Converged);
+        if let Some((approach, outcome)) = lost {
+            report = TargetReport::new(Some((approach, outcome)));
+            self.findings.push(failure(job, approach, outcome));
         } else {
-            self.findings.push(failure(job, task, outcome));
+            match shared::common(job, group) {
+                Ok(fake) => self.add_converged(job, group, &fake, fractions, &mut report),
+                Err(finding) => {
+                    report.status = None;
+                    self.findings.push(finding);
+                }
+            }
         }
-        self.reports.push((task.target, report));
+        self.reports.push((approach.target as usize, report));
     }
 
     fn add_converged(
         &mut self,
         job: &Job,
-        task: &Task,
-        outcome: &Outcome,
+        group: &[(Approach, Outcome)],
+        fake: &Fake,
         fractions: &[Fraction],
         report: &mut TargetReport,
     ) {
-        let controller_pose = job
-            .equipped(task.tool)
-            .controller
-            .forward(&outcome.q, &Conditions::default());
-        let fake = job.world_from_frame(task.frame).inverse() * controller_pose;
-        let shift = task.wanted.separation(&controller_pose);
-        (report.fake, report.shift) = (Some(fake), shift);
-        self.findings.extend(singularity(job, task, outcome));
-        self.findings.extend(other_posture(job, task, outcome));
+        let (approach, outcome) = &group[0];
+        let wanted = approach.wanted(job);
+        let given = *job.ground.world_from_frame(approach.frame as usize) * fake.frame_from_tool;
+        let shift = wanted.separation(&given);
+        (report.fake, report.shift) = (Some(fake.frame_from_tool), shift);
+        report.before = worst(group.iter().map(|(approach, _)| uncorrected(job, approach)));
+        self.findings.extend(singularity(job, approach, outcome));
+        self.findings.extend(other_posture(job, approach, outcome));
         if shift.distance_m < NO_SHIFT.distance_m && shift.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
-        let Some((written, changed)) = self.write(job, task, outcome, &fake, fractions) else {
+        let Some(written) = self.written(job, approach, fake, fractions) else {
             (report.fake, report.shift) = (None, Separation::default());
             return;
         };
-        report.changed = changed;
-        report.rounding = landing(job, task, outcome, &written);
+        let numbers = Fake::meant(job, approach, &written.numbers);
+        let landed = group
+            .iter()
+            .map(|(approach, outcome)| shared::landing(job, approach, outcome, &numbers));
+        report.rounding = worst(landed);
+        let (left, before) = (report.rounding, report.before);
+        let no_better = left.distance_m >= before.distance_m && left.angle_rad >= before.angle_rad;
+        if no_better {
+            report.rounding = before;
+            report.fake = None;
+        } else {
+            report.changed = written.changed;
+            self.findings.extend(written.finding);
+            let edits = self
+                .edits
+                .entry(job.ground.program.targets[approach.target as usize].file)
+                .or_default();
+            for (span, text) in &written.texts {
+                edits.replace(span.clone(), |out| {
+                    out.extend_from_slice(&written.digits[text.clone()]);
+                });
+            }
+        }
         let left = report.rounding;
-        let beside =
-            left.distance_m > ROUNDING_LIMIT.distance_m && left.distance_m > 0.1 * shift.distance_m;
-        let turned =
-            left.angle_rad > ROUNDING_LIMIT.angle_rad && left.angle_rad > 0.1 * shift.angle_rad;
-        if beside || turned {
-            self.findings.push(rounding_finding(job, task, left, shift));
+        if left.distance_m > ROUNDING_LIMIT.distance_m || left.angle_rad > ROUNDING_LIMIT.angle_rad
+        {
+            self.findings
+                .push(rounding_finding(job, approach, left, shift));
         }
     }
 
-    /// Puts the new numbers' text into the edits; returns the numbers as they are written and whether any changed,
-    /// or nothing where the target has to stay.
-    fn write(
+    /// The text of the new numbers; `None` where the target has to stay.
+    fn written(
         &mut self,
         job: &Job,
-        task: &Task,
-        outcome: &Outcome,
-        fake: &Pose,
+        approach: &Approach,
+        fake: &Fake,
         fractions: &[Fraction],
-    ) -> Option<(Vec<f64>, bool)> {
-        let target = &job.program.targets[task.target];
-        let numbers = job.program.numbers_of(target);
-        let roles = job.language.roles(target.layout);
-        let arm = &job.equipped(task.tool).arm;
+    ) -> Option<Written> {
+        let ground = &job.ground;
+        let target = &ground.program.targets[approach.target as usize];
+        let numbers = ground.program.numbers_of(target);
+        let roles = ground.language.roles(target.layout);
+        let arm = &ground.arm_with(approach.tool as usize).arm;
         let value = match target.layout.shape {
-            Shape::Pose => Value::Pose(*fake),
-            Shape::Joints => Value::Joints(outcome.q),
+            Shape::Pose => Value::Pose(fake.frame_from_tool),
+            Shape::Joints => Value::Joints(fake.q),
         };
         let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
         let mut new = old.clone();
         let (before, after) = (
-            posture_of(arm, &task.nominal_q),
-            posture_of(arm, &outcome.q),
+            posture_of(arm, &approach.nominal_q),
+            posture_of(arm, &fake.q),
         );
-        job.language.encode(
+        ground.language.encode(
             target.layout,
             &value,
             &before,
             &after,
-            job.settings,
+            ground.settings,
             &mut new,
         );
-        if let Some(joint) = kept_configuration(job, task, outcome, &new) {
-            self.findings.push(kept_finding(job, task, joint));
+        if let Some(joint) = kept_configuration(job, approach, &fake.q, &new) {
+            self.findings.push(kept_finding(job, approach, joint));
             return None;
         }
         let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
+        let mut written = Written {
+            numbers: new,
+            ..Written::default()
+        };
+        let new = &mut written.numbers;
         if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
-            self.findings
-                .push(configuration_finding(job, task, roles, &old, &new));
+            written.finding = Some(configuration_finding(job, approach, roles, &old, new));
         }
-        let edits = self.edits.entry(target.file).or_default();
         let mut digits = Vec::with_capacity(32);
-        let mut changed = false;
         for (index, number) in numbers.iter().enumerate() {
             if new[index] == old[index] {
                 continue;
@@ -153,7 +184,7 @@ impl Portion {
             let old_text = text(job, target, number);
             digits.clear();
             if roles[index] == Role::Configuration {
-                job.language.write_configuration(
+                ground.language.write_configuration(
                     target.layout,
                     index,
                     new[index],
@@ -166,15 +197,61 @@ impl Portion {
                     number::parse(digits.trim_ascii_start()).expect("a written number is a number");
             }
             if new[index] != old[index] {
-                changed = true;
+                written.changed = true;
                 let start = number.start as usize;
-                edits.replace(start..start + usize::from(number.length), |out| {
-                    out.extend_from_slice(&digits);
-                });
+                let from = written.digits.len();
+                written.digits.extend_from_slice(&digits);
+                written.texts.push((
+                    start..start + usize::from(number.length),
+                    from..written.digits.len(),
+                ));
             }
         }
-        Some((new, changed))
+        Some(written)
     }
+}
+
+/// New numbers as they are to be written.
+#[derive(Default)]
+struct Written {
+    numbers: Vec<f64>,
+    changed: bool,
+    digits: Vec<u8>,
+    /// Bytes of the file, and in `digits` what replaces them.
+    texts: Vec<(Range<usize>, Range<usize>)>,
+    finding: Option<Finding>,
+}
+
+/// The largest distance and the largest angle.
+fn worst(all: impl Iterator<Item = Separation>) -> Separation {
+    all.fold(Separation::default(), |a, b| Separation {
+        distance_m: a.distance_m.max(b.distance_m),
+        angle_rad: a.angle_rad.max(b.angle_rad),
+    })
+}
+
+/// How far from the wanted pose the real tool lands with the target as it is.
+fn uncorrected(job: &Job, approach: &Approach) -> Separation {
+    let equipped = job.ground.arm_with(approach.tool as usize);
+    let is_joints = job.ground.is_joints(approach.target as usize);
+    let q = match &equipped.calibrated_controller {
+        Some(_) if !is_joints => {
+            let as_programmed = job.ground.off_part(approach.wanted(job));
+            equipped
+                .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
+                .0
+        }
+        _ if job.ground.work_offset.is_some() => {
+            let as_programmed = job.ground.off_part(approach.wanted(job));
+            equipped
+                .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
+                .0
+        }
+        _ => approach.nominal_q,
+    };
+    let real = &equipped.inverse.real;
+    real.forward(&q, &approach.conditions(job))
+        .separation(&approach.wanted(job))
 }
 
 /// The style of each role's numbers in one target.
@@ -192,10 +269,11 @@ fn styles(
         Role::Configuration,
     ]
     .map(|role| {
-        let at_least = job
-            .options
-            .decimals
-            .map_or(0, |decimals| job.language.decimals(role, decimals));
+        let language = job.ground.language;
+        let at_least = match job.options.decimals {
+            Some(decimals) => language.decimals(role, decimals),
+            None => language.least_decimals(role),
+        };
         let texts = numbers
             .iter()
             .zip(roles)
@@ -205,50 +283,32 @@ fn styles(
     })
 }
 
-/// How far from the wanted pose the real tool lands with the numbers as they are written.
-fn landing(job: &Job, task: &Task, outcome: &Outcome, written: &[f64]) -> Separation {
-    let target = &job.program.targets[task.target];
-    let q = match job
-        .language
-        .decode(target.layout, written, job.settings)
-        .value
-    {
-        Value::Joints(q) => q,
-        Value::Pose(frame_from_tool) => {
-            let given = *job.world_from_frame(task.frame) * frame_from_tool;
-            let equipped = job.equipped(task.tool);
-            let (q, _) = equipped.controller_joints(&given, task.branch, &outcome.q);
-            q
-        }
-    };
-    job.equipped(task.tool)
-        .inverse
-        .real
-        .forward(&q, &job.conditions(task))
-        .separation(&task.wanted)
-}
-
-fn rounding_finding(job: &Job, task: &Task, rounding: Separation, shift: Separation) -> Finding {
+fn rounding_finding(
+    job: &Job,
+    approach: &Approach,
+    rounding: Separation,
+    shift: Separation,
+) -> Finding {
     let message = format!(
-        "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg beside its wanted pose (the shift is {:.3} mm, {:.3} deg)",
-        name_of(job, task.target),
+        "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg off its wanted pose; the limit is 0.010 mm and 0.010 deg (the shift is {:.3} mm, {:.3} deg)",
+        job.ground.name_of(approach.target as usize),
         mm_from_m(rounding.distance_m),
         rounding.angle_rad / DEG,
         mm_from_m(shift.distance_m),
         shift.angle_rad / DEG
     );
-    job.at_target(
+    job.ground.at_target(
         "rounding",
-        Severity::Warning,
-        task.target,
+        Severity::Error,
+        approach.target as usize,
         message,
-        "--decimals 3 writes more",
+        "--decimals 4 writes more",
     )
 }
 
 fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {
     let start = number.start as usize;
-    &job.sources[target.file as usize].bytes[start..start + usize::from(number.length)]
+    &job.ground.sources[target.file as usize].bytes[start..start + usize::from(number.length)]
 }
 
 pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {
@@ -262,33 +322,35 @@ pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {
 
 /// A joint that the correction takes out of the range that the configuration data name, where these stay as they are
 /// because the language cannot write them for one target alone.
-fn kept_configuration(job: &Job, task: &Task, outcome: &Outcome, new: &[f64]) -> Option<usize> {
-    let target = &job.program.targets[task.target];
-    let roles = job.language.roles(target.layout);
+fn kept_configuration(job: &Job, approach: &Approach, q: &[f64; 6], new: &[f64]) -> Option<usize> {
+    let target = &job.ground.program.targets[approach.target as usize];
+    let roles = job.ground.language.roles(target.layout);
     let writes_its_own = roles.contains(&Role::Configuration);
-    if !task.honoured || target.layout.shape != Shape::Pose || writes_its_own {
+    if !approach.honoured || target.layout.shape != Shape::Pose || writes_its_own {
         return None;
     }
-    let decoded = job.language.decode(target.layout, new, job.settings);
+    let decoded = job
+        .ground
+        .language
+        .decode(target.layout, new, job.ground.settings);
     let is_inside = |q: f64, (low, high): (f64, f64)| (low..=high).contains(&q);
     (0..6).find(|&i| {
-        decoded.configuration.joints[i].is_some_and(|range| {
-            is_inside(task.nominal_q[i], range) && !is_inside(outcome.q[i], range)
-        })
+        decoded.configuration.joints[i]
+            .is_some_and(|range| is_inside(approach.nominal_q[i], range) && !is_inside(q[i], range))
     })
 }
 
-fn kept_finding(job: &Job, task: &Task, joint: usize) -> Finding {
+fn kept_finding(job: &Job, approach: &Approach, joint: usize) -> Finding {
     let message = format!(
         "the correction takes joint {} of {} across the border of its configuration data, which are those of other \
          targets too and stay: a joint move would come out a turn away",
         joint + 1,
-        name_of(job, task.target)
+        job.ground.name_of(approach.target as usize)
     );
-    job.at_target(
+    job.ground.at_target(
         "configuration-kept",
         Severity::Error,
-        task.target,
+        approach.target as usize,
         message,
         "go there on a straight line, or move the target away from the border",
     )
@@ -296,7 +358,7 @@ fn kept_finding(job: &Job, task: &Task, joint: usize) -> Finding {
 
 fn configuration_finding(
     job: &Job,
-    task: &Task,
+    approach: &Approach,
     roles: &[Role],
     old: &[f64],
     new: &[f64],
@@ -312,22 +374,22 @@ fn configuration_finding(
     };
     let message = format!(
         "a joint of {} crosses into another range: configuration {} becomes {}",
-        name_of(job, task.target),
+        job.ground.name_of(approach.target as usize),
         shown(old),
         shown(new)
     );
-    job.at_target(
+    job.ground.at_target(
         "configuration-changed",
         Severity::Warning,
-        task.target,
+        approach.target as usize,
         message,
         "check the move on the robot slowly",
     )
 }
 
-fn failure(job: &Job, task: &Task, outcome: &Outcome) -> Finding {
-    let name = name_of(job, task.target);
-    let mechanism = job.equipped(task.tool).arm.mechanism();
+fn failure(job: &Job, approach: &Approach, outcome: &Outcome) -> Finding {
+    let name = job.ground.name_of(approach.target as usize);
+    let mechanism = job.ground.arm_with(approach.tool as usize).arm.mechanism();
     let missing = format!(
         "{:.6} mm and {:.6} deg are missing",
         mm_from_m(outcome.residual.distance_m),
@@ -360,7 +422,7 @@ fn failure(job: &Job, task: &Task, outcome: &Outcome) -> Finding {
             "branch-lost",
             format!(
                 "the real robot reaches {name} only on another branch than {}; {near}",
-                task.branch
+                approach.branch
             ),
         ),
         Status::NotConverged | Status::Converged => (
@@ -369,13 +431,14 @@ fn failure(job: &Job, task: &Task, outcome: &Outcome) -> Finding {
         ),
     };
     let hint = "move the target, or --keep-going to leave it as it is";
-    job.at_target(id, Severity::Error, task.target, message, hint)
+    job.ground
+        .at_target(id, Severity::Error, approach.target as usize, message, hint)
 }
 
-fn singularity(job: &Job, task: &Task, outcome: &Outcome) -> Option<Finding> {
+fn singularity(job: &Job, approach: &Approach, outcome: &Outcome) -> Option<Finding> {
     let margins = &outcome.margins;
     let by = (0..6)
-        .map(|i| (outcome.q[i] - task.nominal_q[i]).abs())
+        .map(|i| (outcome.q[i] - approach.nominal_q[i]).abs())
         .fold(0.0, f64::max)
         / DEG;
     let (which, distance) = if margins.wrist_rad < NEAR_STRAIGHT_RAD {
@@ -392,23 +455,27 @@ fn singularity(job: &Job, task: &Task, outcome: &Outcome) -> Option<Finding> {
     };
     let message = format!(
         "{} is {distance} from the {which} singularity: the correction turns a joint by {by:.2} deg",
-        name_of(job, task.target)
+        job.ground.name_of(approach.target as usize)
     );
     let hint = "the move may be fast there; check it slowly";
-    Some(job.at_target(
+    Some(job.ground.at_target(
         "near-singularity",
         Severity::Warning,
-        task.target,
+        approach.target as usize,
         message,
         hint,
     ))
 }
 
 /// A pose that the controller may reach in another posture than the one it was compensated for.
-fn other_posture(job: &Job, task: &Task, outcome: &Outcome) -> Option<Finding> {
-    let is_pose = job.program.targets[task.target].layout.shape == Shape::Pose;
+fn other_posture(job: &Job, approach: &Approach, outcome: &Outcome) -> Option<Finding> {
+    let is_pose = job.ground.program.targets[approach.target as usize]
+        .layout
+        .shape
+        == Shape::Pose;
     let only = job
-        .equipped(task.tool)
+        .ground
+        .arm_with(approach.tool as usize)
         .inverse
         .arm
         .is_only_posture(&outcome.margins);
@@ -422,13 +489,13 @@ fn other_posture(job: &Job, task: &Task, outcome: &Outcome) -> Option<Finding> {
         .collect();
     let message = format!(
         "{} is near a singularity, where this arm can have another posture on the same branch: joints {} deg are meant",
-        name_of(job, task.target),
+        job.ground.name_of(approach.target as usize),
         q.join(", ")
     );
-    Some(job.at_target(
+    Some(job.ground.at_target(
         "several-postures",
         Severity::Warning,
-        task.target,
+        approach.target as usize,
         message,
         "see that the controller stands so, or teach the joints",
     ))

@@ -11,10 +11,11 @@ use super::before::{ANYWHERE, Before, START, Sets, Stop};
 use super::holding::{Atom, DECLARED, Holding, Holdings, NOTHING, Site};
 use super::readers::read_elsewhere;
 use crate::program::script::{
-    Argument, Call, DISPLACED_SOMEHOW, Expr, Held, How, Label, NOT_DISPLACED, Part, PartValue,
-    RoutineId, Script, Start, Statement, ValueId, VariableId, Write, Written, short,
+    Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, NOT_DISPLACED, Part,
+    PartValue, RoutineId, Script, Start, Statement, TableId, ValueId, VariableId, Write, Written,
+    short,
 };
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::{BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
 
 /// Calls inside calls that are told apart.
@@ -24,6 +25,8 @@ const MOST_TIMES: usize = 3;
 const MOST_MORE: usize = 20_000;
 /// Times that what is kept from run to run, or written at any time, is gone through.
 const MOST_ROUNDS: usize = 8;
+/// Entries of a table that all its writes by unknown numbers may reach; beyond, they hold anywhere.
+const MOST_WRITES: usize = 1_000_000;
 /// Statements gone through, times those of the instances, after which the flow gives up.
 const MOST_VISITS: usize = 200;
 
@@ -86,6 +89,20 @@ enum From {
     Dead,
 }
 
+/// The name of a record and what its parts are.
+type Content = (Box<str>, Vec<(u8, u64)>);
+
+/// What a part is, to compare.
+fn bits(value: PartValue) -> (u8, u64) {
+    match value {
+        PartValue::Number(number) => (0, number.to_bits()),
+        PartValue::Flag(flag) => (1, flag.into()),
+        PartValue::Text { empty } => (2, empty.into()),
+        PartValue::Missing => (3, 0),
+        PartValue::Computed => (4, 0),
+    }
+}
+
 /// The flow through a script.
 pub(super) struct Flow<'a> {
     script: &'a Script,
@@ -95,6 +112,8 @@ pub(super) struct Flow<'a> {
     pub made: Vec<Held>,
     more_parts: Vec<Part>,
     made_parts: HashMap<(ValueId, u32, u32), Option<ValueId>>,
+    /// Records that writes of parts made, by what is in them: what comes round again is the same.
+    made_records: HashMap<Content, ValueId>,
     /// Slots of the variables of each routine's own.
     locals: HashMap<RoutineId, Vec<u32>>,
     /// The slot of each variable that is tracked.
@@ -103,6 +122,8 @@ pub(super) struct Flow<'a> {
     fixed: Vec<Holding>,
     /// Variables in slots.
     tracked: Vec<VariableId>,
+    /// Tables that are written at so many places by numbers that only the running program knows, that what is written holds anywhere.
+    loose: HashSet<TableId>,
     /// What routines that run at any time may write, by variable.
     anytime: HashMap<VariableId, Holding>,
     label_places: Vec<u32>,
@@ -126,6 +147,12 @@ pub(super) struct Flow<'a> {
     /// Where variables are written in routines that nothing in the files calls.
     pub by_operator: Vec<(VariableId, Site)>,
     is_concurrent: bool,
+    /// With what routines are started beside others.
+    started: HashMap<RoutineId, State>,
+    /// What those that start others write, by variable.
+    beside: HashMap<VariableId, Holding>,
+    /// The instance whose text is gone through that nothing reaches.
+    dead: Option<u32>,
 }
 
 impl<'a> Flow<'a> {
@@ -144,10 +171,12 @@ impl<'a> Flow<'a> {
             made: Vec::new(),
             more_parts: Vec::new(),
             made_parts: HashMap::new(),
+            made_records: HashMap::new(),
             locals: HashMap::new(),
             slots: Vec::new(),
             fixed: Vec::new(),
             tracked: Vec::new(),
+            loose: HashSet::new(),
             anytime: HashMap::new(),
             label_places,
             instances: Vec::new(),
@@ -164,10 +193,31 @@ impl<'a> Flow<'a> {
             given_away: Vec::new(),
             by_operator: Vec::new(),
             is_concurrent: false,
+            started: HashMap::new(),
+            beside: HashMap::new(),
+            dead: None,
         };
         flow.track();
-        flow.run_concurrent();
-        flow.run_entries();
+        for _ in 0..MOST_ROUNDS {
+            let before = (
+                flow.started.clone(),
+                flow.beside.clone(),
+                flow.anytime.clone(),
+            );
+            flow.forget();
+            flow.run_concurrent();
+            flow.run_entries();
+            if flow.started.is_empty()
+                || before
+                    == (
+                        flow.started.clone(),
+                        flow.beside.clone(),
+                        flow.anytime.clone(),
+                    )
+            {
+                break;
+            }
+        }
         flow.run_dead();
         flow.given_away.sort_unstable();
         flow.given_away.dedup();
@@ -193,6 +243,7 @@ impl<'a> Flow<'a> {
         let count = script.variables.len();
         let mut writes: Vec<(u32, Site)> = vec![(0, DECLARED); count];
         let mut whole: Vec<Option<Expr>> = vec![None; count];
+        let mut any: HashMap<TableId, usize> = HashMap::new();
         for (at, statement) in script.statements.iter().enumerate() {
             let mut note = |variable: VariableId, value: Option<Expr>| {
                 let (n, site) = &mut writes[variable as usize];
@@ -206,14 +257,10 @@ impl<'a> Flow<'a> {
                     match (write.variable, &write.how) {
                         (Written::One(variable), How::Whole(value)) => note(variable, Some(*value)),
                         (Written::One(variable), _) => note(variable, None),
-                        (Written::AnyOf(table), _) => {
-                            for variable in script.tables[table as usize].entries.values() {
-                                note(*variable, None);
-                            }
-                        }
+                        (Written::AnyOf(table), _) => *any.entry(table).or_insert(0_usize) += 1,
                     }
                 }
-                Statement::Call(call) => {
+                Statement::Call(call) | Statement::Start(call) => {
                     let call = &script.calls[*call as usize];
                     for argument in self.arguments(call) {
                         for variable in [argument.parameter, argument.back].into_iter().flatten() {
@@ -234,6 +281,22 @@ impl<'a> Flow<'a> {
                     }
                 }
                 _ => {}
+            }
+        }
+        for (table, times) in any {
+            let entries = &script.tables[table as usize].entries;
+            let is_loose = times.saturating_mul(entries.len()) > MOST_WRITES;
+            for &variable in entries.values() {
+                writes[variable as usize].0 += 2;
+                whole[variable as usize] = None;
+                if is_loose {
+                    let changed = self.changed(variable);
+                    let changed = self.holdings.one(changed, DECLARED);
+                    self.anytime.insert(variable, changed);
+                }
+            }
+            if is_loose {
+                self.loose.insert(table);
             }
         }
         for variable in 0..count {
@@ -402,6 +465,10 @@ impl<'a> Flow<'a> {
             let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);
             self.anytime.insert(variable, joined);
+        } else if !self.started.is_empty() {
+            let before = self.beside.get(&variable).copied().unwrap_or(NOTHING);
+            let joined = self.holdings.join(before, holding);
+            self.beside.insert(variable, joined);
         }
         if let Some(slot) = self.slots[variable as usize]
             && state.holds[slot as usize] != holding
@@ -527,11 +594,11 @@ impl<'a> Flow<'a> {
 
     fn arrive(&mut self, instance: u32, label: Label, state: &State) {
         let place = self.label_places[label as usize];
-        if place == u32::MAX {
-            // the text has no such label: nothing is known to follow
+        let key = (instance, label);
+        // the text may have no such label: nothing is known to follow; what is reached is not reached from dead text
+        if place == u32::MAX || self.dead == Some(instance) && self.visited[place as usize] {
             return;
         }
-        let key = (instance, label);
         let joined = match self.at_labels.get(&key) {
             Some((old, _)) => {
                 let old = old.clone();
@@ -626,6 +693,9 @@ impl<'a> Flow<'a> {
                         }
                     }
                 }
+                Statement::Start(call) => {
+                    self.start(&script.calls[call as usize], at, &state);
+                }
                 Statement::Label(label) => {
                     self.arrive(instance, label, &state);
                     return visits;
@@ -644,6 +714,9 @@ impl<'a> Flow<'a> {
     }
 
     fn leave(&mut self, instance: u32, state: &State) {
+        if self.dead == Some(instance) && self.instances[instance as usize].entry.is_some() {
+            return;
+        }
         let joined = match &self.instances[instance as usize].exit {
             Some(exit) => {
                 let exit = exit.clone();
@@ -681,6 +754,12 @@ impl<'a> Flow<'a> {
             let one = self.variable(state, variable);
             guard = self.holdings.join(guard, one);
         }
+        for expected in &*script.expected[instruction.expected as usize] {
+            if let Some(site) = self.differs(state, expected) {
+                let one = self.holdings.one(Atom::Unknown(expected.remark), site);
+                guard = self.holdings.join(guard, one);
+            }
+        }
         self.reached[stop as usize] = Some(Reached {
             tool: self.evaluate(state, instruction.tool, site),
             frame: self.evaluate(state, instruction.frame, site),
@@ -715,6 +794,21 @@ impl<'a> Flow<'a> {
         }
     }
 
+    /// Where a variable was given the number that it certainly holds in the place of the one that a move expects.
+    fn differs(&mut self, state: &State, expected: &Expected) -> Option<Site> {
+        let held = self.variable(state, expected.variable);
+        let atoms = self.holdings.of(held);
+        let is_other = |atom: &Atom| {
+            matches!(atom, Atom::Value(value)
+                if matches!(self.value(*value), Held::Number(number) if *number != expected.number))
+        };
+        let (_, site) = atoms.first()?;
+        atoms
+            .iter()
+            .all(|(atom, _)| is_other(atom))
+            .then_some(*site)
+    }
+
     /// Whether an expression says the same whatever was before.
     fn is_fixed(&self, value: Expr) -> bool {
         match value {
@@ -736,15 +830,49 @@ impl<'a> Flow<'a> {
                 let holding = self.written(write, variable, site, state);
                 self.set(state, variable, holding);
             }
+            Written::AnyOf(table) if self.loose.contains(&table) => {}
             Written::AnyOf(table) => {
                 for variable in self.script.tables[table as usize].entries.values() {
                     let held = self.variable(state, *variable);
+                    if !matches!(write.how, How::Whole(_)) && self.is_in_parts(held, *variable) {
+                        continue;
+                    }
                     let holding = self.written(write, *variable, site, state);
                     let either = self.holdings.join(held, holding);
                     self.set(state, *variable, either);
                 }
             }
         }
+    }
+
+    /// What a variable holds that something may have written: its own position with other numbers, or anything.
+    fn changed(&self, variable: VariableId) -> Atom {
+        match self.script.variables[variable as usize].declared {
+            Expr::Target(target) => Atom::Changed {
+                target: short(target),
+            },
+            _ => Atom::Anything,
+        }
+    }
+
+    /// Whether a variable holds its own target, of which some parts may be written over: once more changes nothing.
+    fn is_in_parts(&self, held: Holding, variable: VariableId) -> bool {
+        let Expr::Target(own) = self.script.variables[variable as usize].declared else {
+            return false;
+        };
+        let atoms = self.holdings.of(held).iter().map(|(atom, _)| *atom);
+        let own = short(own);
+        atoms
+            .clone()
+            .any(|atom| atom == Atom::Changed { target: own })
+            && atoms.clone().all(|atom| match atom {
+                Atom::Changed { target } => target == own,
+                Atom::Target {
+                    target,
+                    displacement,
+                } => target == own && displacement == NOT_DISPLACED,
+                _ => false,
+            })
     }
 
     /// What a variable holds behind a write.
@@ -839,6 +967,13 @@ impl<'a> Flow<'a> {
         if same {
             return Some(value);
         }
+        let content = (
+            name.clone(),
+            all.iter().map(|part| bits(part.value)).collect(),
+        );
+        if let Some(&known) = self.made_records.get(&content) {
+            return Some(known);
+        }
         let start = short(script.parts.len() + self.more_parts.len());
         self.more_parts.extend(all);
         let end = short(script.parts.len() + self.more_parts.len());
@@ -846,7 +981,9 @@ impl<'a> Flow<'a> {
             name,
             parts: start..end,
         });
-        Some(short(script.values.len() + self.made.len() - 1))
+        let made = short(script.values.len() + self.made.len() - 1);
+        self.made_records.insert(content, made);
+        Some(made)
     }
 
     /// The parts of a record.
@@ -876,12 +1013,7 @@ impl<'a> Flow<'a> {
                 }
             }
             if let Some(variable) = argument.back.filter(|_| call.callees.is_empty()) {
-                let own = match self.script.variables[variable as usize].declared {
-                    Expr::Target(target) => Atom::Changed {
-                        target: short(target),
-                    },
-                    _ => Atom::Anything,
-                };
+                let own = self.changed(variable);
                 let changed = self.holdings.one(own, site);
                 self.set(state, variable, changed);
             }
@@ -908,15 +1040,7 @@ impl<'a> Flow<'a> {
         let mut behind = call.foreign.then(|| start.clone());
         for &routine in &*call.callees {
             let callee = self.called(instance, statement, routine);
-            let mut entry = start.clone();
-            for argument in self.arguments(call) {
-                if let Some(parameter) = argument.parameter
-                    && self.script.variables[parameter as usize].routine == Some(routine)
-                {
-                    let held = self.evaluate(&start, argument.value, statement);
-                    self.set(&mut entry, parameter, held);
-                }
-            }
+            let entry = self.entry_of(call, routine, statement, &start);
             let waiting = &mut self.instances[callee as usize].waiting;
             if !waiting.contains(&(instance, statement)) {
                 waiting.push((instance, statement));
@@ -932,6 +1056,32 @@ impl<'a> Flow<'a> {
             });
         }
         behind
+    }
+
+    /// The state in which a call enters a routine: what it is given is bound.
+    fn entry_of(&mut self, call: &Call, routine: RoutineId, site: Site, start: &State) -> State {
+        let mut entry = start.clone();
+        for argument in self.arguments(call) {
+            if let Some(parameter) = argument.parameter
+                && self.script.variables[parameter as usize].routine == Some(routine)
+            {
+                let held = self.evaluate(start, argument.value, site);
+                self.set(&mut entry, parameter, held);
+            }
+        }
+        entry
+    }
+
+    /// Notes with what routines are started that then run beside the others.
+    fn start(&mut self, call: &Call, site: Site, state: &State) {
+        for &routine in &*call.callees {
+            let mut entry = self.entry_of(call, routine, site, state);
+            entry.before = self.sets.one(ANYWHERE);
+            if let Some(before) = self.started.get(&routine).cloned() {
+                entry = self.join(&before, &entry);
+            }
+            self.started.insert(routine, entry);
+        }
     }
 
     /// The state that a routine leaves, with the caller's own variables as they were.
@@ -977,12 +1127,26 @@ impl<'a> Flow<'a> {
         if concurrent.is_empty() {
             return;
         }
+        let mut by_others = vec![false; self.script.routines.len()];
+        for statement in &self.script.statements {
+            if let Statement::Start(call) = statement {
+                for &routine in &*self.script.calls[*call as usize].callees {
+                    by_others[routine as usize] = true;
+                }
+            }
+        }
         self.is_concurrent = true;
         for _ in 0..MOST_ROUNDS {
             let before = self.anytime.clone();
             self.forget();
-            let state = self.declared_state(ANYWHERE);
+            let declared = self.declared_state(ANYWHERE);
             for &routine in &concurrent {
+                let state = match self.started.get(&routine).cloned() {
+                    Some(state) => self.with_beside(state),
+                    // nothing has been seen to start it yet
+                    None if by_others[routine as usize] => continue,
+                    None => declared.clone(),
+                };
                 let instance = self.instance(routine, 0, NO_INSTANCE);
                 self.enter(instance, &state);
             }
@@ -992,6 +1156,19 @@ impl<'a> Flow<'a> {
             }
         }
         self.is_concurrent = false;
+    }
+
+    /// A state in which all that others write meanwhile may hold.
+    fn with_beside(&mut self, mut state: State) -> State {
+        let mut holds = state.holds.to_vec();
+        for (variable, &written) in &self.beside {
+            if let Some(slot) = self.slots[*variable as usize] {
+                let slot = slot as usize;
+                holds[slot] = self.holdings.join(holds[slot], written);
+            }
+        }
+        state.holds = Rc::new(holds);
+        state
     }
 
     fn forget(&mut self) {
@@ -1131,6 +1308,7 @@ impl<'a> Flow<'a> {
                 let instance =
                     instance.unwrap_or_else(|| self.instance(short(routine), 0, NO_INSTANCE));
                 own = Some(Some(instance));
+                self.dead = Some(instance);
                 self.push(instance, at, From::Dead);
                 self.run_work();
             }
@@ -1143,7 +1321,7 @@ impl<'a> Flow<'a> {
         Some(match script.statements.get(site as usize)? {
             Statement::Move(at) => script.instructions[*at as usize].place,
             Statement::Write(at) => script.writes[*at as usize].place,
-            Statement::Call(at) => script.calls[*at as usize].place,
+            Statement::Call(at) | Statement::Start(at) => script.calls[*at as usize].place,
             _ => return None,
         })
     }

@@ -6,11 +6,21 @@
 //!
 //! This is once for all languages: a reader translates text into statements and knows no flow; here no text is known.
 
+pub(crate) mod arms;
 mod before;
+pub(crate) mod course;
 mod flow;
+pub(crate) mod ground;
 mod holding;
 mod readers;
+mod posture;
 mod resolve;
+pub(crate) mod setting;
+pub(crate) mod walk;
+
+pub use course::Turning;
+pub(crate) use posture::OUT_OF_REACH;
+pub use setting::{Given, MeasuredFrameError, Missing, PlacementError};
 
 use crate::program::{Before, Language, Program, ReadError, Settings, Source};
 

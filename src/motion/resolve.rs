@@ -86,8 +86,8 @@ struct Resolver<'a, 'p> {
     used: Vec<bool>,
     /// Targets that are tools or frames, and where.
     as_frames: HashMap<TargetId, Place>,
-    /// Moves whose tool, frame or mode is in doubt: target, and the call.
-    doubted: Vec<(TargetId, Site)>,
+    /// Moves whose tool, frame or mode is in doubt: target, the call, and whether it is the tool alone.
+    doubted: Vec<(TargetId, Site, bool)>,
     /// Moves of each stop.
     stops: Vec<(u32, u32)>,
     full: bool,
@@ -163,6 +163,11 @@ impl Resolver<'_, '_> {
         match reached.target {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
             Some(held) => {
+                let atoms = self.flow.holdings.of(held).iter();
+                if atoms.filter(|(atom, _)| *atom != Atom::Doubt).count() == 0 {
+                    // nothing that runs before writes it
+                    self.computed(instruction.place);
+                }
                 for (atom, site) in self.atoms(held) {
                     self.go_to(atom, Some(site), instruction.displacement, &mut listed);
                 }
@@ -188,7 +193,8 @@ impl Resolver<'_, '_> {
         place.filter(|place| *place != instruction.place)
     }
 
-    fn doubts(&self, reached: &Reached) -> Option<Site> {
+    /// The call that leaves tool, frame or mode in doubt, and whether it is the tool alone.
+    fn doubts(&self, reached: &Reached) -> Option<(Site, bool)> {
         let of = |holding: Holding| {
             let atoms = self.flow.holdings.of(holding).iter();
             atoms
@@ -196,7 +202,10 @@ impl Resolver<'_, '_> {
                 .map(|(_, site)| *site)
                 .next()
         };
-        of(reached.tool).or(of(reached.frame)).or(of(reached.guard))
+        let others = of(reached.frame).or(of(reached.guard));
+        others
+            .map(|site| (site, false))
+            .or(of(reached.tool).map(|site| (site, true)))
     }
 
     /// What speaks against a move; what is only worth a word is said.
@@ -453,7 +462,7 @@ impl Resolver<'_, '_> {
             Atom::Value(ValueId::MAX) | Atom::Doubt => self.go_nowhere(listed),
             Atom::Value(value) => {
                 match self.flow.value(value) {
-                    Held::Actual => self.report.say(
+                    Held::Actual if displacement == NOT_DISPLACED => self.report.say(
                         "run-time-position",
                         Severity::Note,
                         listed.instruction.place,
@@ -514,8 +523,8 @@ impl Resolver<'_, '_> {
             self.report
                 .block(target, remark.id, &remark.text, remark.hint, because);
         }
-        if let Some(site) = listed.doubts {
-            self.doubted.push((target, site));
+        if let Some((site, tool_alone)) = listed.doubts {
+            self.doubted.push((target, site, tool_alone));
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
         let displacement = match self.script.displacements.get(displacement as usize) {
@@ -745,12 +754,23 @@ impl Resolver<'_, '_> {
         let mut ids: Vec<(ToolId, FrameId)> = poses.map(|m| (m.tool, m.frame)).collect();
         ids.sort_unstable();
         ids.dedup();
-        let poses_of_tools: HashSet<ToolId> = ids.iter().map(|(tool, _)| *tool).collect();
-        let poses_of_frames: HashSet<FrameId> = ids.iter().map(|(_, frame)| *frame).collect();
-        if poses_of_tools.len() < 2 && poses_of_frames.len() < 2 {
-            return;
+        let frames: HashSet<FrameId> = ids.iter().map(|(_, frame)| *frame).collect();
+        // tools that differ in their load alone are one here
+        let mut tools: Vec<&Tool> = Vec::new();
+        let used: HashSet<ToolId> = ids.iter().map(|(tool, _)| *tool).collect();
+        for tool in used.into_iter().map(|tool| &program.tools[tool]) {
+            let same = |known: &&Tool| {
+                known.name == tool.name && known.flange_from_tool == tool.flange_from_tool
+            };
+            if tools.len() < 2 && !tools.iter().any(same) {
+                tools.push(tool);
+            }
         }
-        for (target, site) in doubted {
+        let (several_tools, several_frames) = (tools.len() > 1, frames.len() > 1);
+        for (target, site, tool_alone) in doubted {
+            if !several_tools && (tool_alone || !several_frames) {
+                continue;
+            }
             if self.report.program.targets[target].layout.shape == Shape::Joints {
                 continue;
             }
@@ -820,7 +840,7 @@ impl Resolver<'_, '_> {
 
     /// Targets that no move uses stay where others are used; once a file.
     fn tell_unused(&mut self) {
-        if !self.used.contains(&true) {
+        if !self.script.is_closed && !self.used.contains(&true) {
             return;
         }
         let mut by_file: Vec<(u32, TargetId, usize)> = Vec::new();
@@ -856,7 +876,7 @@ impl Resolver<'_, '_> {
         let mut said = HashSet::new();
         for (variable, site) in std::mem::take(&mut self.flow.by_operator) {
             let of = &self.script.variables[variable as usize];
-            if of.shared || matches!(of.declared, Expr::Absent) {
+            if of.shared || matches!(of.declared, Expr::Absent | Expr::Unknown(_)) {
                 continue;
             }
             let Some(place) = self.flow.place_of(site) else {
@@ -896,7 +916,7 @@ struct Listed<'a> {
     frames: Vec<Choice<FrameId>>,
     configured: Vec<bool>,
     guards: Vec<(RemarkId, Site)>,
-    doubts: Option<Site>,
+    doubts: Option<(Site, bool)>,
 }
 
 /// Collects findings.

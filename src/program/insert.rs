@@ -195,41 +195,13 @@ pub(super) fn spliced(
     out
 }
 
-/// Ranges of the arguments of a call or instruction, from behind its name or opening bracket up to `end`: what stands
-/// between commas outside brackets, without the blanks about it.
-pub(super) fn arguments(bytes: &[u8], from: usize, end: usize) -> Vec<Range<usize>> {
-    let (mut depth, mut start, mut found) = (0_i32, from, Vec::new());
-    for at in from..=end {
-        let byte = bytes.get(at).copied().filter(|_| at < end);
-        match byte {
-            Some(b'[' | b'(' | b'{') => depth += 1,
-            Some(b']' | b')' | b'}') => depth -= 1,
-            None | Some(b',') if depth == 0 || byte.is_none() => {
-                let part = &bytes[start..at];
-                let before = part.iter().take_while(|b| b.is_ascii_whitespace()).count();
-                let inside = part.trim_ascii().len();
-                found.push(start + before..start + before + inside);
-                start = at + 1;
-            }
-            _ => {}
-        }
-    }
-    found
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn arguments_are_what_stands_between_commas_outside_brackets() {
-        let text = b"f( a, p[1,2] ,g(x, y) )";
-        let all: Vec<&[u8]> = arguments(text, 2, text.len() - 1)
-            .into_iter()
-            .map(|range| &text[range])
-            .collect();
-        assert_eq!(all, [&b"a"[..], b"p[1,2]", b"g(x, y)"]);
-        assert_eq!(bracketed(text, 1), Some(1..text.len()));
+    fn brackets_are_closed_by_their_own() {
+        assert_eq!(bracketed(b"f( a, p[1,2] )", 1), Some(1..14));
         assert_eq!(bracketed(b"{a{b}", 0), None);
     }
 

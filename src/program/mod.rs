@@ -14,6 +14,7 @@ mod insert;
 mod kit;
 pub mod krl;
 mod marker;
+mod names;
 pub mod number;
 pub mod rapid;
 pub mod script;
@@ -145,6 +146,12 @@ pub trait Language: Sync {
     /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a metre away where it is an
     /// angle or part of a quaternion.
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize;
+
+    /// Decimals that a number gets at least, so that rounding stays below a thousandth of a millimetre and of a degree where
+    /// the controller takes as many.
+    fn least_decimals(&self, role: Role) -> usize {
+        self.decimals(role, 3)
+    }
 
     /// The meaning of a target's numbers, as many as it has roles.
     fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded;

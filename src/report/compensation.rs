@@ -111,6 +111,9 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
         joint_targets,
         mean_shift_m,
         max_shift_m,
+        max_before_m,
+        mean_before_m,
+        mean_after_m,
         max_residual_m,
         max_rounding_m,
         max_rounding_rad,
@@ -126,6 +129,13 @@ pub fn text(header: &Header, compensation: &Compensation) -> String {
         ));
     }
     if compensated > 0 {
+        lines.push(format!(
+            "  real tool off by  mean {:.3} mm, largest {:.3} mm before; mean {:.4} mm, largest {:.4} mm after",
+            mm_from_m(mean_before_m),
+            mm_from_m(max_before_m),
+            mm_from_m(mean_after_m),
+            mm_from_m(max_rounding_m)
+        ));
         lines.push(format!(
             "  shift     mean {:.3} mm, largest {:.3} mm",
             mm_from_m(mean_shift_m),

@@ -7,6 +7,7 @@ mod diagnose;
 mod documents;
 mod golden;
 mod laws;
+mod motion;
 mod oracle;
 mod path;
 #[path = "../physics/mod.rs"]

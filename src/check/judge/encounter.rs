@@ -3,10 +3,10 @@
 use super::Job;
 use crate::check::MoveReport;
 use crate::check::collision::{self, Clearance};
-use crate::check::course::{Leg, Piece};
 use crate::check::walk::{Arms, Which};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::motion::course::{Leg, Piece};
 
 /// One of the two arms, and what is told of it.
 struct Told {
@@ -133,7 +133,7 @@ impl Job<'_> {
         let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
         let part = self.parts.and_then(|parts| parts[index]);
         if let (Some(original), Some(part)) = (self.original, part) {
-            let stop = original.route.stops[part.motion]?;
+            let stop = original.stops[part.motion]?;
             let arriving = original.leg(part.motion, self.options.turning);
             let leg = arriving.unwrap_or_else(|| original.standing(&stop));
             let mover = original.arms(&stop).mover(Which::Controller);

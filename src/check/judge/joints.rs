@@ -1,11 +1,11 @@
 //! What a move asks of the joints: limits, singularities, the posture at its end, turns, and speeds.
 
 use super::Job;
-use crate::check::course::{Course, Leg};
 use crate::check::limits::Limits;
-use crate::compensate::route::Stop;
+use crate::check::walk::Stop;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::motion::course::{Course, Leg};
 
 /// Two joint angles that differ by less are the same, radians.
 const SAME_RAD: f64 = 0.5 * DEG;

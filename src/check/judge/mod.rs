@@ -3,13 +3,13 @@
 mod encounter;
 mod joints;
 
-use super::course::{Leg, Piece};
 use super::deviation::{self, PathError, Wanted};
 use super::walk::{Arms, Walk};
 use super::{MoveReport, Options, Subject, limits, nominal};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{norm, scale, sub};
+use crate::motion::course::{Leg, Piece};
 use crate::program::Motion;
 
 /// What every move is judged with.
@@ -26,9 +26,9 @@ impl Job<'_> {
     /// What the move does, and what a person should look at.
     pub fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
         let mut findings = Vec::new();
-        let program = &self.walk.route.program;
-        let motion = &program.moves[index];
-        let Some(stop) = self.walk.route.stops[index] else {
+        let program = &self.walk.program;
+        let motion = self.walk.motion(index);
+        let Some(stop) = self.walk.stops[index] else {
             return (None, findings);
         };
         if motion.motion == Motion::ArcVia {
@@ -45,7 +45,7 @@ impl Job<'_> {
         let conditions = self.walk.conditions(&stop);
         let landed = arms.plain.real.forward(&stop.q, &conditions);
         let mut report = MoveReport {
-            motion: index,
+            motion: self.walk.index(index),
             file: motion.file as usize,
             line: source.line_column(motion.offset as usize).0,
             kind: motion.motion,
@@ -99,7 +99,7 @@ impl Job<'_> {
         if let (Some(original), Some(part)) = (self.original, part)
             && let Some(wanted) = original.leg(part.motion, self.options.turning)
         {
-            let stop = original.route.stops[part.motion].expect("a leg ends at a stop");
+            let stop = original.stops[part.motion].expect("a leg ends at a stop");
             let of_original = original.arms(&stop);
             let wanted = Wanted {
                 leg: &wanted,

@@ -6,18 +6,11 @@
 use super::points::Points;
 use super::sections::{Sections, line_end};
 use crate::program::insert::{line_start, spliced, with_numbers};
-use crate::program::{Between, Inserted, Insertion, Program, Replacements, Source, Target};
+use crate::program::{Between, Inserted, Insertion, Motion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
 /// Most points of a program.
 const MOST_POINTS: u32 = 32767;
-
-/// The instruction from its first letter to behind its semicolon.
-fn instruction(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
-    let end = memchr::memchr(b';', &bytes[offset..])? + offset;
-    let text = &bytes[offset..end];
-    (!text.contains(&b'\'') && !text.contains(&b'!')).then_some(offset..end + 1)
-}
 
 /// The blanks, number and colon before an instruction; `None` where its line holds something else.
 fn head(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
@@ -31,33 +24,17 @@ fn head(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
     (starts_alone && digits.iter().all(u8::is_ascii_digit)).then_some(start..offset)
 }
 
-/// `P[3:name]` from `from` on.
-fn point(bytes: &[u8], from: usize, end: usize) -> Option<Range<usize>> {
-    let start = from
-        + bytes[from..end]
-            .iter()
-            .position(|b| !b" \t\r\n:".contains(b))?;
-    let open = bytes[start..end].strip_prefix(b"P")?;
-    let blanks = open.len() - open.trim_ascii_start().len();
-    let close = memchr::memchr(b']', open)?;
-    (open.get(blanks) == Some(&b'[')).then_some(start..start + 1 + close + 1)
-}
-
-/// Whether a word behind the point says no more than how fast and how near to go.
-fn is_plain(word: &[u8]) -> bool {
-    let behind = |prefix: &[u8]| word.strip_prefix(prefix);
-    let numbered = |prefix: &[u8]| {
-        behind(prefix).is_some_and(|rest| {
-            rest.is_empty() || rest.iter().all(u8::is_ascii_digit) || rest.starts_with(b"R[")
-        })
+/// The points of a move as they stand in its instruction; `None` where its text does more than go there.
+fn points(program: &Program, index: usize) -> Option<Vec<Range<usize>>> {
+    let both = match program.instructions[index].motion {
+        Motion::ArcVia => index..index + 2,
+        Motion::ArcEnd => index.checked_sub(1)?..index + 1,
+        _ => index..index + 1,
     };
-    // a time is that of the whole way
-    let is_number = word.first().is_some_and(u8::is_ascii_digit) || word.starts_with(b"R[");
-    let is_rate = word.ends_with(b"%") || word.contains(&b'/');
-    is_number && (is_rate || word.iter().all(u8::is_ascii_digit))
-        || ["FINE", "CNT", "CR", "ACC", "PTH", "Wjnt", "MROT"]
-            .iter()
-            .any(|known| numbered(known.as_bytes()))
+    let both = program.instructions.get(both)?;
+    let is_one = both.iter().all(|other| other.place == both[0].place);
+    let points = both.iter().map(|one| one.target_span.range());
+    points.collect::<Option<Vec<_>>>().filter(|_| is_one)
 }
 
 /// What the copies of one move are made of.
@@ -94,23 +71,13 @@ impl Copied {
         let bytes = &source.bytes;
         let motion = &program.moves[insertion.motion];
         let target = &program.targets[motion.target?];
-        let span = instruction(bytes, motion.offset as usize)?;
+        let index = motion.instruction as usize;
+        let instruction = &program.instructions[index];
+        let span = instruction.place.offset as usize..instruction.end as usize;
         let before = head(bytes, span.start)?;
+        let points = points(program, index)?;
         let is_arc = insertion.between.iter().any(|b| b.via.is_some());
-        let verb = bytes[span.start];
-        if is_arc != (verb == b'C') || !b"JLC".contains(&verb) {
-            return None;
-        }
-        let mut points = Vec::new();
-        let mut at = span.start + 1;
-        for _ in 0..if is_arc { 2 } else { 1 } {
-            let found = point(bytes, at, span.end)?;
-            at = found.end;
-            points.push(found);
-        }
-        let words = bytes[at..span.end - 1].split(u8::is_ascii_whitespace);
-        let mut words = words.filter(|word| !word.is_empty());
-        if !words.all(is_plain) {
+        if is_arc != (points.len() == 2) {
             return None;
         }
         let (held, name) = declared(bytes, target)?;

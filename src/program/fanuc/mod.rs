@@ -10,62 +10,71 @@
 //! Numbers stand in fields of a fixed width; a new number keeps the field's last column. The remarks that mark a
 //! compensated program are explained in [`mark`].
 //!
+//! # Statements
+//!
+//! Each program is a routine. `CALL` and `RUN` bind to the programs in the files; `LBL`, `JMP`, `IF`, `SELECT`, `FOR`, `Skip,LBL` and
+//! `TIMEOUT,LBL` are its flow; a word that nobody knows is a macro, which may select another tool. Tools, user frames, the numbers that
+//! select them and position registers are variables that the controller keeps. A move to `PR[n]` goes with the active tool and
+//! frame; where `PR[n]` is a copy of a point it goes to that point, beside it where something was added or one number changed. The
+//! controller goes to a point only where the numbers are selected that it was taught with (else MOTN-018), so that
+//! behind such a move they are the active ones.
+//!
 //! # Findings
+//!
+//! Beside those of [`crate::motion`]:
 //!
 //! | id | severity | meaning |
 //! |---|---|---|
 //! | `target-uninitialised` | error | a move goes to a point that was never taught |
 //! | `target-not-six-axes` | error | group 1 of the point is not that of an arm with six joints |
 //! | `configuration-not-understood` | error | other letters than `N F`, `U D`, `T B`, or not three of them and three turns |
-//! | `target-declared-twice` | error | two points have one number |
-//! | `target-used-by-instruction` | error | an instruction that is no move changes or uses the point |
+//! | `target-name-ambiguous` | error | two points have one number |
 //! | `target-not-in-files` | error | a move goes to a point that is not in /POS |
-//! | `computed-target` | error | a move goes to a position register |
-//! | `incremental-move` | error | INC |
-//! | `remote-tool` | error | RTCP, or a point RX RY RZ RW RP RR: the robot holds the work piece |
-//! | `coordinated-move` | error | COORD: a positioner moves the work piece |
-//! | `line-tracking` | error | the program follows a conveyor |
-//! | `frame-assigned-at-run-time` | error | `UFRAME[n]=`, `UTOOL[n]=` of the point's frame or tool in any of the programs |
-//! | `frame-chosen-at-run-time` | error | `UF : F` or `UT : F`, and what the program selects is not certain |
+//! | `external-axis` | error | an axis beside the six of the arm is away from zero |
+//! | `relative-move` | error | INC |
+//! | `stationary-tool` | error | RTCP, or a point RX RY RZ RW RP RR: the robot holds the work piece |
+//! | `moving-frame` | error | COORD: a positioner moves the work piece; or the program follows a conveyor |
+//! | `frame-assigned-at-run-time` | error | `UFRAME[n]=`, `UTOOL[n]=` of the point's frame or tool |
+//! | `frame-chosen-at-run-time` | error | `UF : F` or `UT : F`, and a register selects, or perhaps a macro |
+//! | `computed-target` | warning | a move goes to a position register, or to a position of a pallet |
+//! | `corrected-by-sensor` | warning | Touch Offset, Search, Track |
 //! | `frame-number-differs` | warning | another number is selected than the point was taught with |
-//! | `extended-axis` | warning | an axis beside the six of the arm is away from zero |
-//! | `target-copied` | warning | the point is copied into a position register |
-//! | `target-unused-here` | note | no move of the program uses these points |
+//! | `target-copied` | warning | a point is copied into a register that nothing in the files reads |
 //! | `other-group` | note | moves to points that have no group 1 |
 //! | `frames-rounded` | note | FRAME.DG shows tools and frames with one decimal |
 //!
 //! A move with `Offset`, `Tool_Offset` or `VOFFSET` goes to a point that only the running program knows: it takes the
-//! correction of its point along, which is told as `displacement-unknown`.
+//! correction of its point along, which is told as `displacement-unknown`. Where the robot stands behind a move that `Skip` or
+//! `Search[…]` ended is unknown.
 //!
 //! # Limits
 //!
-//! Local conditions of moves (TB, TA, DB) and calls are not followed. A translated INC, RTCP or COORD is known in German only.
+//! Registers `R[n]` are not followed: what they select is unknown. A program that a local condition of a move (TB, TA) calls is
+//! taken to run behind the move. `PAYLOAD` is not read: a tool's load is the profile's. A translated INC, RTCP, COORD, IF or CALL is
+//! known in German only. That moves other than J keep the posture, and MOTN-018, are *not verified on a controller*.
 
 mod angles;
 mod config;
-mod findings;
+mod controller;
 mod frames;
 mod insert;
-mod instructions;
+mod lines;
 pub mod mark;
-mod meaning;
-mod pace;
+mod moves;
 mod points;
-mod resolve;
+mod reader;
 mod sections;
+mod statements;
+mod words;
 
 use super::{
-    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Move, Pace,
-    Posture, Program, ReadError, Role, Settings, Shape, Source, Value,
+    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
+    ReadError, Role, Script, Settings, Shape, Source, Value,
 };
-use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use frames::Frames;
-use instructions::Instructions;
-use points::{Fault, POSE_NUMBERS, Points, offset};
-use resolve::Listing;
-use sections::{Sections, check_bytes};
+use points::{Fault, POSE_NUMBERS};
+use sections::Sections;
 
 /// FANUC TP.
 #[derive(Debug)]
@@ -80,13 +89,14 @@ static ABOUT: About = About {
         "CONFIG flags and turns, where an axis leaves its turn or the arm changes sides",
     ],
     leaves: &[
-        "groups 2 and up, extended axes, instructions, names, attributes, line ends, encoding",
+        "groups 2 and up, extended axes at zero, instructions, names, attributes, line ends, encoding",
         "points that no move uses",
+        "moves to position registers that are no copies of points, with a warning",
         "offsets of moves (Offset, Tool_Offset, VOFFSET): the moved point takes the correction along, a warning says so",
         "SYSFRAME.VA and FRAME.DG, which tell tools and user frames",
     ],
     refuses: &[
-        "moves to position registers, increments (INC), moves with RTCP, COORD or line tracking",
+        "increments (INC), moves with RTCP, COORD or line tracking, extended axes away from zero",
         "points that were never taught, or of robots with other axes",
         "tools and user frames that the running program assigns or chooses",
     ],
@@ -120,35 +130,8 @@ impl Language for Fanuc {
             && (Sections::of(bytes).is_some() || frames::kind(bytes).is_some())
     }
 
-    fn read(&self, sources: &[Source], _: &Settings) -> Result<Program, ReadError> {
-        let mut listings = Vec::new();
-        let (mut values, mut rounded) = (Frames::default(), Vec::new());
-        for (file, source) in sources.iter().enumerate() {
-            check_bytes(source)?;
-            let file = offset(file);
-            if let Some(sections) = Sections::of(&source.bytes) {
-                let listing = listing(source, file, &sections);
-                listings.push(listing.map_err(|fault| in_source(&fault, source))?);
-            } else if let Some(kind) = frames::kind(&source.bytes) {
-                let found = frames::read(&source.bytes, kind).map_err(|bad| {
-                    let (at, length) = (bad.at, bad.length);
-                    in_source(&Fault::BadValue { at, length }, source)
-                })?;
-                rounded.extend(found.rounded.then(|| source.name.clone()));
-                values.add(found);
-            } else {
-                return Err(ReadError::NotThisLanguage {
-                    file: source.name.clone(),
-                    language: ABOUT.name,
-                    missing: "/PROG and /MN, or $MNUTOOL and $MNUFRAME,",
-                });
-            }
-        }
-        let mut program = resolve::resolve(sources, &mut listings, &values);
-        program
-            .findings
-            .extend(rounded.into_iter().map(frames_rounded));
-        Ok(program)
+    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
+        Some(reader::script(sources))
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {
@@ -163,6 +146,14 @@ impl Language for Fanuc {
         match role {
             Role::Position => millimetre_decimals,
             Role::Orientation | Role::Joint => millimetre_decimals + 2,
+            Role::Configuration => 0,
+        }
+    }
+
+    /// Fields of a fixed width have three decimals.
+    fn least_decimals(&self, role: Role) -> usize {
+        match role {
+            Role::Position | Role::Orientation | Role::Joint => 3,
             Role::Configuration => 0,
         }
     }
@@ -223,10 +214,6 @@ impl Language for Fanuc {
         config::write(index - PLAIN, value, old, out);
     }
 
-    fn pace(&self, source: &Source, motion: &Move) -> Pace {
-        pace::pace(&source.bytes, motion.offset as usize)
-    }
-
     fn insert(
         &self,
         sources: &[Source],
@@ -239,74 +226,6 @@ impl Language for Fanuc {
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         mark::mark(source, marker)
-    }
-}
-
-impl Frames {
-    /// Takes in the frames of another file: those of variables are exact and go before those of a list.
-    fn add(&mut self, other: Self) {
-        let (exact, rough) = if other.rounded {
-            (std::mem::take(self), other)
-        } else {
-            (other, std::mem::take(self))
-        };
-        *self = rough;
-        self.tools.extend(exact.tools);
-        self.frames.extend(exact.frames);
-        self.rounded = false;
-    }
-}
-
-/// One program.
-fn listing(source: &Source, file: u32, sections: &Sections) -> Result<Listing, Fault> {
-    let bytes = &source.bytes;
-    let mut listing = Listing {
-        file,
-        name: program_name(&bytes[sections.name.clone()]),
-        tracks_line: tracks_line(&bytes[sections.head.clone()]),
-        ..Listing::default()
-    };
-    let lines = Instructions::new(bytes, sections.lines.clone());
-    lines.each(|offset, event| listing.events.push((offset, event)));
-    let mut points = Points::new(bytes, sections.points.start);
-    while let Some(point) = points.next()? {
-        listing.points.push(point);
-    }
-    listing.numbers = points.numbers;
-    Ok(listing)
-}
-
-/// The first word behind `/PROG`, in capitals.
-fn program_name(text: &[u8]) -> Box<[u8]> {
-    let word = text.split(u8::is_ascii_whitespace).next();
-    word.unwrap_or_default().to_ascii_uppercase().into()
-}
-
-/// Whether the application data name a line tracking schedule other than 0.
-fn tracks_line(head: &[u8]) -> bool {
-    const KEY: &[u8] = b"LINE_TRACK_SCHEDULE_NUMBER";
-    let Some(at) = memchr::memmem::find(head, KEY) else {
-        return false;
-    };
-    let rest = head[at + KEY.len()..].trim_ascii_start();
-    let value = rest.strip_prefix(b":").unwrap_or(rest).trim_ascii_start();
-    let digits: Vec<u8> = value
-        .iter()
-        .copied()
-        .take_while(u8::is_ascii_digit)
-        .collect();
-    digits.iter().any(|&digit| digit != b'0')
-}
-
-fn frames_rounded(file: String) -> Finding {
-    Finding {
-        id: "frames-rounded",
-        severity: Severity::Note,
-        file,
-        line: 0,
-        column: 0,
-        message: "this list shows tools and user frames to 0.1 mm and 0.1 deg".into(),
-        hint: "SYSFRAME.VA has them to 0.001".into(),
     }
 }
 

@@ -1,8 +1,10 @@
 //! `/POS`: the points of a program.
 
+use super::controller::Why;
 use super::sections::line_end;
 use crate::program::Number;
 use crate::program::number;
+use crate::program::script::short;
 use std::ops::Range;
 
 /// Bytes of a number and the blanks before it.
@@ -12,28 +14,6 @@ const LARGEST: f64 = 1e6;
 /// The numbers of a pose: X Y Z W P R, three flags, three turns.
 pub const POSE_NUMBERS: usize = 12;
 
-/// A tool's or frame's number in a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Selected {
-    /// `UF : 2`
-    Number(u32),
-    /// `UF : F`, or nothing: the one that is active when the robot goes there.
-    Active,
-}
-
-/// Why a point cannot be rewritten.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trouble {
-    /// `X = ********`
-    Uninitialised,
-    /// `RX = …`: the tool stands still, the robot holds the work piece.
-    RemoteTool,
-    /// Other axes, or other units.
-    Axes,
-    /// Other letters than those of six joints.
-    Configuration,
-}
-
 /// What group 1 of a point holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Content {
@@ -42,7 +22,7 @@ pub enum Content {
     /// J1 to J6.
     Joints,
     /// Nothing that can be rewritten.
-    Trouble(Trouble),
+    Trouble(Why),
 }
 
 /// One point.
@@ -56,10 +36,10 @@ pub struct Point {
     pub content: Option<Content>,
     /// Its numbers among those of its listing.
     pub numbers: Range<usize>,
-    /// Its work frame.
-    pub frame: Selected,
-    /// Its tool.
-    pub tool: Selected,
+    /// Its work frame, `UF : 2`; none where that is the one that is active when the robot goes there, `UF : F`.
+    pub frame: Option<u32>,
+    /// Its tool, likewise.
+    pub tool: Option<u32>,
     /// An axis beside the six of the arm is away from zero.
     pub extended: bool,
 }
@@ -152,11 +132,11 @@ impl<'a> Points<'a> {
         self.name(start)?;
         let mut point = Point {
             number,
-            offset: offset(start),
+            offset: short(start),
             content: None,
             numbers: 0..0,
-            frame: Selected::Active,
-            tool: Selected::Active,
+            frame: None,
+            tool: None,
             extended: false,
         };
         self.expect(b'{', "{")?;
@@ -299,13 +279,13 @@ impl<'a> Points<'a> {
             .count();
         let text = &self.bytes[self.at..self.at + length];
         let selected = match text {
-            b"F" | b"f" | b"" => Some(Selected::Active),
-            stars if stars.iter().all(|&b| b == b'*') => Some(Selected::Active),
+            b"F" | b"f" | b"" => Some(None),
+            stars if stars.iter().all(|&b| b == b'*') => Some(None),
             digits => std::str::from_utf8(digits)
                 .ok()
                 .and_then(|text| text.parse().ok())
                 .filter(|&number: &u32| number <= 255)
-                .map(Selected::Number),
+                .map(Some),
         };
         if within {
             let place = match &self.bytes[key] {
@@ -370,7 +350,7 @@ impl<'a> Points<'a> {
             let blanks = blanks.take_while(|&&b| b == b' ').count();
             let start = digits - blanks.min(WIDEST_FIELD);
             let length = u16::try_from(end - start).expect("two widths of a field");
-            let start = offset(start);
+            let start = short(start);
             let found = value.map(|value| Number {
                 start,
                 length,
@@ -380,11 +360,6 @@ impl<'a> Points<'a> {
         }
         Ok(())
     }
-}
-
-/// A place as it is kept; a source is smaller than 4 GiB.
-pub fn offset(at: usize) -> u32 {
-    u32::try_from(at).expect("sources are smaller than 4 GiB")
 }
 
 /// 2 of `GP2`.
@@ -452,13 +427,13 @@ impl Group {
         point.extended = self.extended;
         let complete = |numbers: [Option<Number>; 6]| numbers.iter().all(Option::is_some);
         let trouble = if self.uninitialised {
-            Some(Trouble::Uninitialised)
+            Some(Why::Uninitialised)
         } else if self.remote {
-            Some(Trouble::RemoteTool)
+            Some(Why::StationaryTool)
         } else if self.other || complete(self.pose) == complete(self.joints) {
-            Some(Trouble::Axes)
+            Some(Why::Axes)
         } else if complete(self.pose) && self.flags == Some(None) {
-            Some(Trouble::Configuration)
+            Some(Why::Configuration)
         } else {
             None
         };
@@ -511,7 +486,7 @@ fn flags(text: &[u8], start: usize) -> Option<[Number; 6]> {
             (number::parse(&rest[..length])?, length)
         };
         *number = Number {
-            start: offset(start + at),
+            start: short(start + at),
             length: u16::try_from(length).ok()?,
             value,
         };

@@ -1,6 +1,5 @@
 //! The sections of a listing: `/PROG`, `/ATTR`, `/APPL`, `/MN`, `/POS`, `/END`.
 
-use crate::program::{ReadError, Source};
 use std::ops::Range;
 
 /// Where the sections of a listing are.
@@ -115,23 +114,6 @@ pub fn line_end(bytes: &[u8], at: usize) -> usize {
     };
     let crlf = bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n');
     end + 1 + usize::from(crlf)
-}
-
-/// No text has a zero byte, and places are kept in 32 bits.
-pub fn check_bytes(source: &Source) -> Result<(), ReadError> {
-    let limit = u32::MAX as usize;
-    let (file, size) = (source.name.clone(), source.bytes.len());
-    if size >= limit {
-        return Err(ReadError::TooLarge { file, size, limit });
-    }
-    match memchr::memchr(0, &source.bytes) {
-        Some(offset) => Err(ReadError::Binary {
-            file,
-            byte: 0,
-            offset,
-        }),
-        None => Ok(()),
-    }
 }
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
 //! What the language reads, by behaviour.
 
 mod compensated;
+mod flow;
 mod posts;
+mod registers;
 mod robust;
 
 use super::*;
+use crate::finding::Severity;
 use crate::program::number::{Fraction, Style};
 use crate::program::{Displacement, Motion};
 
@@ -39,7 +42,7 @@ fn read_files(files: &[(&str, &str)]) -> Result<Program, ReadError> {
         .iter()
         .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
         .collect();
-    Fanuc.read(&sources, &Settings::default())
+    crate::motion::read(&Fanuc, &sources, &Settings::default())
 }
 
 fn read(lines: &str, points: &str) -> Program {
@@ -121,7 +124,8 @@ fn other_groups_are_left_alone() {
         &(groups + alone),
     );
     assert_eq!(values(&program, 0).len(), 12);
-    assert_eq!((program.moves.len(), program.targets.len()), (1, 2));
+    // a point of another group is no target
+    assert_eq!((program.moves.len(), program.targets.len()), (1, 1));
     assert_eq!(program.tools[0].name, "1");
     assert_eq!(ids(&program), ["other-group"]);
 }
@@ -131,7 +135,7 @@ fn german_listings_are_read_like_others() {
     let text = b"/PROG  UP1\n/EIGN.\nKOMMENTAR\t= \"Gr\xf6\xdfe\";\nPROG_GR\xd6\xdfE = 1;\n/APPL\n/MN\n   1:  BENUTZER_NUM=0 ;\n   2:  WKZ_NUM=24 ;\n   3:J P[1] 100% CNT0 ACC100 ZEIT VOR    .10sek,P-SPS    ;\n      1:  FB-PSPS (AN) ;\n       ------ ;\n   4:J P[1] 100% FEIN WKZ_Offset,PR[1] ;\n/POS\nP[1]{\n   GP1:\n\tUF : 0, UT : 24,\t\tKONFIG : 'F D B, 0, 1, 0',\n\tX =   -46.468  mm,\tY =  -827.851  mm,\tZ =  1594.398  mm,\n\tW =   165.784 deg,\tP =    10.653 deg,\tR =    -4.457 deg\n};\n/END\n";
     let source = Source::new("up1.ls", text.to_vec());
     assert!(Fanuc.recognises(&source));
-    let program = Fanuc.read(&[source], &Settings::default()).expect("read");
+    let program = crate::motion::read(&Fanuc, &[source], &Settings::default()).expect("read");
     assert_eq!(values(&program, 0)[6..], [1.0, 1.0, 1.0, 0.0, 1.0, 0.0]);
     let displaced: Vec<bool> = program
         .moves
@@ -247,119 +251,6 @@ fn tool_and_frame_0_are_known_and_others_come_from_the_controllers_files() {
 }
 
 #[test]
-fn the_active_tool_and_frame_are_those_that_the_program_selects() {
-    let active = pose("1", "UF : F, UT : F,\t\tCONFIG : 'N U T, 0, 0, 0',");
-    let tool_of = |lines: &str| {
-        let program = read(lines, &active);
-        let tool = program
-            .moves
-            .last()
-            .map(|used| program.tools[used.tool].name.clone());
-        tool.filter(|_| blocked(&program).is_empty())
-    };
-    let go = "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nJ P[1] 100% FINE ;";
-    assert_eq!(tool_of(go).as_deref(), Some("4"));
-    let label = "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nLBL[1] ;\nJ P[1] 100% FINE ;\nJMP LBL[1] ;";
-    assert_eq!(tool_of(label).as_deref(), Some("4"), "no other number");
-    assert_eq!(
-        tool_of("J P[1] 100% FINE ;").as_deref(),
-        Some("F"),
-        "asked for by name"
-    );
-    assert_eq!(
-        tool_of("LBL[1] ;\nJ P[1] 100% FINE ;").as_deref(),
-        Some("F")
-    );
-    let group =
-        "UFRAME_NUM[GP1]=3 ;\nUTOOL_NUM[GP1,GP2]= 4 ;\nUTOOL_NUM[GP2]=5 ;\nJ P[1] 100% FINE ;";
-    assert_eq!(tool_of(group).as_deref(), Some("4"));
-    for lines in [
-        "GRIP OPEN ;\nJ P[1] 100% FINE ;",
-        "UFRAME_NUM=3 ;\nLBL[1] ;\nJ P[1] 100% FINE ;\nUTOOL_NUM=3 ;\nJMP LBL[1] ;",
-        "UTOOL_NUM=4 ;\nIF (R[1]=1),UTOOL_NUM=5 ;\nJ P[1] 100% FINE ;",
-        "UTOOL_NUM=4 ;\nIF (R[1]=1) THEN ;\nUTOOL_NUM=5 ;\nENDIF ;\nJ P[1] 100% FINE ;",
-        "UFRAME_NUM=3 ;\nUTOOL_NUM=R[1] ;\nJ P[1] 100% FINE ;",
-        "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nLBL[1] ;\nJ P[1] 100% FINE ;\nUTOOL_NUM=5 ;\nJMP LBL[1] ;",
-        "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nCALL OTHER ;\nJ P[1] 100% FINE ;",
-    ] {
-        let program = read(lines, &active);
-        assert_eq!(blocked(&program), ["P[1]"], "{lines}");
-        assert_eq!(ids(&program)[0], "frame-chosen-at-run-time");
-    }
-    let called = "/PROG OTHER\n/MN\n1: DO[1]=ON ;\n/POS\n/END\n";
-    let text = listing(
-        "UFRAME_NUM=3 ;\nUTOOL_NUM=4 ;\nCALL OTHER ;\nJ P[1] 100% FINE ;",
-        &active,
-    );
-    let program = read_files(&[("a.ls", &text), ("b.ls", called)]).expect("a program");
-    assert_eq!(program.findings, [], "the called program is given");
-}
-
-#[test]
-fn a_point_taught_with_another_number_than_is_selected_is_a_warning() {
-    let lines = "UFRAME_NUM=2 ;\nUTOOL_NUM=4 ;\nJ P[1] 100% FINE ;\nL P[1] 9mm/sec FINE ;";
-    let program = read(lines, &usual("1"));
-    assert_eq!(ids(&program), ["frame-number-differs"]);
-    assert_eq!(program.findings[0].line, 7);
-    assert!(blocked(&program).is_empty());
-}
-
-#[test]
-fn tools_and_frames_assigned_at_run_time_block_their_users() {
-    let points = usual("1") + &pose("2", "UF : 6, UT : 0, CONFIG : 'N U T, 0, 0, 0',");
-    let lines = "J P[1] 100% FINE ;\nJ P[2] 100% FINE ;";
-    for (assignment, wanted) in [
-        ("UFRAME[6]=PR[60] ;", vec!["P[2]"]),
-        ("UTOOL[1:grip]=PR[9] ;", vec!["P[1]"]),
-        ("UTOOL[R[2]]=PR[9] ;", vec!["P[1]"]),
-        ("$MNUFRAME[1,2]=PR[9] ;", vec!["P[1]"]),
-        ("UFRAME[GP1:6]=PR[60] ;", vec!["P[2]"]),
-        ("UFRAME[GP2:6]=PR[60] ;", vec![]),
-        ("UFRAME[9]=PR[60] ;", vec![]),
-    ] {
-        // in a program of its own: tools and frames are the controller's
-        let other = listing(assignment, "");
-        let text = listing(lines, &points);
-        let program = read_files(&[("a.ls", &text), ("b.ls", &other)]).expect("a program");
-        assert_eq!(blocked(&program), wanted, "{assignment}");
-        assert!(
-            ids(&program)
-                .iter()
-                .all(|id| *id == "frame-assigned-at-run-time")
-        );
-    }
-}
-
-#[test]
-fn moves_that_cannot_be_compensated_are_errors() {
-    for (line, id) in [
-        ("L P[1] 9mm/sec FINE INC ;", "incremental-move"),
-        ("L P[1] 9mm/sec FINE RTCP ;", "remote-tool"),
-        ("L P[1] 9mm/sec CNT100 COORD PTH ;", "coordinated-move"),
-        ("L PR[1:home] 9mm/sec FINE ;", "computed-target"),
-        ("L P[9] 9mm/sec FINE ;", "target-not-in-files"),
-        ("P[1]=LPOS ;", "target-used-by-instruction"),
-        (
-            "IF R[1]=1,L P[1] 9mm/sec FINE ;",
-            "target-used-by-instruction",
-        ),
-    ] {
-        let program = read(line, &usual("1"));
-        assert_eq!(ids(&program)[0], id, "{line}");
-        assert_eq!(program.findings[0].severity, Severity::Error, "{line}");
-        assert_eq!(blocked(&program), ["P[1]"], "{line}");
-    }
-    let tracking = listing("L P[1] 9mm/sec FINE ;", &usual("1")).replace(
-        "/MN",
-        "/APPL\n  LINE_TRACK;\n    LINE_TRACK_SCHEDULE_NUMBER      : 1;\n/MN",
-    );
-    let program = read_files(&[("a.ls", &tracking)]).expect("a program");
-    assert_eq!(ids(&program), ["line-tracking"]);
-    let program = read_files(&[("a.ls", &tracking.replace(": 1;", ": 0;"))]).expect("a program");
-    assert_eq!(program.findings, []);
-}
-
-#[test]
 fn points_that_are_none_of_a_six_axis_arm_are_errors() {
     let replaced = |from: &str, to: &str| usual("1").replace(from, to);
     for (point, id) in [
@@ -374,9 +265,9 @@ fn points_that_are_none_of_a_six_axis_arm_are_errors() {
         (joints("1").replace("J6=", "J9="), "target-not-six-axes"),
         (
             replaced("X =", "RX =").replace("Y =", "RY ="),
-            "remote-tool",
+            "stationary-tool",
         ),
-        (usual("1") + &usual("1"), "target-declared-twice"),
+        (usual("1") + &usual("1"), "target-name-ambiguous"),
     ] {
         let program = read("L P[1] 9mm/sec FINE ;", &point);
         assert_eq!(ids(&program)[0], id, "{point}");
@@ -387,50 +278,6 @@ fn points_that_are_none_of_a_six_axis_arm_are_errors() {
     let program = read("CALL X ;", &point);
     assert_eq!(ids(&program), ["target-unused-here"]);
     assert_eq!(program.findings[0].severity, Severity::Note);
-}
-
-#[test]
-fn a_register_as_index_means_any_point() {
-    let points = usual("1") + &usual("2");
-    let lines = "L P[R[1]] 9mm/sec FINE ;\nL P[R[2:x]] 9mm/sec FINE ;\nL P[1] 9mm/sec FINE ;";
-    let program = read(lines, &points);
-    let to: Vec<usize> = program
-        .moves
-        .iter()
-        .map(|used| used.target.unwrap())
-        .collect();
-    assert_eq!(to, [0, 1, 0]);
-    assert_eq!(program.findings, []);
-}
-
-#[test]
-fn rows_of_arcs_start_with_a_straight_line() {
-    let points: String = (1..=5).map(|k| usual(&k.to_string())).collect();
-    let lines = "A P[1] 9mm/sec FINE ;\nA P[2] 9mm/sec FINE ;\nWAIT 1.0(sec) ;\nA P[3] 9mm/sec FINE ;\nC P[4]\n : P[5] 9mm/sec FINE ;";
-    let motions: Vec<Motion> = read(lines, &points)
-        .moves
-        .iter()
-        .map(|used| used.motion)
-        .collect();
-    use Motion::{ArcEnd, ArcVia, Linear};
-    assert_eq!(motions, [Linear, ArcVia, ArcEnd, ArcVia, ArcEnd]);
-}
-
-#[test]
-fn axes_beside_the_six_are_a_warning_where_they_are_used() {
-    let extended = usual("1").replace("-.287 deg", "-.287 deg,\n\tE1=  -345.000  mm");
-    let program = read("J P[1] 100% FINE ;", &extended);
-    assert_eq!(ids(&program), ["extended-axis"]);
-    assert_eq!(values(&program, 0).len(), 12);
-    let zero = extended.replace("-345.000", "0.000");
-    assert_eq!(read("J P[1] 100% FINE ;", &zero).findings, []);
-}
-
-#[test]
-fn copies_into_registers_are_told() {
-    let program = read("J P[1] 100% FINE ;\nPR[4]=P[1] ;", &usual("1"));
-    assert_eq!(ids(&program), ["target-copied"]);
-    assert!(blocked(&program).is_empty());
 }
 
 #[test]

@@ -1,52 +1,16 @@
 //! Moves between those of a job: the line again, to a new `C` position.
 
-use super::lines::{Lines, whole, words};
-use crate::program::insert::{indent, line_end, line_start, spliced, with_numbers};
+use super::job::{HEADERS, Job, Letter, Positions};
+use crate::program::insert::{indent, line_end, spliced, with_numbers};
+use crate::program::script::Instruction;
 use crate::program::{Between, Inserted, Insertion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
 /// Highest number of a position.
 const MOST_POSITIONS: u32 = 99_999;
-/// Tags that say how fast and how near to go.
-const PLAIN: &[&[u8]] = &[
-    b"V=", b"VJ=", b"VR=", b"VE=", b"PL=", b"CR=", b"ACC=", b"DEC=",
-];
-/// Header lines that hold for the positions below them, in the order in which jobs have them.
-const HEADERS: usize = 5;
-
-/// Which of those a header line is.
-fn header(key: &[u8]) -> Option<usize> {
-    match key {
-        b"USER" => Some(0),
-        b"TOOL" => Some(1),
-        b"POSTYPE" => Some(2),
-        b"PULSE" | b"RECTAN" | b"ANGLE" => Some(3),
-        b"RCONF" => Some(4),
-        _ => None,
-    }
-}
 
 /// The header lines above a position.
 type Above<'a> = [Option<&'a [u8]>; HEADERS];
-
-/// The positions of one job.
-struct Positions<'a> {
-    /// First byte of the job.
-    start: usize,
-    /// Behind its last line.
-    end: usize,
-    /// First bytes of the lines of `C` positions, with the header lines above them.
-    lines: Vec<(usize, Above<'a>)>,
-    highest: u32,
-    /// Digits of a position's number.
-    digits: usize,
-    /// Number of `C` positions that the header announces.
-    announced: Option<(Range<usize>, u32)>,
-    /// Behind the line of the last `C` position.
-    behind: usize,
-    /// Whether other positions follow under the same header lines.
-    goes_on: bool,
-}
 
 /// The byte behind a line and its end.
 fn behind_line(bytes: &[u8], at: usize) -> usize {
@@ -56,61 +20,6 @@ fn behind_line(bytes: &[u8], at: usize) -> usize {
         [] => end,
         _ => end + 1,
     }
-}
-
-/// All jobs of a file that have positions.
-fn jobs(bytes: &[u8]) -> Vec<Positions<'_>> {
-    let mut found: Vec<Positions> = Vec::new();
-    let (mut above, mut inside): (Above, bool) = ([None; HEADERS], false);
-    for line in Lines::of(bytes) {
-        if line.text == b"/JOB" {
-            found.push(Positions {
-                start: line.start,
-                end: bytes.len(),
-                lines: Vec::new(),
-                highest: 0,
-                digits: 5,
-                announced: None,
-                behind: 0,
-                goes_on: false,
-            });
-            (above, inside) = ([None; HEADERS], false);
-            let count = found.len();
-            if count > 1 {
-                found[count - 2].end = line.start;
-            }
-        }
-        let Some(job) = found.last_mut() else {
-            continue;
-        };
-        if let Some(text) = line.text.strip_prefix(b"///") {
-            let mut parts = words(text);
-            let key = parts.next().unwrap_or_default();
-            if let Some(which) = header(key).filter(|_| inside) {
-                above[which] = Some(line.text);
-            }
-            if let (b"NPOS", Some(counts)) = (key, parts.next()) {
-                let first = counts.split(|b| *b == b',').next().unwrap_or_default();
-                let behind = text[key.len()..].trim_ascii_start().len();
-                let at = line.start + line.text.len() - behind;
-                job.announced = whole(first).map(|count| (at..at + first.len(), count));
-            }
-        } else if let Some(text) = line.text.strip_prefix(b"//") {
-            inside = words(text).next() == Some(b"POS");
-        } else if inside && let Some(equals) = memchr::memchr(b'=', line.text) {
-            let name = line.text[..equals].trim_ascii_end();
-            if let Some(number) = name.strip_prefix(b"C").and_then(whole) {
-                job.lines.push((line.start, above));
-                job.highest = job.highest.max(number);
-                job.digits = name.len() - 1;
-                job.behind = behind_line(bytes, line.start);
-                job.goes_on = false;
-            } else {
-                job.goes_on = true;
-            }
-        }
-    }
-    found
 }
 
 /// What the copies of one move are made of.
@@ -128,49 +37,49 @@ struct Copied<'a> {
 }
 
 /// A line that does nothing but go to a `C` position, and the name of that.
-fn plain_move(bytes: &[u8], start: usize, verbs: &[&[u8]]) -> Option<(Range<usize>, Range<usize>)> {
-    let end = line_end(bytes, start);
-    let span = start..start + bytes[start..end].trim_ascii_end().len();
-    let text = &bytes[span.clone()];
-    let mut parts = words(text);
-    let verb = parts.next()?;
-    let name = parts.next()?;
-    name.strip_prefix(b"C").and_then(whole)?;
-    let tagged = |word: &[u8]| PLAIN.iter().any(|tag| word.starts_with(tag));
-    (verbs.contains(&verb) && parts.all(tagged)).then(|| {
-        let at = start
-            + verb.len()
-            + (text.len() - verb.len() - text[verb.len()..].trim_ascii_start().len());
-        (span, at..at + name.len())
-    })
+fn plain_move(
+    bytes: &[u8],
+    instruction: &Instruction,
+    verbs: &[&[u8]],
+) -> Option<(Range<usize>, Range<usize>)> {
+    let span = instruction.place.offset as usize..instruction.end as usize;
+    let name = instruction.target_span.range()?;
+    let verb = &bytes[span.start..];
+    let rest = &bytes[span.end..line_end(bytes, span.end)];
+    let is_plain = verbs.iter().any(|known| verb.starts_with(known))
+        && bytes[name.start] == b'C'
+        && rest.trim_ascii().is_empty();
+    is_plain.then_some((span, name))
 }
 
 impl<'a> Copied<'a> {
     fn of(
         bytes: &'a [u8],
         program: &Program,
-        job: &Positions<'a>,
+        positions: &Positions<'a>,
         insertion: &Insertion,
     ) -> Option<Self> {
         let motion = &program.moves[insertion.motion];
         let is_arc = insertion.between.iter().any(|b| b.via.is_some());
         let verbs: &[&[u8]] = if is_arc {
-            &[b"MOVC"]
+            &[b"MOVC "]
         } else {
-            &[b"MOVJ", b"MOVL"]
+            &[b"MOVJ ", b"MOVL "]
         };
-        let start = motion.offset as usize;
-        let (span, operand) = plain_move(bytes, start, verbs)?;
+        let instruction =
+            |of: &crate::program::Move| &program.instructions[of.instruction as usize];
+        let (span, operand) = plain_move(bytes, instruction(motion), verbs)?;
         let mut via = None;
         if is_arc {
             let through = &program.moves[insertion.motion.checked_sub(1)?];
-            via = Some(plain_move(bytes, through.offset as usize, verbs)?);
+            via = Some(plain_move(bytes, instruction(through), verbs)?);
         }
-        let at = line_start(bytes, program.targets[motion.target?].offset as usize);
-        let (start, above) = *job
-            .lines
-            .iter()
-            .find(|(start, _)| line_start(bytes, *start) == at)?;
+        let at = program.targets[motion.target?].offset;
+        let own = positions
+            .targets
+            .binary_search_by_key(&at, |target| target.offset);
+        let own = own.ok()?;
+        let start = at as usize;
         let end = line_end(bytes, start);
         let equals = start + memchr::memchr(b'=', &bytes[start..end])?;
         Some(Self {
@@ -178,7 +87,7 @@ impl<'a> Copied<'a> {
             span,
             operand,
             via,
-            above,
+            above: positions.header(own).lines,
             body: equals..end,
         })
     }
@@ -232,6 +141,42 @@ impl<'a> NewPositions<'a> {
     }
 }
 
+/// The `C` positions of one job.
+struct Own<'a> {
+    /// First bytes of the job and of what is behind it.
+    range: Range<u32>,
+    highest: u32,
+    /// Digits of a position's number.
+    digits: usize,
+    /// Behind the line of the last one.
+    behind: usize,
+    /// The header lines above that.
+    above: Above<'a>,
+    /// Other positions follow under the same header lines.
+    goes_on: bool,
+}
+
+impl<'a> Own<'a> {
+    fn of(bytes: &[u8], positions: &Positions<'a>, job: &Job) -> Option<Self> {
+        let own = |target: &usize| positions.points[*target].letter == Letter::C;
+        let last = job.targets.clone().rev().find(own)?;
+        let numbers = job.targets.clone().filter(own);
+        let highest = numbers
+            .map(|target| positions.points[target].number)
+            .max()?;
+        let offset = positions.targets[last].offset;
+        let name = &bytes[offset as usize + 1..];
+        Some(Self {
+            range: job.offset..crate::program::script::short(job.instructions.end),
+            highest,
+            digits: name.iter().take_while(|byte| byte.is_ascii_digit()).count(),
+            behind: behind_line(bytes, offset as usize),
+            above: positions.header(last).lines,
+            goes_on: job.last_position > offset,
+        })
+    }
+}
+
 /// See [`crate::program::Language::insert`].
 pub(super) fn insert(
     source: &Source,
@@ -240,32 +185,32 @@ pub(super) fn insert(
     insertions: &[Insertion],
 ) -> Inserted {
     let bytes = &source.bytes;
-    let mut inserted = Inserted {
-        moves: vec![None; insertions.len()],
-        rest: Vec::new(),
-    };
-    for job in jobs(bytes) {
-        let Some((_, last)) = job.lines.last() else {
+    let mut inserted = Inserted::none(insertions);
+    let mut positions = Positions::default();
+    if positions.read(source, 0).is_err() {
+        return inserted;
+    }
+    for job in &positions.jobs {
+        let Some(own) = Own::of(bytes, &positions, job) else {
             continue;
         };
         let mut new = NewPositions {
             source,
-            digits: job.digits,
-            next: job.highest + 1,
-            above: *last,
+            digits: own.digits,
+            next: own.highest + 1,
+            above: own.above,
             text: Vec::new(),
             count: 0,
         };
         for (insertion, done) in insertions.iter().zip(&mut inserted.moves) {
             let motion = &program.moves[insertion.motion];
             let target = &program.targets[motion.target.expect("inserted moves have a target")];
-            let inside = |offset: u32| (job.start..job.end).contains(&(offset as usize));
-            let own = target.file as usize == file && inside(target.offset);
-            if !own || !inside(motion.offset) {
+            let is_own = target.file as usize == file && own.range.contains(&target.offset);
+            if !is_own || !own.range.contains(&motion.offset) {
                 continue;
             }
             let before = (new.next, new.count, new.text.len(), new.above);
-            *done = Copied::of(bytes, program, &job, insertion)
+            *done = Copied::of(bytes, program, &positions, insertion)
                 .and_then(|copied| repeat(program, target, &copied, insertion, &mut new));
             if done.is_none() {
                 new.text.truncate(before.2);
@@ -273,13 +218,15 @@ pub(super) fn insert(
             }
         }
         if new.count > 0 {
-            if job.goes_on {
-                new.put_headers(last);
+            if own.goes_on {
+                new.put_headers(&own.above);
             }
-            inserted.rest.push((job.behind..job.behind, new.text));
-            if let Some((at, count)) = job.announced {
-                let count = format!("{}", count + new.count);
-                inserted.rest.push((at, count.into_bytes()));
+            inserted.rest.push((own.behind..own.behind, new.text));
+            if let Some((count, span)) = job.announced {
+                let count = format!("{}", count + new.count).into_bytes();
+                inserted
+                    .rest
+                    .push((span.start as usize..span.end as usize, count));
             }
         }
     }

@@ -1,15 +1,16 @@
-//! Reads jobs: the state machine of their header, the positions under it, and the instructions.
+//! Reads the positions of jobs: the state machine of their header, and the positions under it.
 //!
 //! `///USER`, `///TOOL`, `///POSTYPE`, `///PULSE`, `///RECTAN`, `///ANGLE` and `///RCONF` hold for all positions below them until
 //! they are set anew. What a position's numbers are is told by the last of PULSE, RECTAN and ANGLE; POSTYPE tells the frame
 //! of rectangular ones. (Some posts write `POSTYPE BASE` behind pulse positions.)
 
-use super::instruction::{self, Event};
-use super::lines::{Line, Lines, add_numbers, after, index, numbers, unexpected, whole, words};
-use super::rconf;
-use crate::program::{Number, ReadError, Source};
+use super::lines::{Line, Lines, add_numbers, after, unexpected, whole, words};
+use super::{DEGREES, PULSES, rconf};
+use crate::program::script::{Span, short};
+use crate::program::{Layout, Number, ReadError, Shape, Source, Target, TargetId, number};
 use memchr::memmem;
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 
 /// How a post names itself in `///COMM` that writes rear, lower arm, flip where flip, lower arm, rear belong.
 const POST: &[u8] = b"RoboDK";
@@ -40,20 +41,131 @@ pub enum Letter {
     P,
 }
 
-/// A position of the robot.
-#[derive(Clone, Debug)]
+/// A position of axes that are not the robot's own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum External {
+    /// `BC`
+    Base(u32),
+    /// `BP`
+    BaseVariable(u32),
+    /// `EC`
+    Station(u32),
+    /// `EX`
+    StationVariable(u32),
+}
+
+impl External {
+    /// The position that a name means.
+    pub fn of(name: &[u8]) -> Option<Self> {
+        let (of, digits): (fn(u32) -> Self, _) = match name {
+            [b'B', b'C', digits @ ..] => (Self::Base, digits),
+            [b'B', b'P', digits @ ..] => (Self::BaseVariable, digits),
+            [b'E', b'C', digits @ ..] => (Self::Station, digits),
+            [b'E', b'X', digits @ ..] => (Self::StationVariable, digits),
+            _ => return None,
+        };
+        whole(digits).map(of)
+    }
+}
+
+/// An axis that does not stand at zero, from 1, and where it stands.
+pub type Moved = Option<(usize, f64)>;
+
+/// Header lines that hold for the positions below them, in the order in which jobs have them.
+pub const HEADERS: usize = 5;
+
+/// Which of those a header line is.
+fn header_line(key: &[u8]) -> Option<usize> {
+    match key {
+        b"USER" => Some(0),
+        b"TOOL" => Some(1),
+        b"POSTYPE" => Some(2),
+        b"PULSE" | b"RECTAN" | b"ANGLE" => Some(3),
+        b"RCONF" => Some(4),
+        _ => None,
+    }
+}
+
+/// What the header lines above a position say.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Header<'a> {
+    pub tool: Option<u32>,
+    user: Option<u32>,
+    type_: &'a [u8],
+    told: Option<Coordinates>,
+    /// What RCONF tells.
+    pub variant: u8,
+    /// The lines themselves.
+    pub lines: [Option<&'a [u8]>; HEADERS],
+}
+
+impl<'a> Header<'a> {
+    pub fn coordinates(&self) -> Option<Coordinates> {
+        self.told.or(match self.type_ {
+            b"PULSE" => Some(Coordinates::Pulses),
+            b"ANGLE" => Some(Coordinates::Degrees),
+            b"" => None,
+            _ => Some(Coordinates::Rectangular),
+        })
+    }
+
+    /// Where rectangular coordinates count from; joints count from nowhere.
+    pub fn origin(&self) -> Origin {
+        if self.coordinates() != Some(Coordinates::Rectangular) {
+            return Origin::Base;
+        }
+        match (self.type_, self.user) {
+            (b"BASE", _) => Origin::Base,
+            (b"ROBOT", _) => Origin::Robot,
+            (b"USER", Some(user)) => Origin::User(user),
+            (b"TOOL" | b"MTOOL", _) => Origin::Tool,
+            _ => Origin::Unknown,
+        }
+    }
+
+    /// Whether positions below both have the same meaning.
+    pub fn means_the_same(&self, other: &Self) -> bool {
+        let of = |header: &Self| {
+            let coordinates = header.coordinates();
+            (coordinates, header.tool, header.origin(), header.variant)
+        };
+        of(self) == of(other)
+    }
+
+    /// The state below a `///` line.
+    fn after(mut self, text: &'a [u8], line: Line<'a>, source: &Source) -> Result<Self, ReadError> {
+        let mut parts = words(text);
+        let (key, value) = (parts.next().unwrap_or_default(), parts.next());
+        let Some(which) = header_line(key) else {
+            return Ok(self);
+        };
+        let number = || {
+            value.and_then(whole).ok_or_else(|| {
+                let expected = "the number of a tool or frame";
+                unexpected(source, line.start, line.text, expected)
+            })
+        };
+        match key {
+            b"TOOL" => self.tool = Some(number()?),
+            b"USER" => self.user = Some(number()?),
+            b"POSTYPE" => self.type_ = value.unwrap_or_default(),
+            b"PULSE" => self.told = Some(Coordinates::Pulses),
+            b"ANGLE" => self.told = Some(Coordinates::Degrees),
+            b"RECTAN" => self.told = Some(Coordinates::Rectangular),
+            _ => self.variant = rconf::variant(&text[key.len()..]),
+        }
+        self.lines[which] = Some(line.text);
+        Ok(self)
+    }
+}
+
+/// What is known of a target beside its numbers.
+#[derive(Clone, Copy, Debug)]
 pub struct Point {
     pub letter: Letter,
     pub number: u32,
-    /// First byte of its line.
-    pub offset: u32,
-    pub coordinates: Coordinates,
-    pub tool: Option<u32>,
-    pub origin: Origin,
-    /// What RCONF tells about it.
-    pub variant: u8,
-    /// Its numbers in [`Job::numbers`]: those of the line, external axes and elbow angles too.
-    pub numbers: (u32, u32),
+    /// Index in [`Positions::headers`].
+    pub header: u32,
 }
 
 /// One job.
@@ -63,51 +175,37 @@ pub struct Job<'a> {
     /// First byte of `/JOB`.
     pub offset: u32,
     pub name: &'a [u8],
-    pub points: Vec<Point>,
-    pub numbers: Vec<Number>,
-    /// Where they start in the numbers of the whole program.
-    pub numbers_start: u32,
+    /// Its positions.
+    pub targets: Range<TargetId>,
     /// The position that each letter and number names.
-    pub named: HashMap<(Letter, u32), u32>,
+    pub named: HashMap<(Letter, u32), TargetId>,
     /// Positions whose name stands twice.
     pub twice: HashSet<(Letter, u32)>,
-    /// Whether the base axes stand elsewhere than at zero, by the number of their `BC` position.
-    pub base_moved: HashMap<u32, bool>,
-    /// What the instructions do, in the order of the text.
-    pub events: Vec<Event<'a>>,
+    pub external: HashMap<External, Moved>,
+    /// First byte of the last position, of whatever axes.
+    pub last_position: u32,
     /// `C` positions that the header announces, and where.
-    pub announced: Option<(u32, u32)>,
+    pub announced: Option<(u32, Span)>,
+    /// Its instructions, up to END.
+    pub instructions: Range<usize>,
     /// It comes from a post that writes the fields of RCONF in an order of its own.
     pub mixes_rconf: bool,
 }
 
-/// What the header lines above a position say.
-#[derive(Clone, Copy, Default)]
-struct State<'a> {
-    tool: Option<u32>,
-    user: Option<u32>,
-    type_: &'a [u8],
-    coordinates: Option<Coordinates>,
-    variant: u8,
-}
-
-impl State<'_> {
-    fn coordinates(&self) -> Option<Coordinates> {
-        self.coordinates.or(match self.type_ {
-            b"PULSE" => Some(Coordinates::Pulses),
-            b"ANGLE" => Some(Coordinates::Degrees),
-            b"" => None,
-            _ => Some(Coordinates::Rectangular),
-        })
-    }
-
-    fn origin(&self) -> Origin {
-        match (self.type_, self.user) {
-            (b"BASE", _) => Origin::Base,
-            (b"ROBOT", _) => Origin::Robot,
-            (b"USER", Some(user)) => Origin::User(user),
-            (b"TOOL" | b"MTOOL", _) => Origin::Tool,
-            _ => Origin::Unknown,
+impl Job<'_> {
+    fn new(file: u32, start: usize, targets: TargetId) -> Self {
+        Self {
+            file,
+            offset: short(start),
+            name: b"",
+            targets: targets..targets,
+            named: HashMap::new(),
+            twice: HashSet::new(),
+            external: HashMap::new(),
+            last_position: 0,
+            announced: None,
+            instructions: 0..0,
+            mixes_rconf: false,
         }
     }
 }
@@ -120,180 +218,214 @@ enum Section {
     Instructions,
 }
 
-/// Reads the jobs of a file; `false` where it has none.
-pub fn read<'a>(source: &'a Source, file: u32, jobs: &mut Vec<Job<'a>>) -> Result<bool, ReadError> {
-    let first = jobs.len();
-    let mut section = Section::Outside;
-    let mut state = State::default();
-    for line in Lines::of(&source.bytes) {
-        if line.text.is_empty() || line.text[0] == b'\'' {
-            continue;
+/// The jobs of files and their positions, each of which is a target.
+#[derive(Debug, Default)]
+pub struct Positions<'a> {
+    pub jobs: Vec<Job<'a>>,
+    pub targets: Vec<Target>,
+    /// Of each target.
+    pub points: Vec<Point>,
+    pub numbers: Vec<Number>,
+    pub headers: Vec<Header<'a>>,
+    /// Whether the profile tells the pulses of a degree.
+    pub pulses_known: bool,
+}
+
+impl<'a> Positions<'a> {
+    /// What the header above a target says.
+    pub fn header(&self, target: TargetId) -> &Header<'a> {
+        &self.headers[self.points[target].header as usize]
+    }
+
+    /// Adds the jobs of a file; `false` where it has none.
+    pub fn read(&mut self, source: &'a Source, file: u32) -> Result<bool, ReadError> {
+        let first = self.jobs.len();
+        let mut section = Section::Outside;
+        for line in Lines::of(&source.bytes) {
+            if line.text.is_empty() || line.text[0] == b'\'' {
+                continue;
+            }
+            if line.text == b"/JOB" {
+                if section != Section::Outside {
+                    return Err(self.unclosed(source));
+                }
+                section = Section::Header;
+                self.headers.push(Header::default());
+                let job = Job::new(file, line.start, self.targets.len());
+                self.jobs.push(job);
+                continue;
+            }
+            let Some(job) = self.jobs[first..].last_mut() else {
+                // text before the first job
+                continue;
+            };
+            section = match (section, line.text) {
+                (Section::Instructions, b"END") => {
+                    job.instructions.end = line.start;
+                    self.end_job();
+                    Section::Outside
+                }
+                (Section::Instructions, [b'/', b'/', b'/', text @ ..]) => {
+                    job.mixes_rconf |=
+                        text.starts_with(b"COMM") && memmem::find(text, POST).is_some();
+                    section
+                }
+                (Section::Outside | Section::Instructions, _)
+                | (_, [b'/', b'/', b'/', b'/', ..])
+                | (Section::Header, [b'/', b'/', b'/', ..]) => section,
+                (Section::Positions, [b'/', b'/', b'/', text @ ..]) => {
+                    self.header_line(text, line, source)?;
+                    section
+                }
+                (_, [b'/', b'/', text @ ..]) => {
+                    if let Some(name) = after(text, b"NAME") {
+                        job.name = name;
+                    }
+                    match words(text).next() {
+                        Some(b"POS") => Section::Positions,
+                        Some(b"INST") => {
+                            job.instructions.start = line.start + line.text.len();
+                            Section::Instructions
+                        }
+                        _ => Section::Header,
+                    }
+                }
+                (Section::Positions, _) => {
+                    self.position(line, source)?;
+                    section
+                }
+                (Section::Header, _) => section,
+            };
         }
-        if line.text == b"/JOB" {
-            if section != Section::Outside {
-                return Err(unclosed(source, jobs));
-            }
-            section = Section::Header;
-            state = State::default();
-            jobs.push(Job::new(file, line.start));
-            continue;
+        if section != Section::Outside {
+            return Err(self.unclosed(source));
         }
-        let Some(job) = jobs[first..].last_mut() else {
-            // text before the first job
-            continue;
-        };
-        #[allow(
-            clippy::match_same_arms,
-            reason = "the order of the arms is the order of the rules"
-        )]
-        match (section, line.text) {
-            (Section::Outside, _) => {}
-            (Section::Instructions, b"END") => section = Section::Outside,
-            (Section::Instructions, [b'/', b'/', b'/', text @ ..]) => {
-                job.mixes_rconf |= text.starts_with(b"COMM") && memmem::find(text, POST).is_some();
-            }
-            (Section::Instructions, [b'/', ..]) => {}
-            (Section::Instructions, _) => instruction::read(line, &mut job.events),
-            (_, [b'/', b'/', b'/', b'/', ..]) => {}
-            (Section::Positions, [b'/', b'/', b'/', text @ ..]) => {
-                state = state.after(text, job, line, source)?;
-            }
-            (Section::Header, [b'/', b'/', b'/', ..]) => {}
-            (_, [b'/', b'/', text @ ..]) => {
-                section = match words(text).next() {
-                    Some(b"POS") => Section::Positions,
-                    Some(b"INST") => Section::Instructions,
-                    _ => Section::Header,
-                };
-                if let Some(name) = after(text, b"NAME") {
-                    job.name = name;
+        Ok(self.jobs.len() > first)
+    }
+
+    /// The last job has no end.
+    fn unclosed(&self, source: &Source) -> ReadError {
+        let at = self.jobs.last().map_or(0, |job| job.offset);
+        let (line, column) = source.line_column(at as usize);
+        ReadError::Unclosed {
+            file: source.name.clone(),
+            line,
+            column,
+            what: "a job (its END is missing)",
+        }
+    }
+
+    /// What can be said once the whole job is known.
+    fn end_job(&mut self) {
+        let job = self.jobs.last_mut().expect("a job ends");
+        job.targets.end = self.targets.len();
+        if job.mixes_rconf {
+            for target in &mut self.targets[job.targets.clone()] {
+                if target.layout.shape == Shape::Pose {
+                    target.layout.variant = 0;
                 }
             }
-            (Section::Positions, _) => job.position(&state, line, source)?,
-            (Section::Header, _) => {}
         }
     }
-    if section != Section::Outside {
-        return Err(unclosed(source, jobs));
-    }
-    Ok(jobs.len() > first)
-}
 
-/// The last job has no end.
-fn unclosed(source: &Source, jobs: &[Job]) -> ReadError {
-    let at = jobs.last().map_or(0, |job| job.offset);
-    let (line, column) = source.line_column(at as usize);
-    ReadError::Unclosed {
-        file: source.name.clone(),
-        line,
-        column,
-        what: "a job (its END is missing)",
-    }
-}
-
-impl<'a> State<'a> {
-    /// The state below a `///` line.
-    fn after(
-        mut self,
+    fn header_line(
+        &mut self,
         text: &'a [u8],
-        job: &mut Job,
-        line: Line,
+        line: Line<'a>,
         source: &Source,
-    ) -> Result<Self, ReadError> {
-        let mut parts = words(text);
-        let (key, value) = (parts.next().unwrap_or_default(), parts.next());
-        let number = || {
-            value.and_then(whole).ok_or_else(|| {
-                unexpected(
-                    source,
-                    line.start,
-                    line.text,
-                    "the number of a tool or frame",
-                )
-            })
-        };
-        match key {
-            b"TOOL" => self.tool = Some(number()?),
-            b"USER" => self.user = Some(number()?),
-            b"POSTYPE" => self.type_ = value.unwrap_or_default(),
-            b"PULSE" => self.coordinates = Some(Coordinates::Pulses),
-            b"ANGLE" => self.coordinates = Some(Coordinates::Degrees),
-            b"RECTAN" => self.coordinates = Some(Coordinates::Rectangular),
-            b"RCONF" => self.variant = rconf::variant(&text[key.len()..]),
-            b"NPOS" => {
-                let count = value.and_then(|v| v.split(|&b| b == b',').next());
-                job.announced = count
-                    .and_then(whole)
-                    .map(|count| (count, index(line.start)));
-            }
-            _ => {}
+    ) -> Result<(), ReadError> {
+        let job = self.jobs.last_mut().expect("the header is that of a job");
+        if let Some(counts) = after(text, b"NPOS") {
+            let first = counts.split(|&b| b == b',' || b == b' ').next();
+            let first = first.unwrap_or_default();
+            let at = line.start + line.text.len() - counts.len();
+            let span = Span {
+                start: short(at),
+                end: short(at + first.len()),
+            };
+            job.announced = whole(first).map(|count| (count, span));
+            return Ok(());
         }
-        Ok(self)
-    }
-}
-
-impl Job<'_> {
-    fn new(file: u32, start: usize) -> Self {
-        Self {
-            file,
-            offset: index(start),
-            name: b"",
-            points: Vec::new(),
-            numbers: Vec::new(),
-            numbers_start: 0,
-            named: HashMap::new(),
-            twice: HashSet::new(),
-            base_moved: HashMap::new(),
-            events: Vec::new(),
-            announced: None,
-            mixes_rconf: false,
+        let present = self.headers.pop().expect("a job begins with a header");
+        let changed = present.after(text, line, source)?;
+        let used = self.points.last().map(|point| point.header as usize);
+        if used == Some(self.headers.len()) {
+            self.headers.push(present);
         }
+        self.headers.push(changed);
+        Ok(())
     }
 
     /// `C00012=1,2,3,...`
-    fn position(&mut self, state: &State, line: Line, source: &Source) -> Result<(), ReadError> {
+    fn position(&mut self, line: Line, source: &Source) -> Result<(), ReadError> {
+        let job = self.jobs.last_mut().expect("the position is that of a job");
         let wrong = |expected| unexpected(source, line.start, line.text, expected);
         let Some(equals) = memchr::memchr(b'=', line.text) else {
             return Err(wrong("a position such as C00001=1,2,3,4,5,6"));
         };
+        job.last_position = short(line.start);
         let name = line.text[..equals].trim_ascii_end();
-        let letters = name.iter().take_while(|b| b.is_ascii_alphabetic()).count();
-        let (from, to) = (line.start + equals + 1, line.start + line.text.len());
-        let letter = match &name[..letters] {
-            b"C" => Letter::C,
-            b"P" => Letter::P,
-            b"BC" => {
-                let number = whole(&name[letters..]).ok_or_else(|| wrong("a BC position"))?;
-                let moved = numbers(source, from, to)?.iter().any(|n| n.value != 0.0);
-                self.base_moved.insert(number, moved);
+        let (letter, digits) = match name {
+            [b'C', digits @ ..] => (Letter::C, digits),
+            [b'P', digits @ ..] => (Letter::P, digits),
+            _ => {
+                if let Some(external) = External::of(name) {
+                    job.external
+                        .insert(external, moved(&line.text[equals + 1..]));
+                }
                 return Ok(());
             }
-            // stations, and variables for base and station
-            _ => return Ok(()),
         };
-        let number = whole(&name[letters..]).ok_or_else(|| wrong("the number of a position"))?;
-        let coordinates = state
+        let number = whole(digits).ok_or_else(|| wrong("the number of a position"))?;
+        let header = self.headers.last().expect("a job begins with a header");
+        let coordinates = header
             .coordinates()
             .ok_or_else(|| wrong("///PULSE, ///RECTAN or ///ANGLE before the first position"))?;
         let start = self.numbers.len();
+        let (from, to) = (line.start + equals + 1, line.start + line.text.len());
         add_numbers(source, from, to, &mut self.numbers)?;
-        if coordinates == Coordinates::Rectangular && self.numbers.len() - start < 6 {
-            return Err(wrong("x, y, z, Rx, Ry and Rz"));
+        let count = self.numbers.len() - start;
+        let (layout, has_six) = match coordinates {
+            Coordinates::Rectangular if count < 6 => {
+                return Err(wrong("x, y, z, Rx, Ry and Rz"));
+            }
+            Coordinates::Rectangular => ((Shape::Pose, header.variant), true),
+            Coordinates::Pulses => ((Shape::Joints, PULSES), count == 6 && self.pulses_known),
+            Coordinates::Degrees => ((Shape::Joints, DEGREES), count == 6),
+        };
+        let target = self.targets.len();
+        if job.named.insert((letter, number), target).is_some() {
+            job.twice.insert((letter, number));
         }
-        let place = index(self.points.len());
-        if self.named.insert((letter, number), place).is_some() {
-            self.twice.insert((letter, number));
-        }
+        let name = match letter {
+            Letter::C => format!("C{number:05}"),
+            Letter::P => format!("P{number:03}"),
+        };
+        let numbers = short(start);
+        self.targets.push(Target {
+            name: Some(name.into()),
+            file: job.file,
+            offset: short(line.start),
+            layout: Layout {
+                shape: layout.0,
+                variant: layout.1,
+            },
+            numbers: numbers..numbers + if has_six { 6 } else { 0 },
+            blocked: !has_six,
+        });
         self.points.push(Point {
             letter,
             number,
-            offset: index(line.start),
-            coordinates,
-            tool: state.tool,
-            origin: state.origin(),
-            variant: state.variant,
-            numbers: (index(start), index(self.numbers.len())),
+            header: short(self.headers.len() - 1),
         });
         Ok(())
     }
+}
+
+/// The first axis that does not stand at zero; one that is no number stands nowhere.
+fn moved(text: &[u8]) -> Moved {
+    let values = text.split(|&b| b == b',').map(<[u8]>::trim_ascii);
+    let mut values = values.map(|text| number::parse(text).unwrap_or(f64::NAN));
+    let axis = values.clone().position(|value| value != 0.0)?;
+    values.nth(axis).map(|value| (axis + 1, value))
 }

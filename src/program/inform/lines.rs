@@ -1,5 +1,6 @@
 //! The lines of a file, and the words and numbers in them.
 
+use crate::program::script::short;
 use crate::program::{Number, ReadError, Source, number};
 
 /// A line without its end and the blanks around it, and its first byte's place.
@@ -59,7 +60,18 @@ fn is_blank(byte: u8) -> bool {
 
 /// The words of a line: what stands between blanks.
 pub fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
-    text.split(|&b| is_blank(b)).filter(|word| !word.is_empty())
+    placed_words(text).map(|(_, word)| word)
+}
+
+/// The words of a line, and where in it they start.
+pub fn placed_words(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut at = 0;
+    let all = text.split(|&b| is_blank(b)).map(move |word| {
+        let start = at;
+        at += word.len() + 1;
+        (start, word)
+    });
+    all.filter(|(_, word)| !word.is_empty())
 }
 
 /// What follows `prefix` and a blank or nothing; `None` where the text starts otherwise.
@@ -81,7 +93,7 @@ pub fn whole(text: &[u8]) -> Option<u32> {
     })
 }
 
-/// The numbers between commas from a byte of the source to the end of the line.
+/// The numbers between commas of a part of a line.
 pub fn numbers(source: &Source, from: usize, to: usize) -> Result<Vec<Number>, ReadError> {
     let mut found = Vec::with_capacity(8);
     add_numbers(source, from, to, &mut found)?;
@@ -106,7 +118,7 @@ pub fn add_numbers(
             return Err(unexpected(source, at + before, text, "a number"));
         };
         found.push(Number {
-            start: index(at + before),
+            start: short(at + before),
             length,
             value,
         });
@@ -129,27 +141,5 @@ pub fn unexpected(source: &Source, at: usize, found: &[u8], expected: &'static s
         column,
         found,
         expected,
-    }
-}
-
-/// A place or count in 32 bits; larger files are refused.
-pub fn index(place: usize) -> u32 {
-    u32::try_from(place).expect("sources are smaller than 4 GiB")
-}
-
-/// No text has a zero byte, and places are kept in 32 bits.
-pub fn check_text(source: &Source) -> Result<(), ReadError> {
-    let limit = u32::MAX as usize;
-    let (file, size) = (source.name.clone(), source.bytes.len());
-    if size >= limit {
-        return Err(ReadError::TooLarge { file, size, limit });
-    }
-    match memchr::memchr(0, &source.bytes) {
-        Some(offset) => Err(ReadError::Binary {
-            file,
-            byte: 0,
-            offset,
-        }),
-        None => Ok(()),
     }
 }

@@ -7,15 +7,22 @@
 //!
 //! A tool's or user frame's name is its number. `BASE` and `ROBOT` coordinates are those of the robot's base.
 //!
+//! Each job is a routine: CALL JOB goes to jobs of the files and comes back, JUMP JOB does not; PSTART runs beside. What a P
+//! variable holds, which frame MFRAME and which tool SETTOOL made, and whether a shift is on is followed through them. A move to
+//! a place where the robot itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running program
+//! computes stays, and is told.
+//!
 //! # Findings
 //!
 //! | id | severity | meaning |
 //! |---|---|---|
-//! | `target-assigned-at-run-time` | error | an instruction writes into the P variable |
+//! | `target-assigned-at-run-time` | error | an instruction writes some numbers of the P variable |
 //! | `target-name-ambiguous` | error | a name stands twice in a job, or a P variable has different values in the files |
 //! | `target-not-in-files` | error | a move goes to a position that the files do not have |
-//! | `computed-target` | error | a move goes to a local variable or to `P[index]` |
-//! | `frame-assigned-at-run-time` | error | MFRAME or SETTOOL changes the frame or tool |
+//! | `computed-target` | warning | a move goes to what the running program computes, or to `P[index]` |
+//! | `run-time-position` | note | a move goes to where the robot itself was |
+//! | `frame-assigned-at-run-time` | error | MFRAME or SETTOOL may have changed the frame or tool |
+//! | `frame-chosen-at-run-time` | error | positions with other tools or frames are copied into the variable that a move goes to |
 //! | `frame-not-named` | error | a rectangular position without POSTYPE, or without the number of its user frame |
 //! | `tool-coordinates` | error | POSTYPE TOOL or MTOOL |
 //! | `displacement-active` | error | a shift (SFTON) may be on |
@@ -24,37 +31,43 @@
 //! | `search-move` | error | SRCH |
 //! | `second-robot` | error | `+MOVL C...` |
 //! | `move-not-supported` | error | other moves: conveyors, external reference points |
-//! | `base-axis` | error | the robot stands on a base axis that is not at zero |
-//! | `axis-count` | error | a position in pulses or degrees does not have six axes |
+//! | `external-axis` | error | a pose with a base or station axis that is not at zero |
+//! | `target-not-six-axes` | error | a position in pulses or degrees does not have six axes |
+//! | `target-passed-to-routine` | error | a P variable is given to a job that the files do not have |
 //! | `pulses-per-degree-unknown` | error | positions in pulses, and a profile without `pulses_per_deg`; once a job |
 //! | `rconf-of-post` | warning | RCONF of a post that is known to mix its fields up; it is not used |
-//! | `wrist-not-told` | warning | a job starts with a rectangular position, so that nothing tells the solution of the wrist |
-//! | `target-copied` | warning | another position is computed from this one |
+//! | `wrist-not-told` | warning | a job that no other calls starts with a rectangular position, and RCONF does not tell the wrist |
+//! | `target-copied` | warning | another position, tool or frame is computed from this one |
+//! | `write-not-called` | warning | a job that no other calls writes a P variable, frame or tool |
 //! | `position-count` | warning | NPOS announces another number of C positions |
 //! | `position-variable` | note | moves go to P variables, which jobs that are not given may change |
+//! | `target-unused-here` | note | positions that no move goes to stay as they are; once a file |
 //!
 //! # Limits
 //!
-//! Shifts that a job switches on which is not given or not called by name (macros, other tasks) are not seen. The first of
+//! Shifts that a job switches on which is not given or not called by name (macros) are not seen. The first of
 //! successive MOVC is taken for a line, the others for arcs through each two; MOVS for lines. Robots with seven axes
 //! are refused in pulses; the elbow angle of their rectangular positions is left. BASE and ROBOT are the world of the profile:
 //! its base has to stand at zero. Pulses are taken to be proportional to the joint of their own; on arms whose wrist motors
-//! are coupled (turning B moves T) PULSE positions come out wrong.
+//! are coupled (turning B moves T) PULSE positions come out wrong. The unit of base and station axes is not known.
 
 mod cnd;
-mod findings;
 mod insert;
 mod instruction;
 mod job;
+mod judge;
 mod lines;
-mod pace;
+mod moves;
 mod rconf;
-mod resolve;
-mod shift;
+mod reader;
+mod remarks;
+mod variables;
 
+use super::kit::check_bytes;
+use super::script::{Script, short};
 use super::{
-    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Move, Pace,
-    Posture, Program, ReadError, Role, Settings, Shape, Source, Value,
+    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
+    ReadError, Role, Settings, Shape, Source, Value,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Rotation};
@@ -73,14 +86,15 @@ static ABOUT: About = About {
     ],
     leaves: &[
         "RCONF, external axes (BC, EC, BP, EX), speeds, positions that no move goes to",
+        "moves to places that the running program computes (local and indexed variables) or reads from the robot: told",
         "TOOL.CND and UFRAME.CND, which tell tools and user frames",
         "comments, line ends, encoding, header",
     ],
     refuses: &[
-        "P variables that instructions write, local and indexed variables",
+        "P variables of which instructions write some numbers",
         "moves while a shift (SFTON) may be on, incremental (IMOV), search (SRCH) and coordinated (SMOV) moves",
         "tools and frames that the running program sets (MFRAME, SETTOOL), tool coordinates",
-        "positions of a second robot, of a robot on a moved base axis, or of one without six axes",
+        "positions of a second robot, with base or station axes that are not at zero, or without six axes",
         "PULSE positions without pulses_per_deg",
     ],
 };
@@ -112,22 +126,8 @@ impl Language for Inform {
             && (is_job(&source.bytes) || cnd::recognises(&source.bytes))
     }
 
-    fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError> {
-        let mut conditions = cnd::Conditions::default();
-        let mut jobs = Vec::new();
-        for (file, source) in sources.iter().enumerate() {
-            lines::check_text(source)?;
-            if cnd::recognises(&source.bytes) {
-                cnd::read(source, &mut conditions)?;
-            } else if !job::read(source, lines::index(file), &mut jobs)? {
-                return Err(ReadError::NotThisLanguage {
-                    file: source.name.clone(),
-                    language: ABOUT.name,
-                    missing: "line /JOB",
-                });
-            }
-        }
-        Ok(resolve::resolve(sources, jobs, &conditions, settings))
+    fn script(&self, sources: &[Source], settings: &Settings) -> Option<Result<Script, ReadError>> {
+        Some(script(sources, settings))
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {
@@ -143,6 +143,15 @@ impl Language for Inform {
             // a thousandth of a millimetre is 6e-5 degrees at one metre
             Role::Orientation => millimetre_decimals + 2,
             // pulses are whole
+            Role::Joint | Role::Configuration => 0,
+        }
+    }
+
+    /// Fields have three decimals of a millimetre and four of a degree.
+    fn least_decimals(&self, role: Role) -> usize {
+        match role {
+            Role::Position => 3,
+            Role::Orientation => 4,
             Role::Joint | Role::Configuration => 0,
         }
     }
@@ -191,11 +200,6 @@ impl Language for Inform {
         }
     }
 
-    /// Comments behind NOP, in lines short enough for every controller.
-    fn pace(&self, source: &Source, motion: &Move) -> Pace {
-        pace::pace(&source.bytes, motion.offset as usize)
-    }
-
     fn insert(
         &self,
         sources: &[Source],
@@ -206,6 +210,7 @@ impl Language for Inform {
         insert::insert(&sources[file], program, file, insertions)
     }
 
+    /// Comments behind NOP, in lines short enough for every controller.
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let end = source.line_end();
         let mut text = Vec::new();
@@ -232,6 +237,29 @@ impl Language for Inform {
         }
         (at, text)
     }
+}
+
+/// The statements of all jobs.
+fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+    let mut conditions = cnd::Conditions::default();
+    let usable = |pulses: &[f64; 6]| pulses.iter().all(|p| p.is_finite() && *p != 0.0);
+    let mut positions = job::Positions {
+        pulses_known: settings.pulses_per_deg.as_ref().is_some_and(usable),
+        ..job::Positions::default()
+    };
+    for (file, source) in sources.iter().enumerate() {
+        check_bytes(source)?;
+        if cnd::recognises(&source.bytes) {
+            cnd::read(source, &mut conditions)?;
+        } else if !positions.read(source, short(file))? {
+            return Err(ReadError::NotThisLanguage {
+                file: source.name.clone(),
+                language: ABOUT.name,
+                missing: "line /JOB",
+            });
+        }
+    }
+    Ok(reader::script(sources, positions, &conditions))
 }
 
 fn push_comment(comment: &[u8], end: &[u8], text: &mut Vec<u8>) {

@@ -1,10 +1,15 @@
 //! `///RCONF l,m,n,o,p,q,...`: which of the inverse's solutions a rectangular position means.
 //!
 //! l flip, m lower arm, n wrist centre behind axis S, o, p, q: whether R, T, S stand at 180° or beyond. One RCONF line is for
-//! all positions below it, so it is read and never rewritten. Of its data only those are used whose meaning is certain:
-//! n, m where n is front (the elbow above or below the line from axis L to the wrist), and o, p, q where they are 0: the axis
-//! stands within ±180°. (1 is two ranges: beyond +180° or below −180°.) Flip is not used: the NX100 manual has it where R
-//! stands within ±90°, but `1,0,0,0,…`, no flip, is what later controllers write for arms with R near zero.
+//! all positions below it, so it is read and never rewritten. Of its data those are used whose meaning is known: n, m where
+//! n is front (the elbow above or below the line from axis L to the wrist), and o, p, q where they are 0: the axis stands
+//! within ±180°. (1 is two ranges: beyond +180° or below −180°.)
+//!
+//! The flip is told by controllers of two generations:
+//!
+//! - DX100 and later write 24 fields. No flip is B below zero: `1,0,0,0,…` is what they write for arms with R near zero and
+//!   the tool bent down, also on arms whose R cannot stand beyond ±150°. *Not verified on a controller.*
+//! - The NX100 and earlier write 8. Their manual has flip where R stands within ±90°; no flip is two ranges, and is left open.
 //!
 //! # Limits
 //! A correction that takes R, S or T of a MOVJ across ±180° would need another RCONF; such a target is refused
@@ -16,32 +21,57 @@
 
 use super::lines::words;
 use crate::program::Configuration;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
+/// Bits of a variant that tell the side of axis S and of the lower arm.
+const SIDE: u8 = 7;
 const FRONT: u8 = 1;
-const REAR: u8 = 2;
-const UPPER: u8 = 32;
-const LOWER: u8 = 64;
+const FRONT_UPPER: u8 = 2;
+const FRONT_LOWER: u8 = 3;
+const REAR: u8 = 4;
 /// Bits for o, p, q being 0, and the joint of each.
-const WITHIN: [(u8, usize); 3] = [(4, 3), (8, 5), (16, 0)];
+const WITHIN: [(u8, usize); 3] = [(8, 3), (16, 5), (32, 0)];
+/// Bits that tell the wrist.
+const WRIST: u8 = 192;
+const B_POSITIVE: u8 = 64;
+const B_NEGATIVE: u8 = 128;
+const R_FORWARD: u8 = 192;
+/// Fields that controllers before the DX100 write.
+const FEW_FIELDS: usize = 8;
 
 /// What an RCONF line tells, as the variant of a layout; 0 where it tells nothing.
 pub fn variant(text: &[u8]) -> u8 {
-    let mut fields = text
-        .split(|&b| b == b',')
-        .map(|field| words(field).next().unwrap_or_default());
-    let mut field = |at: usize| fields.nth(at).unwrap_or_default();
-    let (arm, side) = (field(1), field(0));
-    let front = match (side, arm) {
-        (b"0", b"0") => FRONT | UPPER,
-        (b"0", b"1") => FRONT | LOWER,
+    let mut fields: [&[u8]; 6] = [b""; 6];
+    let mut count = 0;
+    for field in text.split(|&b| b == b',') {
+        if let Some(kept) = fields.get_mut(count) {
+            *kept = words(field).next().unwrap_or_default();
+        }
+        count += 1;
+    }
+    let [flip, arm, side, axes @ ..] = fields;
+    let side = match (side, arm) {
+        (b"0", b"0") => FRONT_UPPER,
+        (b"0", b"1") => FRONT_LOWER,
         (b"0", _) => FRONT,
         (b"1", _) => REAR,
         _ => 0,
     };
-    WITHIN.iter().fold(front, |variant, (bit, _)| {
-        variant | if field(0) == b"0" { *bit } else { 0 }
+    let wrist = match (flip, count > FEW_FIELDS) {
+        (b"0", true) => B_POSITIVE,
+        (b"1", true) => B_NEGATIVE,
+        (b"0", false) => R_FORWARD,
+        _ => 0,
+    };
+    let within = WITHIN.iter().zip(axes);
+    within.fold(side | wrist, |variant, ((bit, _), axis)| {
+        variant | if axis == b"0" { *bit } else { 0 }
     })
+}
+
+/// Whether a variant tells which of the two ways of the wrist is meant.
+pub fn tells_wrist(variant: u8) -> bool {
+    variant & WRIST != 0
 }
 
 /// The inverse solutions that a variant allows.
@@ -52,20 +82,24 @@ pub fn configuration(variant: u8) -> Configuration {
             joints[joint] = Some((-PI, PI));
         }
     }
-    let behind_axis_1 = match variant & (FRONT | REAR) {
-        FRONT => Some(false),
-        REAR => Some(true),
-        _ => None,
-    };
+    let side = variant & SIDE;
+    let wrist = variant & WRIST;
+    if wrist == R_FORWARD {
+        joints[3] = Some((-FRAC_PI_2, FRAC_PI_2));
+    }
     Configuration {
-        behind_axis_1,
-        behind_lower_arm: match variant & (UPPER | LOWER) {
-            UPPER => Some(false),
-            LOWER => Some(true),
+        behind_axis_1: (side != 0).then_some(side == REAR),
+        behind_lower_arm: match side {
+            FRONT_UPPER => Some(false),
+            FRONT_LOWER => Some(true),
+            _ => None,
+        },
+        joint_5_negative: match wrist {
+            B_POSITIVE => Some(false),
+            B_NEGATIVE => Some(true),
             _ => None,
         },
         joints,
-        ..Configuration::default()
     }
 }
 
@@ -74,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_the_certain_fields_count() {
+    fn fields_count_whose_meaning_is_known() {
         let found = configuration(variant(b"1,0,0,0,0,0,0,0"));
         assert_eq!(found.behind_axis_1, Some(false));
         assert_eq!(found.joint_5_negative, None);
@@ -83,9 +117,28 @@ mod tests {
         assert_eq!(lower.behind_lower_arm, Some(true));
         let within = Some((-PI, PI));
         assert_eq!(found.joints, [within, None, None, within, None, within]);
-        let found = configuration(variant(b"0, 1, 1, 1, -1"));
+        let found = configuration(variant(b"1, 1, 1, 1, -1"));
         assert_eq!((found.behind_axis_1, found.joints), (Some(true), [None; 6]));
         assert_eq!(found.behind_lower_arm, None);
         assert_eq!(configuration(variant(b"")), Configuration::default());
+    }
+
+    #[test]
+    fn the_flip_is_that_of_the_controllers_generation() {
+        let of = |flip: u8, fields: usize| {
+            let text = format!("{flip}{}", ",0".repeat(fields - 1));
+            let variant = variant(text.as_bytes());
+            let found = configuration(variant);
+            (
+                tells_wrist(variant),
+                found.joint_5_negative,
+                found.joints[3],
+            )
+        };
+        let within = Some((-PI, PI));
+        assert_eq!(of(1, 24), (true, Some(true), within));
+        assert_eq!(of(0, 24), (true, Some(false), within));
+        assert_eq!(of(0, 8), (true, None, Some((-FRAC_PI_2, FRAC_PI_2))));
+        assert_eq!(of(1, 8), (false, None, within));
     }
 }

@@ -1,7 +1,7 @@
 //! What jobs mean.
 
 use super::*;
-use crate::program::{Displacement, Motion};
+use crate::program::{Before, Motion, Program};
 
 mod posts;
 mod robust;
@@ -12,7 +12,7 @@ fn read_files(texts: &[&str], settings: &Settings) -> Result<Program, ReadError>
         .enumerate()
         .map(|(i, text)| Source::new(format!("{i}.JBI"), text.as_bytes().to_vec()))
         .collect();
-    Inform.read(&sources, settings)
+    crate::motion::read(&Inform, &sources, settings)
 }
 
 fn read(text: &str) -> Program {
@@ -185,22 +185,40 @@ fn arcs_go_through_each_two_points_behind_the_first() {
 }
 
 #[test]
-fn positions_that_no_move_goes_to_are_no_targets() {
+fn positions_that_no_move_goes_to_stay() {
     let positions = format!(
         "{USER}{}///POSTYPE ROBOT\nP00001=0,0,100.000,0,0,0\nBC00000=0\n///PULSE\nEC00000=1,2\nBP00000=1\nEX00001=3,4",
         points(2)
     );
     let program = read(&job(&positions, "MOVL C00001\nREFP 1 C00000\nSET D000 5"));
-    assert_eq!(program.targets.len(), 1);
-    assert_eq!(program.targets[0].name.as_deref(), Some("C00001"));
-    assert_eq!(ids(&program), [""; 0]);
+    let blocked: Vec<_> = program.targets.iter().map(|t| t.blocked).collect();
+    assert_eq!(blocked, [true, false, true]);
+    assert_eq!(ids(&program), ["target-unused-here"]);
+}
+
+/// The ids of errors.
+fn errors(program: &Program) -> Vec<&str> {
+    let errors = program
+        .findings
+        .iter()
+        .filter(|f| f.severity == crate::finding::Severity::Error);
+    errors.map(|f| f.id).collect()
+}
+
+/// A job in a user frame, with base, station and variables.
+fn cell(instructions: &str) -> Program {
+    let positions = format!(
+        "{USER}{}P00001={P6}\n///PULSE\nBC00000=0\nBC00001=0,500\nEC00000=0.0\nEC00001=-45.0,0",
+        points(3)
+    );
+    read(&job(&positions, instructions))
 }
 
 #[test]
 fn moves_that_cannot_be_compensated_are_errors() {
     for (instructions, id) in [
         (
-            "SMOVL C00000 BC00000 V=1000.0 +MOVJ EC00001",
+            "SMOVL C00000 BC00000 V=1000.0 +MOVJ EC00000",
             "coordinated-move",
         ),
         ("MOVL C00000 V=5 SRCH RIN#(1)=ON", "search-move"),
@@ -210,9 +228,10 @@ fn moves_that_cannot_be_compensated_are_errors() {
         ("MOVL V=5", "move-not-supported"),
         ("MOVL C00009 V=5", "target-not-in-files"),
         ("MOVL P077 V=5", "target-not-in-files"),
-        ("MOVL LP000 V=5", "computed-target"),
-        ("MOVL P[I000] V=5", "computed-target"),
-        ("MOVL C00000 BC00001 V=5", "base-axis"),
+        ("MOVL C00000 BC00001 V=5", "external-axis"),
+        ("MOVL C00000 BC00007 V=5", "external-axis"),
+        ("MOVL C00000 LBP001 V=5", "external-axis"),
+        ("MOVJ C00000 VJ=5.0  +MOVJ EC00001", "external-axis"),
         (
             "SFTON P001 UF#(1)\nMOVL C00000 V=5\nSFTOF",
             "displacement-active",
@@ -234,34 +253,198 @@ fn moves_that_cannot_be_compensated_are_errors() {
             "target-assigned-at-run-time",
         ),
         (
-            "MOVL P001 V=5\nGETS PX001 $PX000",
-            "target-assigned-at-run-time",
-        ),
-        (
             "MOVL P001 V=5\nSUB P[B000] P002",
             "target-assigned-at-run-time",
         ),
+        (
+            "ADD P001 P002\nMOVL P001 V=5",
+            "target-assigned-at-run-time",
+        ),
     ] {
-        let positions = format!(
-            "{USER}{}P00001={P6}\n///PULSE\nBC00000=0\nBC00001=500",
-            points(2)
+        let program = cell(instructions);
+        assert_eq!(
+            errors(&program),
+            [id],
+            "{instructions}: {:?}",
+            program.findings
         );
-        let program = read(&job(&positions, instructions));
-        let errors: Vec<_> = program
-            .findings
-            .iter()
-            .filter(|f| f.severity == crate::finding::Severity::Error)
-            .map(|f| f.id)
-            .collect();
-        assert_eq!(errors, [id], "{instructions}: {:?}", program.findings);
         let line = program.findings.iter().find(|f| f.id == id).map(|f| f.line);
         assert!(line.is_some_and(|line| line > 3));
-        if !["incremental-move", "computed-target", "target-not-in-files"].contains(&id)
-            && instructions != "MOVL V=5"
-        {
-            assert!(program.targets.iter().any(|t| t.blocked), "{instructions}");
-        }
     }
+}
+
+#[test]
+fn a_moved_axis_is_told_with_its_value() {
+    let program = cell("MOVL C00000 BC00001 V=5");
+    let found = program.findings.iter().find(|f| f.id == "external-axis");
+    let message = &found.expect("an error").message;
+    assert!(
+        message.contains("axis 2 of the base stands at 500 (BC00001)"),
+        "{message}"
+    );
+    for still in [
+        "MOVL C00000 BC00000 V=5",
+        "MOVJ C00000 EC00000 VJ=5",
+        "MOVL C00000 V=5  +MOVJ EC00000 VJ=5",
+    ] {
+        assert_eq!(errors(&cell(still)), [""; 0], "{still}");
+    }
+}
+
+#[test]
+fn what_the_running_program_computes_stays_and_is_told_once_a_place() {
+    for (instructions, ids_of) in [
+        ("MOVL LP000 V=5", &["computed-target"][..]),
+        ("MOVL P[I000] V=5", &["computed-target"]),
+        ("MOVL LP[I000] V=5", &["computed-target"]),
+        ("GETS PX077 $PX002\nMOVL P077 V=5", &["computed-target"]),
+        (
+            "MULMAT PX077 PX078 PX079\nMOVL P077 V=5",
+            &["computed-target"],
+        ),
+        (
+            "GETS LPX001 $PX000\nCNVRT LPX001 LPX001 BF\nMOVL LP001 V=5",
+            &["run-time-position"],
+        ),
+        ("GETS PX077 $PX001\nMOVL P077 V=5", &["run-time-position"]),
+        // the position of the files holds in the first run
+        (
+            "MOVL P001 V=5\nGETS PX001 $PX000",
+            &["position-variable", "run-time-position"],
+        ),
+        (
+            "GETS LPX001 $PX000\nADD LP001 P001\nMOVL LP001 V=5",
+            &["computed-target"],
+        ),
+    ] {
+        let program = cell(&format!("MOVL C00000\n{instructions}\nMOVL C00001"));
+        assert_eq!(errors(&program), [""; 0], "{instructions}");
+        let mut found = ids(&program);
+        found.retain(|id| *id != "target-unused-here");
+        found.sort_unstable();
+        assert_eq!(found, ids_of, "{instructions}");
+        // the move is there, and the next one comes from it
+        let at = |name: &str| {
+            let target = program
+                .targets
+                .iter()
+                .position(|t| t.name.as_deref() == Some(name));
+            program.moves.iter().position(|m| m.target == target)
+        };
+        let (first, last) = (at("C00000").expect("a move"), at("C00001").expect("a move"));
+        assert!(last > first + 1, "{instructions}");
+        assert_ne!(
+            program.moves[last].before,
+            Before::One(u32::try_from(first).expect("few moves")),
+            "{instructions}"
+        );
+    }
+}
+
+#[test]
+fn the_next_move_knows_that_an_incremental_one_moved_the_robot() {
+    let program = cell("MOVL C00000\nIMOV P001 V=5.0 RF\nMOVL C00001");
+    assert_eq!(errors(&program), ["incremental-move"]);
+    assert_eq!(program.moves[1].target, None);
+    assert_eq!(program.moves[2].before, Before::One(1));
+}
+
+#[test]
+fn copies_of_positions_are_those_positions() {
+    let program = cell("SET LP001 P001\nSET LP002 LP001\nMOVL LP002 V=5\nMOVL C00000");
+    assert_eq!(errors(&program), [""; 0]);
+    let motion = &program.moves[0];
+    assert_eq!(
+        program.target_of(motion).and_then(|t| t.name.as_deref()),
+        Some("P001")
+    );
+    assert_eq!(program.tools[motion.tool].name, "3");
+    assert_eq!(program.frames[motion.frame].name, "12");
+    // one variable, two tools: whose tool the move has nobody knows
+    let positions = format!("{USER}P00001={P6}\n///TOOL 4\nP00002={P6}");
+    let moves = "IFTHEN IN#(1)=ON\nSET LP001 P001\nELSE\nSET LP001 P002\nENDIF\nMOVL LP001 V=5";
+    let program = read(&job(&positions, moves));
+    assert_eq!(errors(&program), ["frame-chosen-at-run-time"; 2]);
+}
+
+#[test]
+fn frames_are_unknown_only_where_the_write_reaches() {
+    // kept from run to run: the second run begins with what the first one left
+    let after = "MOVL C00000\nMFRAME UF#(12) P001 P002 P003";
+    assert_eq!(errors(&cell(after)), ["frame-assigned-at-run-time"]);
+    let other = "MFRAME UF#(15) P001 P002 P003\nMOVL C00000";
+    assert_eq!(errors(&cell(other)), [""; 0]);
+}
+
+#[test]
+fn jobs_take_positions_as_arguments() {
+    let positions = format!("{USER}P00001={P6}\nP00002={P6}\nC00000={P6}");
+    let main = job(
+        &positions,
+        "CALL JOB:GO ARGFI001 ARGFP001\nCALL JOB:GO ARGF5 ARGF P002",
+    );
+    let go = job("", "GETARG LP003 IARG#(2)\nMOVL LP003 V=5").replace("//NAME A", "//NAME GO");
+    let program = read_files(&[&main, &go], &Settings::default()).expect("jobs");
+    assert_eq!(errors(&program), [""; 0]);
+    let mut names: Vec<_> = program
+        .moves
+        .iter()
+        .filter_map(|m| program.target_of(m)?.name.clone())
+        .collect();
+    names.sort_unstable();
+    assert_eq!(names, ["P001".into(), "P002".into()] as [Box<str>; 2]);
+    // to a job that nobody has
+    let program = read(&job(&positions, "CALL JOB:GO ARGFP001\nMOVL P001"));
+    assert_eq!(errors(&program), ["target-passed-to-routine"]);
+}
+
+#[test]
+fn jobs_begin_where_their_callers_stand() {
+    let positions = format!("{USER}{}", points(2));
+    let named = |name: &str, text: &str| {
+        job(&positions, text).replace("//NAME A", &format!("//NAME {name}"))
+    };
+    let befores = |main: &str, sub: &str| {
+        let files = [named("MAIN", main), named("SUB", sub)];
+        let files: Vec<&str> = files.iter().map(String::as_str).collect();
+        let program = read_files(&files, &Settings::default()).expect("jobs");
+        let told = program.findings.iter().filter(|f| f.id == "wrist-not-told");
+        let told: Vec<_> = told.map(|f| f.file.clone()).collect();
+        (
+            program.moves.iter().map(|m| m.before).collect::<Vec<_>>(),
+            told,
+        )
+    };
+    let main = "MOVL C00000\nCALL JOB:SUB\nMOVL C00001";
+    let (found, told) = befores(main, "MOVL C00000");
+    assert_eq!(found, [Before::Start, Before::One(2), Before::One(0)]);
+    assert_eq!(told, ["0.JBI"]);
+    // JUMP does not come back: what follows is dead
+    let (found, _) = befores("MOVL C00000\nJUMP JOB:SUB\nMOVL C00001", "MOVL C00000");
+    assert_eq!(found, [Before::Start, Before::Anywhere, Before::One(0)]);
+    // a job that runs beside
+    let (found, told) = befores("PSTART JOB:SUB SUB1\nMOVL C00000", "MOVL C00000");
+    assert_eq!(found, [Before::Start, Before::Anywhere]);
+    assert_eq!(told.len(), 2);
+}
+
+#[test]
+fn rconf_tells_the_wrist_where_a_job_begins_with_a_pose() {
+    let begins = |fields: usize| {
+        let rconf = format!("///RCONF 1{}\n", ",0".repeat(fields - 1));
+        let positions = format!(
+            "///TOOL 0\n///POSTYPE BASE\n///RECTAN\n{rconf}{}",
+            points(1)
+        );
+        let program = read(&job(&positions, "MOVL C00000 V=5"));
+        let numbers: Vec<f64> = program.numbers.iter().map(|n| n.value).collect();
+        let layout = program.targets[0].layout;
+        let decoded = Inform.decode(layout, &numbers, &Settings::default());
+        let told = program.findings.iter().all(|f| f.id != "wrist-not-told");
+        (told, decoded.configuration.joint_5_negative)
+    };
+    assert_eq!(begins(24), (true, Some(true)));
+    assert_eq!(begins(8), (false, None));
 }
 
 #[test]
@@ -281,9 +464,16 @@ fn a_frame_that_the_header_does_not_tell_is_an_error() {
             "///TOOL 0\n///POSTYPE MTOOL\n///RECTAN\n",
             "tool-coordinates",
         ),
-        ("///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\n", "axis-count"),
+        (
+            "///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\n",
+            "target-not-six-axes",
+        ),
     ] {
-        let seven = if id == "axis-count" { ",7" } else { "" };
+        let seven = if id == "target-not-six-axes" {
+            ",7"
+        } else {
+            ""
+        };
         let program = read(&job(&format!("{header}C00000={P6}{seven}"), "MOVL C00000"));
         assert_eq!(ids(&program), [id], "{header}");
         assert!(program.targets[0].blocked);
@@ -329,27 +519,36 @@ fn a_moved_base_axis_does_not_matter_to_robot_coordinates_and_joints() {
 #[test]
 fn a_shift_is_followed_through_branches_loops_and_calls() {
     let body = |instructions: &str| {
-        let program = read(&job(&format!("{USER}{}", points(2)), instructions));
-        program
-            .moves
-            .iter()
-            .map(|m| m.displacement == Displacement::Unknown)
-            .collect::<Vec<_>>()
+        let program = read(&job(&format!("{USER}{}", points(3)), instructions));
+        let target = |m: &crate::program::Move| program.target_of(m).expect("a target").blocked;
+        program.moves.iter().map(target).collect::<Vec<_>>()
     };
-    let go = "MOVL C00000";
+    let (go, on) = ("MOVL C00000", "MOVL C00001");
     assert_eq!(
-        body(&format!("{go}\nSFTON P000\nMOVL C00001\nSFTOF\n{go}")),
+        body(&format!("{go}\nSFTON P000\n{on}\nSFTOF\nMOVL C00002")),
         [false, true, false]
     );
     assert_eq!(
         body(&format!(
-            "IFTHEN IN#(1)=ON\nSFTON P000\nENDIF\n{go}\nSFTOF\n{go}"
+            "IFTHEN IN#(1)=ON\nSFTON P000\nENDIF\n{on}\nSFTOF\n{go}"
         )),
         [true, false]
     );
     assert_eq!(
         body(&format!("SFTON P000\nIFTHEN IN#(1)=ON\nSFTOF\nENDIF\n{go}")),
         [true]
+    );
+    assert_eq!(
+        body(&format!(
+            "SFTON P000\nIFTHEN IN#(1)=ON\nSFTOF\nELSEIF IN#(2)=ON\nSFTOF\nELSE\nSFTOF\nENDIF\n{go}"
+        )),
+        [false]
+    );
+    assert_eq!(
+        body(&format!(
+            "SWITCH B000 CASE 1\nSFTON P000\n{on}\nCASE 2\n{go}\nENDSWITCH\nSFTOF\nMOVL C00002"
+        )),
+        [true, false, false]
     );
     assert_eq!(
         body(&format!("*L\n{go}\nSFTON P000\nJUMP *L IF IN#(1)=ON")),
@@ -363,12 +562,16 @@ fn a_shift_is_followed_through_branches_loops_and_calls() {
     );
     assert_eq!(
         body(&format!(
-            "FOR I000= 0 TO 3\n{go}\nSFTON P000\nNEXT I000\nSFTOF\n{go}"
+            "FOR I000= 0 TO 3\n{on}\nSFTON P000\nNEXT I000\nSFTOF\n{go}"
         )),
         [true, false]
     );
     assert_eq!(body(&format!("SFTOF3D\n{go}")), [false]);
     assert_eq!(body(&format!("SFTON3D P000\n{go}")), [true]);
+    assert_eq!(
+        body(&format!("SFTON P000\nSFTOF IF IN#(1)=ON\n{go}")),
+        [true]
+    );
 
     let positions = format!("{USER}{}", points(1));
     let named = |name: &str, text: &str| {
@@ -385,7 +588,7 @@ fn a_shift_is_followed_through_branches_loops_and_calls() {
     let shifted: Vec<_> = program
         .moves
         .iter()
-        .map(|m| m.displacement == Displacement::Unknown)
+        .map(|m| program.target_of(m).expect("a target").blocked)
         .collect();
     assert_eq!(shifted, [true, true, false]);
 }
@@ -421,14 +624,7 @@ fn variables_belong_to_all_jobs() {
     // assigned in one job, used in the other
     let writer = job("", "SET P018 P019").replace("//NAME A", "//NAME D");
     let program = read_files(&[&holder, &user, &writer], &Settings::default()).expect("jobs");
-    assert_eq!(
-        ids(&program),
-        [
-            "position-variable",
-            "target-assigned-at-run-time",
-            "target-copied"
-        ]
-    );
+    assert_eq!(ids(&program), ["position-variable", "write-not-called"]);
 }
 
 #[test]
@@ -438,7 +634,7 @@ fn condition_files_tell_tools_and_frames() {
         Source::new("UFRAME.CND", b"//UFRAME 12\n///NAME\n////BUSER 100.000,0.000,0.000,0.0000,0.0000,0.0000\n".to_vec()),
         Source::new("A.JBI", job(&format!("{USER}{}", points(1)), "MOVL C00000").into_bytes()),
     ];
-    let program = Inform.read(&sources, &Settings::default()).expect("files");
+    let program = crate::motion::read(&Inform, &sources, &Settings::default()).expect("files");
     let pose = program.tools[0].flange_from_tool.expect("a tool");
     assert!((pose.translation[2] - 0.12).abs() < 1e-12);
     assert!(program.tools[0].load.is_some());
@@ -532,7 +728,7 @@ fn broken_jobs_are_told_with_line_and_column() {
     }
     let zero = Source::new("x", b"/JOB\n\0".to_vec());
     assert!(matches!(
-        Inform.read(&[zero], &Settings::default()),
+        crate::motion::read(&Inform, &[zero], &Settings::default()),
         Err(ReadError::Binary { .. })
     ));
 }

@@ -5,7 +5,7 @@ use super::reader::Reader;
 use super::targets::{Owner, computed, passed};
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::number;
-use crate::program::rapid::names::Symbol;
+use crate::program::names::Symbol;
 use crate::program::script::{Argument, Call, Expr, How, Place, Start, short};
 
 /// Calls in one expression; a line of the controller has no room for more.

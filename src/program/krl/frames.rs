@@ -544,7 +544,7 @@ impl Reader {
     }
 
     /// The FDAT of a name, where the files have it and no statement changes it.
-    fn fdat_of(&self, name: crate::program::rapid::names::Symbol, at: Index) -> Option<Fdat> {
+    fn fdat_of(&self, name: crate::program::names::Symbol, at: Index) -> Option<Fdat> {
         match self.names.constant(name, at, self.context())? {
             Stored::Fdat(fdat) => Some(fdat),
             _ => None,
@@ -669,7 +669,7 @@ impl Reader {
     }
 
     /// A tool or base that is a variable.
-    fn frame_named(&mut self, name: crate::program::rapid::names::Symbol, at: Index) -> Expr {
+    fn frame_named(&mut self, name: crate::program::names::Symbol, at: Index) -> Expr {
         match self.named(name, at) {
             Some(Expr::Unknown(_)) => self.chosen(),
             Some(found) => found,

@@ -9,7 +9,7 @@ use super::tokens::{Cursor, Fault, Kind, Read, Token, capitals};
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
-use crate::program::rapid::names::Symbol;
+use crate::program::names::Symbol;
 use crate::program::script::{
     DisplacementId, Expr, Held, Instruction, NOT_DISPLACED, Place, Remark, Span, short,
 };

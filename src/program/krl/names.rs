@@ -1,7 +1,7 @@
 //! Names and what is declared of them.
 
 use super::tokens::Cursor;
-use crate::program::rapid::names::{Context, Meaning, Scopes, Symbol, Symbols};
+use crate::program::names::{Context, Meaning, Scopes, Symbol, Symbols};
 use crate::program::script::{Place, short};
 use crate::program::{TargetId, number};
 use std::collections::{BTreeSet, HashSet};

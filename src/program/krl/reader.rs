@@ -7,7 +7,7 @@ use super::names::{DataKind, Datum, Fdat, Head, Index, Names, Stored, whole};
 use super::targets::{self, Owner};
 use super::tokens::{Cursor, Fault, Kind, Read, Token, capitals, content_start, lines};
 use crate::geometry::units::m_from_mm;
-use crate::program::rapid::names::{Context, Symbol};
+use crate::program::names::{Context, Symbol};
 use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, VariableId, short};
 use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
 use std::collections::{HashMap, HashSet};

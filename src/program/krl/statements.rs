@@ -6,7 +6,7 @@ use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
 use super::targets::{Owner, assigned, computed};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
-use crate::program::rapid::names::Symbol;
+use crate::program::names::Symbol;
 use crate::program::script::{Expr, How, Write, Written};
 use crate::program::{Pace, number};
 

@@ -4,7 +4,7 @@ use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
 use super::{GROWTH, LONGEST_LINE, status, status_and_turn, whole};
 use crate::finding::Severity;
-use crate::program::rapid::names::{Meaning, Symbol};
+use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{
     Expr, How, Place, Remark, Script, Table, Variable, VariableId, short,
 };

@@ -50,16 +50,6 @@ impl Leaf {
             _ => None,
         }
     }
-
-    /// Whether two leaves say the same.
-    pub fn agrees(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::Number { value: a, .. }, Self::Number { value: b, .. }) => {
-                a.to_bits() == b.to_bits()
-            }
-            _ => self == other,
-        }
-    }
 }
 
 /// The leaves of a value.

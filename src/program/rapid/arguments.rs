@@ -1,17 +1,20 @@
 //! Arguments of instructions: names, targets written out, Offs and `RelTool` around them.
 
 use super::aggregate::{self, JOINTTARGET, Leaf, ROBTARGET};
-use super::reader::{Reader, index};
-use super::syntax::{Amount, BadValue, Base, Expression, Index, Path, Step, Verb};
+use super::reader::Reader;
+use super::syntax::{Amount, BadValue, Base, Expression, Index, Part, Path, Step, Verb};
 use super::tokens::{Fault, Kind};
 use crate::geometry::Quaternion;
-use crate::program::{Layout, Number, Shape, Target, TargetId, number};
+use crate::program::script::short;
+use crate::program::{Layout, Number, Shape, Target, number};
 
 /// Calls inside calls that are followed; deeper ones are expressions like any other.
 const DEEPEST: usize = 16;
 
 /// Coordinates (mm) and angles (degrees) of targets are smaller: 9E9 means "not connected".
 pub const LARGEST: f64 = 1e6;
+/// External axes from here on are not connected: 9E9, or what is left of it in 32 bits.
+const NOT_CONNECTED: f64 = 8e9;
 /// Deviation of a quaternion's length from 1 that rounding explains.
 pub const UNIT_TOLERANCE: f64 = 0.01;
 
@@ -22,22 +25,51 @@ const JOINT_NUMBERS: usize = 6;
 impl Reader<'_> {
     /// Reads one argument; for the positional ones of an instruction its verb and position are known.
     pub(super) fn argument(&mut self, of: Option<(Verb, usize)>) -> Result<Expression, Fault> {
-        let (mark, mentions) = (self.mark(), self.notes.mentions.len());
-        let (steps, targets) = (self.notes.steps.len(), self.notes.targets.len());
-        let (numbers, bad) = (self.notes.numbers.len(), self.notes.bad_values.len());
-        if let Some(base) = self.point(of, 0)?
-            && self.argument_ends()
-        {
-            let steps = (index(steps), index(self.notes.steps.len()));
-            return Ok(Expression::Point { base, steps });
+        let first = self.token;
+        if first.kind == Kind::Text {
+            self.advance()?;
+            if self.argument_ends() {
+                return Ok(Expression::Text(first.start + 1, first.end - 1));
+            }
+            // an expression of strings
+            return self.expression().map(Expression::Computed);
+        }
+        let mark = self.mark();
+        let steps = short(self.notes.steps.len());
+        match self.point(of, 0)? {
+            Some(Written::Base(base)) => {
+                let steps = (steps, short(self.notes.steps.len()));
+                let is_name = matches!(base, Base::Named { .. }) && steps.0 == steps.1;
+                if is_name && self.token.is(b'.') {
+                    self.members()?;
+                    if let Base::Named { name, index } = base
+                        && self.argument_ends()
+                    {
+                        return Ok(Expression::Member { name, index });
+                    }
+                } else if self.argument_ends() {
+                    return Ok(Expression::Point { base, steps });
+                }
+            }
+            Some(Written::Composed(names)) if self.argument_ends() => {
+                return Ok(Expression::Composed(names));
+            }
+            _ => {}
         }
         self.rewind(mark);
-        self.notes.mentions.truncate(mentions);
-        self.notes.steps.truncate(steps);
-        self.notes.targets.truncate(targets);
-        self.notes.numbers.truncate(numbers);
-        self.notes.bad_values.truncate(bad);
         self.expression().map(Expression::Computed)
+    }
+
+    /// `.trans.x`, the present token is the point.
+    fn members(&mut self) -> Result<(), Fault> {
+        while self.token.is(b'.') {
+            self.advance()?;
+            if self.token.kind == Kind::Name {
+                self.advance()?;
+            }
+            self.index()?;
+        }
+        Ok(())
     }
 
     fn argument_ends(&self) -> bool {
@@ -48,37 +80,38 @@ impl Reader<'_> {
     }
 
     /// A name, a target, or Offs and `RelTool` of one. `None` where it is something else; then the place is lost.
-    fn point(&mut self, of: Option<(Verb, usize)>, depth: usize) -> Result<Option<Base>, Fault> {
+    fn point(&mut self, of: Option<(Verb, usize)>, depth: usize) -> Result<Option<Written>, Fault> {
         let first = self.token;
         if first.is(b'[') {
             return match of {
-                Some((verb, position)) => {
-                    let target = self.written_target(verb, position)?;
-                    Ok(target.map(|target| Base::Target(index(target))))
-                }
+                Some((verb, position)) => self.written_target(verb, position),
                 None => Ok(None),
             };
         }
         if first.kind != Kind::Name {
             return Ok(None);
         }
+        let mark = self.mark();
         self.advance()?;
         if self.token.is(b'(') {
             let relative = self.text(first).eq_ignore_ascii_case(b"reltool");
             if depth < DEEPEST && (relative || self.text(first).eq_ignore_ascii_case(b"offs")) {
                 return self.displaced(of, relative, depth);
             }
-            return Ok(None);
+            self.rewind(mark);
+            self.expression()?;
+            let function = self.alone.map(Base::Function);
+            return Ok(function.map(Written::Base));
         }
         let name = self.notes.symbols.intern(self.text(first));
         let index = match self.index()? {
             Index::Whole => 0,
             other => {
                 self.notes.indices.push(other);
-                index(self.notes.indices.len())
+                short(self.notes.indices.len())
             }
         };
-        Ok(Some(Base::Named { name, index }))
+        Ok(Some(Written::Base(Base::Named { name, index })))
     }
 
     /// `Offs(point, x, y, z)` or `RelTool(point, x, y, z \Rx:=a \Ry:=b \Rz:=c)`; the present token is the bracket.
@@ -87,7 +120,7 @@ impl Reader<'_> {
         of: Option<(Verb, usize)>,
         relative: bool,
         depth: usize,
-    ) -> Result<Option<Base>, Fault> {
+    ) -> Result<Option<Written>, Fault> {
         self.advance()?;
         let Some(base) = self.point(of, depth + 1)? else {
             return Ok(None);
@@ -207,7 +240,7 @@ impl Reader<'_> {
     }
 
     /// A target as an argument; `None` where it is data of another type.
-    fn written_target(&mut self, verb: Verb, position: usize) -> Result<Option<TargetId>, Fault> {
+    fn written_target(&mut self, verb: Verb, position: usize) -> Result<Option<Written>, Fault> {
         let offset = self.token.start;
         let (template, shape, wanted) = match verb {
             Verb::Move { path, first, .. } => {
@@ -219,45 +252,45 @@ impl Reader<'_> {
                     (ROBTARGET, Shape::Pose, wanted)
                 }
             }
-            _ => (ROBTARGET, Shape::Pose, false),
+            Verb::Other => (ROBTARGET, Shape::Pose, false),
+            _ => return Ok(None),
         };
-        if matches!(verb, Verb::Harmless) {
-            return Ok(None);
-        }
-        let (mark, mentions) = (self.mark(), self.notes.mentions.len());
+        let mark = self.mark();
         self.advance()?;
         let nested = self.token.is(b'[');
         self.rewind(mark);
         if !wanted && !nested {
             return Ok(None);
         }
+        let mark = self.mark();
+        let mentions = short(self.notes.mentions.len());
         let leaves = match self.aggregate(template) {
             Ok(leaves) => leaves,
             // a value of another type, unless it stands where only a target can
             Err(Fault::Unexpected { .. }) if !wanted => {
                 self.rewind(mark);
-                self.notes.mentions.truncate(mentions);
                 return Ok(None);
             }
             Err(fault) => return Err(fault),
         };
-        self.notes.mentions.truncate(mentions);
-        Ok(Some(self.push_target(
+        Ok(Some(self.target(
             shape,
             None,
             offset,
             leaves.as_slice(),
+            mentions,
         )))
     }
 
-    /// Notes a target with its numbers. One with expressions in it has no numbers and is blocked.
-    pub(super) fn push_target(
+    /// Notes a target with its numbers. One with expressions in it has none; the names in them begin at `mentions`.
+    pub(super) fn target(
         &mut self,
         shape: Shape,
         name: Option<Box<str>>,
         offset: u32,
         leaves: &[Leaf],
-    ) -> TargetId {
+        mentions: u32,
+    ) -> Written {
         let target = self.notes.targets.len();
         let kept = match shape {
             Shape::Pose => POSE_NUMBERS,
@@ -265,35 +298,54 @@ impl Reader<'_> {
         };
         let start = self.notes.numbers.len();
         for leaf in &leaves[..kept] {
-            match *leaf {
-                Leaf::Number {
-                    value,
-                    start,
-                    length,
-                } => self.notes.numbers.push(Number {
-                    start,
-                    length,
-                    value,
-                }),
-                _ => self.notes.numbers.truncate(start),
-            }
+            let Leaf::Number {
+                value,
+                start: at,
+                length,
+            } = *leaf
+            else {
+                self.notes.numbers.truncate(start);
+                return Written::Composed((mentions, short(self.notes.mentions.len())));
+            };
+            self.notes.numbers.push(Number {
+                start: at,
+                length,
+                value,
+            });
         }
-        let blocked = self.notes.numbers.len() < start + kept;
-        if blocked {
-            self.notes.numbers.truncate(start);
-        } else if let Some(fault) = bad_value(shape, &self.notes.numbers[start..]) {
+        self.notes.mentions.truncate(mentions as usize);
+        if let Some(fault) = bad_value(shape, &self.notes.numbers[start..]) {
             self.notes.bad_values.push(BadValue { target, fault });
         }
+        let mut zeros = 0;
+        for (axis, leaf) in (0..6).zip(&leaves[leaves.len() - 6..]) {
+            match leaf.number() {
+                Some(0.0) => zeros |= 1 << axis,
+                Some(value) if value.abs() < NOT_CONNECTED => {
+                    self.notes.external.push((target, axis, value));
+                }
+                _ => {}
+            }
+        }
+        self.notes.external_zeros.push(zeros);
         self.notes.targets.push(Target {
             name,
             file: self.file,
             offset,
             layout: Layout { shape, variant: 0 },
-            numbers: index(start)..index(self.notes.numbers.len()),
-            blocked,
+            numbers: short(start)..short(self.notes.numbers.len()),
+            blocked: false,
         });
-        target
+        Written::Base(Base::Target(short(target)))
     }
+}
+
+/// What stands where a target belongs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Written {
+    Base(Base),
+    /// Parts of it are expressions with these names.
+    Composed(Part),
 }
 
 /// The first number of a target that no robot can use.

@@ -4,17 +4,18 @@ use super::aggregate::{
     BOOL, JOINTTARGET, LOADDATA, Leaf, NUM, ORIENT, POS, POSE, ROBTARGET, STRING, TOOLDATA,
     WOBJDATA,
 };
-use super::names::Symbol;
-use super::reader::{Reader, index, keyword};
-use super::syntax::{Component, Datum, Element, Part, Place, Stored, Type};
-use super::tokens::{Fault, Kind};
-use crate::program::{Shape, TargetId};
+use super::arguments::Written;
+use super::reader::{KEYWORD, Reader, keyword};
+use super::syntax::{
+    Assigned, Base, Component, Datum, Element, Expression, Part, Storage, Stored, Type,
+};
+use super::tokens::{Fault, Kind, Token};
+use crate::program::Shape;
+use crate::program::names::Symbol;
+use crate::program::script::{Place, short};
 
 /// Most dimensions of an array in RAPID.
 const DIMENSIONS: usize = 3;
-
-/// What an assignment sets, and the value where it is written out.
-type Assigned = (Component, Option<Part>, Option<TargetId>);
 
 impl Reader<'_> {
     /// `CONST type name{sizes} := value;`, the present token is CONST, PERS or VAR. Whether it is data that robots use.
@@ -22,7 +23,7 @@ impl Reader<'_> {
         &mut self,
         start: u32,
         local: bool,
-        constant: bool,
+        storage: Storage,
     ) -> Result<bool, Fault> {
         self.advance()?;
         if self.token.kind != Kind::Name {
@@ -37,19 +38,25 @@ impl Reader<'_> {
             self.advance()?;
             value = match kind {
                 Type::Robtarget | Type::Jointtarget => self.targets(kind, name, dimensions)?,
-                Type::Tooldata | Type::Wobjdata if dimensions == 0 && self.token.is(b'[') => {
-                    let template = if kind == Type::Tooldata {
-                        TOOLDATA
-                    } else {
-                        WOBJDATA
-                    };
-                    Stored::Leaves(self.leaves(template)?)
+                Type::Tooldata if dimensions == 0 && self.token.is(b'[') => {
+                    Stored::Leaves(self.leaves(TOOLDATA)?)
                 }
-                Type::Num if constant && dimensions == 0 => self.constant()?,
-                _ => Stored::Computed(self.expression()?),
+                Type::Wobjdata if dimensions == 0 && self.token.is(b'[') => {
+                    Stored::Leaves(self.leaves(WOBJDATA)?)
+                }
+                Type::Loaddata if dimensions == 0 && self.token.is(b'[') => {
+                    Stored::Leaves(self.leaves(LOADDATA)?)
+                }
+                Type::Num if storage == Storage::Constant && dimensions == 0 => self.constant()?,
+                _ => {
+                    let mentions = self.notes.mentions.len();
+                    self.expression()?;
+                    self.notes.mentions.truncate(mentions);
+                    Stored::Computed
+                }
             };
         } else if dimensions > 0 && kind != Type::Other {
-            value = Stored::Computed((0, 0));
+            value = Stored::Computed;
         }
         self.end_statement()?;
         let place = Place {
@@ -62,15 +69,15 @@ impl Reader<'_> {
             context: self.context,
             place,
             local,
-            parameter: false,
-            constant,
+            storage,
             value,
         });
         Ok(kind != Type::Other)
     }
 
-    fn type_name(&self) -> Type {
-        let mut buffer = [0; 12];
+    /// The type that the present token names.
+    pub(super) fn type_name(&self) -> Type {
+        let mut buffer = [0; KEYWORD];
         Type::named(keyword(self.text(self.token), &mut buffer))
     }
 
@@ -112,15 +119,15 @@ impl Reader<'_> {
             return Ok(Stored::Number(*value));
         }
         self.rewind(mark);
-        self.expression().map(Stored::Computed)
+        self.expression().map(|_| Stored::Computed)
     }
 
     /// The value of a target or of an array of them.
     fn targets(&mut self, kind: Type, name: Symbol, dimensions: usize) -> Result<Stored, Fault> {
-        if !self.token.is(b'[') || dimensions > DIMENSIONS {
-            return self.expression().map(Stored::Computed);
+        if dimensions > DIMENSIONS || dimensions > 0 && !self.token.is(b'[') {
+            return self.expression().map(|_| Stored::Computed);
         }
-        let start = index(self.notes.elements.len());
+        let start = short(self.notes.elements.len());
         let mut position = [0; DIMENSIONS];
         let mut sizes = [0; DIMENSIONS];
         let mut level = 0;
@@ -160,7 +167,7 @@ impl Reader<'_> {
             self.advance()?;
             position[level - 1] += 1;
         }
-        let elements = (start, index(self.notes.elements.len()));
+        let elements = (start, short(self.notes.elements.len()));
         Ok(Stored::Elements { elements, sizes })
     }
 
@@ -171,6 +178,7 @@ impl Reader<'_> {
                 Type::Jointtarget => (JOINTTARGET, Shape::Joints),
                 _ => (ROBTARGET, Shape::Pose),
             };
+            let mentions = short(self.notes.mentions.len());
             let leaves = self.aggregate(template)?;
             let spelled = self.notes.symbols.spelling(name);
             let full: Box<str> = match position {
@@ -179,7 +187,11 @@ impl Reader<'_> {
                 [i, j] => format!("{spelled}{{{i},{j}}}").into(),
                 [i, j, k, ..] => format!("{spelled}{{{i},{j},{k}}}").into(),
             };
-            Element::Target(self.push_target(shape, Some(full), offset, leaves.as_slice()))
+            match self.target(shape, Some(full), offset, leaves.as_slice(), mentions) {
+                Written::Base(Base::Target(target)) => Element::Target(target as usize),
+                Written::Base(_) => Element::Computed,
+                Written::Composed(names) => Element::Composed(names),
+            }
         } else {
             let first = self.token;
             let mentions = self.expression()?;
@@ -197,34 +209,39 @@ impl Reader<'_> {
 
     fn leaves(&mut self, template: &[u8]) -> Result<Part, Fault> {
         let leaves = self.aggregate(template)?;
-        let start = index(self.notes.leaves.len());
+        let start = short(self.notes.leaves.len());
         self.notes.leaves.extend_from_slice(leaves.as_slice());
-        Ok((start, index(self.notes.leaves.len())))
+        Ok((start, short(self.notes.leaves.len())))
     }
 
     /// `(robtarget p, \switch on | num x, PERS tooldata t)`
     pub(super) fn parameters(&mut self) -> Result<(), Fault> {
         let at = self.token.start;
         let (mut kind, mut last) = (Type::Other, None);
+        let (mut by_reference, mut optional) = (false, false);
         loop {
             self.advance()?;
             match self.token.kind {
                 Kind::Name => {
-                    kind = match last {
-                        Some(token) => {
-                            let mut buffer = [0; 12];
-                            Type::named(keyword(self.text(token), &mut buffer))
-                        }
-                        None => Type::Other,
-                    };
+                    let mut buffer = [0; KEYWORD];
+                    let before =
+                        last.map_or(&b""[..], |token| keyword(self.text(token), &mut buffer));
+                    by_reference |= matches!(before, b"inout" | b"pers" | b"var" | b"ref");
+                    kind = Type::named(before);
                     last = Some(self.token);
                 }
-                Kind::Sign(b',' | b'|' | b')') => {
+                Kind::Sign(sign @ (b'\\' | b',' | b'|' | b')')) => {
                     if let Some(token) = last.take() {
-                        let name = self.notes.symbols.intern(self.text(token));
-                        self.parameter(name, kind, token.start);
+                        let storage = Storage::Parameter {
+                            by_reference,
+                            optional,
+                        };
+                        self.parameter(kind, token, storage);
+                        by_reference = false;
+                        optional &= sign == b'|';
                     }
-                    if self.token.is(b')') {
+                    optional |= sign == b'\\';
+                    if sign == b')' {
                         return self.advance();
                     }
                 }
@@ -239,10 +256,11 @@ impl Reader<'_> {
         }
     }
 
-    fn parameter(&mut self, name: Symbol, kind: Type, offset: u32) {
+    fn parameter(&mut self, kind: Type, token: Token, storage: Storage) {
+        let name = self.notes.symbols.intern(self.text(token));
         let place = Place {
             file: self.file,
-            offset,
+            offset: token.start,
         };
         self.notes.data.push(Datum {
             name,
@@ -250,8 +268,7 @@ impl Reader<'_> {
             context: self.context,
             place,
             local: true,
-            parameter: true,
-            constant: false,
+            storage,
             value: Stored::Nothing,
         });
     }
@@ -272,47 +289,57 @@ impl Reader<'_> {
         Ok(found)
     }
 
-    /// The value of an assignment, where it is written out.
+    /// What an assignment sets, and to what.
     pub(super) fn assigned(
         &mut self,
         path: Option<(Component, &'static [u8])>,
-    ) -> Result<Assigned, Fault> {
+    ) -> Result<(Component, Assigned), Fault> {
         let (component, template) = path.unwrap_or((Component::Other, b""));
         let mark = self.mark();
-        let nothing = (component, None, None);
-        let template = match component {
-            Component::Leaves(_) => template,
-            Component::Whole if self.token.is(b'[') => self.type_by_look()?,
-            _ => return Ok(nothing),
+        let templates: [&[u8]; 2] = match component {
+            Component::Leaves(..) => [template, b""],
+            Component::Whole if self.token.is(b'[') => match self.type_by_look()? {
+                ROBTARGET => [ROBTARGET, JOINTTARGET],
+                other => [other, b""],
+            },
+            _ => [b""; 2],
         };
         self.rewind(mark);
-        if template.is_empty() {
-            return Ok(nothing);
-        }
-        let offset = self.token.start;
-        let mentions = self.notes.mentions.len();
-        let leaves = match self.aggregate(template) {
-            Ok(leaves) if self.token.is(b';') || template.len() > 1 => leaves,
-            Ok(_) | Err(Fault::Unexpected { .. }) => {
-                self.rewind(mark);
-                self.notes.mentions.truncate(mentions);
-                return Ok(nothing);
-            }
-            Err(fault) => return Err(fault),
-        };
-        if template == ROBTARGET || template == JOINTTARGET {
-            let shape = if template == ROBTARGET {
-                Shape::Pose
-            } else {
-                Shape::Joints
+        for template in templates
+            .into_iter()
+            .filter(|template| !template.is_empty())
+        {
+            let offset = self.token.start;
+            let mentions = short(self.notes.mentions.len());
+            let leaves = match self.aggregate(template) {
+                Ok(leaves) if self.token.is(b';') || template.len() > 1 => leaves,
+                Ok(_) | Err(Fault::Unexpected { .. }) => {
+                    self.rewind(mark);
+                    continue;
+                }
+                Err(fault) => return Err(fault),
             };
-            let target = self.push_target(shape, None, offset, leaves.as_slice());
-            return Ok((component, None, Some(target)));
+            let shape = match template {
+                ROBTARGET => Shape::Pose,
+                JOINTTARGET => Shape::Joints,
+                _ => {
+                    let start = short(self.notes.leaves.len());
+                    self.notes.leaves.extend_from_slice(leaves.as_slice());
+                    let end = short(self.notes.leaves.len());
+                    return Ok((component, Assigned::Leaves((start, end))));
+                }
+            };
+            let value = match self.target(shape, None, offset, leaves.as_slice(), mentions) {
+                Written::Base(base) => Expression::Point {
+                    base,
+                    steps: (0, 0),
+                },
+                Written::Composed(names) => Expression::Composed(names),
+            };
+            return Ok((component, Assigned::To(value)));
         }
-        let start = index(self.notes.leaves.len());
-        self.notes.leaves.extend_from_slice(leaves.as_slice());
-        let part = (start, index(self.notes.leaves.len()));
-        Ok((component, Some(part), None))
+        self.argument(None)
+            .map(|value| (component, Assigned::To(value)))
     }
 
     /// The template of a value whose type only its first words tell.
@@ -332,30 +359,35 @@ impl Reader<'_> {
     }
 }
 
-/// The part of a tool or frame that a word names inside another part: first leaf and template.
+/// The part of a tool or frame that a word names inside another part: its leaves and template.
 fn part(inside: Component, word: &[u8]) -> Option<(Component, &'static [u8])> {
-    let (first, template): (u8, &'static [u8]) = match (inside, word) {
-        (Component::Whole, b"robhold") => (0, BOOL),
-        (Component::Whole, b"tframe") => (1, POSE),
-        (Component::Whole, b"tload") => (8, LOADDATA),
-        (Component::Whole, b"ufprog") => (1, BOOL),
-        (Component::Whole, b"ufmec") => (2, STRING),
-        (Component::Whole, b"uframe") => (3, POSE),
-        (Component::Whole, b"oframe") => (10, POSE),
-        (Component::Leaves(8), b"mass") => (8, NUM),
-        (Component::Leaves(8), b"cog") => (9, POS),
-        (Component::Leaves(pose @ (1 | 3 | 10)), b"trans") => (pose, POS),
-        (Component::Leaves(pose @ (1 | 3 | 10)), b"rot") => (pose + 3, ORIENT),
-        (Component::Leaves(trans @ (1 | 3 | 9 | 10)), b"x") => (trans, NUM),
-        (Component::Leaves(trans @ (1 | 3 | 9 | 10)), b"y") => (trans + 1, NUM),
-        (Component::Leaves(trans @ (1 | 3 | 9 | 10)), b"z") => (trans + 2, NUM),
-        (Component::Leaves(rot @ (4 | 6 | 13)), b"q1") => (rot, NUM),
-        (Component::Leaves(rot @ (4 | 6 | 13)), b"q2") => (rot + 1, NUM),
-        (Component::Leaves(rot @ (4 | 6 | 13)), b"q3") => (rot + 2, NUM),
-        (Component::Leaves(rot @ (4 | 6 | 13)), b"q4") => (rot + 3, NUM),
+    let inside = match inside {
+        Component::Whole => None,
+        Component::Leaves(first, _) => Some(first),
+        Component::Other => return None,
+    };
+    let (first, count, template): (u8, u8, &'static [u8]) = match (inside, word) {
+        (None, b"robhold") => (0, 1, BOOL),
+        (None, b"tframe") => (1, 7, POSE),
+        (None, b"tload") => (8, 11, LOADDATA),
+        (None, b"ufprog") => (1, 1, BOOL),
+        (None, b"ufmec") => (2, 1, STRING),
+        (None, b"uframe") => (3, 7, POSE),
+        (None, b"oframe") => (10, 7, POSE),
+        (Some(8), b"mass") => (8, 1, NUM),
+        (Some(8), b"cog") => (9, 3, POS),
+        (Some(pose @ (1 | 3 | 10)), b"trans") => (pose, 3, POS),
+        (Some(pose @ (1 | 3 | 10)), b"rot") => (pose + 3, 4, ORIENT),
+        (Some(trans @ (1 | 3 | 9 | 10)), b"x") => (trans, 1, NUM),
+        (Some(trans @ (1 | 3 | 9 | 10)), b"y") => (trans + 1, 1, NUM),
+        (Some(trans @ (1 | 3 | 9 | 10)), b"z") => (trans + 2, 1, NUM),
+        (Some(rot @ (4 | 6 | 13)), b"q1") => (rot, 1, NUM),
+        (Some(rot @ (4 | 6 | 13)), b"q2") => (rot + 1, 1, NUM),
+        (Some(rot @ (4 | 6 | 13)), b"q3") => (rot + 2, 1, NUM),
+        (Some(rot @ (4 | 6 | 13)), b"q4") => (rot + 3, 1, NUM),
         _ => return None,
     };
-    Some((Component::Leaves(first), template))
+    Some((Component::Leaves(first, count), template))
 }
 
 #[cfg(test)]
@@ -369,9 +401,10 @@ mod tests {
                 part(inside, word.as_bytes()).map(|(component, _)| component)
             })
         };
-        assert_eq!(path(&["tframe", "rot", "q4"]), Some(Component::Leaves(7)));
-        assert_eq!(path(&["oframe", "trans", "x"]), Some(Component::Leaves(10)));
-        assert_eq!(path(&["uframe", "rot"]), Some(Component::Leaves(6)));
+        let leaves = |first, count| Some(Component::Leaves(first, count));
+        assert_eq!(path(&["tframe", "rot", "q4"]), leaves(7, 1));
+        assert_eq!(path(&["oframe", "trans", "x"]), leaves(10, 1));
+        assert_eq!(path(&["uframe", "rot"]), leaves(6, 4));
         assert_eq!(path(&["trans", "x"]), None);
     }
 }

@@ -1,9 +1,13 @@
 //! Expressions that are passed over, and the arguments of an instruction one after another.
 
-use super::reader::{BLOCK_WORDS, KEYWORD, Reader, index, keyword};
-use super::syntax::{Argument, Expression, Part, Verb};
-use super::tokens::{Fault, Kind};
+use super::blocks::BLOCK_WORDS;
+use super::builtins::Known;
+use super::reader::{KEYWORD, Reader, keyword};
+use super::syntax::{Argument, Base, Expression, Function, Index, Part, StatementKind, Verb};
+use super::tokens::{Fault, Kind, Token};
 use super::verbs;
+use crate::program::names::Symbol;
+use crate::program::script::short;
 
 /// Words between operands.
 const OPERATORS: [&[u8]; 9] = [
@@ -48,6 +52,7 @@ impl Reader<'_> {
                     self.advance()?;
                 }
                 Kind::Sign(b'\\') => {
+                    let begin = self.token.start;
                     self.advance()?;
                     let option = Some(self.name("the name of an optional argument")?);
                     let expression = if self.token.kind == Kind::Assign {
@@ -56,7 +61,11 @@ impl Reader<'_> {
                     } else {
                         Expression::Nothing
                     };
-                    self.notes.arguments.push(Argument { option, expression });
+                    self.notes.arguments.push(Argument {
+                        option,
+                        expression,
+                        span: (begin, self.behind),
+                    });
                     expecting = false;
                 }
                 Kind::Sign(b';') => {
@@ -75,6 +84,7 @@ impl Reader<'_> {
                     self.notes.arguments.push(Argument {
                         option: None,
                         expression,
+                        span: (before, self.behind),
                     });
                     positional += 1;
                     expecting = false;
@@ -84,12 +94,12 @@ impl Reader<'_> {
         if verb == Verb::Harmless {
             self.notes.arguments.truncate(start);
         }
-        Ok((index(start), index(self.notes.arguments.len())))
+        Ok((short(start), short(self.notes.arguments.len())))
     }
 
     /// Whether the present word starts a statement: the semicolon before it is missing. Data may be called like a move; what
     /// follows the name tells them apart.
-    fn at_statement(&self, first_argument: bool) -> bool {
+    pub(super) fn at_statement(&self, first_argument: bool) -> bool {
         let (start, end) = (self.token.start as usize, self.token.end as usize);
         let next = self.bytes[end..].iter().find(|b| !b.is_ascii_whitespace());
         let own_line = || {
@@ -102,28 +112,30 @@ impl Reader<'_> {
             Some(b'\\') => own_line(),
             Some(_) => true,
         };
-        if first_argument
-            && as_verb
-            && matches!(verbs::verb(self.text(self.token)), Verb::Move { .. })
-        {
+        if first_argument && as_verb && verbs::is_move(self.text(self.token)) {
             return true;
         }
         let mut buffer = [0; KEYWORD];
         let word = keyword(self.text(self.token), &mut buffer);
-        matches!(
-            word,
-            b"endproc" | b"endfunc" | b"endtrap" | b"endmodule" | b"elseif" | b"case"
-        ) || BLOCK_WORDS.contains(&word)
+        matches!(word, b"endproc" | b"endfunc" | b"endtrap" | b"endmodule")
+            || BLOCK_WORDS.contains(&word)
     }
 
-    /// Passes over an expression, to what ends it or to a name that follows an operand; notes the names in it.
+    /// Passes over an expression, to what ends it or to a name that follows an operand; notes the names in it and the
+    /// functions that it calls.
     pub(super) fn expression(&mut self) -> Result<Part, Fault> {
-        let start = index(self.notes.mentions.len());
+        let start = short(self.notes.mentions.len());
         self.brackets.clear();
+        self.calls.clear();
+        self.given.clear();
+        self.alone = None;
+        let first = self.token.start;
         let mut operand = false;
         let mut component = false;
+        let mut last_name = None;
         loop {
             let token = self.token;
+            let mut name = None;
             match token.kind {
                 Kind::End | Kind::Sign(b';') => {
                     if let Some(&(_, at)) = self.brackets.last() {
@@ -135,37 +147,215 @@ impl Reader<'_> {
                     break;
                 }
                 Kind::Sign(open @ (b'[' | b'(' | b'{')) => {
+                    self.given_sign(token);
                     self.brackets.push((open, token.start));
+                    if let (b'(', Some((name, offset))) = (open, last_name) {
+                        self.open_call(name, offset);
+                    }
                     operand = false;
                 }
-                Kind::Sign(close @ (b']' | b')' | b'}')) => match self.brackets.pop() {
+                Kind::Sign(close @ (b']' | b')' | b'}')) => match self.brackets.last() {
                     None => break,
-                    Some((open, _)) if closes(open, close) => operand = true,
+                    Some(&(open, _)) if closes(open, close) => {
+                        self.close_call(first);
+                        self.brackets.pop();
+                        operand = true;
+                    }
                     Some(_) => return Err(self.unexpected("the bracket that closes the last one")),
                 },
                 Kind::Sign(b',' | b'\\' | b':') | Kind::Assign if self.brackets.is_empty() => break,
-                Kind::Sign(_) | Kind::Assign => operand = false,
-                Kind::Number | Kind::Text => operand = true,
+                Kind::Sign(_) | Kind::Assign => {
+                    self.given_sign(token);
+                    operand = false;
+                }
+                Kind::Number | Kind::Text => {
+                    self.given_sign(token);
+                    operand = true;
+                }
                 Kind::Name => {
                     let mut buffer = [0; KEYWORD];
                     if OPERATORS.contains(&keyword(self.text(token), &mut buffer)) {
+                        self.given_sign(token);
                         operand = false;
                     } else if operand && self.brackets.is_empty() {
                         break;
                     } else {
+                        let symbol = self.notes.symbols.intern(self.text(token));
                         if !component {
-                            let name = self.notes.symbols.intern(self.text(token));
-                            self.notes.mentions.push(name);
+                            self.notes.mentions.push(symbol);
+                            name = Some((symbol, token.start));
                         }
+                        self.given_name(symbol);
                         operand = true;
                     }
                 }
             }
+            if !matches!(token.kind, Kind::Sign(b']' | b')' | b'}')) {
+                self.alone = None;
+            }
             component = token.is(b'.') || token.is(b'\\');
+            last_name = name;
             self.advance()?;
         }
-        Ok((start, index(self.notes.mentions.len())))
+        Ok((start, short(self.notes.mentions.len())))
     }
+
+    // ---- functions in an expression
+
+    /// A function is called; the present token is its bracket.
+    fn open_call(&mut self, name: Symbol, offset: u32) {
+        let token = &self.bytes[offset as usize..self.behind as usize];
+        let known = self.verbs.function(name, token);
+        if known != Known::Harmless {
+            self.calls.push(OpenCall {
+                name,
+                offset,
+                depth: self.brackets.len(),
+                first: self.given.len(),
+                known,
+                argument: Given::Nothing,
+                option: None,
+                after_backslash: false,
+                mentions: short(self.notes.mentions.len()),
+            });
+        }
+    }
+
+    /// A name in an expression.
+    fn given_name(&mut self, symbol: Symbol) {
+        let (depth, mentions) = (self.brackets.len(), self.notes.mentions.len());
+        let Some(call) = self.calls.last_mut() else {
+            return;
+        };
+        if call.depth != depth {
+            return;
+        }
+        if std::mem::take(&mut call.after_backslash) {
+            call.option = Some(symbol);
+            call.mentions = short(mentions);
+            return;
+        }
+        call.argument = match call.argument {
+            Given::Nothing => Given::Name(symbol),
+            Given::Member(of) => Given::Member(of),
+            _ => Given::Other,
+        };
+    }
+
+    /// A sign, number or operator in an expression, but for brackets that close.
+    fn given_sign(&mut self, token: Token) {
+        let depth = self.brackets.len();
+        let Some(call) = self.calls.last_mut() else {
+            return;
+        };
+        if call.depth != depth {
+            return;
+        }
+        match token.kind {
+            Kind::Sign(b',') => self.give(),
+            Kind::Sign(b'\\') => {
+                self.give();
+                if let Some(call) = self.calls.last_mut() {
+                    call.after_backslash = true;
+                }
+            }
+            Kind::Assign => {}
+            Kind::Sign(sign) => {
+                call.argument = match (sign, call.argument) {
+                    (b'{', Given::Name(of)) => Given::Element(of),
+                    (b'.', Given::Name(of) | Given::Element(of) | Given::Member(of))
+                    | (b'{', Given::Member(of)) => Given::Member(of),
+                    _ => Given::Other,
+                }
+            }
+            _ => call.argument = Given::Other,
+        }
+    }
+
+    /// The present argument of the innermost call is complete.
+    fn give(&mut self) {
+        let end = short(self.notes.mentions.len());
+        let Some(call) = self.calls.last_mut() else {
+            return;
+        };
+        let named = |name, index| Expression::Point {
+            base: Base::Named { name, index },
+            steps: (0, 0),
+        };
+        let expression = match call.argument {
+            Given::Nothing => Expression::Nothing,
+            Given::Name(name) => named(name, 0),
+            Given::Element(name) => {
+                self.notes.indices.push(Index::Variable);
+                named(name, short(self.notes.indices.len()))
+            }
+            Given::Member(name) => Expression::Member { name, index: 0 },
+            Given::Other => Expression::Computed((call.mentions, end)),
+        };
+        if expression != Expression::Nothing || call.option.is_some() {
+            self.given.push(Argument {
+                option: call.option,
+                expression,
+                span: (0, 0),
+            });
+        }
+        (call.argument, call.option, call.mentions) = (Given::Nothing, None, end);
+    }
+
+    /// A bracket closes; the call that it belongs to is noted.
+    fn close_call(&mut self, first: u32) {
+        let depth = self.brackets.len();
+        if self.calls.last().is_none_or(|call| call.depth != depth) {
+            return;
+        }
+        self.give();
+        let call = self.calls.pop().expect("a call is open");
+        let start = short(self.notes.given.len());
+        self.notes.given.extend(self.given.drain(call.first..));
+        let function = short(self.notes.functions.len());
+        self.notes.functions.push(Function {
+            name: call.name,
+            offset: call.offset,
+            arguments: (start, short(self.notes.given.len())),
+        });
+        if call.known != Known::Actual {
+            self.note(call.offset, StatementKind::Function(function));
+        }
+        if let Some(outer) = self.calls.last_mut()
+            && outer.depth + 1 == depth
+        {
+            outer.argument = Given::Other;
+        }
+        self.alone = (depth == 1 && call.offset == first).then_some(function);
+    }
+}
+
+/// A function whose call is not closed yet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OpenCall {
+    name: Symbol,
+    offset: u32,
+    /// Open brackets inside its own.
+    depth: usize,
+    /// Its first argument among those that are complete.
+    first: usize,
+    known: Known,
+    /// The present argument.
+    argument: Given,
+    option: Option<Symbol>,
+    after_backslash: bool,
+    /// Where the names in it begin.
+    mentions: u32,
+}
+
+/// The argument of a function as far as it is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Given {
+    Nothing,
+    Name(Symbol),
+    Element(Symbol),
+    Member(Symbol),
+    Other,
 }
 
 fn closes(open: u8, close: u8) -> bool {

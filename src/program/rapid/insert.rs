@@ -1,7 +1,7 @@
 //! Moves between those of a program: the instruction again, with a target written out.
 
-use crate::program::insert::{Repeated, arguments, bracketed, indent, with_numbers};
-use crate::program::{Insertion, Program, Replacements, Source, Target};
+use crate::program::insert::{Repeated, bracketed, indent, with_numbers};
+use crate::program::{Before, Insertion, Instruction, Move, Program, Replacements, Source, Target};
 use std::ops::Range;
 
 /// Instructions that do nothing but go to their target, or go on with their process on the way. Others switch outputs, count
@@ -10,28 +10,31 @@ const REPEATED: &[&str] = &[
     "movej", "movel", "movec", "arcl", "arcc", "displ", "dispc", "paintl", "paintc",
 ];
 
-/// The text of an instruction up to its semicolon; strings and comments do not stand in one that moves.
-fn instruction(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
-    let end = memchr::memchr(b';', &bytes[offset..])? + offset;
-    let text = &bytes[offset..end];
-    (!text.contains(&b'!') && !text.contains(&b'"')).then_some(offset..end + 1)
+/// The text of an instruction with its semicolon; strings and comments do not stand in one that moves.
+fn text<'a>(source: &'a Source, instruction: &Instruction) -> Option<&'a [u8]> {
+    let span = instruction.place.offset as usize..instruction.end as usize;
+    let text = source.bytes.get(span)?;
+    (text.ends_with(b";") && !text.contains(&b'!') && !text.contains(&b'"')).then_some(text)
 }
 
-/// The argument that is a target: its literal, or its name.
-fn argument(
-    bytes: &[u8],
-    all: &[Range<usize>],
-    target: &Target,
-    inside: bool,
-) -> Option<Range<usize>> {
-    let offset = target.offset as usize;
-    if inside && let Some(found) = all.iter().find(|range| range.start == offset) {
-        return Some(found.clone());
+/// Where a move's own target stands in its instruction, itself or by its name.
+fn argument(sources: &[Source], program: &Program, motion: &Move) -> Option<Range<usize>> {
+    let span = program.instructions[motion.instruction as usize]
+        .target_span
+        .range()?;
+    let target = &program.targets[motion.target?];
+    let is_itself = target.file == motion.file && target.offset as usize == span.start;
+    let text = &sources[motion.file as usize].bytes[span.clone()];
+    let is_name = |name: &str| text.eq_ignore_ascii_case(name.as_bytes());
+    (is_itself || target.name.as_deref().is_some_and(is_name)).then_some(span)
+}
+
+/// The only move that may come before another.
+fn before<'a>(program: &'a Program, motion: &Move) -> Option<&'a Move> {
+    match program.before(motion) {
+        [Before::One(before)] => program.moves.get(*before as usize),
+        _ => None,
     }
-    let name = target.name.as_ref()?.as_bytes();
-    all.iter()
-        .find(|range| bytes[(*range).clone()].eq_ignore_ascii_case(name))
-        .cloned()
 }
 
 /// The aggregate of a target with other numbers.
@@ -70,36 +73,31 @@ pub(super) fn insert(
 ) -> Option<Replacements> {
     let motion = &program.moves[insertion.motion];
     let source = &sources[motion.file as usize];
-    let bytes = &source.bytes;
     let target = &program.targets[motion.target?];
-    let span = instruction(bytes, motion.offset as usize)?;
-    let word = bytes[span.clone()]
+    let instruction = &program.instructions[motion.instruction as usize];
+    let text = text(source, instruction)?;
+    let word = text
         .iter()
         .take_while(|b| b.is_ascii_alphanumeric() || **b == b'_')
         .count();
-    let verb = &bytes[span.start..span.start + word];
-    let known = |name: &&&str| verb.eq_ignore_ascii_case(name.as_bytes());
+    let known = |name: &&&str| text[..word].eq_ignore_ascii_case(name.as_bytes());
     REPEATED.iter().find(known)?;
-    let all = arguments(bytes, span.start + word, span.end - 1);
-    let end = argument(bytes, &all, target, target.file == motion.file)?;
+    let end = argument(sources, program, motion)?;
     let is_arc = insertion.between.iter().any(|b| b.via.is_some());
-    let mut via = None;
+    let (mut via, mut from) = (None, before(program, motion)?);
     if is_arc {
-        let before = &program.moves[insertion.motion.checked_sub(1)?];
-        let through = &program.targets[before.target?];
-        let inside = through.file == motion.file;
-        via = Some(argument(bytes, &all, through, inside)?);
+        via = Some(argument(sources, program, from)?);
+        from = before(program, from)?;
     }
-    let before = insertion.motion.checked_sub(if is_arc { 2 } else { 1 })?;
-    let before = &program.targets[program.moves[before].target?];
-    if !stands_still(sources, program, before, target) {
+    if !stands_still(sources, program, &program.targets[from.target?], target) {
         return None;
     }
-    let blanks = indent(bytes, span.start).unwrap_or_default();
+    let start = instruction.place.offset as usize;
+    let blanks = indent(&source.bytes, start).unwrap_or_default();
     let written = |numbers: &[Vec<u8>]| aggregate(sources, program, target, numbers);
     let repeated = Repeated {
         source,
-        span,
+        span: start..instruction.end as usize,
         blanks,
         via,
         end,

@@ -33,24 +33,30 @@
 
 mod aggregate;
 mod arguments;
+mod blocks;
+mod builtins;
+mod calls;
 mod confdata;
 mod declarations;
-mod displacement;
 mod expressions;
-mod findings;
-mod frames;
+mod handlers;
 mod insert;
-mod instruction;
 mod moves;
-pub(in crate::program) mod names;
 mod reader;
+mod records;
 mod sniff;
 mod syntax;
 mod tokens;
-mod uses;
+mod translate;
+mod values;
 mod verbs;
 mod world;
 
+// until every language names the shared kit itself
+pub(in crate::program) use super::names;
+
+use super::kit::check_bytes;
+use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
     About, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role, Settings, Shape,
     Source, Value,
@@ -58,12 +64,11 @@ use super::{
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
 use crate::program::{Configuration, Inserted, Insertion};
-use findings::{Cause, Report};
-use moves::Moves;
-use reader::{Reader, index};
-use syntax::{Notes, StatementKind, indices};
+use reader::Reader;
+use std::collections::HashSet;
+use syntax::Notes;
 use verbs::Verbs;
-use world::{Points, World};
+use world::World;
 
 /// ABB RAPID.
 #[derive(Debug)]
@@ -114,21 +119,18 @@ impl Language for Rapid {
         sniff::recognises(&source.bytes)
     }
 
-    fn read(&self, sources: &[Source], _: &Settings) -> Result<Program, ReadError> {
-        let (mut notes, mut verbs) = (Notes::default(), Verbs::default());
-        for (file, source) in sources.iter().enumerate() {
-            check_bytes(source)?;
-            let recognised = Reader::read(source, index(file), &mut notes, &mut verbs)
-                .map_err(|fault| fault.in_source(source))?;
-            if !recognised {
-                return Err(ReadError::NotThisLanguage {
-                    file: source.name.clone(),
-                    language: ABOUT.name,
-                    missing: "module, data of robots, routine or move",
-                });
-            }
-        }
-        resolve(sources, notes)
+    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
+        Some(script(sources))
+    }
+
+    fn frame_of(
+        &self,
+        is_tool: bool,
+        name: &str,
+        parts: &[Part],
+        sources: &[Source],
+    ) -> Result<Result<NamedFrame, Remark>, ReadError> {
+        records::frame_of(is_tool, name, parts, sources)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {
@@ -208,105 +210,38 @@ impl Language for Rapid {
     }
 }
 
-/// No text has a zero byte, and places are kept in 32 bits.
-fn check_bytes(source: &Source) -> Result<(), ReadError> {
-    let limit = u32::MAX as usize;
-    let (file, size) = (source.name.clone(), source.bytes.len());
-    if size >= limit {
-        return Err(ReadError::TooLarge { file, size, limit });
-    }
-    match memchr::memchr(0, &source.bytes) {
-        Some(offset) => Err(ReadError::Binary {
-            file,
-            byte: 0,
-            offset,
-        }),
-        None => Ok(()),
-    }
-}
-
-/// Puts together what was noted of all files.
-fn resolve(sources: &[Source], mut notes: Notes) -> Result<Program, ReadError> {
-    let mut report = Report::new(sources);
-    report.program.targets = std::mem::take(&mut notes.targets);
-    report.program.numbers = std::mem::take(&mut notes.numbers);
-    let world = World::new(notes);
-    for target in 0..report.program.targets.len() {
-        let found = &report.program.targets[target];
-        if found.blocked {
-            let place = syntax::Place {
-                file: found.file,
-                offset: found.offset,
-            };
-            report.block(target, Cause::Expressions, place, "");
+/// Notes what all files say, then puts it together.
+fn script(sources: &[Source]) -> Result<Script, ReadError> {
+    let (mut notes, mut verbs) = (Notes::default(), Verbs::default());
+    for (file, source) in sources.iter().enumerate() {
+        check_bytes(source)?;
+        let recognised = Reader::read(source, short(file), &mut notes, &mut verbs)
+            .map_err(|fault| fault.in_source(source))?;
+        if !recognised {
+            return Err(ReadError::NotThisLanguage {
+                file: source.name.clone(),
+                language: ABOUT.name,
+                missing: "module, data of robots, routine or move",
+            });
         }
     }
-    let mut moves = Moves::new(&world, report);
-    assigned_targets(&world, &mut moves);
-    moves.list()?;
-    let mut report = moves.report;
+    let mut script = Script {
+        targets: std::mem::take(&mut notes.targets),
+        numbers: std::mem::take(&mut notes.numbers),
+        ..Script::default()
+    };
+    let world = World::new(notes, verbs, sources);
+    let mut dead = HashSet::new();
     for bad in &world.notes.bad_values {
-        if report.is_blocked(bad.target, Cause::Assigned) {
-            // its value is that of the last run, or none yet
-            report.program.targets[bad.target].numbers = 0..0;
-        } else {
-            let file = report.program.targets[bad.target].file;
-            return Err(bad.fault.in_source(&sources[file as usize]));
+        let target = &mut script.targets[bad.target];
+        if !world.is_written_target(bad.target) {
+            return Err(bad.fault.in_source(&sources[target.file as usize]));
         }
+        // its value is that of the last run, or none yet
+        (target.numbers, target.blocked) = (0..0, true);
+        dead.insert(bad.target);
     }
-    Ok(report.finish())
-}
-
-/// Blocks targets that statements assign, and reports those that others are computed from.
-fn assigned_targets(world: &World, moves: &mut Moves) {
-    for statement in &world.notes.statements {
-        let StatementKind::Assign {
-            name,
-            index,
-            component,
-            mentions,
-            target,
-            ..
-        } = statement.kind
-        else {
-            continue;
-        };
-        let spelled = world.notes.symbols.spelling(name);
-        if let Some(target) = target {
-            moves.report.program.targets[target].name = Some(spelled.into());
-            let cause = Cause::Assigned;
-            moves
-                .report
-                .block(target, cause, statement.place, "the assignment");
-        }
-        let points = world.points(name, index, statement.context);
-        if matches!(points, Points::Unknown | Points::Other) {
-            continue;
-        }
-        moves.block_name(
-            statement.context,
-            name,
-            index,
-            Cause::Assigned,
-            statement.place,
-        );
-        if component != syntax::Component::Whole {
-            continue;
-        }
-        for &other in &world.notes.mentions[indices(mentions)] {
-            let from = world.points(other, syntax::Index::Whole, statement.context);
-            if other != name && matches!(from, Points::Elements { .. }) {
-                let other = world.notes.symbols.spelling(other);
-                moves.report.say(
-                    "target-copied",
-                    crate::finding::Severity::Warning,
-                    statement.place,
-                    format!("{spelled} is computed from {other}, which may be compensated for other moves"),
-                    "look where the new target is used",
-                );
-            }
-        }
-    }
+    Ok(translate::translate(&world, script, dead))
 }
 
 #[cfg(test)]

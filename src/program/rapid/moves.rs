@@ -1,512 +1,427 @@
-//! What each move drives to, with which tool, in which work object.
+//! Instructions that move: what each goes to, with which tool, in which work object.
 
-use super::findings::{Cause, Report};
-use super::names::{Context, Symbol};
-use super::syntax::{
-    Argument, Base, Element, Expression, Index, Part, Path, Place, Statement, StatementKind,
-    Stored, Verb, indices,
-};
-use super::uses::{Used, Uses};
-use super::world::{Points, World};
+use super::syntax::{Argument, Base, Expression, Index, Part, Path, Type, Verb, indices};
+use super::translate::Translator;
+use super::world::Entity;
 use crate::finding::Severity;
-use crate::program::{
-    Displacement, FrameId, Motion, Move, Pace, ReadError, Shift, TargetId, ToolId,
+use crate::geometry::units::MM;
+use crate::program::names::{Meaning, Symbol};
+use crate::program::script::{
+    Expr, Held, How, Instruction, NOT_DISPLACED, Remark, Span, Write, Written,
 };
-use std::collections::HashSet;
+use crate::program::{Motion, Pace};
 
-/// The most uses of elements of arrays with indices that only the running program knows.
-const MOST_USES: usize = 500_000;
-
-/// Resolves the moves of all files.
-pub(super) struct Moves<'a> {
-    pub world: &'a World,
-    pub report: Report<'a>,
-    uses: Uses<'a>,
-    /// Uses of whole arrays that are listed.
-    listed: HashSet<(u32, ToolId, FrameId, Motion, bool, [u64; 3])>,
-    /// Parts of the elements that are blocked as a whole.
-    blocked: HashSet<(Part, Cause)>,
-    /// More uses than are listed.
-    full: bool,
-    conf_l: bool,
-    conf_j: bool,
-    routine: Option<Context>,
+/// The parts of a move instruction, as indices of its arguments.
+struct Parts {
+    /// Arguments that are or should be targets.
+    targets: std::ops::Range<usize>,
+    tool: Option<usize>,
+    frame: Option<usize>,
+    load: Option<usize>,
+    /// It has an ID for synchronised robots.
+    synchronised: bool,
+    /// A sensor corrects its path.
+    corrected: bool,
+    /// Speed and zone where they are predefined ones.
+    pace: Pace,
 }
 
-impl<'a> Moves<'a> {
-    pub fn new(world: &'a World, report: Report<'a>) -> Self {
-        Self {
-            world,
-            report,
-            uses: Uses::new(world),
-            listed: HashSet::new(),
-            blocked: HashSet::new(),
-            full: false,
-            conf_l: true,
-            conf_j: true,
-            routine: None,
-        }
-    }
+/// Millimetres that a predefined name ends on: `v100`, `z10`.
+fn predefined(name: &str, letter: char) -> Option<f64> {
+    let rest = name.strip_prefix([letter, letter.to_ascii_uppercase()])?;
+    let whole = !rest.is_empty() && rest.len() < 6 && rest.bytes().all(|b| b.is_ascii_digit());
+    whole.then(|| rest.parse().ok()).flatten()
+}
 
-    /// Lists the moves of all statements, in their order.
-    ///
-    /// # Errors
-    /// Where a tool or work object that is used has a number no robot can use.
-    pub fn list(&mut self) -> Result<(), ReadError> {
-        let displaced = self.world.displacements();
-        for (at, &displaced) in displaced.iter().enumerate() {
-            let statement = self.world.notes.statements[at];
-            let StatementKind::Call {
-                name,
-                verb,
-                arguments,
-            } = statement.kind
-            else {
-                continue;
-            };
-            if self.routine != Some(statement.context) {
-                self.routine = Some(statement.context);
-                (self.conf_l, self.conf_j) = (true, true);
-            }
-            match verb {
-                Verb::ConfL => self.conf_l = self.switch(arguments),
-                Verb::ConfJ => self.conf_j = self.switch(arguments),
-                Verb::GripLoad => self.grip_load(&statement, arguments),
-                Verb::Move { path, .. } if !self.is_routine(name, statement.context) => {
-                    self.instruction(at, &statement, verb, path, arguments, displaced)?;
-                }
-                Verb::Move { .. } | Verb::Other => {
-                    self.call(at, &statement, name, arguments, displaced)?;
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+/// What a predefined name says of a move's speed and zone.
+fn read_pace(name: &str, pace: &mut Pace) {
+    if let Some(mm) = predefined(name, 'v') {
+        pace.speed_m_s = pace.speed_m_s.or(Some(mm * MM));
+    } else if let Some(mm) = predefined(name, 'z') {
+        // z0 is 0.3 mm
+        pace.zone_m = pace.zone_m.or(Some(mm.max(0.3) * MM));
+    } else if name.eq_ignore_ascii_case("fine") {
+        pace.zone_m = pace.zone_m.or(Some(0.0));
     }
+}
 
-    fn is_routine(&self, name: Option<Symbol>, context: Context) -> bool {
-        name.is_some_and(|name| self.world.is_routine(name, context))
+/// The name that an argument is.
+fn plain(argument: &Argument) -> Option<Symbol> {
+    match argument.expression {
+        Expression::Point {
+            base: Base::Named { name, .. },
+            steps,
+        } if steps.0 == steps.1 && argument.option.is_none() => Some(name),
+        _ => None,
     }
+}
 
-    /// `\On` or nothing is on, `\Off` is off.
-    fn switch(&self, arguments: Part) -> bool {
-        let off = self.world.notes.symbols.find(b"off");
-        let all = &self.world.notes.arguments[indices(arguments)];
-        !all.iter()
-            .any(|argument| argument.option.is_some() && argument.option == off)
-    }
-
-    fn grip_load(&mut self, statement: &Statement, arguments: Part) {
-        let load = self.world.plain_names(arguments).next();
-        self.other_load(statement, load);
-    }
-
-    /// A load that is not that of the tool.
-    fn other_load(&mut self, statement: &Statement, load: Option<Symbol>) {
-        let symbols = &self.world.notes.symbols;
-        if let Some(load) = load
-            && Some(load) != symbols.find(b"load0")
-        {
-            let message = format!(
-                "{} is carried here; its mass is not in the tool's load",
-                symbols.spelling(load)
-            );
-            let hint = "where joints bend under load, give the profile a tool with this load";
-            self.report
-                .say("grip-load", Severity::Note, statement.place, message, hint);
-        }
-    }
-
-    fn instruction(
-        &mut self,
-        at: usize,
-        statement: &Statement,
-        verb: Verb,
-        path: Path,
-        arguments: Part,
-        displaced: Option<Place>,
-    ) -> Result<(), ReadError> {
-        let Some(parts) = self.world.parts(statement, verb, arguments) else {
-            return Ok(());
-        };
-        if matches!(verb, Verb::Move { first: 2, .. }) {
-            self.written_by_search(statement, arguments);
-        }
-        self.other_load(statement, parts.load);
-        if parts.synchronised {
-            let message = "this move runs together with one of another robot";
-            let hint = "both robots' programs have to be compensated";
-            self.report.say(
-                "sync-move",
-                Severity::Note,
-                statement.place,
-                message.into(),
-                hint,
-            );
-        }
-        let absolute = path == Path::Absolute;
-        let tool = self
-            .uses
-            .tool(&mut self.report, at, statement, parts.tool)?;
-        let frame = match parts.frame {
-            Ok(_) if absolute => self.uses.frame(&mut self.report, at, statement, None)?,
-            Ok(frame) => self.uses.frame(&mut self.report, at, statement, frame)?,
-            Err(()) => Err((Cause::FrameChosen, statement.place, Symbol(0))),
-        };
-        let configured = match path {
-            Path::Joint => self.conf_j,
-            Path::Absolute => false,
-            Path::Linear | Path::Arc => self.conf_l,
-        };
-        let displaced = displaced.filter(|_| !absolute);
-        let targets = indices(parts.targets);
-        for argument in targets.clone() {
-            let argument_is = &self.world.notes.arguments[argument];
-            // an option between the two targets of an arc
-            if argument_is.option.is_some() {
-                continue;
-            }
-            let expression = argument_is.expression;
-            let motion = match path {
-                Path::Joint | Path::Absolute => Motion::Joint,
-                Path::Linear => Motion::Linear,
-                Path::Arc if argument == targets.start => Motion::ArcVia,
-                Path::Arc => Motion::ArcEnd,
-            };
-            let with = With {
-                motion,
-                tool: &tool,
-                frame: &frame,
-                configured,
-                displaced,
-                pace: parts.pace,
-            };
-            self.go(statement, expression, &with);
-        }
-        Ok(())
-    }
-
-    /// A search writes the point it found.
-    fn written_by_search(&mut self, statement: &Statement, arguments: Part) {
-        let found = self.world.notes.arguments[indices(arguments)]
-            .iter()
-            .filter(|argument| argument.option.is_none())
-            .nth(1)
-            .and_then(|argument| self.world.plain(argument));
-        if let Some((name, index)) = found {
-            self.block_name(
-                statement.context,
-                name,
-                index,
-                Cause::Assigned,
-                statement.place,
-            );
-        }
-    }
-
-    /// Blocks every target that a name may lead to.
-    pub fn block_name(
-        &mut self,
-        context: Context,
-        name: Symbol,
-        index: Index,
-        cause: Cause,
-        because: Place,
-    ) {
-        let elements = match self.world.points(name, index, context) {
-            Points::Elements { elements, .. } => vec![elements],
-            Points::Ambiguous(list) => self
-                .world
-                .several(list)
-                .iter()
-                .filter_map(|&datum| match self.world.datum(datum).value {
-                    Stored::Elements { elements, .. } => Some(elements),
-                    _ => None,
-                })
-                .collect(),
-            _ => Vec::new(),
-        };
-        let what = self.world.notes.symbols.spelling(name);
-        for part in elements {
-            if !self.blocked.insert((part, cause)) {
-                continue;
-            }
-            for target in self.world.own_targets(part) {
-                self.report.block(target, cause, because, what);
-            }
-        }
-    }
-
-    /// A procedure call, or an instruction that is not known.
-    fn call(
-        &mut self,
-        at: usize,
-        statement: &Statement,
-        name: Option<Symbol>,
-        arguments: Part,
-        displaced: Option<Place>,
-    ) -> Result<(), ReadError> {
-        let world = self.world;
-        let all = &world.notes.arguments[indices(arguments)];
-        let context = statement.context;
-        if !all
-            .iter()
-            .any(|argument| self.leads_to_target(argument, context))
-        {
-            return Ok(());
-        }
-        let wobj = world.notes.symbols.find(b"wobj");
-        let has_tool = all.iter().any(|argument| {
-            (argument.option.is_some() && argument.option == wobj)
-                || world
-                    .plain(argument)
-                    .is_some_and(|(name, _)| world.is_tool(name, context))
-        });
-        if has_tool && name.is_some() && !self.is_routine(name, context) {
-            // an instruction of an option or of another cell: it moves like the ones we know
-            let verb = Verb::Move {
-                path: Path::Linear,
-                first: 0,
-                tool_inside: false,
-            };
-            return self.instruction(at, statement, verb, Path::Linear, arguments, displaced);
-        }
-        let callee = name.map_or("a late-bound call", |name| {
-            world.notes.symbols.spelling(name)
-        });
-        for argument in all {
-            match argument.expression {
-                Expression::Point {
-                    base: Base::Target(target),
-                    ..
-                } => self
-                    .report
-                    .block(target as usize, Cause::Passed, statement.place, callee),
-                Expression::Point {
-                    base: Base::Named { name, index },
-                    ..
-                } => {
-                    let index = world.notes.index(index);
-                    self.block_name(context, name, index, Cause::Passed, statement.place);
-                }
-                Expression::Computed(part) => {
-                    for &name in &world.notes.mentions[indices(part)] {
-                        let whole = Index::Whole;
-                        self.block_name(context, name, whole, Cause::Passed, statement.place);
-                    }
-                }
-                Expression::Nothing => {}
-            }
-        }
-        Ok(())
-    }
-
-    fn leads_to_target(&self, argument: &Argument, context: Context) -> bool {
-        let named = |name: Symbol| {
-            matches!(
-                self.world.points(name, Index::Whole, context),
-                Points::Elements { .. } | Points::Ambiguous(_)
-            )
-        };
+impl Translator<'_> {
+    /// Whether an argument can be a target.
+    pub(super) fn is_target(&self, argument: &Argument) -> bool {
         match argument.expression {
-            Expression::Point { base, .. } => match base {
+            Expression::Point { steps, base } => match base {
                 Base::Target(_) => true,
-                Base::Named { name, .. } => named(name),
+                Base::Named { name, .. } => {
+                    let kind = self.world.kind(name, self.context);
+                    steps.0 < steps.1 || kind.is_some_and(Type::is_target)
+                }
+                Base::Function(_) => steps.0 < steps.1,
             },
-            Expression::Computed(part) => self.world.notes.mentions[indices(part)]
-                .iter()
-                .any(|&name| named(name)),
-            Expression::Nothing => false,
-        }
-    }
-
-    /// Lists a move to what one argument says.
-    fn go(&mut self, statement: &Statement, expression: Expression, with: &With) {
-        match expression {
-            Expression::Nothing => {}
-            Expression::Point { base, steps } => {
-                let displacement = self.world.displacement(steps, statement.context);
-                match base {
-                    Base::Target(target) => {
-                        self.use_target(statement, target as usize, displacement, with);
-                    }
-                    Base::Named { name, index } => {
-                        let index = self.world.notes.index(index);
-                        self.use_name(statement, name, index, &displacement, with, true);
-                    }
-                }
-            }
-            Expression::Computed(part) => {
-                let world = self.world;
-                let mut any = false;
-                for &name in &world.notes.mentions[indices(part)] {
-                    let unknown = Displacement::Unknown;
-                    any |= self.use_name(statement, name, Index::Whole, &unknown, with, false);
-                }
-                if !any {
-                    self.not_written_out(statement, "a position");
-                }
-            }
-        }
-    }
-
-    fn not_written_out(&mut self, statement: &Statement, what: &str) {
-        self.report.say(
-            "computed-target",
-            Severity::Error,
-            statement.place,
-            format!(
-                "{what} that this move goes to is known at run time only; it is not compensated"
-            ),
-            "",
-        );
-    }
-
-    /// Lists a move to a name; whether it is a target. What is none is reported where it should be one.
-    fn use_name(
-        &mut self,
-        statement: &Statement,
-        name: Symbol,
-        index: Index,
-        displacement: &Displacement,
-        with: &With,
-        wanted: bool,
-    ) -> bool {
-        let world = self.world;
-        let spelled = world.notes.symbols.spelling(name);
-        match world.points(name, index, statement.context) {
-            Points::Elements { datum, elements } => {
-                if elements.1 - elements.0 > 1 {
-                    if !self.first_use(datum, displacement, with) {
-                        return true;
-                    }
-                    if self.report.program.moves.len() >= MOST_USES {
-                        self.too_many(statement);
-                        return true;
-                    }
-                }
-                for element in indices(elements) {
-                    match world.notes.elements[element] {
-                        Element::Target(target) => {
-                            self.use_target(statement, target, displacement.clone(), with);
-                        }
-                        Element::Named(other) => {
-                            let declared = world.datum(datum);
-                            let (context, because) = (declared.context, declared.place);
-                            let whole = Index::Whole;
-                            self.block_name(context, other, whole, Cause::Named, because);
-                        }
-                        Element::Computed => self.not_written_out(statement, spelled),
-                    }
-                }
-                true
-            }
-            Points::Ambiguous(_) => {
-                let cause = Cause::Ambiguous;
-                self.block_name(statement.context, name, index, cause, statement.place);
-                true
-            }
-            Points::Computed if wanted => {
-                self.not_written_out(statement, spelled);
-                false
-            }
-            Points::Unknown | Points::Other if wanted => {
-                self.report.say(
-                    "target-not-in-files",
-                    Severity::Error,
-                    statement.place,
-                    format!("{spelled} is not declared in the files; this move is not compensated"),
-                    "name the module that declares it, too",
-                );
-                false
-            }
+            Expression::Composed(_) => true,
             _ => false,
         }
     }
 
-    /// Whether an array was not used in this way before: one index that only the running program knows is like another.
-    fn first_use(&mut self, datum: u32, displacement: &Displacement, with: &With) -> bool {
-        let (tool, frame) = match (*with.tool, *with.frame) {
-            (Ok(tool), Ok(frame)) => (tool, frame),
-            (Err((cause, ..)), _) | (_, Err((cause, ..))) => {
-                return self.blocked.insert(((datum, u32::MAX), cause));
-            }
-        };
-        let by = match displacement {
-            Displacement::None => [0; 3],
-            Displacement::By(shift) if **shift == Shift::in_frame(shift.in_frame_m) => {
-                shift.in_frame_m.map(f64::to_bits)
-            }
-            Displacement::By(_) => return true,
-            Displacement::Unknown => [u64::MAX; 3],
-        };
-        self.listed
-            .insert((datum, tool, frame, with.motion, with.configured, by))
+    pub(super) fn is_tool(&self, argument: &Argument) -> bool {
+        plain(argument)
+            .is_some_and(|name| self.world.kind(name, self.context) == Some(Type::Tooldata))
     }
 
-    fn too_many(&mut self, statement: &Statement) {
-        if std::mem::replace(&mut self.full, true) {
+    /// Takes a move instruction apart; `None` where it has no argument for a target.
+    fn parts(&self, all: &[Argument], path: Path, first: u8, tool_inside: bool) -> Option<Parts> {
+        let positional = || {
+            all.iter()
+                .enumerate()
+                .filter(|(_, argument)| argument.option.is_none())
+        };
+        let candidates = || positional().skip(usize::from(first));
+        let start = candidates()
+            .find(|(_, argument)| self.is_target(argument))
+            .or_else(|| candidates().next())?
+            .0;
+        let end = if path == Path::Arc {
+            let next = positional().find(|(at, _)| *at > start);
+            next.map_or(start + 1, |(at, _)| at + 1)
+        } else {
+            start + 1
+        };
+        // options stand behind the argument they belong to
+        let option = |word: Option<Symbol>| {
+            let word = word?;
+            all.iter()
+                .position(|argument| argument.option == Some(word))
+        };
+        let words = &self.words;
+        let wobj = option(words.wobj);
+        let (mut declared, mut last, mut before_wobj, mut inside) = (None, None, None, None);
+        let mut pace = Pace::default();
+        for (place, (at, argument)) in positional().filter(|(at, _)| *at >= end).enumerate() {
+            last = Some(at);
+            if let Some(name) = plain(argument) {
+                read_pace(self.world.spelling(name), &mut pace);
+            }
+            if place == 2 {
+                inside = Some(at);
+            }
+            if wobj.is_some_and(|wobj| at < wobj) {
+                before_wobj = Some(at);
+            }
+            if self.is_tool(argument) {
+                declared = Some(at);
+            }
+        }
+        let tool = declared
+            .or(before_wobj)
+            .or(if tool_inside && wobj.is_none() {
+                inside
+            } else {
+                last
+            });
+        Some(Parts {
+            targets: start..end,
+            tool,
+            frame: wobj,
+            load: option(words.tload),
+            synchronised: option(words.id).is_some(),
+            corrected: option(words.corr).is_some(),
+            pace,
+        })
+    }
+
+    /// Names that a move instruction uses as targets or frames.
+    pub(super) fn wants_of_move(
+        &self,
+        all: &[Argument],
+        path: Path,
+        first: u8,
+        tool_inside: bool,
+    ) -> Vec<(Symbol, Type)> {
+        let Some(parts) = self.parts(all, path, first, tool_inside) else {
+            return Vec::new();
+        };
+        let kind = if path == Path::Absolute {
+            Type::Jointtarget
+        } else {
+            Type::Robtarget
+        };
+        let name = |at: usize| match all[at].expression {
+            Expression::Point {
+                base: Base::Named { name, .. },
+                ..
+            } => Some(name),
+            _ => None,
+        };
+        let targets = parts.targets.clone().filter_map(name);
+        let mut wants: Vec<_> = targets.map(|name| (name, kind)).collect();
+        let tool = parts.tool.and_then(name);
+        wants.extend(tool.map(|name| (name, Type::Tooldata)));
+        let frame = parts.frame.and_then(name);
+        wants.extend(frame.map(|name| (name, Type::Wobjdata)));
+        wants
+    }
+
+    /// A move instruction up to `end`.
+    pub(super) fn go(&mut self, verb: Verb, arguments: Part, end: u32) {
+        let Verb::Move {
+            path,
+            first,
+            tool_inside,
+        } = verb
+        else {
             return;
-        }
-        self.report.say(
-            "too-many-uses",
-            Severity::Error,
-            statement.place,
-            format!("from here on moves to elements of arrays are not checked: there are more than {MOST_USES}"),
-            "give fewer files in one call",
-        );
-    }
-
-    fn use_target(
-        &mut self,
-        statement: &Statement,
-        target: TargetId,
-        displacement: Displacement,
-        with: &With,
-    ) {
-        if let Some(because) = with.displaced {
-            let what = "the displacement";
-            self.report.block(target, Cause::Displaced, because, what);
-        }
-        let symbols = &self.world.notes.symbols;
-        let mut ids = [0; 2];
-        for (id, used) in ids.iter_mut().zip([with.tool, with.frame]) {
-            match used {
-                Ok(found) => *id = *found,
-                Err((cause, because, name)) => {
-                    let what = if cause == &Cause::FrameChosen {
-                        "the move"
-                    } else {
-                        symbols.spelling(*name)
-                    };
-                    self.report.block(target, *cause, *because, what);
-                }
+        };
+        let world = self.world;
+        let all = &world.notes.arguments[indices(arguments)];
+        let absolute = path == Path::Absolute;
+        let Some(parts) = self.parts(all, path, first, tool_inside) else {
+            let target = self.computed();
+            self.emit_move(Instruction {
+                end,
+                target,
+                ..Instruction::at(self.here)
+            });
+            return;
+        };
+        let load = parts.load.map_or(Expr::Absent, |at| self.carried(&all[at]));
+        self.tell(&parts);
+        let tool = match parts.tool {
+            Some(at) => self.frame_from(all[at].expression),
+            None => self.frame_chosen(),
+        };
+        let frame = match parts.frame {
+            Some(at) if !absolute => self.frame_from(all[at].expression),
+            _ => Expr::Value(self.wobj0),
+        };
+        let modes = &self.modes;
+        let (configured, wrist) = match path {
+            Path::Joint => (Expr::Variable(modes.conf_j), Expr::Absent),
+            Path::Absolute => (Expr::Absent, Expr::Absent),
+            Path::Linear | Path::Arc => (Expr::Variable(modes.conf_l), Expr::Variable(modes.wrist)),
+        };
+        let wanted = if absolute {
+            Type::Jointtarget
+        } else {
+            Type::Robtarget
+        };
+        for at in parts.targets.clone() {
+            // an option between the two targets of an arc
+            if all[at].option.is_some() {
+                continue;
             }
-        }
-        if let (Ok(tool), Ok(frame)) = (*with.tool, *with.frame) {
-            self.report.program.moves.push(Move {
-                file: statement.place.file,
-                offset: statement.place.offset,
-                motion: with.motion,
-                target: Some(target),
+            self.ambiguous = false;
+            let target = self.position_from(all[at].expression, wanted);
+            let guards = match (absolute, self.ambiguous) {
+                (true, false) => 0,
+                (false, false) => self.modes.guards,
+                (_, true) => self.modes.ambiguous_guards,
+            };
+            let motion = match path {
+                Path::Joint | Path::Absolute => Motion::Joint,
+                Path::Linear => Motion::Linear,
+                Path::Arc if at == parts.targets.start => Motion::ArcVia,
+                Path::Arc => Motion::ArcEnd,
+            };
+            let (start, behind) = all[at].span;
+            self.emit_move(Instruction {
+                place: self.here,
+                end,
+                motion,
+                free_orientation: false,
+                target,
                 tool,
                 frame,
-                displacement,
-                configured: with.configured,
+                load,
+                configured,
+                wrist,
                 near: None,
-                pace: with.pace,
-                ..Move::default()
+                displacement: NOT_DISPLACED,
+                guards,
+                expected: 0,
+                pace: parts.pace,
+                target_span: Span { start, end: behind },
+            });
+        }
+        if first == 2 {
+            self.found(all);
+        }
+    }
+
+    /// A search writes where the robot was when the signal came.
+    fn found(&mut self, all: &[Argument]) {
+        let found = all.iter().filter(|argument| argument.option.is_none());
+        if let Some(argument) = found.skip(1).next() {
+            let actual = Expr::Value(self.actual);
+            self.write_argument(argument, How::Whole(actual));
+        }
+    }
+
+    /// The load of a move that is not that of its tool.
+    fn carried(&mut self, argument: &Argument) -> Expr {
+        let Expression::Point {
+            base: Base::Named { name, .. },
+            ..
+        } = argument.expression
+        else {
+            return Expr::Absent;
+        };
+        // load0 stands for none: the tool's own counts
+        if self.world.spelling(name).eq_ignore_ascii_case("load0") {
+            return Expr::Absent;
+        }
+        match self.load(name) {
+            Some(load) => {
+                let value = self.loads.get(&name).copied();
+                Expr::Value(value.unwrap_or_else(|| {
+                    let value = self.builder.script.value(Held::Load(Some(load)));
+                    self.loads.insert(name, value);
+                    value
+                }))
+            }
+            None => {
+                self.other_load(name);
+                Expr::Absent
+            }
+        }
+    }
+
+    /// `GripLoad`
+    pub(super) fn grip_load(&mut self, arguments: Part) {
+        let world = self.world;
+        let load = world.notes.arguments[indices(arguments)]
+            .iter()
+            .find_map(plain);
+        if let Some(load) = load
+            && !world.spelling(load).eq_ignore_ascii_case("load0")
+        {
+            self.other_load(load);
+        }
+    }
+
+    fn other_load(&mut self, load: Symbol) {
+        let message = format!(
+            "{} is carried here; its mass is not in the tool's load",
+            self.world.spelling(load)
+        );
+        let hint = "where joints bend under load, give the profile a tool with this load";
+        self.say("grip-load", Severity::Note, message, hint);
+    }
+
+    fn tell(&mut self, parts: &Parts) {
+        if parts.synchronised {
+            let message = "this move runs together with one of another robot";
+            let hint = "both robots' programs have to be compensated";
+            self.say("sync-move", Severity::Note, message.into(), hint);
+        }
+        if parts.corrected {
+            let message = "a sensor corrects the path here (\\Corr): the targets are compensated, what the sensor adds is not";
+            self.say("path-corrected", Severity::Warning, message.into(), "");
+        }
+    }
+
+    /// An instruction that goes along a recorded path, or where a sensor says.
+    pub(super) fn wander(&mut self, back: bool, end: u32) {
+        let target = if back {
+            Expr::Value(self.actual)
+        } else {
+            Expr::Unknown(self.builder.script.remark(Remark {
+                id: "computed-target",
+                severity: Severity::Warning,
+                text: "a sensor tells where this instruction goes to; it stays as it is".into(),
+                hint: "",
+            }))
+        };
+        self.emit_move(Instruction {
+            end,
+            motion: Motion::Linear,
+            target,
+            ..Instruction::at(self.here)
+        });
+    }
+
+    /// Writes the data that an argument names, or a part of it.
+    pub(super) fn write_argument(&mut self, argument: &Argument, how: How) {
+        let (name, index, is_part) = match argument.expression {
+            Expression::Point {
+                base: Base::Named { name, index },
+                steps: (a, b),
+            } if a == b => (name, index, false),
+            Expression::Member { name, index } => (name, index, true),
+            _ => return,
+        };
+        let how = if is_part {
+            How::PartSomehow(self.changed())
+        } else {
+            how
+        };
+        let index: Index = self.world.notes.index(index);
+        for variable in self.written(name, index) {
+            let place = self.here;
+            let how = how.clone();
+            self.emit_write(Write {
+                place,
+                variable,
+                how,
             });
         }
     }
-}
 
-/// How a move goes to all its targets.
-struct With<'a> {
-    motion: Motion,
-    tool: &'a Used<ToolId>,
-    frame: &'a Used<FrameId>,
-    configured: bool,
-    displaced: Option<Place>,
-    pace: Pace,
+    /// What a variable is a part of which the running program computes.
+    pub(super) fn changed(&mut self) -> u32 {
+        let remark = super::records::assigned();
+        self.builder.script.remark(remark)
+    }
+
+    /// What a write of a name concerns.
+    pub(super) fn written(&mut self, name: Symbol, index: Index) -> Vec<Written> {
+        let world = self.world;
+        let data = match world.meaning(name, self.context) {
+            Meaning::Nothing => {
+                if !self.wanted.contains_key(&name) {
+                    return Vec::new();
+                }
+                let entity = Entity::Undeclared(name);
+                let known = self.variables.get(&(entity, 0)).copied();
+                let variable = known.unwrap_or_else(|| {
+                    let holds = self.undeclared(name);
+                    self.variable(entity, 0, holds)
+                });
+                return vec![Written::One(variable)];
+            }
+            Meaning::One(datum) => vec![datum],
+            Meaning::Several(list) => world.several(list).to_vec(),
+        };
+        let several = data.len() > 1;
+        let mut all = Vec::new();
+        for datum in data {
+            let kind = world.datum(datum).kind;
+            let value = if kind.is_target() {
+                self.position_of_datum(datum, index)
+            } else if kind.is_frame() && !several {
+                self.frame(name, Index::Whole)
+            } else {
+                continue;
+            };
+            match value {
+                Expr::Variable(variable) if !several => all.push(Written::One(variable)),
+                Expr::Variable(_) | Expr::Any { .. }
+                    if world.is_written(Entity::Declared(datum)) =>
+                {
+                    all.push(Written::AnyOf(self.table(datum)));
+                }
+                _ => {}
+            }
+        }
+        all
+    }
 }

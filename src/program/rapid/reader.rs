@@ -3,15 +3,21 @@
 //! A statement ends at its semicolon, or where a name follows an operand: some posts forget semicolons, and a short IF has its
 //! statement behind its condition. Nothing here recurses on the text's brackets.
 
-use super::names::{Context, Symbol};
-use super::syntax::{Component, Notes, Place, Routine, Statement, StatementKind, Verb};
+use super::blocks::BLOCK_WORDS;
+use super::expressions::OpenCall;
+use super::syntax::{
+    Argument, Callee, Component, Lengths, Notes, Routine, Statement, StatementKind, Storage, Type,
+    Verb,
+};
 use super::tokens::{Fault, Kind, Scanner, Token};
 use super::verbs::Verbs;
 use crate::program::Source;
+use crate::program::names::{Context, Symbol};
+use crate::program::script::{Place, short};
 
 /// A place to go back to.
 #[derive(Clone, Copy)]
-pub(super) struct Mark<'a>(Scanner<'a>, Token);
+pub(super) struct Mark<'a>(Scanner<'a>, Token, u32, Lengths);
 
 /// Reads one file into the notes of all.
 pub(super) struct Reader<'a> {
@@ -19,8 +25,10 @@ pub(super) struct Reader<'a> {
     scanner: Scanner<'a>,
     /// The token that is not used yet.
     pub(super) token: Token,
+    /// Behind the token before it.
+    pub(super) behind: u32,
     pub(super) notes: &'a mut Notes,
-    verbs: &'a mut Verbs,
+    pub(super) verbs: &'a mut Verbs,
     pub(super) file: u32,
     pub(super) context: Context,
     /// Where the open module and routine start.
@@ -28,22 +36,18 @@ pub(super) struct Reader<'a> {
     routine: Option<u32>,
     /// Open brackets of the present expression.
     pub(super) brackets: Vec<(u8, u32)>,
+    /// Functions that are called in it and not closed yet, and arguments of theirs.
+    pub(super) calls: Vec<OpenCall>,
+    pub(super) given: Vec<Argument>,
+    /// The function whose call the last expression is, if it is nothing else.
+    pub(super) alone: Option<u32>,
+    /// For each open loop whether only its own statements leave it.
+    pub(super) loops: Vec<bool>,
+    /// Short IFs whose statement has not come yet.
+    pub(super) short_ifs: u32,
     /// Anything of the language was seen.
     recognised: bool,
 }
-
-/// Words that start or end a block without an expression of their own.
-pub(super) const BLOCK_WORDS: [&[u8]; 9] = [
-    b"else",
-    b"endif",
-    b"endwhile",
-    b"endfor",
-    b"endtest",
-    b"default",
-    b"error",
-    b"undo",
-    b"backward",
-];
 
 /// Longest keyword.
 pub(super) const KEYWORD: usize = 12;
@@ -78,21 +82,29 @@ impl<'a> Reader<'a> {
                 start: 0,
                 end: 0,
             },
-            context: outside(notes, file),
+            context: outside(notes),
+            behind: 0,
             notes,
             verbs,
             file,
             module: None,
             routine: None,
             brackets: Vec::new(),
+            calls: Vec::new(),
+            given: Vec::new(),
+            alone: None,
+            loops: Vec::new(),
+            short_ifs: 0,
             recognised: false,
         };
+        reader.text_begins(0);
         reader.advance()?;
         reader.statements()?;
         Ok(reader.recognised)
     }
 
     pub(super) fn advance(&mut self) -> Result<(), Fault> {
+        self.behind = self.token.end;
         self.token = self.scanner.next()?;
         Ok(())
     }
@@ -100,15 +112,19 @@ impl<'a> Reader<'a> {
     /// Goes on at a byte.
     pub(super) fn jump(&mut self, at: usize) -> Result<(), Fault> {
         self.scanner = Scanner::new(self.bytes, at);
-        self.advance()
+        self.advance()?;
+        self.behind = short(at);
+        Ok(())
     }
 
     pub(super) fn mark(&self) -> Mark<'a> {
-        Mark(self.scanner, self.token)
+        Mark(self.scanner, self.token, self.behind, self.notes.lengths())
     }
 
+    /// Goes back, and takes back what was noted since.
     pub(super) fn rewind(&mut self, mark: Mark<'a>) {
-        (self.scanner, self.token) = (mark.0, mark.1);
+        (self.scanner, self.token, self.behind) = (mark.0, mark.1, mark.2);
+        self.notes.shorten(mark.3);
     }
 
     pub(super) fn text(&self, token: Token) -> &'a [u8] {
@@ -139,6 +155,7 @@ impl<'a> Reader<'a> {
 
     fn statements(&mut self) -> Result<(), Fault> {
         loop {
+            let guarded = self.short_ifs;
             match self.token.kind {
                 Kind::End => break,
                 Kind::Name => self.statement()?,
@@ -151,6 +168,12 @@ impl<'a> Reader<'a> {
                     self.expression()?;
                 }
                 _ => self.advance()?,
+            }
+            // the statement of a short IF has come
+            if guarded > 0 && guarded == self.short_ifs {
+                for _ in 0..std::mem::take(&mut self.short_ifs) {
+                    self.note(self.token.start, StatementKind::EndChoice);
+                }
             }
         }
         let open = self
@@ -184,6 +207,7 @@ impl<'a> Reader<'a> {
                     return Err(self.unexpected("a statement"));
                 }
                 self.context.routine = None;
+                self.text_begins(self.token.end);
                 self.advance()
             }
             b"record" => {
@@ -199,19 +223,7 @@ impl<'a> Reader<'a> {
                 self.advance()
             }
             b"alias" | b"connect" => self.finish_statement(),
-            b"if" | b"elseif" | b"while" | b"for" | b"test" | b"case" => self.condition(),
-            word if BLOCK_WORDS.contains(&word) => {
-                self.crooked();
-                self.advance()?;
-                if self.token.is(b'(') {
-                    self.expression()?;
-                }
-                Ok(())
-            }
-            b"goto" => {
-                self.crooked();
-                self.finish_statement()
-            }
+            word if BLOCK_WORDS.contains(&word) => self.block(first.start, word),
             _ => self.assignment_or_call(),
         }
     }
@@ -223,8 +235,11 @@ impl<'a> Reader<'a> {
         }
         let mut buffer = [0; KEYWORD];
         match keyword(self.text(self.token), &mut buffer) {
-            b"const" => self.declaration(start, local, true).map(Some),
-            b"pers" | b"var" => self.declaration(start, local, false).map(Some),
+            b"const" => self.declaration(start, local, Storage::Constant).map(Some),
+            b"pers" => self
+                .declaration(start, local, Storage::Persistent)
+                .map(Some),
+            b"var" => self.declaration(start, local, Storage::Variable).map(Some),
             b"proc" | b"func" | b"trap" => self.open_routine(local).map(|()| Some(true)),
             _ => Ok(None),
         }
@@ -240,7 +255,8 @@ impl<'a> Reader<'a> {
         if self.token.is(b'(') {
             self.expression()?;
         }
-        self.context = outside(self.notes, self.file);
+        self.context = outside(self.notes);
+        self.text_begins(self.token.start);
         self.recognised = true;
         Ok(())
     }
@@ -255,7 +271,8 @@ impl<'a> Reader<'a> {
         if self.module.take().is_none() {
             return Err(self.unexpected("a statement"));
         }
-        self.context = outside(self.notes, self.file);
+        self.context = outside(self.notes);
+        self.text_begins(self.token.end);
         self.advance()
     }
 
@@ -267,48 +284,49 @@ impl<'a> Reader<'a> {
             });
         }
         self.routine = Some(self.token.start);
-        let function = self.is_word(b"func");
+        let place = Place {
+            file: self.file,
+            offset: self.token.start,
+        };
+        let (is_function, is_trap) = (self.is_word(b"func"), self.is_word(b"trap"));
         self.advance()?;
-        if function {
+        let mut gives = Type::Other;
+        if is_function {
+            gives = self.type_name();
             self.name("the type of a function")?;
         }
         let name = self.name("the name of a routine")?;
-        let routine = index(self.notes.routines.len());
+        let routine = short(self.notes.routines.len());
+        let first = short(self.notes.data.len());
         self.notes.routines.push(Routine {
             name,
             module: self.context.module,
+            place,
             local,
-            straight: true,
+            gives,
+            is_procedure: !is_function && !is_trap,
+            is_trap,
+            parameters: (first, first),
+            has_handler: false,
         });
         self.context.routine = Some(routine);
+        self.loops.clear();
+        self.text_begins(place.offset);
         if self.token.is(b'(') {
             self.parameters()?;
+            let end = short(self.notes.data.len());
+            self.notes.routines[routine as usize].parameters = (first, end);
         }
         Ok(())
     }
 
-    /// The present routine does not run from top to bottom.
-    fn crooked(&mut self) {
-        if let Some(routine) = self.context.routine {
-            self.notes.routines[routine as usize].straight = false;
-        }
-    }
-
-    /// `IF condition THEN`, `CASE 1,2:` and their like, without the statements behind.
-    fn condition(&mut self) -> Result<(), Fault> {
-        self.crooked();
-        self.advance()?;
-        loop {
-            self.expression()?;
-            match self.token.kind {
-                Kind::Sign(b',' | b'\\') | Kind::Assign => self.advance()?,
-                Kind::Sign(b':') => return self.advance(),
-                Kind::Name if self.is_word(b"then") || self.is_word(b"do") => {
-                    return self.advance();
-                }
-                _ => return Ok(()),
-            }
-        }
+    /// What follows stands in the present context.
+    fn text_begins(&mut self, offset: u32) {
+        let kind = StatementKind::Text {
+            file: self.file,
+            context: self.context,
+        };
+        self.note(offset, kind);
     }
 
     /// `<SMT>`, where a statement is still to be written.
@@ -327,21 +345,34 @@ impl<'a> Reader<'a> {
     fn late_bound_call(&mut self) -> Result<(), Fault> {
         let start = self.token.start;
         self.advance()?;
+        let name = self.token;
         while !self.token.is(b'%') && !self.token.is(b';') && self.token.kind != Kind::End {
             self.advance()?;
         }
+        let is_text = name.kind == Kind::Text && self.behind == name.end;
+        let callee = if is_text {
+            Callee::Text(name.start + 1, name.end - 1)
+        } else {
+            Callee::Late
+        };
         if self.token.is(b'%') {
             self.advance()?;
         }
-        let arguments = self.arguments(Verb::Other)?;
-        self.note(
-            start,
-            StatementKind::Call {
-                name: None,
-                verb: Verb::Other,
+        self.call(start, callee, Verb::Other)
+    }
+
+    fn call(&mut self, start: u32, callee: Callee, verb: Verb) -> Result<(), Fault> {
+        let arguments = self.arguments(verb)?;
+        let end = self.behind;
+        if verb != Verb::Harmless {
+            let kind = StatementKind::Call {
+                callee,
+                verb,
                 arguments,
-            },
-        );
+                end,
+            };
+            self.note(start, kind);
+        }
         Ok(())
     }
 
@@ -351,38 +382,20 @@ impl<'a> Reader<'a> {
         self.advance()?;
         match self.token.kind {
             Kind::Sign(b':') => {
-                self.crooked();
+                self.note(first.start, StatementKind::Label(name));
                 self.advance()
             }
             Kind::Assign | Kind::Sign(b'{' | b'.') => self.assignment(first.start, name),
             _ => {
                 let verb = self.verbs.of(name, self.text(first));
-                let arguments = self.arguments(verb)?;
-                if verb != Verb::Harmless {
-                    self.recognised |= matches!(verb, Verb::Move { .. });
-                    self.note(
-                        first.start,
-                        StatementKind::Call {
-                            name: Some(name),
-                            verb,
-                            arguments,
-                        },
-                    );
-                }
-                Ok(())
+                self.recognised |= matches!(verb, Verb::Move { .. } | Verb::Mode(..));
+                self.call(first.start, Callee::Named(name), verb)
             }
         }
     }
 
     pub(super) fn note(&mut self, offset: u32, kind: StatementKind) {
-        self.notes.statements.push(Statement {
-            place: Place {
-                file: self.file,
-                offset,
-            },
-            context: self.context,
-            kind,
-        });
+        self.notes.statements.push(Statement { offset, kind });
     }
 
     /// `name{i}.part := value`; the present token is what follows the name.
@@ -394,39 +407,25 @@ impl<'a> Reader<'a> {
             return self.finish_statement();
         }
         self.advance()?;
-        let (component, leaves, target) = self.assigned(path)?;
-        let mentions = if leaves.is_none() && target.is_none() {
-            self.expression()?
-        } else {
-            (0, 0)
-        };
+        let (component, value) = self.assigned(path)?;
         self.end_statement()?;
         self.recognised = self.recognised || component != Component::Whole;
-        self.note(
-            start,
-            StatementKind::Assign {
-                name,
-                index,
-                component,
-                leaves,
-                mentions,
-                target,
-            },
-        );
+        let kind = StatementKind::Assign {
+            name,
+            index,
+            component,
+            value,
+        };
+        self.note(start, kind);
         Ok(())
     }
 }
 
-/// A count as an index; a file of 4 GiB has fewer of anything.
-pub(super) fn index(count: usize) -> u32 {
-    u32::try_from(count).expect("sources are smaller than 4 GiB")
-}
-
 /// A context outside routines, of its own.
-fn outside(notes: &mut Notes, file: u32) -> Context {
-    notes.modules.push(file);
+fn outside(notes: &mut Notes) -> Context {
+    notes.modules += 1;
     Context {
-        module: index(notes.modules.len() - 1),
+        module: notes.modules - 1,
         routine: None,
     }
 }
@@ -448,7 +447,7 @@ pub(super) fn content_start(bytes: &[u8]) -> Result<usize, Fault> {
     memchr::memmem::find(&bytes[header + 3..], b"%%%")
         .map(|length| header + length + 6)
         .ok_or(Fault::Unclosed {
-            at: index(header),
+            at: short(header),
             what: "header",
         })
 }

@@ -1,6 +1,6 @@
 //! Whether bytes look like RAPID, and where the marker goes.
 
-use super::syntax::{Type, Verb};
+use super::syntax::Type;
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
 use crate::program::{Marker, Source};
@@ -63,10 +63,7 @@ pub fn recognises(bytes: &[u8]) -> bool {
     };
     let goes = |at: usize| {
         all[at].kind == Kind::Name
-            && matches!(
-                verbs::verb(word(bytes, all[at]).as_bytes()),
-                Verb::Move { .. }
-            )
+            && verbs::is_move(word(bytes, all[at]).as_bytes())
             && (all.get(at + 1).is_some_and(|next| next.is(b'['))
                 && all.get(at + 2).is_some_and(|next| next.is(b'['))
                 || all.get(at + 1).is_some_and(|next| next.kind == Kind::Name)

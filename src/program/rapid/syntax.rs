@@ -1,7 +1,8 @@
 //! What the reader notes of a text before names are resolved.
 
 use super::aggregate::Leaf;
-use super::names::{Context, Symbol, Symbols};
+use crate::program::names::{Context, Symbol, Symbols};
+use crate::program::script::Place;
 use crate::program::{Number, Target, TargetId};
 use std::ops::Range;
 
@@ -10,19 +11,19 @@ use std::ops::Range;
 pub struct Notes {
     /// Names.
     pub symbols: Symbols,
-    /// File of each module.
-    pub modules: Vec<u32>,
+    /// How many modules there are; text between modules counts as one.
+    pub modules: u32,
     /// Routines.
     pub routines: Vec<Routine>,
-    /// Declarations and parameters of the types that matter.
+    /// Declarations and parameters.
     pub data: Vec<Datum>,
-    /// Targets with their place; blocked where their numbers are not all there.
+    /// Targets with their place.
     pub targets: Vec<Target>,
     /// Numbers of targets.
     pub numbers: Vec<Number>,
     /// What elements of declared targets hold.
     pub elements: Vec<Element>,
-    /// Parts of tools, frames and their assignments.
+    /// Parts of tools, frames, loads and their assignments.
     pub leaves: Vec<Leaf>,
     /// Names in expressions.
     pub mentions: Vec<Symbol>,
@@ -32,11 +33,23 @@ pub struct Notes {
     pub indices: Vec<Index>,
     /// Arguments of instructions.
     pub arguments: Vec<Argument>,
+    /// Functions that are called in expressions.
+    pub functions: Vec<Function>,
+    /// Their arguments.
+    pub given: Vec<Argument>,
     /// Statements that matter, by file and place.
     pub statements: Vec<Statement>,
-    /// A number of a target that no robot can use, if the target is one that is moved to.
+    /// Numbers of targets that no robot can use.
     pub bad_values: Vec<BadValue>,
+    /// External axes of targets that are neither 9E9 nor 0: the axis and its value.
+    pub external: Vec<(TargetId, u8, f64)>,
+    /// For each target which of its external axes are 0, bit by bit.
+    pub external_zeros: Vec<u8>,
 }
+
+/// Lengths of the lists that an argument adds to, to take it back.
+#[derive(Clone, Copy)]
+pub struct Lengths([usize; 12]);
 
 impl Notes {
     /// Makes room for what a file of this size may hold, so that lists need not move while they grow: a target with its
@@ -57,9 +70,44 @@ impl Notes {
             _ => self.indices[index as usize - 1],
         }
     }
+
+    /// How long the lists are.
+    pub fn lengths(&self) -> Lengths {
+        Lengths([
+            self.mentions.len(),
+            self.steps.len(),
+            self.targets.len(),
+            self.numbers.len(),
+            self.bad_values.len(),
+            self.external.len(),
+            self.external_zeros.len(),
+            self.functions.len(),
+            self.given.len(),
+            self.statements.len(),
+            self.indices.len(),
+            self.leaves.len(),
+        ])
+    }
+
+    /// Takes back what was added since.
+    pub fn shorten(&mut self, to: Lengths) {
+        let to = to.0;
+        self.mentions.truncate(to[0]);
+        self.steps.truncate(to[1]);
+        self.targets.truncate(to[2]);
+        self.numbers.truncate(to[3]);
+        self.bad_values.truncate(to[4]);
+        self.external.truncate(to[5]);
+        self.external_zeros.truncate(to[6]);
+        self.functions.truncate(to[7]);
+        self.given.truncate(to[8]);
+        self.statements.truncate(to[9]);
+        self.indices.truncate(to[10]);
+        self.leaves.truncate(to[11]);
+    }
 }
 
-/// A part of [`Notes::leaves`], [`Notes::mentions`], [`Notes::elements`] or [`Notes::arguments`].
+/// A part of a list of [`Notes`].
 pub type Part = (u32, u32);
 
 /// A part as a range of indices.
@@ -83,10 +131,20 @@ pub struct Routine {
     pub name: Symbol,
     /// Its module.
     pub module: u32,
+    /// Where it begins.
+    pub place: Place,
     /// Seen in its module only.
     pub local: bool,
-    /// Its statements run one after another: no branches, loops, jumps, labels or error handlers.
-    pub straight: bool,
+    /// What a function gives back.
+    pub gives: Type,
+    /// It is called by itself, and gives nothing back.
+    pub is_procedure: bool,
+    /// An interrupt starts it.
+    pub is_trap: bool,
+    /// Its parameters, part of [`Notes::data`].
+    pub parameters: Part,
+    /// It has an error handler, or an undo or backward handler.
+    pub has_handler: bool,
 }
 
 /// The types of data that matter.
@@ -96,6 +154,7 @@ pub enum Type {
     Jointtarget,
     Tooldata,
     Wobjdata,
+    Loaddata,
     Num,
     /// Anything else; noted because it may hide a name.
     Other,
@@ -109,6 +168,7 @@ impl Type {
             b"jointtarget" => Self::Jointtarget,
             b"tooldata" => Self::Tooldata,
             b"wobjdata" => Self::Wobjdata,
+            b"loaddata" => Self::Loaddata,
             b"num" | b"dnum" => Self::Num,
             _ => Self::Other,
         }
@@ -118,15 +178,24 @@ impl Type {
     pub fn is_target(self) -> bool {
         matches!(self, Self::Robtarget | Self::Jointtarget)
     }
+
+    /// Whether it is a tool or a work object.
+    pub fn is_frame(self) -> bool {
+        matches!(self, Self::Tooldata | Self::Wobjdata)
+    }
 }
 
-/// Where something stands.
+/// How long data keep what is written into them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Index of the file.
-    pub file: u32,
-    /// Byte in it.
-    pub offset: u32,
+pub enum Storage {
+    /// CONST: nothing can be written.
+    Constant,
+    /// PERS: from run to run.
+    Persistent,
+    /// VAR.
+    Variable,
+    /// A parameter, with what its caller gives; what is written into it is written back where `by_reference`.
+    Parameter { by_reference: bool, optional: bool },
 }
 
 /// A declaration or a parameter.
@@ -137,10 +206,7 @@ pub struct Datum {
     pub context: Context,
     pub place: Place,
     pub local: bool,
-    /// Parameter of a routine: its value comes from the call.
-    pub parameter: bool,
-    /// CONST: it cannot be assigned.
-    pub constant: bool,
+    pub storage: Storage,
     pub value: Stored,
 }
 
@@ -151,10 +217,10 @@ pub enum Stored {
     Nothing,
     /// Targets: a single one where `sizes` is all zero, else an array; part of [`Notes::elements`].
     Elements { elements: Part, sizes: [u32; 3] },
-    /// A tool or frame, part of [`Notes::leaves`].
+    /// A tool, frame or load, part of [`Notes::leaves`].
     Leaves(Part),
     /// An array of tools or frames, or a value that is not written out.
-    Computed(Part),
+    Computed,
     /// A number.
     Number(f64),
 }
@@ -162,10 +228,12 @@ pub enum Stored {
 /// An element of declared targets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// A target with its own numbers (or blocked because they are expressions).
+    /// A target with its own numbers.
     Target(TargetId),
-    /// The name of another one.
+    /// A copy of another one.
     Named(Symbol),
+    /// Parts of it are expressions with these names: part of [`Notes::mentions`].
+    Composed(Part),
     /// Anything else.
     Computed,
 }
@@ -186,10 +254,17 @@ pub enum Index {
 pub enum Expression {
     /// Nothing: an option without value.
     Nothing,
-    /// A name or a target written out, displaced by `steps` from the innermost out: part of [`Notes::steps`].
+    /// A name, a target written out or what a function gives, displaced by `steps` from the innermost out: part of
+    /// [`Notes::steps`].
     Point { base: Base, steps: Part },
+    /// A component of data.
+    Member { name: Symbol, index: u32 },
+    /// A target some of whose parts are expressions, with the names in it: part of [`Notes::mentions`].
+    Composed(Part),
     /// Anything else, with the names in it: part of [`Notes::mentions`].
     Computed(Part),
+    /// A string, without its quotes: its bytes.
+    Text(u32, u32),
 }
 
 /// What Offs and `RelTool` start from.
@@ -199,6 +274,8 @@ pub enum Base {
     Named { name: Symbol, index: u32 },
     /// A target written out.
     Target(u32),
+    /// One of [`Notes::functions`].
+    Function(u32),
 }
 
 /// One call of Offs or `RelTool`: amounts x, y, z in mm and about x, y, z in degrees.
@@ -218,20 +295,31 @@ pub enum Amount {
     Computed,
 }
 
-/// An argument of an instruction.
+/// An argument of an instruction or function.
 #[derive(Clone, Copy, Debug)]
 pub struct Argument {
     /// Name after the backslash.
     pub option: Option<Symbol>,
     /// What stands there.
     pub expression: Expression,
+    /// Where.
+    pub span: (u32, u32),
+}
+
+/// A function that an expression calls.
+#[derive(Clone, Copy, Debug)]
+pub struct Function {
+    pub name: Symbol,
+    pub offset: u32,
+    /// Part of [`Notes::given`].
+    pub arguments: Part,
 }
 
 /// A statement that matters.
 #[derive(Clone, Copy, Debug)]
 pub struct Statement {
-    pub place: Place,
-    pub context: Context,
+    /// First byte.
+    pub offset: u32,
     pub kind: StatementKind,
 }
 
@@ -240,31 +328,79 @@ pub struct Statement {
 pub enum Component {
     /// All of it.
     Whole,
-    /// Leaves of a tool or frame from this one on (see [`super::aggregate`]).
-    Leaves(u8),
+    /// So many leaves of a tool or frame from the first on (see [`super::aggregate`]).
+    Leaves(u8, u8),
     /// Any other.
     Other,
+}
+
+/// What an assignment sets it to.
+#[derive(Clone, Copy, Debug)]
+pub enum Assigned {
+    /// Parts of a tool, frame or load that are written out: part of [`Notes::leaves`].
+    Leaves(Part),
+    /// Anything else.
+    To(Expression),
 }
 
 /// Which statement.
 #[derive(Clone, Copy, Debug)]
 pub enum StatementKind {
-    /// `name.component := value`; what it names, and leaves where they are written out.
+    /// What follows stands in this file and context.
+    Text {
+        file: u32,
+        context: Context,
+    },
+    /// `name.component := value`
     Assign {
         name: Symbol,
         index: Index,
         component: Component,
-        leaves: Option<Part>,
-        mentions: Part,
-        target: Option<TargetId>,
+        value: Assigned,
     },
-    /// An instruction or a procedure call.
+    /// An instruction or a procedure call up to `end`.
     Call {
-        /// `None` for a late-bound call.
-        name: Option<Symbol>,
+        callee: Callee,
         verb: Verb,
         arguments: Part,
+        end: u32,
     },
+    /// A function of the files, or one that may write its arguments: one of [`Notes::functions`].
+    Function(u32),
+    If,
+    /// `ELSEIF`, `CASE`; `ELSE`, `DEFAULT` where it is the last.
+    Branch {
+        is_last: bool,
+    },
+    Test,
+    EndChoice,
+    Loop {
+        may_pass: bool,
+    },
+    EndLoop {
+        endless: bool,
+    },
+    /// Behind the loop.
+    Leave,
+    Label(Symbol),
+    Goto(Symbol),
+    /// `ERROR`, `UNDO`, `BACKWARD`: what follows may run between any statements before it.
+    Handler,
+    /// `RETRY`, `TRYNEXT`
+    Retry,
+    /// `RETURN`, `RAISE`
+    Return(Expression),
+    Exit,
+}
+
+/// What a call names.
+#[derive(Clone, Copy, Debug)]
+pub enum Callee {
+    Named(Symbol),
+    /// `%"Module:Routine"%`: the bytes of the name.
+    Text(u32, u32),
+    /// Known at run time only.
+    Late,
 }
 
 /// What an instruction does, as far as it matters here.
@@ -278,26 +414,43 @@ pub enum Verb {
         /// The tool stands after targets, speed and zone, before other arguments.
         tool_inside: bool,
     },
-    /// `ConfL`
-    ConfL,
-    /// `ConfJ`
-    ConfJ,
-    /// `PDispOn`, `PDispSet`
-    ProgramDisplacement,
-    /// `PDispOff`
-    ProgramDisplacementOff,
-    /// `EOffsOn`, `EOffsSet`
-    ExternalOffset,
-    /// `EOffsOff`
-    ExternalOffsetOff,
+    /// Goes where only the running program knows; along the path that it came where `back`.
+    Wander { back: bool },
+    /// A mode of the controller is set.
+    Mode(Mode, Set),
     /// Measures and writes the tool in its arguments.
     WritesTool,
+    /// Writes the argument at this position.
+    Writes(u8),
+    /// `SetDataVal`, `SetAllDataVal`: writes data by their names or types.
+    WritesNamed,
+    /// `CallByVar`
+    CallByVar,
     /// `GripLoad`
     GripLoad,
     /// An instruction of the language that moves nothing and changes no target.
     Harmless,
     /// A procedure, or an instruction that is not known.
     Other,
+}
+
+/// What the controller keeps in mind from one statement to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    ConfJ,
+    ConfL,
+    Wrist,
+    ProgramDisplacement,
+    ExternalOffset,
+}
+
+/// How a mode is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Set {
+    /// By the options of the instruction.
+    ByOption,
+    On,
+    Off,
 }
 
 /// How a move goes.

@@ -5,7 +5,9 @@ mod robust;
 mod samples;
 
 use super::*;
-use crate::program::{Displacement, Layout, Motion, Settings, Shape, Shift, Tool};
+use crate::finding::{Finding, Severity};
+use crate::motion;
+use crate::program::{Displacement, Layout, Motion, Program, Settings, Shape, Shift, Tool};
 
 const POSE: Layout = Layout {
     shape: Shape::Pose,
@@ -19,7 +21,7 @@ fn read_files(texts: &[&str]) -> Result<Program, ReadError> {
     let sources: Vec<Source> = named
         .map(|(k, text)| Source::new(format!("{k}.mod"), text.replace("CONF", CONF).into_bytes()))
         .collect();
-    Rapid.read(&sources, &Settings::default())
+    motion::read(&Rapid, &sources, &Settings::default())
 }
 
 fn read(text: &str) -> Program {
@@ -38,22 +40,32 @@ fn path(statements: &str) -> Program {
     ))
 }
 
-fn ids(program: &Program) -> Vec<&'static str> {
-    program.findings.iter().map(|finding| finding.id).collect()
+/// Findings, but for the note that targets are not used.
+fn said(program: &Program) -> Vec<&Finding> {
+    let findings = program.findings.iter();
+    findings.filter(|f| f.id != "target-unused-here").collect()
 }
 
+fn ids(program: &Program) -> Vec<&'static str> {
+    said(program).iter().map(|finding| finding.id).collect()
+}
+
+/// Targets that moves go to and that are blocked.
 fn blocked(program: &Program) -> Vec<&str> {
-    let blocked = program.targets.iter().filter(|target| target.blocked);
+    let used = |at: &usize| program.moves.iter().any(|m| m.target == Some(*at));
+    let blocked = (0..program.targets.len()).filter(|at| program.targets[*at].blocked);
     blocked
+        .filter(used)
+        .map(|at| &program.targets[at])
         .map(|target| target.name.as_deref().unwrap_or("-"))
         .collect()
 }
 
 fn to(program: &Program) -> Vec<&str> {
-    let names = program
-        .moves
-        .iter()
-        .map(|m| program.targets[m.target.unwrap()].name.as_deref());
+    let names = program.moves.iter().map(|m| {
+        m.target
+            .map_or(Some("?"), |at| program.targets[at].name.as_deref())
+    });
     names.map(|name| name.unwrap_or("-")).collect()
 }
 
@@ -82,7 +94,7 @@ fn a_move_names_its_target_tool_and_work_object() {
     let numbers = program.numbers_of(&program.targets[1]);
     assert_eq!(numbers.len(), 11);
     assert!((numbers[1].value - 5.0).abs() < 1e-12);
-    assert_eq!(program.findings, []);
+    assert_eq!(ids(&program), [""; 0]);
 }
 
 #[test]
@@ -129,7 +141,7 @@ fn every_kind_of_declaration_and_array_is_a_target() {
     );
     assert_eq!(
         to(&program),
-        ["j", "g{2,1}", "g{1,1}", "g{1,2}", "g{2,1}", "g{2,2}"]
+        ["j", "g{2,1}", "g{1,1}", "g{1,2}", "g{2,1}", "g{2,2}", "?"]
     );
     assert_eq!(
         program.frames[0].name, "wobj0",
@@ -206,18 +218,79 @@ fn monitoring_of_the_configuration_follows_confl_and_confj() {
 fn targets_that_code_changes_are_blocked() {
     for statement in [
         "p3.trans.x := p3.trans.x + 1;",
-        "p3 := CRobT();",
         "p3.extax.eax_a:=5;",
-        "SearchL \\Stop, di1, p3, p1, v5, t;",
-        "IF a=1 p3:=p1;",
+        "IF a=1 p3.trans:=p1.trans;",
+        "Add p3.trans.y,40;",
+        "UnpackRawBytes rb,1,p3.trans.x\\Float4;",
+        "ReadAnyBin file,p3.trans.z;",
+        "ok:=StrToVal(s,p3.trans.x);",
+        "IF StrToVal(s,p3.trans.x) Stop;",
+        "SetDataVal \"p3\",q;",
     ] {
-        let program = path(statement);
-        assert_eq!(blocked(&program), ["p3"], "{statement}");
-        assert_eq!(program.findings[0].line, 4, "the line of the target");
-        assert!(program.findings[0].message.contains("line 8"));
+        for text in [
+            format!("{statement}\nMoveL p3,v5,z5,t;"),
+            // PERS data are kept to the next run
+            format!("MoveL p3,v5,z5,t;\n{statement}"),
+        ] {
+            let program = path(&text);
+            assert_eq!(blocked(&program), ["p3"], "{text}");
+            let finding = said(&program)[0];
+            assert_eq!(finding.id, "target-assigned-at-run-time", "{text}");
+            assert_eq!(finding.line, 4, "the line of the target");
+            assert!(finding.message.contains("line 8") || finding.message.contains("line 9"));
+        }
     }
-    let program = path("q:=[[1,2,3],[1,0,0,0],CONF;\nMoveL q,v5,z5,t;");
-    assert_eq!(blocked(&program), ["q"]);
+}
+
+#[test]
+fn positions_that_the_robot_told_are_right_as_they_are() {
+    for statement in [
+        "p3 := CRobT();",
+        "p3 := CRobT(\\Tool:=t \\WObj:=w);",
+        "SearchL \\Stop, di1, p3, p1, v5, t;",
+    ] {
+        let program = path(&format!("{statement}\nMoveL p3,v5,z5,t;"));
+        assert_eq!(blocked(&program), [""; 0], "{statement}");
+        assert_eq!(ids(&program), ["run-time-position"], "{statement}");
+        assert_eq!(to(&program).last(), Some(&"?"), "the move is still there");
+        // in the first run it is as declared
+        let program = path(&format!("MoveL p3,v5,z5,t;\n{statement}"));
+        assert_eq!(
+            (blocked(&program), ids(&program)),
+            (vec![], vec!["run-time-position"])
+        );
+        assert_eq!(to(&program)[..2], ["p3", "?"], "{statement}");
+    }
+    for beside in [
+        "p3:=CRobT();\nMoveL Offs(p3,0,0,50),v5,z5,t;",
+        "MoveL Offs(CRobT(),0,0,50),v5,z5,t;",
+        "p3:=Offs(CRobT(),0,0,50);\nMoveL p3,v5,z5,t;",
+    ] {
+        let program = path(beside);
+        assert_eq!(ids(&program), ["computed-target"], "{beside}");
+        assert!(
+            program
+                .findings
+                .iter()
+                .all(|f| f.severity < Severity::Error)
+        );
+    }
+    let program = path("MoveAbsJ CJointT(),v5,z5,t;\nMoveJ CalcRobT(j1,t),v5,z5,t;");
+    assert_eq!(ids(&program), ["run-time-position"; 2]);
+    let program = path("MoveL p1,v5,z5,t;\nMoveJ CalcRobT(p1,t),v5,z5,t;");
+    assert_eq!(program.moves[1].displacement, Displacement::Unknown);
+}
+
+#[test]
+fn a_target_holds_what_was_written_last() {
+    let program = path("q:=[[1,2,3],[1,0,0,0],CONF;\nMoveL q,v5,z5,t;\nq:=p1;\nMoveL q,v5,z5,t;");
+    assert_eq!((to(&program), blocked(&program)), (vec!["q", "p1"], vec![]));
+    let program = path("IF a=1 p3:=p1;\nMoveL p3,v5,z5,t;");
+    assert_eq!((to(&program), ids(&program)), (vec!["p1", "p3"], vec![]));
+    let program = path("p3:=Offs(p1,0,0,7);\nMoveL p3,v5,z5,t;\np3.trans.x:=1;\nMoveL p3,v5,z5,t;");
+    assert_eq!(to(&program), ["p1", "p1"]);
+    assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
+    assert_eq!(program.moves[1].displacement, Displacement::Unknown);
 }
 
 #[test]
@@ -225,20 +298,257 @@ fn expressions_names_and_routines_block_targets() {
     let program =
         path("MoveL [[x,2,3],[1,0,0,0],CONF,v5,z5,t;\nMoveJ [[1,2,3],[1,0,0,0],conf,ext],v5,z5,t;");
     assert_eq!(ids(&program), ["target-has-expressions"; 2]);
+    assert!(
+        program
+            .findings
+            .iter()
+            .all(|f| f.severity < Severity::Error)
+    );
     let program = path("MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],ext],v5,z5,t;");
     assert_eq!(
         blocked(&program),
         Vec::<&str>::new(),
         "external axes stay as they are"
     );
+    let program = path("MoveL [p1.trans,p2.rot,p1.robconf,p1.extax],v5,z5,t;");
+    assert_eq!(to(&program), ["p1", "p2", "p1", "p1"], "all flow into it");
+    assert!(
+        program
+            .moves
+            .iter()
+            .all(|m| m.displacement == Displacement::Unknown)
+    );
     let program = path("CONST robtarget all{2}:=[p1,p2];\nMoveL all{i},v5,z5,t;");
-    assert_eq!(blocked(&program), ["p1", "p2"]);
-    let program = path("Pick p1;\nENDPROC\nPROC Pick(robtarget p1)\nMoveL p1,v5,z5,t;");
-    assert_eq!(blocked(&program), ["p1"]);
+    assert_eq!(
+        (to(&program), blocked(&program)),
+        (vec!["p1", "p2"], vec![])
+    );
+}
+
+#[test]
+fn parameters_are_what_each_call_gives() {
+    let rm = "ENDPROC\nPROC rm(robtarget p\\switch fast|num slow\\robtarget via, PERS tooldata g)\n\
+              MoveL p,v5,z5,g;\nIF Present(via) MoveL via,v5,z5,g;";
+    let program = path(&format!(
+        "rm p1,t;\nrm Offs(p2,0,0,5),t\\via:=p3;\nrm \\fast,p1,t2;\n{rm}"
+    ));
+    assert_eq!(to(&program), ["p1", "p2", "p1", "?", "p3", "?"]);
+    assert_eq!(ids(&program), ["computed-target"], "the way without via");
+    let tools: Vec<_> = program
+        .moves
+        .iter()
+        .map(|m| program.tools[m.tool].name.as_str())
+        .collect();
+    assert_eq!(tools, ["t", "t", "t2", "t", "t", "t2"]);
+    let program = path("rm;\nENDPROC\nPROC rm(\\robtarget p)\nMoveL p,v5,z5,t;");
+    assert_eq!(ids(&program), ["computed-target"]);
+}
+
+#[test]
+fn parameters_by_reference_are_written_back() {
+    let program = path(
+        "set p3;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC set(INOUT robtarget r)\nsub r;\nENDPROC\n\
+         PROC sub(INOUT robtarget s)\ns:=p1;",
+    );
+    assert_eq!((to(&program), ids(&program)), (vec!["p1"], vec![]));
+    let program = path(
+        "set p3;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC set(robtarget r)\nr:=p1;\nMoveL r,v5,z5,t;",
+    );
+    assert_eq!(to(&program), ["p3", "p1"], "a copy");
+}
+
+#[test]
+fn functions_give_positions_and_move() {
+    let program = path(
+        "MoveL f(p1),v5,z5,t;\nMoveL Offs(f(p2),0,0,5),v5,z5,t;\nMoveC f(p1),f(p2),v5,z5,t;\nok:=g(1)+1;\n\
+         ENDPROC\nFUNC robtarget f(robtarget a)\nRETURN Offs(a,1,2,3);\nENDFUNC\n\
+         FUNC num g(num x)\nMoveL p3,v5,z5,t;\nRETURN 1;\nENDFUNC\nPROC last()",
+    );
+    assert_eq!(to(&program), ["p1", "p2", "p1", "p2", "p3"]);
+    assert_eq!(ids(&program), [""; 0]);
+    assert!(
+        program.moves[..4]
+            .iter()
+            .all(|m| m.displacement != Displacement::None)
+    );
+}
+
+#[test]
+fn routines_that_are_not_in_the_files_may_do_anything_with_targets() {
+    for call in [
+        "Pick p1;",
+        "b:=fPlace(p1);",
+        "IF fReady(1,p1) Stop;",
+        "%\"Pick\"% p1;",
+        "%name%p1;",
+    ] {
+        let program = path(&format!("{call}\nMoveL p1,v5,z5,t;"));
+        assert_eq!(ids(&program), ["target-passed-to-routine"], "{call}");
+        assert_eq!(blocked(&program), ["p1"], "{call}");
+    }
+    for call in [
+        "d:=Distance(p1.trans,p2.trans);",
+        "TPWrite \"x\"\\Pos:=p1.trans;",
+        "Pick 1;",
+    ] {
+        let program = path(&format!("{call}\nMoveL p1,v5,z5,t;"));
+        assert_eq!(ids(&program), [""; 0], "{call}");
+    }
+}
+
+#[test]
+fn late_bound_calls_find_their_routines() {
+    let rest = "ENDPROC\nPROC Pick1()\nMoveL p2,v5,z5,t;\nENDPROC\nPROC Pick2()\nMoveL p3,v5,z5,t;";
+    for call in ["%\"m:Pick1\"%;", "%\"pick1\"%;"] {
+        let program = path(&format!("ConfL\\Off;\n{call}\n{rest}"));
+        let configured: Vec<_> = program.moves.iter().map(|m| m.configured).collect();
+        assert_eq!(configured, [false, true], "{call}");
+    }
+    for call in [
+        "%\"Pick\"+ValToStr(i)%;",
+        "CallByVar \"Pick\",i;",
+        "%name%;",
+    ] {
+        let program = path(&format!("ConfL\\Off;\n{call}\n{rest}"));
+        assert!(program.moves.iter().all(|m| !m.configured), "{call}");
+    }
+}
+
+#[test]
+fn handlers_may_run_between_any_statements() {
+    let program = path(
+        "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p2,v5,z5,t;\nERROR\nIF ERRNO=1 THEN\nMoveL p3,v5,z5,t;\nRETRY;\n\
+         ENDIF\nRAISE;",
+    );
+    let all: Vec<_> = to(&program).into_iter().zip(&program.moves).collect();
+    for name in ["p1", "p2", "p3"] {
+        let mut configured = all
+            .iter()
+            .filter(|(to, _)| *to == name)
+            .map(|(_, m)| m.configured);
+        assert!(configured.clone().any(|c| c) && configured.any(|c| !c));
+    }
+    assert!(
+        all.iter().all(|(_, m)| program.before(m).len() > 1),
+        "the handler goes on anywhere"
+    );
+    let program = path("MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t;\nERROR\nWaitTime 1;\nRETRY;");
+    assert_eq!(
+        program.before(&program.moves[1]),
+        [crate::program::Before::One(0)]
+    );
+}
+
+#[test]
+fn traps_may_run_at_any_place() {
+    let program = path("MoveL p3,v5,z5,t;\nENDPROC\nTRAP tr\np3:=CRobT();\nENDTRAP\nPROC last()");
+    assert_eq!(
+        (to(&program), ids(&program)),
+        (vec!["p3", "?"], vec!["run-time-position"])
+    );
+}
+
+#[test]
+fn blocks_and_jumps_lead_where_they_say() {
+    let before = |statements: &str, at: usize| -> Vec<String> {
+        let program = path(statements);
+        let all = program.before(&program.moves[at]).iter();
+        let name = |before: &crate::program::Before| match before {
+            crate::program::Before::One(one) => to(&program)[*one as usize].to_owned(),
+            other => format!("{other:?}"),
+        };
+        let mut names: Vec<_> = all.map(name).collect();
+        names.sort();
+        names
+    };
+    let go = |name: &str| format!("MoveL {name},v5,z5,t;\n");
+    let (a, b, c) = (go("p1"), go("p2"), go("p3"));
+    assert_eq!(
+        before(&format!("{a}IF x THEN\n{b}ENDIF\n{c}"), 2),
+        ["p1", "p2"]
+    );
+    assert_eq!(
+        before(&format!("{a}IF x THEN\n{b}ELSE\n{a}ENDIF\n{c}"), 3),
+        ["p1", "p2"]
+    );
+    assert_eq!(before(&format!("{a}IF x {b}{c}"), 2), ["p1", "p2"]);
+    assert_eq!(
+        before(&format!("{a}FOR i FROM 1 TO 3 DO\n{b}ENDFOR\n{c}"), 1),
+        ["p1", "p2"]
+    );
+    assert_eq!(
+        before(&format!("{a}WHILE TRUE DO\n{b}{c}ENDWHILE"), 1),
+        ["p1", "p3"]
+    );
+    assert_eq!(before(&format!("{a}GOTO l;\n{b}l:\n{c}"), 2), ["p1"]);
+    assert_eq!(
+        before(
+            &format!("{a}TEST n\nCASE 1:\n{b}CASE 2:\nRETURN;\nDEFAULT:\nEXIT;\nENDTEST\n{c}"),
+            2
+        ),
+        ["p2"]
+    );
+    assert_eq!(
+        before(&format!("{a}sub;\n{c}ENDPROC\nPROC sub()\n{b}"), 1),
+        ["p2"]
+    );
+}
+
+#[test]
+fn moves_that_nobody_understands_are_there() {
+    let program = path(
+        "MoveL p1,v5,z5,t;\nMoveL rec.p,v5,z5,t;\nPathRecMoveBwd;\nEGMRunPose e,1;\nMoveJ pHome,v5,z5,t;\nMoveL p2,v5,z5,t;",
+    );
+    assert_eq!(to(&program), ["p1", "?", "?", "?", "?", "p2"]);
     assert_eq!(
         ids(&program),
-        ["target-passed-to-routine", "computed-target"]
+        [
+            "computed-target",
+            "run-time-position",
+            "computed-target",
+            "target-not-in-files"
+        ]
     );
+    let program = path("MoveAbsJ jHome,v5,z5,t;");
+    assert_eq!(ids(&program), ["joint-target-not-in-files"]);
+    assert_eq!(program.findings[0].severity, Severity::Note);
+}
+
+#[test]
+fn external_axes_are_refused_until_their_unit_is_known() {
+    let go = |axes: &str| format!("MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[{axes}]],v5,z5,t;\n");
+    for axes in [
+        "9E9,9E9,9E9,9E9,9E9,9E9",
+        "0,0,0,0,0,0",
+        "0,9E+09,8.999999E+09,0,0,9E9",
+    ] {
+        let program = path(&go(axes).repeat(2));
+        assert_eq!(ids(&program), [""; 0], "{axes}");
+    }
+    let program = path(&(go("1500,9E9,9E9,9E9,9E9,9E9") + &go("0,9E9,9E9,9E9,9E9,9E9")));
+    assert_eq!(ids(&program), ["external-axis"; 2]);
+    assert!(said(&program)[0].message.contains("eax_a is 1500"));
+    assert!(said(&program)[1].message.contains("eax_a is 0"));
+    let program = path(&("!x\n".to_owned() + &go("9E9,-15.5,9E9,9E9,9E9,9E9")));
+    assert!(said(&program)[0].message.contains("eax_b is -15.5"));
+}
+
+#[test]
+fn sensors_that_correct_a_path_are_told_once_a_place() {
+    let program = path("MoveL p1,v5,z5,t\\Corr;\nMoveL p2,v5,z5,t\\Corr;\nMoveL p1,v5,z5,t;");
+    assert_eq!(
+        (ids(&program), blocked(&program)),
+        (vec!["path-corrected"; 2], vec![])
+    );
+}
+
+#[test]
+fn wrist_mode_lasts_until_it_is_left() {
+    let program = path(
+        "MoveL p1,v5,z5,t;\nSingArea\\Wrist;\nsub;\nMoveL p2,v5,z5,t;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;\nSingArea\\Off;",
+    );
+    let free: Vec<_> = program.moves.iter().map(|m| m.free_orientation).collect();
+    assert_eq!(free, [false, false, true]);
 }
 
 #[test]
@@ -251,35 +561,68 @@ fn frames_assigned_once_or_alike_replace_the_declared_ones() {
     assert_eq!(frame.translation, [0.01, 0.0, 0.5]);
     let tool = program.tools[0].flange_from_tool.expect("a tool");
     assert_eq!(tool.translation, [0.0, 0.0, 0.042]);
-    assert_eq!(program.findings, []);
+    assert_eq!(ids(&program), [""; 0]);
+}
+
+fn heights(program: &Program) -> Vec<f64> {
+    let frame = |m: &crate::program::Move| program.frames[m.frame].world_from_frame;
+    let z = |m| (frame(m).expect("a frame").translation[2] * 1e3).round();
+    program.moves.iter().map(z).collect()
 }
 
 #[test]
-fn different_frames_hold_one_after_another_in_straight_text_only() {
+fn different_frames_hold_one_after_another() {
     let text = "w.uframe.trans := [0,0,100];\nMoveL p1,v5,z5,t\\WObj:=w;\n\
                 w.uframe.trans := [0,0,200];\nMoveL p2,v5,z5,t\\WObj:=w;";
-    let program = path(text);
-    let z: Vec<_> = program
-        .frames
-        .iter()
-        .map(|f| f.world_from_frame.expect("a frame").translation[2])
-        .collect();
-    assert_eq!(z, [0.1, 0.2]);
-    for crooked in [
-        format!("IF a THEN\n{text}\nENDIF"),
-        format!("{text}\nENDPROC\nPROC b()\nMoveL p1,v5,z5,t\\WObj:=w;"),
-        format!("MoveL p1,v5,z5,t\\WObj:=w;\n{text}"),
-        text.replace("200", "x"),
-        text.replacen("MoveL", "Other;\nMoveL", 1),
+    assert_eq!(heights(&path(text)), [100.0, 200.0]);
+    assert_eq!(
+        heights(&path(&format!("IF a THEN\n{text}\nENDIF"))),
+        [100.0, 200.0]
+    );
+    let other = format!("{text}\nENDPROC\nPROC b()\nMoveL p1,v5,z5,t\\WObj:=w;");
+    assert_eq!(heights(&path(&other)), [100.0, 200.0, 0.0], "as declared");
+    // PERS data are kept to the next run
+    let before = format!("MoveL p1,v5,z5,t\\WObj:=w;\n{text}");
+    assert_eq!(heights(&path(&before)), [0.0, 200.0, 100.0, 200.0]);
+    let written = path(&before).moves[1].frame_written.expect("a place");
+    assert!(written.offset > 0);
+    let program = path(&text.replace("200", "x"));
+    assert_eq!(
+        (ids(&program), blocked(&program)),
+        (vec!["frame-assigned-at-run-time"], vec!["p2"])
+    );
+    let called = format!(
+        "MoveL p1,v5,z5,t\\WObj:=w;\nENDPROC\nPROC never()\n{}",
+        text.replace("p1", "p3")
+    );
+    let program = path(&called);
+    assert_eq!(
+        heights(&program),
+        [0.0, 100.0, 200.0],
+        "the declaration holds"
+    );
+    assert_eq!(ids(&program), ["write-not-called"]);
+}
+
+#[test]
+fn tools_and_work_objects_are_written_by_others() {
+    for text in [
+        "Incr w.oframe.trans.x;\nMoveL p1,v5,z5,t\\WObj:=w;",
+        "MToolTCPCalib j1,j2,j3,j4,t,max,mean;\nMoveL p1,v5,z5,t;",
+        "w.oframe:=f(1);\nMoveL p1,v5,z5,t\\WObj:=w;",
+        "w:=CWObj();\nMoveL p1,v5,z5,t\\WObj:=w;",
     ] {
-        let program = path(&crooked);
-        assert!(blocked(&program).contains(&"p1"), "{crooked}");
-        assert!(
-            ids(&program)
-                .iter()
-                .all(|id| *id == "frame-assigned-at-run-time")
-        );
+        let program = path(text);
+        assert!(ids(&program)[0].starts_with("frame-"), "{text}");
+        assert_eq!(blocked(&program), ["p1"], "{text}");
     }
+    let program = path("SetFrame w;\nMoveL p1,v5,z5,t\\WObj:=w;");
+    assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
+    let program = path("w:=w2;\nMoveL p1,v5,z5,t\\WObj:=w;");
+    assert_eq!(
+        (program.frames[0].name.as_str(), ids(&program)),
+        ("w2", vec![])
+    );
 }
 
 #[test]
@@ -320,6 +663,8 @@ fn an_active_displacement_blocks_what_it_may_reach() {
     );
     assert_eq!(blocked(&program), ["p1"]);
     let program = path("EOffsSet e;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;");
+    assert_eq!(ids(&program), [""; 0], "nothing calls it meanwhile");
+    let program = path("EOffsSet e;\nsub;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;");
     assert_eq!(ids(&program), ["displacement-active"]);
     let program = path("WHILE a DO\nMoveL p1,v5,z5,t;\nPDispSet d;\nENDWHILE\nPDispOff;");
     assert_eq!(blocked(&program), ["p1"], "the second time round");
@@ -485,11 +830,8 @@ fn the_marker_stands_behind_the_module_line() {
         assert!(lines.ends_with(source.line_end()) && lines.starts_with(b"  ! "));
         let mut marked = source.bytes.clone();
         marked.splice(at..at, lines);
-        assert!(
-            Rapid
-                .read(&[Source::new("a", marked)], &Settings::default())
-                .is_ok()
-        );
+        let marked = [Source::new("a", marked)];
+        assert!(motion::read(&Rapid, &marked, &Settings::default()).is_ok());
     }
 }
 

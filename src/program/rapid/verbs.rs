@@ -1,7 +1,9 @@
 //! What instructions do, by their names.
 
-use super::names::Symbol;
-use super::syntax::{Path, Verb};
+use super::builtins::{self, Known};
+use super::syntax::{Mode, Path, Set, Verb};
+use crate::program::Source;
+use crate::program::names::Symbol;
 
 /// First parts of the names of instructions that move; J, L, C or `AbsJ` follows.
 const MOVING: [&[u8]; 16] = [
@@ -15,217 +17,65 @@ const ENDINGS: [&[u8]; 8] = [b"", b"do", b"ao", b"go", b"sync", b"ios", b"start"
 /// Endings of instructions with arguments after the tool.
 const TOOL_INSIDE: [&[u8]; 4] = [b"do", b"ao", b"go", b"sync"];
 
-/// Instructions of the language that move nothing and write no target, tool or frame; sorted.
-const HARMLESS: [&[u8]; 173] = [
-    b"accset",
-    b"actevent",
-    b"actunit",
-    b"add",
-    b"aliasio",
-    b"bitclear",
-    b"bitset",
-    b"bookerrno",
-    b"break",
-    b"callbyvar",
-    b"circpathmode",
-    b"cirpathmode",
-    b"clear",
-    b"clearpath",
-    b"clkreset",
-    b"clkstart",
-    b"clkstop",
-    b"close",
-    b"closedir",
-    b"collisiondetect",
-    b"copyfile",
-    b"corrclear",
-    b"corrcon",
-    b"corrdiscon",
-    b"corrwrite",
-    b"deactunit",
-    b"decr",
-    b"eoffsgoto",
-    b"erase",
-    b"errlog",
-    b"errraise",
-    b"errwrite",
-    b"exit",
-    b"exitcycle",
-    b"idelete",
-    b"idisable",
-    b"ienable",
-    b"ierror",
-    b"incr",
-    b"invertdo",
-    b"iodisable",
-    b"ioenable",
-    b"ipers",
-    b"isignalai",
-    b"isignalao",
-    b"isignaldi",
-    b"isignaldo",
-    b"isignalgi",
-    b"isignalgo",
-    b"isleep",
-    b"itimer",
-    b"ivarvalue",
-    b"iwatch",
-    b"load",
-    b"loadid",
-    b"makedir",
-    b"mechunitload",
-    b"motionsup",
-    b"moveextj",
-    b"nop",
-    b"open",
-    b"opendir",
-    b"pathacclim",
-    b"pathreclstart",
-    b"pathrecstart",
-    b"pathrecstop",
-    b"pathresol",
-    b"pulsedo",
-    b"raise",
-    b"readanybin",
-    b"readerrdata",
-    b"readrawbytes",
-    b"removedir",
-    b"removefile",
-    b"renamefile",
-    b"reset",
-    b"resetppmoved",
-    b"restopath",
-    b"retry",
-    b"return",
-    b"save",
-    b"setalldatavalue",
-    b"setao",
-    b"setdatasearch",
-    b"setdatavalue",
-    b"setdo",
-    b"setgo",
-    b"setsysdata",
-    b"singarea",
-    b"sismoveoff",
-    b"skipwarn",
-    b"socketaccept",
-    b"socketbind",
-    b"socketclose",
-    b"socketconnect",
-    b"socketcreate",
-    b"socketlisten",
-    b"socketreceive",
-    b"socketsend",
-    b"softact",
-    b"softdeact",
-    b"speedlimaxis",
-    b"speedlimcheckpoint",
-    b"speedrefresh",
-    b"startload",
-    b"startmove",
-    b"startmoveretry",
-    b"stop",
-    b"stopmove",
-    b"stopmovereset",
-    b"storepath",
-    b"syncmoveoff",
-    b"syncmoveon",
-    b"syncmoveundo",
-    b"systemstopaction",
-    b"testsigndefine",
-    b"testsignreset",
-    b"texttabinstall",
-    b"tpdefaultdi",
-    b"tperase",
-    b"tpreaddnum",
-    b"tpreadfk",
-    b"tpreadnum",
-    b"tpshow",
-    b"tpwrite",
-    b"triggcheckio",
-    b"triggequip",
-    b"triggint",
-    b"triggio",
-    b"triggrampao",
-    b"triggspeed",
-    b"triggstopproc",
-    b"trynext",
-    b"tunereset",
-    b"tuneservo",
-    b"uimsgbox",
-    b"uimsgwrite",
-    b"uishow",
-    b"unload",
-    b"unpackrawbytes",
-    b"velset",
-    b"waitai",
-    b"waitao",
-    b"waitdi",
-    b"waitdo",
-    b"waitgi",
-    b"waitgo",
-    b"waitload",
-    b"waitrob",
-    b"waitsyncmove",
-    b"waitsynctask",
-    b"waittestandset",
-    b"waittime",
-    b"waituntil",
-    b"waitwobj",
-    b"warmstart",
-    b"worldacclim",
-    b"worldzone",
-    b"write",
-    b"writeanybin",
-    b"writebin",
-    b"writerawbytes",
-    b"writestrbin",
-    b"wzboxdef",
-    b"wzcyldef",
-    b"wzdisable",
-    b"wzdosset",
-    b"wzenable",
-    b"wzfree",
-    b"wzhomejointdef",
-    b"wzlimjointdef",
-    b"wzlimsup",
-    b"wzsphdef",
-];
-
-/// Verbs of the names that were met.
+/// What the names that were met do.
 #[derive(Debug, Default)]
-pub(super) struct Verbs(Vec<Option<Verb>>);
+pub(super) struct Verbs {
+    instructions: Vec<Option<Verb>>,
+    functions: Vec<Option<Known>>,
+}
 
 impl Verbs {
     /// What an instruction of this name does.
     pub(super) fn of(&mut self, name: Symbol, spelling: &[u8]) -> Verb {
-        let at = name.0 as usize;
-        if self.0.len() <= at {
-            self.0.resize(at + 1, None);
-        }
-        *self.0[at].get_or_insert_with(|| verb(spelling))
+        *slot(&mut self.instructions, name).get_or_insert_with(|| verb(spelling))
     }
+
+    /// What a function of this name does.
+    pub(super) fn function(&mut self, name: Symbol, spelling: &[u8]) -> Known {
+        *slot(&mut self.functions, name)
+            .get_or_insert_with(|| builtins::function(&Source::text(spelling).to_ascii_lowercase()))
+    }
+
+    /// What a function of this name does that was met before.
+    pub(super) fn known(&self, name: Symbol) -> Known {
+        let known = self.functions.get(name.0 as usize);
+        known.copied().flatten().unwrap_or(Known::Other)
+    }
+}
+
+fn slot<T: Copy>(list: &mut Vec<Option<T>>, name: Symbol) -> &mut Option<T> {
+    let at = name.0 as usize;
+    if list.len() <= at {
+        list.resize(at + 1, None);
+    }
+    &mut list[at]
 }
 
 pub(super) fn verb(spelling: &[u8]) -> Verb {
     let lower = spelling.to_ascii_lowercase();
     match lower.as_slice() {
-        b"confl" => Verb::ConfL,
-        b"confj" => Verb::ConfJ,
-        b"pdispon" | b"pdispset" => Verb::ProgramDisplacement,
-        b"pdispoff" => Verb::ProgramDisplacementOff,
-        b"eoffson" | b"eoffsset" => Verb::ExternalOffset,
-        b"eoffsoff" => Verb::ExternalOffsetOff,
-        b"mtooltcpcalib" | b"mtoolrotcalib" | b"stooltcpcalib" | b"stoolrotcalib" => {
-            Verb::WritesTool
-        }
+        b"confl" => Verb::Mode(Mode::ConfL, Set::ByOption),
+        b"confj" => Verb::Mode(Mode::ConfJ, Set::ByOption),
+        b"singarea" => Verb::Mode(Mode::Wrist, Set::ByOption),
+        b"pdispon" | b"pdispset" => Verb::Mode(Mode::ProgramDisplacement, Set::On),
+        b"pdispoff" => Verb::Mode(Mode::ProgramDisplacement, Set::Off),
+        b"eoffson" | b"eoffsset" => Verb::Mode(Mode::ExternalOffset, Set::On),
+        b"eoffsoff" => Verb::Mode(Mode::ExternalOffset, Set::Off),
+        b"pathrecmovebwd" | b"pathrecmovefwd" | b"stepbwdpath" => Verb::Wander { back: true },
+        b"egmrunjoint" | b"egmrunpose" => Verb::Wander { back: false },
         b"gripload" => Verb::GripLoad,
+        b"setdataval" | b"setalldataval" => Verb::WritesNamed,
+        b"callbyvar" => Verb::CallByVar,
         b"moveextj" => Verb::Harmless,
-        _ => moving(spelling, &lower).unwrap_or_else(|| {
-            let known = HARMLESS.binary_search(&lower.as_slice()).is_ok();
-            if known { Verb::Harmless } else { Verb::Other }
-        }),
+        _ => moving(spelling, &lower)
+            .or_else(|| builtins::instruction(std::str::from_utf8(&lower).ok()?))
+            .unwrap_or(Verb::Other),
     }
+}
+
+/// Whether a name is that of an instruction that moves.
+pub(super) fn is_move(spelling: &[u8]) -> bool {
+    moving(spelling, &spelling.to_ascii_lowercase()).is_some()
 }
 
 fn moving(spelling: &[u8], lower: &[u8]) -> Option<Verb> {
@@ -295,15 +145,13 @@ mod tests {
     }
 
     #[test]
-    fn the_list_of_harmless_instructions_is_sorted() {
-        assert!(HARMLESS.is_sorted());
-    }
-
-    #[test]
     fn common_instructions_are_harmless_and_procedures_are_not() {
         assert_eq!(verb(b"SetDO"), Verb::Harmless);
         assert_eq!(verb(b"WaitTime"), Verb::Harmless);
         assert_eq!(verb(b"PickPart"), Verb::Other);
-        assert_eq!(verb(b"PDispSet"), Verb::ProgramDisplacement);
+        assert_eq!(
+            verb(b"PDispSet"),
+            Verb::Mode(Mode::ProgramDisplacement, Set::On)
+        );
     }
 }

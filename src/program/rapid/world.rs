@@ -1,89 +1,89 @@
-//! Names resolved over all files: data, routines, who calls whom, and where a displacement may be active.
+//! Names resolved over all files: data, routines, and what may be written.
 
-use super::names::{Context, Meaning, Scopes, Symbol};
-use super::reader::index;
+use super::builtins::Known;
 use super::syntax::{
-    Datum, Element, Index, Notes, Part, Place, StatementKind, Stored, Verb, indices,
+    Argument, Base, Callee, Datum, Expression, Function, Notes, Part, StatementKind, Storage,
+    Stored, Type, Verb, indices,
 };
+use super::verbs::Verbs;
+use crate::program::Source;
+use crate::program::names::{Context, Meaning, Scopes, Symbol};
+use crate::program::script::short;
+use std::collections::HashSet;
 
 /// All that was noted, with its names resolved.
-pub(super) struct World {
+pub(super) struct World<'a> {
     pub notes: Notes,
+    pub sources: &'a [Source],
     data: Scopes,
     routines: Scopes,
-    /// Routines that each routine calls; `None` stands for one outside the files.
-    calls: Vec<Vec<Option<u32>>>,
+    /// What functions do, by symbol.
+    verbs: Verbs,
+    /// Data that statements may write, by datum.
+    written: Vec<bool>,
+    /// The same of names that the files do not declare.
+    undeclared: HashSet<Symbol>,
 }
 
-/// What the name of a target leads to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Points {
-    /// Elements of this declaration, part of [`Notes::elements`].
-    Elements { datum: u32, elements: Part },
-    /// Declared, but its value is not written out.
-    Computed,
-    /// Several declarations, by [`World::several`].
-    Ambiguous(u32),
-    /// Not in the files.
-    Unknown,
-    /// Data of another type.
-    Other,
+/// Data: a declaration, or a name that the files do not declare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Entity {
+    Declared(u32),
+    Undeclared(Symbol),
 }
 
-impl World {
-    pub fn new(notes: Notes) -> Self {
+/// The routines that a call may mean.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Callees {
+    pub routines: Vec<u32>,
+    /// It may be one that is not in the files.
+    pub foreign: bool,
+}
+
+/// A call with what it is given.
+#[derive(Clone, Copy)]
+struct Given {
+    callee: Callee,
+    verb: Verb,
+    arguments: Part,
+    of_function: bool,
+    context: Context,
+    file: u32,
+}
+
+impl<'a> World<'a> {
+    pub fn new(notes: Notes, verbs: Verbs, sources: &'a [Source]) -> Self {
         let (mut data, mut routines) = (Scopes::default(), Scopes::default());
         for (at, datum) in notes.data.iter().enumerate() {
-            data.add(datum.name, datum.context, datum.local, index(at));
+            data.add(datum.name, datum.context, datum.local, short(at));
         }
         for (at, routine) in notes.routines.iter().enumerate() {
             let context = Context {
                 module: routine.module,
                 routine: None,
             };
-            routines.add(routine.name, context, routine.local, index(at));
+            routines.add(routine.name, context, routine.local, short(at));
         }
-        let calls = vec![Vec::new(); notes.routines.len()];
+        let written = vec![false; notes.data.len()];
         let mut world = Self {
             notes,
+            sources,
             data,
             routines,
-            calls,
+            verbs,
+            written,
+            undeclared: HashSet::new(),
         };
-        for at in 0..world.notes.statements.len() {
-            let statement = world.notes.statements[at];
-            if let (Some(routine), StatementKind::Call { name, .. }) =
-                (statement.context.routine, statement.kind)
-                && let Some(callee) = world.callee(at, name)
-            {
-                world.calls[routine as usize].push(callee);
-            }
-        }
+        world.find_written();
         world
-    }
-
-    #[allow(clippy::option_option)]
-    /// The routine that a statement calls: `Some(None)` for one outside the files, `None` where it is an instruction.
-    fn callee(&self, statement: usize, name: Option<Symbol>) -> Option<Option<u32>> {
-        let statement = &self.notes.statements[statement];
-        let StatementKind::Call { verb, .. } = statement.kind else {
-            return None;
-        };
-        let found = name.map(|name| self.routines.meaning(name, statement.context));
-        match found {
-            Some(Meaning::One(routine)) => Some(Some(routine)),
-            Some(Meaning::Nothing) if verb != Verb::Other => None,
-            _ => Some(None),
-        }
-    }
-
-    /// Whether a call names a routine of the files.
-    pub fn is_routine(&self, name: Symbol, context: Context) -> bool {
-        self.routines.meaning(name, context) != Meaning::Nothing
     }
 
     pub fn datum(&self, datum: u32) -> &Datum {
         &self.notes.data[datum as usize]
+    }
+
+    pub fn spelling(&self, name: Symbol) -> &str {
+        self.notes.symbols.spelling(name)
     }
 
     pub fn meaning(&self, name: Symbol, context: Context) -> Meaning {
@@ -94,188 +94,296 @@ impl World {
         self.data.several(list)
     }
 
-    /// What a name of a target leads to.
-    pub fn points(&self, name: Symbol, at: Index, context: Context) -> Points {
+    /// What a function of this name does if it is one of the language.
+    pub fn known(&self, function: &Function) -> Known {
+        self.verbs.known(function.name)
+    }
+
+    pub fn is_written(&self, entity: Entity) -> bool {
+        match entity {
+            Entity::Declared(datum) => self.written[datum as usize],
+            Entity::Undeclared(name) => self.undeclared.contains(&name),
+        }
+    }
+
+    /// Whether a name is written that the files do not declare.
+    pub fn has_undeclared(&self) -> bool {
+        !self.undeclared.is_empty()
+    }
+
+    /// The type of what a name means; of several declarations that of the first.
+    pub fn kind(&self, name: Symbol, context: Context) -> Option<Type> {
         match self.meaning(name, context) {
-            Meaning::Nothing => Points::Unknown,
-            Meaning::Several(list) => {
-                let targets = |&datum: &u32| self.datum(datum).kind.is_target();
-                if self.several(list).iter().any(targets) {
-                    Points::Ambiguous(list)
-                } else {
-                    Points::Other
-                }
-            }
-            Meaning::One(datum) => self.points_of(datum, at),
+            Meaning::One(datum) => Some(self.datum(datum).kind),
+            Meaning::Several(list) => Some(self.datum(self.several(list)[0]).kind),
+            Meaning::Nothing => None,
         }
     }
 
-    fn points_of(&self, datum: u32, at: Index) -> Points {
-        let declared = self.datum(datum);
-        if !declared.kind.is_target() {
-            return Points::Other;
-        }
-        let Stored::Elements { elements, sizes } = declared.value else {
-            return Points::Computed;
-        };
-        let elements = match at {
-            Index::At(place) => match element(place, sizes, elements) {
-                Some(one) => (one, one + 1),
-                None => return Points::Computed,
-            },
-            Index::Whole | Index::Variable => elements,
-        };
-        Points::Elements { datum, elements }
+    /// Whether a call names a routine of the files.
+    pub fn is_routine(&self, name: Symbol, context: Context) -> bool {
+        self.routines.meaning(name, context) != Meaning::Nothing
     }
 
-    /// Targets of a declaration with their own numbers.
-    pub fn own_targets(&self, part: Part) -> impl Iterator<Item = usize> {
-        self.notes.elements[indices(part)]
-            .iter()
-            .filter_map(|element| match element {
-                Element::Target(target) => Some(*target),
-                _ => None,
-            })
-    }
-
-    /// Routines that are reached from these, themselves included only where they are called again; and whether one outside
-    /// the files is.
-    pub fn reached(&self, from: impl IntoIterator<Item = Option<u32>>) -> (Vec<bool>, bool) {
-        let mut reached = vec![false; self.calls.len()];
-        let mut outside = false;
-        let mut open: Vec<Option<u32>> = from.into_iter().collect();
-        while let Some(next) = open.pop() {
-            match next {
-                None => outside = true,
-                Some(routine) if reached[routine as usize] => {}
-                Some(routine) => {
-                    reached[routine as usize] = true;
-                    open.extend_from_slice(&self.calls[routine as usize]);
-                }
-            }
-        }
-        (reached, outside)
-    }
-
-    /// Routines that this one calls.
-    pub fn calls(&self, routine: u32) -> &[Option<u32>] {
-        &self.calls[routine as usize]
-    }
-
-    /// For each statement, the `PDispOn`, `PDispSet`, `EOffsOn` or `EOffsSet` that may be active there.
-    ///
-    /// In a routine that runs from top to bottom a displacement lasts to its `PDispOff`; in any other one its whole text is
-    /// displaced. Routines that are called meanwhile are displaced, and everything is where a routine ends displaced.
-    pub fn displacements(&self) -> Vec<Option<Place>> {
-        let statements = &self.notes.statements;
-        let mut displaced = vec![None; statements.len()];
-        let starts = |verb| matches!(verb, Verb::ProgramDisplacement | Verb::ExternalOffset);
-        let verb_of = |at: usize| match statements[at].kind {
-            StatementKind::Call { verb, .. } => verb,
-            StatementKind::Assign { .. } => Verb::Harmless,
-        };
-        if !(0..statements.len()).any(|at| starts(verb_of(at))) {
-            return displaced;
-        }
-        let mut everywhere = None;
-        let mut settled = vec![false; statements.len()];
-        let mut called = Vec::new();
-        let mut first = 0;
-        while first < statements.len() {
-            let context = statements[first].context;
-            let same = |at: &usize| statements[*at].context == context;
-            let last = (first..statements.len()).take_while(same).count() + first;
-            let straight = context
-                .routine
-                .is_some_and(|routine| self.notes.routines[routine as usize].straight);
-            let any = (first..last).find(|&at| starts(verb_of(at)));
-            // program displacement and external offset
-            let mut active = [None, None];
-            let mut off = [false, false];
-            if let (Some(at), false) = (any, straight) {
-                active = [Some(statements[at].place); 2];
-            }
-            for at in first..last {
-                match verb_of(at) {
-                    Verb::ProgramDisplacement => active[0] = Some(statements[at].place),
-                    Verb::ExternalOffset => active[1] = Some(statements[at].place),
-                    Verb::ProgramDisplacementOff => {
-                        off[0] = true;
-                        active[0] = active[0].filter(|_| !straight);
-                    }
-                    Verb::ExternalOffsetOff => {
-                        off[1] = true;
-                        active[1] = active[1].filter(|_| !straight);
-                    }
-                    _ => {}
-                }
-                displaced[at] = active[0].or(active[1]);
-                settled[at] = straight && off == [true, true];
-                if let (Some(cause), StatementKind::Call { name, .. }) =
-                    (displaced[at], statements[at].kind)
-                    && let Some(callee) = self.callee(at, name)
-                {
-                    called.push((callee, cause));
-                }
-            }
-            let ends_displaced = (first..last).rev().find_map(|at| match verb_of(at) {
-                Verb::ProgramDisplacement | Verb::ExternalOffset => Some(Some(at)),
-                Verb::ProgramDisplacementOff | Verb::ExternalOffsetOff => Some(None),
-                _ => None,
+    /// The routines that a call may mean.
+    pub fn callees(&self, callee: Callee, arguments: Part, context: Context, file: u32) -> Callees {
+        let named = |name: Option<Symbol>| {
+            let meaning = name.map_or(Meaning::Nothing, |name| {
+                self.routines.meaning(name, context)
             });
-            let left = if straight {
-                active[0].or(active[1])
-            } else {
-                ends_displaced.flatten().map(|at| statements[at].place)
-            };
-            everywhere = everywhere.or(left);
-            first = last;
+            match meaning {
+                Meaning::One(routine) => vec![routine],
+                Meaning::Several(list) => self.routines.several(list).to_vec(),
+                Meaning::Nothing => Vec::new(),
+            }
+        };
+        let routines = match callee {
+            Callee::Named(name) => named(Some(name)),
+            Callee::Text(start, end) => {
+                let text = &self.sources[file as usize].bytes[start as usize..end as usize];
+                let name = text.rsplit(|b| *b == b':').next().unwrap_or_default();
+                named(self.notes.symbols.find(&name.to_ascii_lowercase()))
+            }
+            Callee::Late => return self.any_routine(arguments, ""),
+        };
+        Callees {
+            foreign: routines.is_empty(),
+            routines,
         }
-        let (reached, _) = self.reached(called.iter().map(|(callee, _)| *callee));
-        for (at, statement) in statements.iter().enumerate() {
-            let in_called = statement
-                .context
-                .routine
-                .is_some_and(|r| reached[r as usize]);
-            if displaced[at].is_none() && !settled[at] {
-                displaced[at] = everywhere.or_else(|| {
-                    called
-                        .first()
-                        .filter(|_| in_called)
-                        .map(|(_, cause)| *cause)
-                });
+    }
+
+    /// Every procedure whose name begins so and that takes so many arguments, and others.
+    pub fn any_routine(&self, arguments: Part, prefix: &str) -> Callees {
+        let positional = self.notes.arguments[indices(arguments)]
+            .iter()
+            .filter(|argument| argument.option.is_none())
+            .count();
+        let fits = |at: &usize| {
+            let routine = &self.notes.routines[*at];
+            let name = self.spelling(routine.name);
+            let begins = name
+                .get(..prefix.len())
+                .is_some_and(|begin| begin.eq_ignore_ascii_case(prefix));
+            let required = self.notes.data[indices(routine.parameters)]
+                .iter()
+                .filter(|datum| !matches!(datum.storage, Storage::Parameter { optional: true, .. }))
+                .count();
+            routine.is_procedure
+                && begins
+                && required == positional
+                && !name.eq_ignore_ascii_case("main")
+        };
+        let routines = (0..self.notes.routines.len()).filter(fits).map(short);
+        Callees {
+            routines: routines.collect(),
+            foreign: true,
+        }
+    }
+
+    /// The parameter of a routine that each argument is for.
+    pub fn parameters<'b>(
+        &'b self,
+        routine: u32,
+        arguments: &'b [Argument],
+    ) -> impl Iterator<Item = (u32, Option<&'b Argument>)> {
+        let mut positional = arguments
+            .iter()
+            .filter(|argument| argument.option.is_none());
+        let (first, end) = self.notes.routines[routine as usize].parameters;
+        (first..end).map(move |datum| {
+            let parameter = self.datum(datum);
+            let argument = match parameter.storage {
+                Storage::Parameter { optional: true, .. } => arguments
+                    .iter()
+                    .find(|argument| argument.option == Some(parameter.name)),
+                _ => positional.next(),
+            };
+            (datum, argument)
+        })
+    }
+
+    // ---- what may be written
+
+    /// Marks what a name may mean; whether that is new.
+    fn mark(&mut self, name: Symbol, context: Context) -> bool {
+        let data = match self.data.meaning(name, context) {
+            Meaning::One(datum) => vec![datum],
+            Meaning::Several(list) => self.data.several(list).to_vec(),
+            Meaning::Nothing => return self.undeclared.insert(name),
+        };
+        let mut changed = false;
+        for datum in data {
+            let constant = self.datum(datum).storage == Storage::Constant;
+            let written = &mut self.written[datum as usize];
+            changed |= !constant && !*written;
+            *written |= !constant;
+        }
+        changed
+    }
+
+    /// Whether arguments are given to functions or instructions in [`Notes::given`] or [`Notes::arguments`].
+    fn list(&self, of_function: bool) -> &[Argument] {
+        if of_function {
+            &self.notes.given
+        } else {
+            &self.notes.arguments
+        }
+    }
+
+    fn find_written(&mut self) {
+        let mut calls = Vec::new();
+        let mut context = Context {
+            module: 0,
+            routine: None,
+        };
+        let mut file = 0;
+        for at in 0..self.notes.statements.len() {
+            match self.notes.statements[at].kind {
+                StatementKind::Text {
+                    file: in_file,
+                    context: now,
+                } => (context, file) = (now, in_file),
+                StatementKind::Assign { name, .. } => {
+                    self.mark(name, context);
+                }
+                StatementKind::Function(function) => {
+                    let function = self.notes.functions[function as usize];
+                    let given = Given {
+                        callee: Callee::Named(function.name),
+                        verb: Verb::Other,
+                        arguments: function.arguments,
+                        of_function: true,
+                        context,
+                        file,
+                    };
+                    if let Known::Writes(position) = self.known(&function) {
+                        self.mark_argument(given, position);
+                    } else {
+                        calls.push(given);
+                    }
+                }
+                StatementKind::Call {
+                    callee,
+                    verb,
+                    arguments,
+                    ..
+                } => {
+                    let given = Given {
+                        callee,
+                        verb,
+                        arguments,
+                        of_function: false,
+                        context,
+                        file,
+                    };
+                    self.note_call(given, &mut calls);
+                }
+                _ => {}
             }
         }
-        displaced
+        // what a routine writes into a parameter by reference is written where it is called
+        while calls
+            .iter()
+            .fold(false, |changed, call| self.mark_given(*call) || changed)
+        {}
     }
-}
 
-/// The element at a place of an array.
-fn element(place: [u32; 3], sizes: [u32; 3], elements: Part) -> Option<u32> {
-    let count: u64 = sizes.iter().map(|&s| u64::from(s.max(1))).product();
-    if count != u64::from(elements.1 - elements.0) {
-        return None;
-    }
-    let mut offset = 0;
-    for (&at, &size) in place.iter().zip(&sizes) {
-        if (at == 0) != (size == 0) || at > size {
-            return None;
+    fn note_call(&mut self, given: Given, calls: &mut Vec<Given>) {
+        match given.verb {
+            Verb::Writes(position) => self.mark_argument(given, position),
+            Verb::Move { first: 2, .. } => self.mark_argument(given, 1),
+            Verb::WritesTool => {
+                for at in indices(given.arguments) {
+                    if let Some(name) = named(&self.notes.arguments[at].expression) {
+                        self.mark(name, given.context);
+                    }
+                }
+            }
+            Verb::WritesNamed => {
+                for at in 0..self.notes.data.len() {
+                    let datum = self.notes.data[at];
+                    let matters = datum.kind.is_target() || datum.kind.is_frame();
+                    self.written[at] |= matters && datum.storage != Storage::Constant;
+                }
+            }
+            _ => {}
         }
-        offset = offset * size.max(1) + at.max(1) - 1;
+        let is_call = match (given.verb, given.callee) {
+            (Verb::Other | Verb::CallByVar, _) => true,
+            (Verb::Move { .. }, Callee::Named(name)) => self.is_routine(name, given.context),
+            _ => false,
+        };
+        if is_call {
+            calls.push(given);
+        }
     }
-    Some(elements.0 + offset)
+
+    fn mark_argument(&mut self, given: Given, position: u8) {
+        let mut positional = self.list(given.of_function)[indices(given.arguments)]
+            .iter()
+            .filter(|argument| argument.option.is_none());
+        let argument = positional.nth(usize::from(position));
+        if let Some(name) = argument.and_then(|argument| named(&argument.expression)) {
+            self.mark(name, given.context);
+        }
+    }
+
+    /// Marks what a call may write through its arguments; whether that is new.
+    fn mark_given(&mut self, given: Given) -> bool {
+        let callees = self.callees(given.callee, given.arguments, given.context, given.file);
+        let arguments = &self.list(given.of_function)[indices(given.arguments)];
+        let mut names = Vec::new();
+        for &routine in &callees.routines {
+            for (datum, argument) in self.parameters(routine, arguments) {
+                let by_reference = matches!(
+                    self.datum(datum).storage,
+                    Storage::Parameter {
+                        by_reference: true,
+                        ..
+                    }
+                );
+                if by_reference && self.written[datum as usize] {
+                    names.extend(argument.and_then(|argument| named(&argument.expression)));
+                }
+            }
+        }
+        if callees.foreign {
+            let own = arguments
+                .iter()
+                .filter_map(|argument| named(&argument.expression));
+            names.extend(own.filter(|name| {
+                self.kind(*name, given.context)
+                    .is_some_and(|kind| kind.is_target() || kind.is_frame())
+            }));
+        }
+        let mut changed = false;
+        for name in names {
+            changed |= self.mark(name, given.context);
+        }
+        changed
+    }
+
+    /// Whether the value that a target is declared with is written over, so that it may be anything.
+    pub fn is_written_target(&self, target: usize) -> bool {
+        let declares = |datum: &Datum| match datum.value {
+            Stored::Elements { elements, .. } => self.notes.elements[indices(elements)]
+                .iter()
+                .any(|element| *element == super::syntax::Element::Target(target)),
+            _ => false,
+        };
+        let found = self.notes.data.iter().position(declares);
+        found.is_some_and(|at| self.written[at])
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn elements_of_arrays_are_counted_by_rows() {
-        assert_eq!(element([2, 3, 0], [2, 4, 0], (10, 18)), Some(16));
-        assert_eq!(element([3, 0, 0], [3, 0, 0], (0, 3)), Some(2));
-        assert_eq!(element([4, 0, 0], [3, 0, 0], (0, 3)), None);
-        assert_eq!(element([1, 1, 0], [3, 0, 0], (0, 3)), None);
-        assert_eq!(element([1, 1, 0], [2, 2, 0], (0, 3)), None, "ragged");
+/// The data that an argument is or a part of which it is.
+pub(super) fn named(expression: &Expression) -> Option<Symbol> {
+    match *expression {
+        Expression::Point {
+            base: Base::Named { name, .. },
+            steps: (a, b),
+        } if a == b => Some(name),
+        Expression::Member { name, .. } => Some(name),
+        _ => None,
     }
 }

@@ -100,6 +100,13 @@ impl Builder {
         self.script.statements.push(Statement::Call(at));
     }
 
+    /// A start of routines that then run beside this one.
+    pub fn start(&mut self, call: Call) {
+        let at = short(self.script.calls.len());
+        self.script.calls.push(call);
+        self.script.statements.push(Statement::Start(at));
+    }
+
     fn new_label(&mut self) -> Label {
         self.script.labels += 1;
         self.script.labels - 1

@@ -80,6 +80,10 @@ pub struct Script {
     pub guards: Vec<Box<[VariableId]>>,
     /// What speaks against targets themselves, should a move go to them.
     pub refused: Vec<(TargetId, RemarkId)>,
+    /// Sets of what moves expect variables to hold, see [`Instruction::expected`].
+    pub expected: Vec<Box<[Expected]>>,
+    /// What no move in the files uses, nothing uses: targets cannot be named from other files.
+    pub is_closed: bool,
     /// How many labels there are.
     pub labels: u32,
     /// What the reader saw that a person should look at.
@@ -106,6 +110,8 @@ impl Default for Script {
             arguments: Vec::new(),
             guards: vec![Box::default()],
             refused: Vec::new(),
+            expected: vec![Box::default()],
+            is_closed: false,
             labels: 0,
             findings: Vec::new(),
         }
@@ -286,6 +292,8 @@ pub enum Statement {
     Write(u32),
     /// Index in [`Script::calls`].
     Call(u32),
+    /// Starts routines that then run beside this one ([`Start::Concurrent`]): index in [`Script::calls`].
+    Start(u32),
     /// Statements come here.
     Label(Label),
     /// Goes on there, or with the next statement.
@@ -344,6 +352,8 @@ pub struct Instruction {
     pub displacement: DisplacementId,
     /// Index in [`Script::guards`]: variables that may hold a [`Held::Remark`] against this move.
     pub guards: u32,
+    /// Index in [`Script::expected`]: numbers that variables should hold at this move.
+    pub expected: u32,
     /// Speed and corner.
     pub pace: Pace,
     /// Where its target stands in it.
@@ -368,10 +378,22 @@ impl Instruction {
             near: None,
             displacement: NOT_DISPLACED,
             guards: 0,
+            expected: 0,
             pace: Pace::default(),
             target_span: Span::default(),
         }
     }
+}
+
+/// A number that a variable should hold at a move; a word where it certainly holds another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Expected {
+    /// The variable.
+    pub variable: VariableId,
+    /// The number.
+    pub number: i64,
+    /// What is said where the other number was written.
+    pub remark: RemarkId,
 }
 
 /// A write of a variable.

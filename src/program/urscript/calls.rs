@@ -1,17 +1,30 @@
 //! Calls: moves, tools, loads, and their arguments.
 
-use super::expressions::OTHER;
+use super::expressions::MOST_LOOKED_INTO;
 use super::reader::{Read, Reader};
-use super::syntax::{Event, Expr, ExprId, Step, index};
+use super::syntax::{Called, Event, Expr, ExprId, OTHER, Step, Symbol};
 use super::tokens::{Kind, Token};
 use super::verbs::{self, Verb};
-use crate::program::{Load, Motion};
+use crate::program::script::short;
+use crate::program::{Load, Motion, Pace, number};
 
 /// Calls of moves and poses inside each other that a program may have.
 const MOST_CALLS: u32 = 16;
 
-/// An argument of a call: its name where it has one, its value, and its first token.
-type Argument<'a> = (Option<&'a [u8]>, ExprId, Token);
+/// An argument of a call.
+struct Argument<'a> {
+    /// Its name where it has one.
+    name: Option<&'a [u8]>,
+    value: ExprId,
+    text: &'a [u8],
+}
+
+impl Argument<'_> {
+    /// Its value where that is a number.
+    fn number(&self) -> Option<f64> {
+        number::parse(self.text)
+    }
+}
 
 impl<'a> Reader<'a> {
     /// The arguments of a call whose name was just read: values by position and by name.
@@ -58,13 +71,17 @@ impl<'a> Reader<'a> {
             loop {
                 let token = self.next()?;
                 match token.kind {
-                    Kind::Sign(b',') => {
-                        arguments.push((name, value, first));
+                    Kind::Sign(sign @ (b',' | b')')) => {
+                        let text = &self.scanner.bytes[first.start..token.start.max(first.start)];
+                        arguments.push(Argument {
+                            name,
+                            value,
+                            text: text.trim_ascii(),
+                        });
+                        if sign == b')' {
+                            return Ok(arguments);
+                        }
                         break;
-                    }
-                    Kind::Sign(b')') => {
-                        arguments.push((name, value, first));
-                        return Ok(arguments);
                     }
                     Kind::Line => {}
                     Kind::End => return Err(self.unclosed(open.start, "a bracket")),
@@ -96,91 +113,173 @@ impl<'a> Reader<'a> {
                 near: at(1, &[b"qnear"]),
                 tcp: at(4, &[b"tcp", b"tcp_offset"]),
             }),
+            // `get_forward_kin()` is of the present joints
+            verbs::PoseCall::Actual => arguments.is_empty().then_some(Expr::Actual),
         };
         Ok(expression.map_or(OTHER, |expression| self.notes.add(expression)))
     }
 
-    /// A call whose name was just read, with its arguments.
-    pub(super) fn call(&mut self, name: Token) -> Read<()> {
+    /// A call whose name was just read, with its arguments; its value.
+    pub(super) fn call(&mut self, name: Token) -> Read<ExprId> {
         let text = self.text(name);
         let verb = verbs::verb(text);
         self.recognised |= verb != Verb::Other;
-        let offset = index(name.start);
+        let offset = short(name.start);
         match verb {
-            Verb::Other => {
-                let symbol = self.notes.symbol(text);
-                self.event(Event::Call(symbol));
-                let open = self.next()?;
-                self.brackets(open)
+            Verb::Other if self.depth < MOST_LOOKED_INTO && !text.contains(&b'.') => {
+                let arguments = self.arguments()?;
+                let named = |reader: &mut Self, argument: &Argument<'a>| {
+                    let name = argument.name.map(|name| reader.notes.symbol(name));
+                    (name, argument.value)
+                };
+                let arguments = arguments.iter().map(|one| named(self, one)).collect();
+                return Ok(self.called(name, arguments));
             }
-            Verb::Known => {
+            Verb::Other if !text.contains(&b'.') => {
                 let open = self.next()?;
-                self.brackets(open)
+                self.brackets(open)?;
+                return Ok(self.called(name, Vec::new()));
             }
-            Verb::Odd(oddity) => {
-                self.notes.oddities.push((oddity, offset));
+            Verb::Known | Verb::Other => {
                 let open = self.next()?;
-                self.brackets(open)
+                self.brackets(open)?;
+            }
+            Verb::Tracking(on) => {
+                let open = self.next()?;
+                self.brackets(open)?;
+                self.event(Event::Tracking(on, offset));
+            }
+            Verb::Force => {
+                let open = self.next()?;
+                self.brackets(open)?;
+                self.notes.forces.push(offset);
             }
             Verb::Tool => {
                 let arguments = self.arguments()?;
                 let pose = argument(&arguments, 0, &[b"pose"]);
-                let pose = pose.unwrap_or(OTHER);
-                self.event(Event::Tool(pose, offset));
-                Ok(())
+                self.event(Event::Tool(pose.unwrap_or(OTHER), offset));
             }
             Verb::Load => {
                 let arguments = self.arguments()?;
                 let load = self.load(&arguments);
-                self.event(Event::Load(load));
-                Ok(())
+                self.event(Event::Load(load, offset));
             }
-            Verb::Move(motion) => {
+            Verb::Move(motion, places) => {
                 let arguments = self.arguments()?;
-                let names: [&[u8]; 3] = [b"pose", b"q", b"path"];
-                let target = argument(&arguments, 0, &names);
-                self.step(offset, motion, target, false);
-                Ok(())
+                let target = argument(&arguments, 0, &[b"pose", b"q", b"path"]);
+                let step = self.step_at(offset, motion, target, &arguments, places);
+                self.step(step);
+            }
+            Verb::Somewhere => {
+                let open = self.next()?;
+                self.brackets(open)?;
+                let step = self.step_at(offset, Motion::Joint, None, &[], verbs::Places::NONE);
+                self.step(Step {
+                    target: None,
+                    ..step
+                });
             }
             Verb::Stream => {
                 let arguments = self.arguments()?;
                 let target = argument(&arguments, 0, &[b"pose", b"q"]);
-                self.step(offset, Motion::Joint, target, true);
-                Ok(())
+                let places = verbs::Places::NONE;
+                let step = self.step_at(offset, Motion::Joint, target, &arguments, places);
+                self.step(Step {
+                    streamed: true,
+                    ..step
+                });
             }
-            Verb::Arc => {
+            Verb::Arc(places) => {
                 let arguments = self.arguments()?;
                 let via = argument(&arguments, 0, &[b"pose_via"]);
                 let end = argument(&arguments, 1, &[b"pose_to"]);
-                self.step(offset, Motion::ArcVia, via, false);
-                self.step(offset, Motion::ArcEnd, end, false);
-                Ok(())
+                for (motion, target) in [(Motion::ArcVia, via), (Motion::ArcEnd, end)] {
+                    let step = self.step_at(offset, motion, target, &arguments, places);
+                    self.step(step);
+                }
             }
+        }
+        Ok(OTHER)
+    }
+
+    /// A call of a function that is none of the language; its value.
+    pub(super) fn called(
+        &mut self,
+        name: Token,
+        arguments: Vec<(Option<Symbol>, ExprId)>,
+    ) -> ExprId {
+        let first = short(self.notes.arguments.len());
+        self.notes.arguments.extend(arguments);
+        let symbol = self.notes.symbol(self.text(name));
+        self.notes.calls.push(Called {
+            name: symbol,
+            function: self.function,
+            offset: short(name.start),
+            arguments: first..short(self.notes.arguments.len()),
+        });
+        let call = short(self.notes.calls.len() - 1);
+        self.event(Event::Call(call));
+        self.notes.add(Expr::Call(call))
+    }
+
+    fn step_at(
+        &self,
+        offset: u32,
+        motion: Motion,
+        target: Option<ExprId>,
+        arguments: &[Argument],
+        places: verbs::Places,
+    ) -> Step {
+        let find = |place: Option<usize>, name: &[u8]| {
+            let placed = |at: usize| Some(at) == place;
+            arguments
+                .iter()
+                .enumerate()
+                .find(|(at, argument)| argument.name.map_or(placed(*at), |known| known == name))
+                .map(|(_, argument)| argument)
+        };
+        let speed = places.speed.and_then(|_| find(places.speed, b"v"));
+        let radius = places.radius.and_then(|_| find(places.radius, b"r"));
+        let pace = match places.radius {
+            None => Pace::default(),
+            Some(_) => {
+                // not given is none: the robot stops; a variable says how far
+                let zone_m = radius.map_or(Some(0.0), Argument::number);
+                Pace {
+                    speed_m_s: speed.and_then(Argument::number),
+                    zone_m,
+                    blends: zone_m.is_none(),
+                }
+            }
+        };
+        // with a time for the whole way the speed is not obeyed
+        let time = places.time.and_then(|_| find(places.time, b"t"));
+        let is_timed = time.is_some_and(|time| time.number() != Some(0.0));
+        let end = self.scanner.at;
+        let text = &self.scanner.bytes[offset as usize..end];
+        let is_broken = memchr::memchr3(b'\n', b'\r', b'#', text).is_some();
+        Step {
+            offset,
+            end: short(end),
+            motion,
+            target: Some(target.unwrap_or(OTHER)),
+            streamed: false,
+            pace,
+            repeatable: !is_timed && !is_broken,
         }
     }
 
-    fn step(&mut self, offset: u32, motion: Motion, target: Option<ExprId>, streamed: bool) {
-        let target = target.unwrap_or(OTHER);
-        self.notes.steps.push(Step {
-            offset,
-            function: self.function,
-            motion,
-            target,
-            streamed,
-        });
-        let step = index(self.notes.steps.len() - 1);
+    fn step(&mut self, step: Step) {
+        self.notes.steps.push(step);
+        let step = short(self.notes.steps.len() - 1);
         self.event(Event::Step(step));
     }
 
     /// `set_payload(mass, [x, y, z])` with numbers.
     fn load(&self, arguments: &[Argument]) -> Option<Load> {
         let (mass, cog) = (arguments.first()?, arguments.get(1)?);
-        let number = |text: &[u8]| crate::program::number::parse(text);
-        let mass_kg = number(self.text(mass.2))?;
-        if mass.2.kind != Kind::Number || mass_kg <= 0.0 {
-            return None;
-        }
-        let Expr::Literal(id) = self.notes.expression(cog.1) else {
+        let mass_kg = mass.number().filter(|mass| *mass > 0.0)?;
+        let Expr::Literal(id) = self.notes.expression(cog.value) else {
             return None;
         };
         let literal = self.notes.literal(id);
@@ -190,7 +289,7 @@ impl<'a> Reader<'a> {
         let mut values = inside
             .split(|b| *b == b',')
             .map(<[u8]>::trim_ascii)
-            .map(number);
+            .map(number::parse);
         let cog_m = [values.next()??, values.next()??, values.next()??];
         (literal.elements == 3 && !literal.pose).then_some(Load { mass_kg, cog_m })
     }
@@ -200,9 +299,9 @@ impl<'a> Reader<'a> {
 fn argument(arguments: &[Argument], position: usize, names: &[&[u8]]) -> Option<ExprId> {
     let named = arguments
         .iter()
-        .find(|(name, _, _)| name.is_some_and(|name| names.contains(&name)));
+        .find(|argument| argument.name.is_some_and(|name| names.contains(&name)));
     let placed = arguments
         .get(position)
-        .filter(|(name, _, _)| name.is_none());
-    named.or(placed).map(|(_, value, _)| *value)
+        .filter(|argument| argument.name.is_none());
+    named.or(placed).map(|argument| argument.value)
 }

@@ -2,22 +2,45 @@
 
 use super::literals::{self, Found};
 use super::reader::{Read, Reader};
-use super::syntax::{Content, Event, Expr, ExprId, Literal, index};
+use super::syntax::{Expr, ExprId, List, Literal, OTHER};
 use super::tokens::{Kind, Token};
 use super::verbs::{self, Verb};
-use crate::program::{ReadError, Source};
+use crate::program::script::short;
+use crate::program::{ReadError, Source, number};
 
 /// Those calls inside each other whose values are looked into.
-const MOST_LOOKED_INTO: u32 = 8;
-/// The value of everything that is not looked into.
-pub(super) const OTHER: ExprId = 0;
+pub(super) const MOST_LOOKED_INTO: u32 = 8;
+
+/// What one element of a list is.
+#[derive(Clone, Copy)]
+enum Piece {
+    Nothing,
+    One(ExprId),
+    More,
+}
+
+impl Piece {
+    fn and(&mut self, value: ExprId) {
+        *self = match self {
+            Self::Nothing => Self::One(value),
+            _ => Self::More,
+        };
+    }
+
+    fn take(&mut self) -> ExprId {
+        match std::mem::replace(self, Self::Nothing) {
+            Self::One(value) => value,
+            _ => OTHER,
+        }
+    }
+}
 
 impl Reader<'_> {
     /// One token of an expression; a call with its arguments, a bracket with what is in it.
     pub(super) fn part(&mut self, token: Token) -> Read<()> {
         match token.kind {
             Kind::Word if self.scanner.peek().is(b'(') && !verbs::is_operator(self.text(token)) => {
-                self.call(token)
+                self.call(token).map(|_| ())
             }
             Kind::Sign(b'(' | b'[') => self.brackets(token),
             Kind::Sign(b')' | b']') => Err(self.unexpected(token, "an opening bracket before")),
@@ -27,15 +50,19 @@ impl Reader<'_> {
 
     /// To the bracket that closes `open`.
     pub(super) fn brackets(&mut self, open: Token) -> Read<()> {
-        self.elements(open).map(|_| ())
+        self.elements(open, None).map(|_| ())
     }
 
-    /// To the bracket that closes `open`; how many elements are between its commas. Calls are noted on the way.
-    pub(super) fn elements(&mut self, open: Token) -> Read<u32> {
+    /// To the bracket that closes `open`; how many elements are between its commas, and which where they are asked for.
+    /// Calls are noted on the way.
+    fn elements(&mut self, open: Token, mut values: Option<&mut Vec<ExprId>>) -> Read<u32> {
         let mut waiting: Vec<(u8, usize)> = vec![(closing(open.kind), open.start)];
         let mut elements = 1;
+        let mut piece = Piece::Nothing;
         loop {
             let token = self.next()?;
+            let outside = waiting.len() == 1;
+            let looks = values.is_some() && outside;
             match token.kind {
                 Kind::Sign(byte @ (b')' | b']')) => {
                     let (wanted, _) = waiting.pop().expect("one is open");
@@ -44,34 +71,63 @@ impl Reader<'_> {
                         return Err(self.unexpected(token, expected));
                     }
                     if waiting.is_empty() {
+                        if let Some(values) = &mut values {
+                            values.push(piece.take());
+                        }
                         return Ok(elements);
                     }
+                    continue;
                 }
+                Kind::Sign(b',') if outside => {
+                    elements += 1;
+                    if let Some(values) = &mut values {
+                        values.push(piece.take());
+                    }
+                    continue;
+                }
+                Kind::Line => continue,
+                _ => {}
+            }
+            let mut value = OTHER;
+            match token.kind {
+                Kind::Sign(b'[') if looks => match self.six(token, token.start, false)? {
+                    Some(literal) => value = literal,
+                    None => waiting.push((b']', token.start)),
+                },
                 Kind::Sign(b'(' | b'[') => waiting.push((closing(token.kind), token.start)),
-                Kind::Sign(b',') if waiting.len() == 1 => elements += 1,
                 Kind::Word => {
                     let text = self.text(token);
-                    let called = self.scanner.peek().is(b'(');
-                    if called && !verbs::is_operator(text) {
+                    let next = self.scanner.peek();
+                    if next.is(b'(') && !verbs::is_operator(text) {
                         match verbs::verb(text) {
-                            Verb::Other => {
-                                let symbol = self.notes.symbol(text);
-                                self.event(Event::Call(symbol));
-                            }
                             Verb::Known => {}
-                            Verb::Odd(oddity) => {
-                                self.notes.oddities.push((oddity, index(token.start)));
+                            Verb::Other if self.depth >= MOST_LOOKED_INTO => {
+                                self.called(token, Vec::new());
                             }
-                            _ => self.call(token)?,
+                            _ => {
+                                self.call(token)?;
+                            }
                         }
                     } else if verbs::starts_block(text) {
                         return Err(self.unclosed(open.start, "a bracket"));
+                    } else if looks && text == b"p" && next.is(b'[') {
+                        self.next()?;
+                        match self.six(next, token.start, true)? {
+                            Some(literal) => value = literal,
+                            None => waiting.push((b']', next.start)),
+                        }
+                    } else if looks && !text.contains(&b'.') && !verbs::is_operator(text) {
+                        let symbol = self.notes.symbol(text);
+                        value = self.notes.add(Expr::Name(symbol, short(token.start)));
                     }
                 }
                 Kind::End => {
                     return Err(self.unclosed(waiting[0].1, "a bracket"));
                 }
                 _ => {}
+            }
+            if looks {
+                piece.and(value);
             }
         }
     }
@@ -92,8 +148,8 @@ impl Reader<'_> {
     }
 
     fn mention(&mut self, value: ExprId, statement: usize) {
-        if let Expr::Name(name) = self.notes.expression(value) {
-            let entry = (name, self.function, index(statement));
+        if let Expr::Name(name, _) = self.notes.expression(value) {
+            let entry = (name, self.function, short(statement));
             self.notes.mentions.push(entry);
         }
     }
@@ -104,7 +160,7 @@ impl Reader<'_> {
         loop {
             if token.kind == Kind::Word && !self.scanner.peek().is(b'(') {
                 let symbol = self.notes.symbol(self.text(token));
-                let entry = (symbol, self.function, index(statement));
+                let entry = (symbol, self.function, short(statement));
                 self.notes.mentions.push(entry);
             }
             match token.kind {
@@ -140,72 +196,98 @@ impl Reader<'_> {
                     return match verbs::value_of(text) {
                         Some(_) if self.depth >= MOST_LOOKED_INTO => {
                             let open = self.next()?;
-                            self.elements(open)?;
+                            self.brackets(open)?;
                             Ok(OTHER)
                         }
                         Some(value) => self.pose_call(value),
-                        None => {
-                            self.call(token)?;
-                            Ok(OTHER)
-                        }
+                        None => self.call(token),
                     };
                 }
                 if next.is(b'[') {
                     // an element of a list
                     self.next()?;
+                    let number = self.constant_index();
                     self.brackets(next)?;
+                    let symbol = self.notes.symbol(text);
                     if let Some(statement) = statement {
-                        let symbol = self.notes.symbol(text);
-                        let entry = (symbol, self.function, index(statement));
+                        let entry = (symbol, self.function, short(statement));
                         self.notes.mentions.push(entry);
                     }
-                    return Ok(OTHER);
+                    if self.scanner.peek().is(b'[') || text.contains(&b'.') {
+                        return Ok(OTHER);
+                    }
+                    return Ok(self.notes.add(Expr::Element(symbol, number)));
                 }
                 if text.contains(&b'.') || verbs::is_operator(text) {
                     return Ok(OTHER);
                 }
                 let symbol = self.notes.symbol(text);
-                Ok(self.notes.add(Expr::Name(symbol)))
+                Ok(self.notes.add(Expr::Name(symbol, short(token.start))))
             }
             _ => Ok(OTHER),
         }
     }
 
+    /// The number of an element where it is written out, behind the opening bracket.
+    fn constant_index(&self) -> Option<u32> {
+        let mut ahead = self.scanner;
+        let (index, end) = (ahead.next().ok()?, ahead.next().ok()?);
+        let value = number::parse(self.text(index)).filter(|_| end.is(b']'))?;
+        (0..1000).find(|&index| f64::from(index) == value)
+    }
+
     /// A literal whose bracket was just read.
     fn literal(&mut self, open: Token, start: usize, pose: bool) -> Read<ExprId> {
-        let first = index(self.notes.numbers.len());
+        if let Some(literal) = self.six(open, start, pose)? {
+            return Ok(literal);
+        }
+        let mut values = Vec::new();
+        let elements = self.elements(open, (!pose).then_some(&mut values))?;
+        let literal = literals::other(start, self.scanner.at, pose, elements);
+        self.notes.literals.push(literal);
+        let literal = short(self.notes.literals.len() - 1);
+        if values.iter().all(|value| *value == OTHER) {
+            return Ok(self.notes.add(Expr::Literal(literal)));
+        }
+        self.notes.lists.push(List {
+            literal,
+            elements: values,
+        });
+        let list = short(self.notes.lists.len() - 1);
+        Ok(self.notes.add(Expr::List(list)))
+    }
+
+    /// A literal of six numbers behind a bracket that was just read; nothing more is read where it is none.
+    fn six(&mut self, open: Token, start: usize, pose: bool) -> Read<Option<ExprId>> {
+        let first = short(self.notes.numbers.len());
         let bytes = self.scanner.bytes;
-        let literal = match literals::six(bytes, open.end, pose, &mut self.notes.numbers) {
+        match literals::six(bytes, open.end, pose, &mut self.notes.numbers) {
             Found::Six(content, end) => {
                 self.scanner.at = end;
-                Literal {
-                    offset: index(start),
+                self.notes.literals.push(Literal {
+                    offset: short(start),
+                    end: short(end),
                     pose,
                     content,
                     numbers: first..first + 6,
                     elements: 6,
-                }
+                });
+                let id = short(self.notes.literals.len() - 1);
+                Ok(Some(self.notes.add(Expr::Literal(id))))
             }
             Found::TooLarge(from, to) => {
                 let (file, line, column) = self.place(from);
-                return Err(ReadError::BadValue {
+                Err(ReadError::BadValue {
                     file,
                     line,
                     column,
                     value: Source::text(&bytes[from..to]),
                     meaning: "number",
                     limit: "it is too large",
-                });
+                })
             }
-            Found::Else => {
-                let elements = self.elements(open)?;
-                literals::other(start, pose, elements)
-            }
-        };
-        debug_assert!(literal.content == Content::Expressions || literal.elements == 6);
-        self.notes.literals.push(literal);
-        let id = index(self.notes.literals.len() - 1);
-        Ok(self.notes.add(Expr::Literal(id)))
+            Found::Else => Ok(None),
+        }
     }
 }
 

@@ -1,9 +1,10 @@
 //! The numbers between the brackets of a pose or a list of joints.
 
-use super::syntax::{Content, Literal, index};
+use super::syntax::{Content, Literal};
 use super::tokens::number_length;
 use crate::program::Number;
 use crate::program::number::{parse, parse_start};
+use crate::program::script::short;
 
 /// What the brackets hold.
 pub enum Found {
@@ -56,13 +57,13 @@ pub fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) ->
             };
             (value, length)
         };
-        let Ok(short) = u16::try_from(length) else {
+        let Ok(bytes_of) = u16::try_from(length) else {
             numbers.truncate(first);
             return Found::Else;
         };
         numbers.push(Number {
-            start: index(at),
-            length: short,
+            start: short(at),
+            length: bytes_of,
             value,
         });
         at = blanks(bytes, at + length);
@@ -94,9 +95,10 @@ pub fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) ->
 }
 
 /// A literal whose elements are not six numbers.
-pub fn other(offset: usize, pose: bool, elements: u32) -> Literal {
+pub fn other(offset: usize, end: usize, pose: bool, elements: u32) -> Literal {
     Literal {
-        offset: index(offset),
+        offset: short(offset),
+        end: short(end),
         pose,
         content: Content::Expressions,
         numbers: 0..0,

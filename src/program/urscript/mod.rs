@@ -2,58 +2,69 @@
 //!
 //! A pose is `p[x, y, z, rx, ry, rz]`, metres and a rotation vector in radians; joints are `[q0, …, q5]`, radians, or
 //! `d2r(…)` of degrees. The pose is that of the tool of the last `set_tcp` in the controller's base; `pose_trans(feature,
-//! pose)` puts it in a feature. A variable that is assigned once stands for its value.
+//! pose)` puts it in a feature. A variable that is assigned once stands for its value; each literal that is assigned to one
+//! with several is a target of its own. Parameters are what calls give them, results what functions return, an element of a
+//! list any of its poses or, by a number in a list that is written once, the one.
 //!
 //! `get_inverse_kin(pose, qnear=joints)`: the pose is the target, the joints tell which of its solutions is meant and stay.
+//! Joints that are computed so keep the tool that is set where they are computed.
 //! `pose_trans(target, offset)` of a target that other moves go to, and `pose_add`, are displacements of it.
+//!
+//! ```text
+//! text → tokens → reader (statements, values: syntax) → variables, uses (what names and literals are) → translate
+//! ```
 //!
 //! # Findings
 //!
+//! Beside those of [`crate::motion`]:
+//!
 //! | id | severity | meaning |
 //! |---|---|---|
-//! | `target-assigned-at-run-time` | error | the variable is assigned more than once, or a part of it is |
-//! | `target-has-expressions` | error | parts of the pose are expressions, not numbers |
-//! | `joints-have-expressions` | warning | the same of joints, which stay unless the user asks for them |
-//! | `computed-target` | error | a move goes to a pose that only the running program knows |
-//! | `target-passed-to-function` | error | a move goes to a parameter of its function |
-//! | `target-not-in-file` | error | a move goes to a variable that the file does not assign |
-//! | `frame-assigned-at-run-time` | error | the feature's variable is assigned more than once |
-//! | `frame-known-at-run-time` | error | the feature is computed, or is itself a target |
-//! | `tool-known-at-run-time` | error | several tools may be set at a move, or one that the text does not tell |
+//! | `target-has-expressions` | error | parts of the pose are expressions, not numbers; a warning of joints |
+//! | `target-not-in-files` | error | a move goes to a variable that the file does not assign |
+//! | `computed-target` | warning | a move goes to what only the running program knows, or a caller outside the file |
+//! | `frame-assigned-at-run-time` | error | a part of the feature or tool is assigned |
+//! | `frame-chosen-at-run-time` | error | the feature or tool is computed, or is itself a target |
 //! | `target-used-as-offset` | error | a target is also the offset of another |
 //! | `streamed-motion` | error | servoj or servoc to a pose |
-//! | `moving-frame` | error | conveyor tracking, path offsets, parts that move |
+//! | `moving-frame` | error | conveyor tracking, path offsets, parts that move: until the program ends them |
+//! | `inverse-start-unknown` | warning | `qnear` is known at run time only; the present joints are taken |
 //! | `target-copied` | warning | a value is computed from a target |
 //! | `motion-without-target` | note | `speedl`, `force_mode` and their like |
 //!
 //! # Limits
 //!
 //! Each file stands for itself. The pendant opens .urp, not .script: a compensated script is sent or run as a script.
+//! A literal that is given to a function outside the file alone is no target: nothing tells whether it moves there. A
+//! variable that moves go to is, and is refused (`target-passed-to-routine`), unless the function is one of the language or
+//! of a server (`server.name()`): those move nothing. What `qnear` holds is read where it is a literal or a variable that
+//! is assigned once.
 
 mod calls;
 mod expressions;
-mod findings;
-mod flow;
+mod goals;
 mod insert;
 mod literals;
-mod moves;
-mod pace;
 mod reader;
 mod rotation;
 mod sniff;
 mod syntax;
 mod tokens;
+mod translate;
+mod uses;
 mod variables;
 mod verbs;
 
+use super::kit::check_bytes;
+use super::script::{Builder, Script, short};
 use super::{
-    About, Configuration, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role,
-    Settings, Shape, Source, Value,
+    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
+    ReadError, Role, Settings, Shape, Source, Value,
 };
 use crate::geometry::units::DEG;
-use crate::program::{Inserted, Insertion, Move, Pace};
-use moves::Moves;
+use goals::Common;
 use reader::Reader;
+use translate::translate;
 
 /// Universal Robots `URScript`.
 #[derive(Debug)]
@@ -65,7 +76,7 @@ static ABOUT: About = About {
     extensions: &["script", "urscript", "urs"],
     rewrites: &[
         "poses in movej, movel, movep, movec, and in get_inverse_kin, pose_trans and pose_add there",
-        "poses of variables that are assigned once and that moves go to",
+        "poses of variables, parameters, results and lists that moves go to",
         "joints in movej, movel, movep, servoj",
     ],
     leaves: &[
@@ -74,9 +85,9 @@ static ABOUT: About = About {
         "speedj, speedl, force_mode and other motion without a target",
     ],
     refuses: &[
-        "targets with expressions, variables that are assigned more than once or by their parts",
+        "targets with expressions, variables whose parts are assigned",
         "features and tools that only the running program knows",
-        "poses as parameters of functions, servoing to poses",
+        "targets that functions outside the file are given, servoing to poses",
         "conveyor tracking and path offsets",
     ],
 };
@@ -99,22 +110,8 @@ impl Language for UrScript {
         sniff::recognises(&source.bytes)
     }
 
-    fn read(&self, sources: &[Source], _: &Settings) -> Result<Program, ReadError> {
-        let mut program = Program::default();
-        for (file, source) in sources.iter().enumerate() {
-            check_bytes(source)?;
-            let mut reader = Reader::new(source).read()?;
-            if !reader.recognised {
-                return Err(ReadError::NotThisLanguage {
-                    file: source.name.clone(),
-                    language: ABOUT.name,
-                    missing: "a function, a move or set_tcp",
-                });
-            }
-            Moves::new(&mut program, source, file).list(&reader.notes);
-            program.numbers.append(&mut reader.notes.numbers);
-        }
-        Ok(program)
+    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
+        Some(script(sources))
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {
@@ -170,10 +167,6 @@ impl Language for UrScript {
         numbers.copy_from_slice(&new);
     }
 
-    fn pace(&self, source: &Source, motion: &Move) -> Pace {
-        pace::pace(&source.bytes, motion.offset as usize)
-    }
-
     fn insert(
         &self,
         sources: &[Source],
@@ -189,21 +182,23 @@ impl Language for UrScript {
     }
 }
 
-/// No text has a zero byte, and places are kept in 32 bits.
-fn check_bytes(source: &Source) -> Result<(), ReadError> {
-    let limit = u32::MAX as usize;
-    let (file, size) = (source.name.clone(), source.bytes.len());
-    if size >= limit {
-        return Err(ReadError::TooLarge { file, size, limit });
+/// Each file stands for itself.
+fn script(sources: &[Source]) -> Result<Script, ReadError> {
+    let mut builder = Builder::default();
+    let mut common = Common::new(&mut builder.script);
+    for (file, source) in sources.iter().enumerate() {
+        check_bytes(source)?;
+        let reader = Reader::new(source).read()?;
+        if !reader.recognised {
+            return Err(ReadError::NotThisLanguage {
+                file: source.name.clone(),
+                language: ABOUT.name,
+                missing: "a function, a move or set_tcp",
+            });
+        }
+        translate(&mut builder, &mut common, source, short(file), reader.notes);
     }
-    match memchr::memchr(0, &source.bytes) {
-        Some(offset) => Err(ReadError::Binary {
-            file,
-            byte: 0,
-            offset,
-        }),
-        None => Ok(()),
-    }
+    Ok(builder.finish())
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Statements: functions, blocks, assignments.
 
-use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, Notes, Reach, index};
+use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, Notes, OTHER, Reach};
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
+use crate::program::script::short;
 use crate::program::{ReadError, Source};
 
 /// Blocks inside each other that a program may have.
@@ -12,7 +13,7 @@ const MOST_BLOCKS: usize = 200;
 enum BlockKind {
     Function,
     Branch,
-    Loop,
+    Loop { endless: bool },
 }
 
 struct Block {
@@ -138,29 +139,35 @@ impl<'a> Reader<'a> {
             }
             b"elif" => {
                 self.branch(first)?;
-                self.event(Event::ElseIf);
+                self.event(Event::Branch { is_last: false });
                 self.header()
             }
             b"else" => {
                 self.branch(first)?;
                 self.header()?;
-                self.event(Event::Else);
+                self.event(Event::Branch { is_last: true });
                 Ok(())
             }
             b"while" => {
-                self.open(BlockKind::Loop, first, "`while`")?;
+                let endless = self.is_always_true();
+                self.open(BlockKind::Loop { endless }, first, "`while`")?;
                 self.event(Event::Loop);
-                self.header()
+                self.header()?;
+                if !endless {
+                    self.event(Event::Condition);
+                }
+                Ok(())
             }
             b"switch" if self.scanner.peek().kind != Kind::Sign(b'=') => {
                 self.header()?;
                 self.open(BlockKind::Branch, first, "`switch`")?;
-                self.event(Event::If);
+                self.event(Event::Switch);
                 Ok(())
             }
             b"case" | b"default" if self.in_branch() && !self.assigns() => {
                 self.header()?;
-                self.event(Event::ElseIf);
+                let is_last = self.text(first) == b"default";
+                self.event(Event::Branch { is_last });
                 Ok(())
             }
             b"end" => self.end(first),
@@ -174,22 +181,42 @@ impl<'a> Reader<'a> {
             }
             b"return" => {
                 let next = self.scanner.peek();
-                let word = next.kind == Kind::Word && verbs::starts_statement(self.text(next));
-                if !word {
-                    let next = self.next()?;
-                    self.rest(next)?;
-                }
-                self.event(Event::Return);
+                let ends = matches!(next.kind, Kind::Line | Kind::End)
+                    || next.kind == Kind::Word && verbs::starts_statement(self.text(next));
+                let value = if ends {
+                    OTHER
+                } else {
+                    self.value(first.start)?
+                };
+                self.event(Event::Return(value, short(first.start)));
                 Ok(())
             }
             b"halt" => {
-                self.event(Event::Return);
+                self.event(Event::Halt);
                 Ok(())
             }
             b"global" => self.declared(Reach::Global),
             b"local" => self.declared(Reach::Local),
             _ => self.plain(first, Reach::Plain),
         }
+    }
+
+    /// `while True`
+    fn is_always_true(&self) -> bool {
+        let mut ahead = self.scanner;
+        let mut next = || ahead.next().ok();
+        let mut token = next();
+        while token.is_some_and(|token| token.is(b'(')) {
+            token = next();
+        }
+        let is_true = token.is_some_and(|token| {
+            token.kind == Kind::Word && matches!(self.text(token), b"True" | b"true")
+        });
+        let mut end = next();
+        while end.is_some_and(|token| token.is(b')')) {
+            end = next();
+        }
+        is_true && end.is_some_and(|end| end.is(b':') || end.kind == Kind::Line)
     }
 
     fn assigns(&self) -> bool {
@@ -245,7 +272,12 @@ impl<'a> Reader<'a> {
                 Kind::Sign(b',') => wants_name = true,
                 Kind::Word if wants_name => {
                     let symbol = self.notes.symbol(self.text(token));
-                    parameters.push(symbol);
+                    let mut value = None;
+                    if self.assigns() {
+                        self.next()?;
+                        value = Some(self.operand(None)?);
+                    }
+                    parameters.push((symbol, value));
                     wants_name = false;
                 }
                 _ => {}
@@ -255,12 +287,13 @@ impl<'a> Reader<'a> {
         let symbol = self.notes.symbol(self.text(name));
         self.notes.functions.push(Function {
             name: Some(symbol),
+            offset: short(first.start),
             parent: self.function,
             thread,
             parameters,
             events: Vec::new(),
         });
-        self.function = index(self.notes.functions.len() - 1);
+        self.function = short(self.notes.functions.len() - 1);
         Ok(())
     }
 
@@ -273,7 +306,7 @@ impl<'a> Reader<'a> {
                 self.function = self.notes.functions[self.function as usize].parent;
             }
             BlockKind::Branch => self.event(Event::EndIf),
-            BlockKind::Loop => self.event(Event::EndLoop),
+            BlockKind::Loop { endless } => self.event(Event::EndLoop { endless }),
         }
         Ok(())
     }
@@ -340,9 +373,11 @@ impl<'a> Reader<'a> {
             function: self.function,
             reach,
             value,
-            offset: index(name.start),
+            offset: short(name.start),
             part: part || dot.is_some(),
         });
+        let number = short(self.notes.assignments.len() - 1);
+        self.event(Event::Assign(number));
     }
 
     /// Everything to the end of the line.

@@ -1,6 +1,7 @@
 //! What is noted of one file before names mean anything.
 
-use crate::program::{Load, Motion, Number};
+use crate::program::script::short;
+use crate::program::{Load, Motion, Number, Pace};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -15,13 +16,20 @@ pub type LiteralId = u32;
 /// Index in [`Notes::functions`]; 0 is the text outside functions.
 pub type FunctionId = u32;
 
+/// The value of everything that is not looked into.
+pub const OTHER: ExprId = 0;
+
 /// A value as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expr {
     /// `p[…]` or `[…]`.
     Literal(LiteralId),
-    /// A variable.
-    Name(Symbol),
+    /// `[…]` with poses, lists or names in it: index in [`Notes::lists`].
+    List(u32),
+    /// A variable, and its first byte.
+    Name(Symbol, u32),
+    /// An element of a list, by its number where that is written out.
+    Element(Symbol, Option<u32>),
     /// `pose_trans(a, b)`
     Trans(ExprId, ExprId),
     /// `pose_add(a, b)`
@@ -34,6 +42,10 @@ pub enum Expr {
         near: Option<ExprId>,
         tcp: Option<ExprId>,
     },
+    /// What a function of the file returns: index in [`Notes::calls`].
+    Call(u32),
+    /// Where the robot is.
+    Actual,
     /// Anything else.
     Other,
 }
@@ -54,6 +66,8 @@ pub enum Content {
 pub struct Literal {
     /// Its first byte.
     pub offset: u32,
+    /// Behind its last byte.
+    pub end: u32,
     /// It has a `p`.
     pub pose: bool,
     pub content: Content,
@@ -61,6 +75,13 @@ pub struct Literal {
     pub numbers: Range<u32>,
     /// Elements between its commas.
     pub elements: u32,
+}
+
+/// A list and what stands between its commas.
+#[derive(Debug)]
+pub struct List {
+    pub literal: LiteralId,
+    pub elements: Vec<ExprId>,
 }
 
 /// Where an assignment puts a variable.
@@ -91,32 +112,60 @@ pub struct Assignment {
 pub struct Step {
     /// First byte of the instruction.
     pub offset: u32,
-    pub function: FunctionId,
+    /// Behind its last byte.
+    pub end: u32,
     pub motion: Motion,
-    pub target: ExprId,
+    /// `None` where the robot moves by speed, force or hand.
+    pub target: Option<ExprId>,
     /// The controller follows it as a stream of set points.
     pub streamed: bool,
+    pub pace: Pace,
+    /// The call can be written again with another target.
+    pub repeatable: bool,
 }
 
-/// What matters for the tool and its load, in the order of the text of one function.
+/// A call of a function that is none of the language.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Called {
+    pub name: Symbol,
+    pub function: FunctionId,
+    pub offset: u32,
+    /// In [`Notes::arguments`].
+    pub arguments: Range<u32>,
+}
+
+/// A statement, in the order of the text of one function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
+    /// Index in [`Notes::assignments`].
+    Assign(u32),
     /// `set_tcp(…)`, at a byte.
     Tool(ExprId, u32),
     /// `set_payload(…)`; `None` where it is not written out.
-    Load(Option<Load>),
-    /// A call of something that may be a function of the file.
-    Call(Symbol),
+    Load(Option<Load>, u32),
+    /// Moves go along a frame that moves from here on, or no longer.
+    Tracking(bool, u32),
+    /// Index in [`Notes::calls`].
+    Call(u32),
     If,
-    Else,
-    /// `elif`, `case`: the branches may still all be passed by.
-    ElseIf,
+    /// `switch`: nothing runs before its first branch.
+    Switch,
+    /// `elif`, `case`; the last one is `else` or `default`.
+    Branch {
+        is_last: bool,
+    },
     EndIf,
+    /// `while`, before its condition.
     Loop,
-    EndLoop,
+    /// The condition, which is not always true.
+    Condition,
+    EndLoop {
+        endless: bool,
+    },
     Break,
     Continue,
-    Return,
+    Return(ExprId, u32),
+    Halt,
     /// Index in [`Notes::steps`].
     Step(u32),
 }
@@ -125,19 +174,12 @@ pub enum Event {
 #[derive(Clone, Debug, Default)]
 pub struct Function {
     pub name: Option<Symbol>,
+    pub offset: u32,
     pub parent: FunctionId,
     pub thread: bool,
-    pub parameters: Vec<Symbol>,
+    /// With the value where a call gives none.
+    pub parameters: Vec<(Symbol, Option<ExprId>)>,
     pub events: Vec<Event>,
-}
-
-/// Something that moves the robot, or everything, in another way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Oddity {
-    /// By speed, force or hand: there is no target.
-    NoTarget,
-    /// Along a frame that moves, or beside the path.
-    MovingFrame,
 }
 
 /// All of one file.
@@ -145,11 +187,16 @@ pub enum Oddity {
 pub struct Notes<'a> {
     pub expressions: Vec<Expr>,
     pub literals: Vec<Literal>,
+    pub lists: Vec<List>,
     pub numbers: Vec<Number>,
     pub functions: Vec<Function>,
     pub assignments: Vec<Assignment>,
     pub steps: Vec<Step>,
-    pub oddities: Vec<(Oddity, u32)>,
+    pub calls: Vec<Called>,
+    /// By position, or by name.
+    pub arguments: Vec<(Option<Symbol>, ExprId)>,
+    /// Where the robot gives way to forces.
+    pub forces: Vec<u32>,
     /// Names in expressions that are assigned to another variable, with the place of that.
     pub mentions: Vec<(Symbol, FunctionId, u32)>,
     symbols: HashMap<&'a [u8], Symbol>,
@@ -158,7 +205,7 @@ pub struct Notes<'a> {
 
 impl<'a> Notes<'a> {
     pub fn symbol(&mut self, name: &'a [u8]) -> Symbol {
-        let next = Symbol(index(self.spellings.len()));
+        let next = Symbol(short(self.spellings.len()));
         let spellings = &mut self.spellings;
         *self.symbols.entry(name).or_insert_with(|| {
             spellings.push(name);
@@ -168,6 +215,11 @@ impl<'a> Notes<'a> {
 
     pub fn spelling(&self, symbol: Symbol) -> String {
         crate::program::Source::text(self.spellings[symbol.0 as usize])
+    }
+
+    /// A name as it stands in the file.
+    pub fn bytes(&self, symbol: Symbol) -> &'a [u8] {
+        self.spellings[symbol.0 as usize]
     }
 
     pub fn expression(&self, id: ExprId) -> Expr {
@@ -180,7 +232,7 @@ impl<'a> Notes<'a> {
 
     pub fn add(&mut self, expression: Expr) -> ExprId {
         self.expressions.push(expression);
-        index(self.expressions.len() - 1)
+        short(self.expressions.len() - 1)
     }
 
     /// The values of a literal with its numbers written out, in the file's units.
@@ -189,10 +241,8 @@ impl<'a> Notes<'a> {
         let numbers = self.numbers.get(range)?;
         (numbers.len() == 6).then(|| std::array::from_fn(|i| numbers[i].value))
     }
-}
 
-/// A place or count: files are below 4 GiB.
-#[allow(clippy::cast_possible_truncation)]
-pub fn index(number: usize) -> u32 {
-    number as u32
+    pub fn arguments_of(&self, call: &Called) -> &[(Option<Symbol>, ExprId)] {
+        &self.arguments[call.arguments.start as usize..call.arguments.end as usize]
+    }
 }

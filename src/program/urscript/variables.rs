@@ -3,40 +3,68 @@
 //! A `global` is one in the whole file, a `local` and what a function alone assigns belong to that function; what a function
 //! and one around it assign is taken for one variable.
 
-use super::syntax::{Assignment, Expr, ExprId, FunctionId, Notes, Reach, Symbol};
-use crate::geometry::{Pose, Quaternion};
+use super::syntax::{Assignment, Called, Event, Expr, ExprId, FunctionId, Notes, Reach, Symbol};
+use crate::geometry::Pose;
+use crate::program::script::short;
 use std::collections::{HashMap, HashSet};
 
 /// Names that stand for each other in turn, and calls inside each other, that are followed.
-const MOST_STEPS: u32 = 12;
+pub const MOST_STEPS: u32 = 12;
+/// Functions of one name that are told apart: a program has one.
+const MOST_OF_A_NAME: usize = 4;
+/// No source follows.
+const NONE: u32 = u32::MAX;
 
-/// A variable.
-#[derive(Clone, Copy, Debug)]
-struct Variable {
-    /// Index of its first assignment.
-    first: usize,
-    /// Place of another one, or of one of a part.
-    again: Option<u32>,
+/// Index in [`Variables::list`].
+pub type VarId = u32;
+
+/// How a variable gets a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// `x = …`
+    Whole,
+    /// `x[i] = …`
+    Part,
+    /// By a call, or as the result of a function.
+    Given,
 }
 
-/// What a name means.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Meaning {
-    /// Assigned once: its value, the function of the assignment, and its place.
-    Value(ExprId, FunctionId, u32),
-    /// Assigned more than once: its first value, the function and place of that, and the place of another.
-    Changing(ExprId, FunctionId, u32),
-    /// A parameter of a function.
-    Parameter,
-    /// Assigned nowhere.
-    Unknown,
+/// One of the values that a variable gets.
+#[derive(Clone, Copy, Debug)]
+pub struct Source {
+    pub value: ExprId,
+    /// In which the names of the value are looked up.
+    pub function: FunctionId,
+    pub way: Way,
+    next: u32,
+}
+
+/// A variable, a parameter, or what a function returns.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    pub name: Symbol,
+    pub offset: u32,
+    /// The function whose parameter it is.
+    pub parameter: Option<FunctionId>,
+    /// Some of its elements are assigned.
+    pub has_parts: bool,
+    /// It has one value, which the text tells: whoever names it means that.
+    pub is_fixed: bool,
+    /// Moves go to it; it is a feature or tool.
+    pub is_position: bool,
+    pub is_frame: bool,
+    /// The positions that it has may stand in features, or be computed with tools of their own.
+    pub in_features: bool,
+    pub with_tools: bool,
+    first: u32,
+    last: u32,
 }
 
 /// Why a pose is not constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NotConstant {
-    /// A variable is assigned more than once, the second time here.
-    Assigned(u32),
+    /// A variable has more than one value; it is the whole pose.
+    Changing(VarId),
     /// This name is assigned nowhere; it is the whole pose.
     Unknown(Symbol),
     /// Anything else.
@@ -47,44 +75,137 @@ pub enum NotConstant {
 #[derive(Debug)]
 pub struct Variables<'n, 'a> {
     pub notes: &'n Notes<'a>,
-    variables: HashMap<(FunctionId, Symbol), Variable>,
-    parameters: HashSet<(FunctionId, Symbol)>,
+    pub list: Vec<Variable>,
+    sources: Vec<Source>,
+    /// The variable of each assignment.
+    pub assigned: Vec<VarId>,
+    names: HashMap<(FunctionId, Symbol), VarId>,
+    /// What functions return.
+    results: HashMap<FunctionId, VarId>,
+    functions: HashMap<Symbol, Vec<FunctionId>>,
+    /// The tool is set somewhere: a position whose joints are computed keeps the one of that place.
+    pub sets_tool: bool,
     /// Literals that moves go to: their numbers change, so nothing that holds them is constant.
     pub targets: Vec<bool>,
 }
 
 impl<'n, 'a> Variables<'n, 'a> {
     pub fn new(notes: &'n Notes<'a>) -> Self {
-        let mut parameters = HashSet::new();
+        let mut functions: HashMap<Symbol, Vec<FunctionId>> = HashMap::new();
         for (at, function) in notes.functions.iter().enumerate() {
-            let at = super::syntax::index(at);
-            parameters.extend(function.parameters.iter().map(|&name| (at, name)));
+            if let Some(name) = function.name {
+                functions.entry(name).or_default().push(short(at));
+            }
         }
+        functions.retain(|_, all| all.len() <= MOST_OF_A_NAME);
         let mut variables = Self {
             notes,
-            variables: HashMap::new(),
-            parameters,
+            list: Vec::new(),
+            sources: Vec::new(),
+            assigned: Vec::new(),
+            names: HashMap::new(),
+            results: HashMap::new(),
+            functions,
+            sets_tool: false,
             targets: vec![false; notes.literals.len()],
         };
+        variables.declare_parameters();
+        variables.assign();
+        variables.bind();
+        variables.fix();
+        variables.find_targets();
+        variables.find_frames();
+        variables
+    }
+
+    // ---- names
+
+    fn add(&mut self, name: Symbol, offset: u32, parameter: Option<FunctionId>) -> VarId {
+        self.list.push(Variable {
+            name,
+            offset,
+            parameter,
+            has_parts: false,
+            is_fixed: false,
+            is_position: false,
+            is_frame: false,
+            in_features: false,
+            with_tools: false,
+            first: NONE,
+            last: NONE,
+        });
+        short(self.list.len() - 1)
+    }
+
+    fn source(&mut self, variable: VarId, value: ExprId, function: FunctionId, way: Way) {
+        let at = short(self.sources.len());
+        self.sources.push(Source {
+            value,
+            function,
+            way,
+            next: NONE,
+        });
+        let of = &mut self.list[variable as usize];
+        of.has_parts |= way == Way::Part;
+        if of.first == NONE {
+            of.first = at;
+        } else {
+            self.sources[of.last as usize].next = at;
+        }
+        of.last = at;
+    }
+
+    /// The values that a variable gets.
+    pub fn sources(&self, variable: VarId) -> impl Iterator<Item = Source> + '_ {
+        let mut at = self.list[variable as usize].first;
+        std::iter::from_fn(move || {
+            let source = *self.sources.get(at as usize)?;
+            at = source.next;
+            Some(source)
+        })
+    }
+
+    /// The function that a variable belongs to alone: no function in it assigns it.
+    pub fn routine_of(&self, variable: VarId) -> Option<FunctionId> {
+        let of = &self.list[variable as usize];
+        if of.parameter.is_some() {
+            return of.parameter;
+        }
+        let mut owners = self.sources(variable).filter(|s| s.way != Way::Given);
+        let first = owners.next()?.function;
+        let is_own = self.names.get(&(first, of.name)) == Some(&variable);
+        (first != 0 && is_own && owners.all(|s| s.function == first)).then_some(first)
+    }
+
+    fn declare_parameters(&mut self) {
+        for (at, function) in self.notes.functions.iter().enumerate() {
+            let at = short(at);
+            for &(name, _) in &function.parameters {
+                let variable = self.add(name, function.offset, Some(at));
+                self.names.insert((at, name), variable);
+            }
+        }
+    }
+
+    fn assign(&mut self) {
+        let notes = self.notes;
         let global = |a: &&Assignment| {
             a.reach == Reach::Global || (a.function == 0 && a.reach == Reach::Plain)
         };
-        let globals: HashSet<Symbol> = notes
-            .assignments
-            .iter()
-            .filter(global)
-            .map(|a| a.name)
-            .collect();
-        let plain: HashSet<(FunctionId, Symbol)> = notes
-            .assignments
+        let all = &notes.assignments;
+        let globals: HashSet<Symbol> = all.iter().filter(global).map(|a| a.name).collect();
+        let plain: HashSet<(FunctionId, Symbol)> = all
             .iter()
             .filter(|a| a.reach == Reach::Plain)
             .map(|a| (a.function, a.name))
             .collect();
-        for (number, assignment) in notes.assignments.iter().enumerate() {
+        for assignment in all {
             let name = assignment.name;
             let mut owner = assignment.function;
-            if assignment.reach != Reach::Local {
+            let is_parameter = self.names.get(&(owner, name)).is_some_and(|known| {
+                self.list[*known as usize].parameter == Some(assignment.function)
+            });
+            if assignment.reach != Reach::Local && !is_parameter {
                 if globals.contains(&name) {
                     owner = 0;
                 }
@@ -96,54 +217,188 @@ impl<'n, 'a> Variables<'n, 'a> {
                     }
                 }
             }
-            let entry = variables.variables.entry((owner, name));
-            let variable = entry
-                .and_modify(|variable| variable.again = Some(assignment.offset))
-                .or_insert(Variable {
-                    first: number,
-                    again: None,
-                });
-            if assignment.part {
-                variable.again = Some(assignment.offset);
-            }
+            let variable = match self.names.get(&(owner, name)) {
+                Some(known) => *known,
+                None => {
+                    let made = self.add(name, assignment.offset, None);
+                    self.names.insert((owner, name), made);
+                    made
+                }
+            };
+            let way = if assignment.part {
+                Way::Part
+            } else {
+                Way::Whole
+            };
+            self.source(variable, assignment.value, assignment.function, way);
+            self.assigned.push(variable);
         }
-        variables
     }
 
-    pub fn meaning(&self, name: Symbol, function: FunctionId) -> Meaning {
+    /// What calls give and functions return.
+    fn bind(&mut self) {
+        let notes = self.notes;
+        for (at, function) in notes.functions.iter().enumerate() {
+            for event in &function.events {
+                match *event {
+                    Event::Return(value, offset) if at != 0 => {
+                        let at = short(at);
+                        let result = match self.results.get(&at) {
+                            Some(known) => *known,
+                            None => {
+                                let name = function.name.expect("functions have names");
+                                let made = self.add(name, offset, None);
+                                self.results.insert(at, made);
+                                made
+                            }
+                        };
+                        self.source(result, value, at, Way::Given);
+                    }
+                    Event::Tool(..) => self.sets_tool = true,
+                    _ => {}
+                }
+            }
+        }
+        for call in &notes.calls {
+            for callee in self.callees(call).to_vec() {
+                let count = notes.functions[callee as usize].parameters.len();
+                for position in 0..count {
+                    let (parameter, value) = self.given(call, callee, position);
+                    if let Some((value, function)) = value {
+                        self.source(parameter, value, function, Way::Given);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Functions of the file that a call may mean.
+    pub fn callees(&self, call: &Called) -> &[FunctionId] {
+        self.functions.get(&call.name).map_or(&[], Vec::as_slice)
+    }
+
+    /// A parameter of a function, and what a call gives it with the function where that is meant.
+    pub fn given(
+        &self,
+        call: &Called,
+        callee: FunctionId,
+        position: usize,
+    ) -> (VarId, Option<(ExprId, FunctionId)>) {
+        let function = &self.notes.functions[callee as usize];
+        let (name, default) = function.parameters[position];
+        let arguments = self.notes.arguments_of(call);
+        let named = arguments.iter().find(|(by, _)| *by == Some(name));
+        let placed = arguments.get(position).filter(|(by, _)| by.is_none());
+        let value = named.or(placed).map(|(_, value)| (*value, call.function));
+        let default = default.map(|value| (value, function.parent));
+        (self.names[&(callee, name)], value.or(default))
+    }
+
+    /// The variable that a name means in a function.
+    pub fn meaning(&self, name: Symbol, function: FunctionId) -> Option<VarId> {
         let mut function = function;
         loop {
-            if let Some(variable) = self.variables.get(&(function, name)) {
-                let first = &self.notes.assignments[variable.first];
-                return match variable.again {
-                    None if self.parameters.contains(&(function, name)) => Meaning::Parameter,
-                    None => Meaning::Value(first.value, first.function, first.offset),
-                    Some(again) => Meaning::Changing(first.value, first.function, again),
-                };
-            }
-            if self.parameters.contains(&(function, name)) {
-                return Meaning::Parameter;
+            if let Some(variable) = self.names.get(&(function, name)) {
+                return Some(*variable);
             }
             if function == 0 {
-                return Meaning::Unknown;
+                return None;
             }
             function = self.notes.functions[function as usize].parent;
         }
     }
 
-    /// The value behind names that are assigned once.
-    pub fn follow(&self, value: ExprId, function: FunctionId) -> (Expr, ExprId, FunctionId) {
+    /// What a call of a function of the file returns.
+    pub fn result(&self, call: u32) -> Option<VarId> {
+        match self.callees(&self.notes.calls[call as usize]) {
+            [one] => self.results.get(one).copied(),
+            _ => None,
+        }
+    }
+
+    /// What a function returns.
+    pub fn result_of(&self, function: FunctionId) -> Option<VarId> {
+        self.results.get(&function).copied()
+    }
+
+    // ---- variables that stand for their value
+
+    /// Finds the variables that have one value which says the same at any time.
+    fn fix(&mut self) {
+        let mut users: HashMap<VarId, Vec<VarId>> = HashMap::new();
+        let mut open = Vec::new();
+        for at in 0..short(self.list.len()) {
+            let mut sources = self.sources(at);
+            let (first, more) = (sources.next(), sources.next());
+            drop(sources);
+            let one = first.filter(|source| {
+                more.is_none()
+                    && source.way == Way::Whole
+                    && self.list[at as usize].parameter.is_none()
+            });
+            let mut named = Vec::new();
+            let is_plain =
+                one.is_some_and(|one| self.is_plain(one.value, one.function, &mut named));
+            self.list[at as usize].is_fixed = is_plain;
+            if is_plain {
+                for name in named {
+                    users.entry(name).or_default().push(at);
+                }
+            } else {
+                open.push(at);
+            }
+        }
+        while let Some(changing) = open.pop() {
+            for user in users.remove(&changing).unwrap_or_default() {
+                if std::mem::replace(&mut self.list[user as usize].is_fixed, false) {
+                    open.push(user);
+                }
+            }
+        }
+    }
+
+    /// Whether a value says the same at any time if the variables that it names do.
+    fn is_plain(&self, value: ExprId, function: FunctionId, named: &mut Vec<VarId>) -> bool {
+        match self.notes.expression(value) {
+            Expr::Literal(_) | Expr::List(_) | Expr::Element(..) | Expr::Actual | Expr::Other => {
+                true
+            }
+            Expr::Name(name, _) => {
+                named.extend(self.meaning(name, function));
+                true
+            }
+            Expr::Trans(a, b) | Expr::Add(a, b) => {
+                self.is_plain(a, function, named) && self.is_plain(b, function, named)
+            }
+            Expr::Inverse(a) => self.is_plain(a, function, named),
+            Expr::Kinematics { pose, tcp, .. } => {
+                (tcp.is_some() || !self.sets_tool)
+                    && self.is_plain(pose, function, named)
+                    && tcp.is_none_or(|tcp| self.is_plain(tcp, function, named))
+            }
+            Expr::Call(call) => self.result(call).is_none(),
+        }
+    }
+
+    /// The value of a variable that stands for it.
+    pub fn fixed(&self, variable: VarId) -> Option<Source> {
+        let is_fixed = self.list[variable as usize].is_fixed;
+        self.sources(variable).next().filter(|_| is_fixed)
+    }
+
+    /// The value behind names that stand for theirs.
+    pub fn follow(&self, value: ExprId, function: FunctionId) -> (Expr, FunctionId) {
         let (mut value, mut function) = (value, function);
         for _ in 0..MOST_STEPS {
-            let Expr::Name(name) = self.notes.expression(value) else {
+            let Expr::Name(name, _) = self.notes.expression(value) else {
                 break;
             };
-            let Meaning::Value(next, within, _) = self.meaning(name, function) else {
+            let Some(next) = self.meaning(name, function).and_then(|v| self.fixed(v)) else {
                 break;
             };
-            (value, function) = (next, within);
+            (value, function) = (next.value, next.function);
         }
-        (self.notes.expression(value), value, function)
+        (self.notes.expression(value), function)
     }
 
     /// A pose that the text tells.
@@ -160,9 +415,12 @@ impl<'n, 'a> Variables<'n, 'a> {
         function: FunctionId,
         steps: u32,
     ) -> Result<Pose, NotConstant> {
-        let (expression, _, function) = self.follow(value, function);
+        let (expression, function) = self.follow(value, function);
         let steps = steps.checked_sub(1).ok_or(NotConstant::Computed)?;
-        let inner = |value| self.evaluate(value, function, steps).map_err(computed);
+        let inner = |value| {
+            self.evaluate(value, function, steps)
+                .map_err(|_| NotConstant::Computed)
+        };
         match expression {
             Expr::Literal(id) => {
                 let literal = self.notes.literal(id);
@@ -173,10 +431,12 @@ impl<'n, 'a> Variables<'n, 'a> {
                     .map(|values| super::rotation::pose(values, degrees))
                     .ok_or(NotConstant::Computed)
             }
-            Expr::Name(name) => Err(match self.meaning(name, function) {
-                Meaning::Changing(_, _, again) => NotConstant::Assigned(again),
-                Meaning::Unknown => NotConstant::Unknown(name),
-                _ => NotConstant::Computed,
+            Expr::Name(name, _) => Err(match self.meaning(name, function) {
+                Some(variable) if !self.list[variable as usize].is_fixed => {
+                    NotConstant::Changing(variable)
+                }
+                Some(_) => NotConstant::Computed,
+                None => NotConstant::Unknown(name),
             }),
             Expr::Trans(a, b) => Ok(inner(a)? * inner(b)?),
             Expr::Add(a, b) => {
@@ -185,23 +445,7 @@ impl<'n, 'a> Variables<'n, 'a> {
                 Ok(Pose::from_translation(x, y, z) * a * Pose::from_rotation(b.rotation))
             }
             Expr::Inverse(a) => Ok(inner(a)?.inverse()),
-            Expr::Kinematics { .. } | Expr::Other => Err(NotConstant::Computed),
+            _ => Err(NotConstant::Computed),
         }
     }
-}
-
-/// Part of a pose that is not constant.
-fn computed(why: NotConstant) -> NotConstant {
-    match why {
-        NotConstant::Unknown(_) => NotConstant::Computed,
-        other => other,
-    }
-}
-
-/// The same pose as a number that tells poses apart.
-pub fn bits(pose: &Pose) -> [u64; 7] {
-    let Quaternion([w, x, y, z]) = pose.rotation.quaternion();
-    let [a, b, c] = pose.translation;
-    // -0 is 0
-    [a, b, c, w, x, y, z].map(|number| (number + 0.0).to_bits())
 }

@@ -114,7 +114,7 @@ fn where_nobody_looks_text_is_eighty_columns_without_colour_and_a_finding_is_one
         .lines()
         .find(|line| line.contains("warning["))
         .expect("a finding");
-    assert!(finding.ends_with("beside its own wanted pose"), "{finding}");
+    assert!(finding.ends_with("off its own wanted pose"), "{finding}");
     assert!(!out.contains('\x1b'), "{out}");
     let mut forced = given(finds, folder.path());
     let coloured = forced

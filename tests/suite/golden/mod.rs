@@ -131,10 +131,13 @@ fn a_profile_without_effects_changes_nothing_but_the_header() {
     }
 }
 
-/// A profile's text with an empty list of effects.
+/// A profile's text with one effect, a picometre of a link: a profile without any is refused.
 fn without_effects(profile: &str) -> String {
     let start = profile.find("calibration:").expect("a calibrated profile");
-    format!("{}calibration: {{effects: []}}\n", &profile[..start])
+    format!(
+        "{}calibration: {{effects: [{{effect: link_geometry, link: 3, a_mm: 1.0e-9}}]}}\n",
+        &profile[..start]
+    )
 }
 
 /// The file without its marker: what stands where its language puts one, as many bytes as it has grown by.

@@ -9,7 +9,7 @@ proptest::proptest! {
     fn random_bytes_never_panic(bytes in proptest::collection::vec(0_u8..=255, 0..400)) {
         let source = Source::new("x", bytes);
         let _ = Fanuc.recognises(&source);
-        let _ = Fanuc.read(&[source], &Settings::default());
+        let _ = crate::motion::read(&Fanuc, &[source], &Settings::default());
     }
 
     #[test]
@@ -27,7 +27,7 @@ proptest::proptest! {
         let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
         let (at, _) = Fanuc.mark(&source, &marker);
         assert!(at <= source.bytes.len());
-        if let Ok(program) = Fanuc.read(std::slice::from_ref(&source), &Settings::default()) {
+        if let Ok(program) = crate::motion::read(&Fanuc, std::slice::from_ref(&source), &Settings::default()) {
             for target in &program.targets {
                 let numbers = program.numbers_of(target);
                 let roles = Fanuc.roles(target.layout);
@@ -55,7 +55,7 @@ proptest::proptest! {
         }
         let sources = [Source::new("x", bytes), Source::new("a", sample().into_bytes())];
         let _ = Fanuc.recognises(&sources[0]);
-        let _ = Fanuc.read(&sources, &Settings::default());
+        let _ = crate::motion::read(&Fanuc, &sources, &Settings::default());
     }
 }
 

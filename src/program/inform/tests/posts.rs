@@ -36,7 +36,7 @@ fn outputs_of_post_processors_have_the_known_targets() {
             pulses_per_deg: Some([1.0; 6]),
             ..Settings::default()
         };
-        let program = Inform.read(&[source], &settings).expect("a job");
+        let program = crate::motion::read(&Inform, &[source], &settings).expect("a job");
         // 50 straight moves, 2 joint moves, and 4 arcs, each with its first point once more
         assert_eq!((program.targets.len(), program.moves.len()), (64, 64));
         assert_eq!(program.findings, []);

@@ -9,7 +9,7 @@ proptest::proptest! {
     fn random_bytes_never_panic(bytes in proptest::collection::vec(0_u8..=255, 0..400)) {
         let source = Source::new("x", bytes);
         let _ = Inform.recognises(&source);
-        let _ = Inform.read(&[source], &Settings::default());
+        let _ = crate::motion::read(&Inform, &[source], &Settings::default());
     }
 
     #[test]
@@ -27,7 +27,7 @@ proptest::proptest! {
         let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
         let (at, _) = Inform.mark(&source, &marker);
         assert!(at <= source.bytes.len());
-        if let Ok(program) = Inform.read(std::slice::from_ref(&source), &Settings::default()) {
+        if let Ok(program) = crate::motion::read(&Inform, std::slice::from_ref(&source), &Settings::default()) {
             for number in &program.numbers {
                 let start = number.start as usize;
                 let text = &source.bytes[start..start + usize::from(number.length)];
@@ -46,7 +46,7 @@ proptest::proptest! {
 }
 
 /// What mutations cut, and put in its place.
-const MUTATIONS: [(usize, &str); 24] = [
+const MUTATIONS: [(usize, &str); 26] = [
     (1, ""),
     (40, ""),
     (0, "/"),
@@ -71,6 +71,8 @@ const MUTATIONS: [(usize, &str); 24] = [
     (0, "\nENDIF\n"),
     (0, "P[B000] "),
     (0, "\u{ff}"),
+    (0, "\nSET P018 LP001\n"),
+    (0, "\nGETARG P018 IARG#(1)\n"),
 ];
 
 const SAMPLE: &str = "/JOB\n//NAME A\n//POS\n///NPOS 3,1,1,1,0,0\n///TOOL 0\n///POSTYPE PULSE\n///PULSE\n\

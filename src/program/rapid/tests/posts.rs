@@ -34,9 +34,7 @@ fn outputs_of_post_processors_have_the_known_targets_and_frames() {
         let bytes = std::fs::read(folder.join("rapid").join(name)).expect("a program");
         let source = Source::new(name, bytes);
         assert!(Rapid.recognises(&source));
-        let program = Rapid
-            .read(&[source], &Settings::default())
-            .expect("a program");
+        let program = motion::read(&Rapid, &[source], &Settings::default()).expect("a program");
         // 50 straight moves, 2 joint moves, and 4 arcs of two points
         assert_eq!(
             (program.targets.len(), program.moves.len()),

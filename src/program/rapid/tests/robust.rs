@@ -9,7 +9,7 @@ proptest::proptest! {
     fn random_bytes_never_panic(bytes in proptest::collection::vec(0_u8..=255, 0..400)) {
         let source = Source::new("x", bytes);
         let _ = Rapid.recognises(&source);
-        let _ = Rapid.read(&[source], &Settings::default());
+        let _ = motion::read(&Rapid, &[source], &Settings::default());
     }
 
     #[test]
@@ -27,7 +27,7 @@ proptest::proptest! {
         let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
         let (at, _) = Rapid.mark(&source, &marker);
         assert!(at <= source.bytes.len());
-        if let Ok(program) = Rapid.read(std::slice::from_ref(&source), &Settings::default()) {
+        if let Ok(program) = motion::read(&Rapid, std::slice::from_ref(&source), &Settings::default()) {
             for number in &program.numbers {
                 let start = number.start as usize;
                 let text = &source.bytes[start..start + usize::from(number.length)];
@@ -113,11 +113,15 @@ fn many_uses_of_large_arrays_stay_linear() {
         "MODULE m\nPERS robtarget p{{3000}}:=[{elements}];\nPROC a()\n{moves}ENDPROC\nENDMODULE"
     );
     let program = read(&text);
-    assert_eq!((program.targets.len(), program.moves.len()), (3000, 3000));
+    assert_eq!(program.targets.len(), 3000);
+    assert!(
+        (490_000..500_000).contains(&program.moves.len()),
+        "the most that are listed"
+    );
     assert_eq!(
         program.findings.len(),
-        6000,
-        "each target once for each cause"
+        6001,
+        "each target once for each cause, and that there are more uses"
     );
 }
 

@@ -32,9 +32,7 @@ fn samples_have_targets_and_nothing_to_complain_about() {
         ("cam", 5000, 5000),
         ("modules", 9, 12),
     ] {
-        let program = Rapid
-            .read(&sample(case), &Settings::default())
-            .expect("a program");
+        let program = motion::read(&Rapid, &sample(case), &Settings::default()).expect("a program");
         assert_eq!(
             (program.targets.len(), program.moves.len()),
             (targets, moves),
@@ -62,9 +60,7 @@ fn a_module_without_targets_is_read_with_the_others() {
     let logic = sources
         .iter()
         .position(|source| source.name.ends_with("CellLogic.mod"));
-    let program = Rapid
-        .read(&sources, &Settings::default())
-        .expect("a program");
-    let logic = index(logic.expect("the module without targets"));
+    let program = motion::read(&Rapid, &sources, &Settings::default()).expect("a program");
+    let logic = short(logic.expect("the module without targets"));
     assert!(program.targets.iter().all(|target| target.file != logic));
 }

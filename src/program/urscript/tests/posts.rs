@@ -38,9 +38,7 @@ fn outputs_of_post_processors_have_the_known_targets_and_tool() {
         let bytes = std::fs::read(folder.join("urscript").join(name)).expect("a program");
         let source = Source::new(name, bytes.clone());
         assert!(UrScript.recognises(&source), "{name}");
-        let program = UrScript
-            .read(&[source], &Settings::default())
-            .expect("a program");
+        let program = read_sources(&[source]).expect("a program");
         assert_eq!(program.findings, [], "{name}");
         assert_eq!(Edits::default().apply(&bytes), bytes);
         let tool = &program.tools[program.moves[1].tool];

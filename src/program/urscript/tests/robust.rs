@@ -10,7 +10,7 @@ proptest::proptest! {
     fn random_bytes_never_panic(bytes in proptest::collection::vec(0_u8..=255, 0..400)) {
         let source = Source::new("x", bytes);
         let _ = UrScript.recognises(&source);
-        let _ = UrScript.read(&[source], &Settings::default());
+        let _ = read_sources(&[source]);
     }
 
     #[test]
@@ -28,7 +28,7 @@ proptest::proptest! {
         let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
         let (at, _) = UrScript.mark(&source, &marker);
         assert!(at <= source.bytes.len());
-        if let Ok(program) = UrScript.read(std::slice::from_ref(&source), &Settings::default()) {
+        if let Ok(program) = read_sources(std::slice::from_ref(&source)) {
             for number in &program.numbers {
                 let start = number.start as usize;
                 let text = &source.bytes[start..start + usize::from(number.length)];
@@ -40,7 +40,7 @@ proptest::proptest! {
             }
             let targets = program.targets.iter().map(|target| target.offset);
             assert!(targets.is_sorted());
-            assert!(program.moves.iter().all(|used| used.target.unwrap() < program.targets.len()));
+            assert!(program.moves.iter().all(|used| used.target.is_none_or(|t| t < program.targets.len())));
         }
     }
 }
@@ -127,6 +127,6 @@ fn many_uses_and_names_stay_linear() {
     text += "end\n";
     let started = std::time::Instant::now();
     let program = read(&text);
-    assert_eq!(program.moves.len(), 22_000);
+    assert_eq!(program.instructions.len(), 22_000);
     assert!(started.elapsed().as_secs() < 5);
 }

@@ -25,9 +25,7 @@ fn samples_have_targets_and_nothing_to_complain_about() {
     for (case, targets, moves) in [("backup", 14, 16), ("olp", 21, 22), ("cam", 483, 483)] {
         let sources = sample(case);
         assert!(sources.iter().all(|source| UrScript.recognises(source)));
-        let program = UrScript
-            .read(&sources, &Settings::default())
-            .expect("a program");
+        let program = read_sources(&sources).expect("a program");
         assert_eq!(
             (program.targets.len(), program.moves.len()),
             (targets, moves),
@@ -48,9 +46,7 @@ fn samples_have_targets_and_nothing_to_complain_about() {
 
 #[test]
 fn waypoints_of_the_sample_keep_their_seeds() {
-    let program = UrScript
-        .read(&sample("backup"), &Settings::default())
-        .expect("a program");
+    let program = read_sources(&sample("backup")).expect("a program");
     let seeded: Vec<_> = program.moves.iter().filter(|m| m.near.is_some()).collect();
     assert_eq!(seeded.len(), 3);
     // no target lies on the numbers of a `_q`

@@ -3,7 +3,7 @@
 //! Every path is written over [`Scalar`], so that it gives poses at a parameter s from 0 to 1 and, with [`Jet`]s, bounds of
 //! slope and curvature over whole intervals of s.
 
-use crate::compensate::Equipped;
+use super::arms::Equipped;
 use crate::geometry::{
     Jet, Pose, Rotation, Scalar, Vector, add, constant, cross, dot, norm, scale, sub,
 };
@@ -133,6 +133,19 @@ impl ToolCourse {
             Line::Circle {
                 axes, angle_rad, ..
             } => norm(axes[0]) * angle_rad,
+        }
+    }
+
+    /// By how much the tool turns, or the arc goes round, radians.
+    #[must_use]
+    pub fn angle_rad(&self) -> f64 {
+        let turned = match &self.turn {
+            Turn::Axis { angle_rad, .. } => angle_rad.abs(),
+            Turn::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
+        };
+        match &self.line {
+            Line::Straight { .. } => turned,
+            Line::Circle { angle_rad, .. } => turned + angle_rad,
         }
     }
 

@@ -1,11 +1,9 @@
-//! Which tool and which work frame a target has.
+//! The tools and work frames of a program, as far as files, profile and command line tell them.
 
-use super::Job;
-use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{Mounted, Profile};
-use crate::program::{Frame, Language, Move, Program, Shape, Tool};
+use crate::program::{Frame, FrameId, Language, Program, Tool, ToolId};
 use std::collections::BTreeMap;
 
 /// Two values of one tool or frame that differ by less than this are the same, metres and radians.
@@ -61,7 +59,7 @@ impl MeasuredFrameError {
 }
 
 /// Measured frames must be used, and agree with what the program declares: the controller computes with its own.
-pub(super) fn check_measured(program: &Program, given: &Given) -> Result<(), MeasuredFrameError> {
+pub(crate) fn check_measured(program: &Program, given: &Given) -> Result<(), MeasuredFrameError> {
     for (name, measured) in &given.measured_frames {
         let Some(frame) = program.frames.iter().find(|frame| frame.name == *name) else {
             let used: Vec<_> = program.frames.iter().map(|f| f.name.as_str()).collect();
@@ -88,10 +86,16 @@ fn agrees(a: &Pose, b: &Pose) -> bool {
     gap.distance_m < 1e-6 && gap.angle_rad < 1e-5 * DEG
 }
 
-/// A tool or frame that nobody knows.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{file}:{line}:{column}: {}", self.message())]
+/// Tools and frames that nobody knows, each with the first move that uses it.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlacementError {
+    /// At least one, by file and place.
+    pub missing: Vec<Missing>,
+}
+
+/// A tool or frame that nobody knows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Missing {
     /// The file of a move that uses it.
     pub file: String,
     /// The move's line.
@@ -104,7 +108,7 @@ pub struct PlacementError {
     pub name: String,
 }
 
-impl PlacementError {
+impl Missing {
     /// What is wrong, without the place.
     #[must_use]
     pub fn message(&self) -> String {
@@ -119,35 +123,64 @@ impl PlacementError {
         )
     }
 
-    /// The way out.
+    /// The option of the command line that would give it.
     #[must_use]
-    pub fn hint(&self) -> String {
+    pub fn option(&self) -> String {
         let option = if self.what == "tool" {
             "--tool"
         } else {
             "--frame"
         };
         if self.name.is_empty() {
-            return format!("give `{option} x,y,z,rx,ry,rz` (mm, deg) or its name in the profile");
+            return format!("{option} x,y,z,rx,ry,rz");
         }
-        format!(
-            "give the file that declares it too, or `{option} {}=x,y,z,rx,ry,rz` (mm, deg)",
-            self.name
-        )
+        // what a shell would take apart stands in quotes
+        let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+        if self.name.chars().all(plain) {
+            format!("{option} {}=x,y,z,rx,ry,rz", self.name)
+        } else {
+            format!("{option} '{}=x,y,z,rx,ry,rz'", self.name)
+        }
     }
 }
 
-/// The tool and frame of one target.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    /// Index in [`Setting::tools`].
-    pub tool: usize,
-    /// Index in [`Setting::frames`].
-    pub frame: usize,
+impl PlacementError {
+    /// What is wrong, without the place of the first.
+    #[must_use]
+    pub fn message(&self) -> String {
+        let mut message = self.missing[0].message();
+        for other in &self.missing[1..] {
+            let Missing { file, line, .. } = other;
+            message.push_str(&format!("; {file} line {line}: {}", other.message()));
+        }
+        message
+    }
+
+    /// The way out.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        let options: Vec<String> = self.missing.iter().map(Missing::option).collect();
+        let options = options.join(" ");
+        if self.missing.iter().all(|missing| missing.name.is_empty()) {
+            return format!("give `{options}` (mm, deg) or a name in the profile");
+        }
+        format!("give the files that declare them too, or `{options}` (mm, deg)")
+    }
 }
 
+impl std::fmt::Display for PlacementError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Missing {
+            file, line, column, ..
+        } = &self.missing[0];
+        write!(f, "{file}:{line}:{column}: {}", self.message())
+    }
+}
+
+impl std::error::Error for PlacementError {}
+
 /// The tools and work frames of a program as far as anybody knows them.
-pub(super) struct Setting {
+pub(crate) struct Setting {
     /// The program's, and one more: what the user gave for targets that no move uses.
     pub tools: Vec<Option<Mounted>>,
     /// The program's, and two more: what the user gave for targets that no move uses, and the world for joint targets.
@@ -180,146 +213,30 @@ impl Setting {
         Self { tools, frames }
     }
 
-    /// Whether two places have tools and frames of the same values.
-    fn is_same(&self, a: Place, b: Place) -> bool {
-        let same_tool = match (&self.tools[a.tool], &self.tools[b.tool]) {
-            (Some(a), Some(b)) => {
-                same_pose(&a.flange_from_tool, &b.flange_from_tool) && a.load == b.load
-            }
-            _ => false,
-        };
-        let same_frame = match (&self.frames[a.frame], &self.frames[b.frame]) {
-            (Some(a), Some(b)) => same_pose(a, b),
-            _ => false,
-        };
-        (a.tool == b.tool || same_tool) && (a.frame == b.frame || same_frame)
-    }
-}
-
-/// The place of each target; `None` where it stays as it is.
-pub(super) fn place(
-    job: &Job,
-    findings: &mut Vec<Finding>,
-) -> Result<Vec<Option<Place>>, PlacementError> {
-    let program = job.program;
-    let is_joints = |target: usize| program.targets[target].layout.shape == Shape::Joints;
-    let stays = |target: usize| {
-        program.targets[target].blocked || (is_joints(target) && !job.options.correct_joint_targets)
-    };
-    // the first move to each target, and whether another one contradicts it
-    let mut first: Vec<Option<(usize, bool)>> = vec![None; program.targets.len()];
-    let place_of = |motion: &Move| place_of(job, motion);
-    for (index, motion) in program.moves.iter().enumerate() {
-        let Some(target) = motion.target.filter(|target| !stays(*target)) else {
-            continue;
-        };
-        let place = known(job, motion)?;
-        match &mut first[target] {
-            None => first[target] = Some((index, false)),
-            Some((other, contradicted)) => {
-                let before = &program.moves[*other];
-                if !*contradicted && !job.setting.is_same(place_of(before), place) {
-                    *contradicted = true;
-                    findings.push(shared(job, before, motion));
+    /// Whether two tools are of the same values.
+    pub fn same_tool(&self, a: ToolId, b: ToolId) -> bool {
+        a == b
+            || match (&self.tools[a], &self.tools[b]) {
+                (Some(a), Some(b)) => {
+                    same_pose(&a.flange_from_tool, &b.flange_from_tool) && a.load == b.load
                 }
+                _ => false,
             }
-        }
     }
-    let place = |(target, first): (usize, Option<(usize, bool)>)| match first {
-        _ if stays(target) => None,
-        Some((index, false)) => Some(place_of(&program.moves[index])),
-        Some((_, true)) => None,
-        None => place_unused(job, target, findings),
-    };
-    Ok(first.into_iter().enumerate().map(place).collect())
-}
 
-/// The place that a move gives its target.
-fn place_of(job: &Job, motion: &Move) -> Place {
-    let target = motion.target.map(|target| &job.program.targets[target]);
-    let is_joints = target.is_some_and(|target| target.layout.shape == Shape::Joints);
-    let world = job.setting.frames.len() - 1;
-    Place {
-        tool: motion.tool,
-        frame: if is_joints { world } else { motion.frame },
+    /// Whether two work frames are of the same values.
+    pub fn same_frame(&self, a: FrameId, b: FrameId) -> bool {
+        a == b
+            || match (&self.frames[a], &self.frames[b]) {
+                (Some(a), Some(b)) => same_pose(a, b),
+                _ => false,
+            }
     }
-}
 
-/// The place that a move gives its target, whose tool and frame must be known.
-pub(super) fn known(job: &Job, motion: &Move) -> Result<Place, PlacementError> {
-    let (place, program) = (place_of(job, motion), job.program);
-    if job.setting.tools[place.tool].is_none() {
-        let name = &program.tools[motion.tool].name;
-        return Err(unknown(job, motion, "tool", name));
+    /// The work frame that stands for the world.
+    pub fn world(&self) -> FrameId {
+        self.frames.len() - 1
     }
-    if job.setting.frames[place.frame].is_none() {
-        let name = &program.frames[motion.frame].name;
-        return Err(unknown(job, motion, "work frame", name));
-    }
-    Ok(place)
-}
-
-fn unknown(job: &Job, motion: &Move, what: &'static str, name: &str) -> PlacementError {
-    let source = &job.sources[motion.file as usize];
-    let (line, column) = source.line_column(motion.offset as usize);
-    PlacementError {
-        file: source.name.clone(),
-        line,
-        column,
-        what,
-        name: name.into(),
-    }
-}
-
-fn shared(job: &Job, a: &Move, b: &Move) -> Finding {
-    let line = |motion: &Move| {
-        job.sources[motion.file as usize]
-            .line_column(motion.offset as usize)
-            .0
-    };
-    let message = format!(
-        "{} is used with different tools or work frames (lines {} and {}): one fake target cannot serve both",
-        name_of(job, a.target.expect("moves that share a target have one")),
-        line(a),
-        line(b)
-    );
-    job.at_target(
-        "target-shared",
-        Severity::Error,
-        a.target.expect("moves that share a target have one"),
-        message,
-        "give each use a target of its own",
-    )
-}
-
-/// A target that no move in these files uses: its tool and frame are what the user gives for unknown names.
-fn place_unused(job: &Job, target: usize, findings: &mut Vec<Finding>) -> Option<Place> {
-    if job.program.targets[target].layout.shape == Shape::Joints {
-        return None;
-    }
-    let place = Place {
-        tool: job.program.tools.len(),
-        frame: job.program.frames.len(),
-    };
-    if job.setting.tools[place.tool].is_some() && job.setting.frames[place.frame].is_some() {
-        return Some(place);
-    }
-    let message = format!(
-        "no move in these files uses {}: its tool and work frame are unknown",
-        name_of(job, target)
-    );
-    let hint = "give the files that use it together, or --tool and --frame for it, or --keep-going to leave it as it is";
-    findings.push(job.at_target("target-unused", Severity::Error, target, message, hint));
-    None
-}
-
-/// A target's name for messages.
-pub(super) fn name_of(job: &Job, index: usize) -> String {
-    let target = &job.program.targets[index];
-    target
-        .name
-        .as_ref()
-        .map_or_else(|| "this target".into(), |name| format!("`{name}`"))
 }
 
 fn same_pose(a: &Pose, b: &Pose) -> bool {

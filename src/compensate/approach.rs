@@ -1,0 +1,225 @@
+//! In which ways the robot comes to each target: with which tool, in which work frame, from where.
+
+use super::Job;
+use crate::finding::{Finding, Severity};
+use crate::geometry::Pose;
+use crate::inverse::Branch;
+use crate::model::Conditions;
+use crate::motion::walk::{Arrivals, NOWHERE};
+use crate::program::script::short;
+use crate::program::{Displacement, Move, Shape, TargetId, Value};
+
+/// Joints that differ by less are the same, radians.
+pub(super) const SAME_RAD: f64 = 1e-7;
+
+/// A way to come to a target.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Approach {
+    /// The controller's joints at the wanted pose.
+    pub nominal_q: [f64; 6],
+    /// Index in the program's targets.
+    pub target: u32,
+    /// Index of the move; [`NOWHERE`] where none goes there.
+    pub motion: u32,
+    /// Index of the arrival; [`NOWHERE`] where no move goes there.
+    pub arrival: u32,
+    pub tool: u32,
+    pub frame: u32,
+    pub branch: Branch,
+    /// Direction in which each joint last moved, where an effect depends on it.
+    pub direction: [i8; 6],
+    /// The controller goes by the target's configuration data.
+    pub honoured: bool,
+}
+
+impl Approach {
+    /// Where the simulation wants the tool, in the world.
+    pub fn wanted(&self, job: &Job) -> Pose {
+        let ground = &job.ground;
+        let target = self.target as usize;
+        let decoded =
+            crate::program::meaning(ground.language, ground.program, ground.settings, target);
+        let value = decoded
+            .expect("the target of an approach has numbers")
+            .value;
+        ground.wanted(&value, self.tool as usize, self.frame as usize)
+    }
+
+    /// The conditions of the real arm.
+    pub fn conditions(&self, job: &Job) -> Conditions {
+        Conditions {
+            direction: self.direction.map(f64::from),
+            ..job.ground.arm_with(self.tool as usize).inverse.conditions
+        }
+    }
+}
+
+/// Whether a target stays as it is whatever moves go there.
+pub(super) fn stays(job: &Job, target: TargetId) -> bool {
+    let found = &job.ground.program.targets[target];
+    found.blocked || (found.layout.shape == Shape::Joints && !job.options.correct_joint_targets)
+}
+
+/// Whether a move's tool and work frame must be known.
+pub(super) fn needs(
+    program: &crate::program::Program,
+    correct_joint_targets: bool,
+    motion: &Move,
+) -> bool {
+    program.target_of(motion).is_some_and(|target| {
+        !target.blocked && (target.layout.shape == Shape::Pose || correct_joint_targets)
+    })
+}
+
+/// The approaches of all targets that do not stay, by target.
+pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>) -> Vec<Approach> {
+    let ground = &job.ground;
+    let program = ground.program;
+    let mut approaches: Vec<Approach> = Vec::with_capacity(arrivals.all.len());
+    let mut derived: Vec<Approach> = Vec::new();
+    let mut used = vec![false; program.targets.len()];
+    for motion in &program.moves {
+        if let Some(target) = motion.target {
+            used[target] = true;
+        }
+    }
+    for (at, arrival) in arrivals.all.iter().enumerate() {
+        let motion = &program.moves[arrival.motion as usize];
+        let Some(target) = motion.target.filter(|target| !stays(job, *target)) else {
+            continue;
+        };
+        if !arrival.known || ground.equipped(motion.tool).is_none() {
+            continue;
+        }
+        let approach = Approach {
+            nominal_q: arrival.q,
+            target: short(target),
+            motion: arrival.motion,
+            arrival: short(at),
+            tool: short(motion.tool),
+            frame: short(ground.frame_of(motion)),
+            branch: arrival.branch,
+            direction: arrival.direction,
+            honoured: arrival.honoured,
+        };
+        if motion.displacement == Displacement::None {
+            approaches.push(approach);
+        } else {
+            derived.push(approach);
+        }
+    }
+    approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
+    add_derived(job, derived, &mut approaches);
+    add_unused(job, &used, &mut approaches, findings);
+    approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
+    drop_same(job, &mut approaches);
+    approaches
+}
+
+/// Leaves each of the approaches of one target once.
+fn drop_same(job: &Job, approaches: &mut Vec<Approach>) {
+    let mut kept = 0;
+    for at in 0..approaches.len() {
+        let approach = approaches[at];
+        let first = approaches[..kept].partition_point(|other| other.target < approach.target);
+        let known = approaches[first..kept]
+            .iter()
+            .any(|other| is_same(job, other, &approach));
+        if !known {
+            approaches[kept] = approach;
+            kept += 1;
+        }
+    }
+    approaches.truncate(kept);
+}
+
+/// Whether two approaches of one target ask for the same numbers.
+fn is_same(job: &Job, a: &Approach, b: &Approach) -> bool {
+    let setting = &job.ground.setting;
+    a.branch == b.branch
+        && a.direction == b.direction
+        && a.honoured == b.honoured
+        && (0..6).all(|i| (a.nominal_q[i] - b.nominal_q[i]).abs() < SAME_RAD)
+        && setting.same_tool(a.tool as usize, b.tool as usize)
+        && setting.same_frame(a.frame as usize, b.frame as usize)
+}
+
+/// Targets that moves only go near: as if the robot went there itself, in the posture that it has nearby.
+fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>) {
+    let direct = approaches.len();
+    for mut approach in derived {
+        let known = approaches[..direct]
+            .binary_search_by_key(&approach.target, |other| other.target)
+            .is_ok();
+        let again = approaches[direct..]
+            .iter()
+            .any(|other| other.target == approach.target);
+        if known || again {
+            continue;
+        }
+        let wanted = approach.wanted(job);
+        let arm = &job.ground.arm_with(approach.tool as usize).arm;
+        let near = arm.solve_branch(&wanted, approach.branch, &approach.nominal_q);
+        if near.beyond == 0.0 {
+            approach.nominal_q = near.q;
+        }
+        approaches.push(approach);
+    }
+}
+
+/// A target that no move in these files uses: its tool and frame are what the user gives for unknown names.
+fn add_unused(
+    job: &Job,
+    used: &[bool],
+    approaches: &mut Vec<Approach>,
+    findings: &mut Vec<Finding>,
+) {
+    let ground = &job.ground;
+    let (tool, frame) = (ground.program.tools.len(), ground.program.frames.len());
+    for target in 0..used.len() {
+        if used[target] || stays(job, target) || ground.is_joints(target) {
+            continue;
+        }
+        let Some(equipped) = ground.equipped(tool) else {
+            findings.push(unused(job, target));
+            continue;
+        };
+        if ground.setting.frames[frame].is_none() {
+            findings.push(unused(job, target));
+            continue;
+        }
+        let decoded =
+            crate::program::meaning(ground.language, ground.program, ground.settings, target);
+        let Some(decoded) = decoded else { continue };
+        let Value::Pose(_) = decoded.value else {
+            continue;
+        };
+        let wanted = ground.wanted(&decoded.value, tool, frame);
+        let configuration = &decoded.configuration;
+        let arm = &equipped.arm;
+        let posture = ground.posture_alone(arm, target, &wanted, configuration, findings);
+        if let Some((branch, q)) = posture {
+            approaches.push(Approach {
+                nominal_q: q,
+                target: short(target),
+                motion: NOWHERE,
+                arrival: NOWHERE,
+                tool: short(tool),
+                frame: short(frame),
+                branch,
+                direction: [0; 6],
+                honoured: true,
+            });
+        }
+    }
+}
+
+fn unused(job: &Job, target: TargetId) -> Finding {
+    let message = format!(
+        "no move in these files uses {}: its tool and work frame are unknown",
+        job.ground.name_of(target)
+    );
+    let hint = "give the files that use it together, or --tool and --frame for it, or --keep-going to leave it as it is";
+    job.ground
+        .at_target("target-unused", Severity::Error, target, message, hint)
+}

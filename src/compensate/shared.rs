@@ -1,0 +1,194 @@
+//! One set of numbers for all the ways in which the robot comes to a target.
+
+use super::Job;
+use super::approach::Approach;
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::geometry::{Pose, Rotation, Separation, add, scale};
+use crate::inverse::Outcome;
+use crate::model::Conditions;
+use crate::motion::walk::NOWHERE;
+use crate::program::{Shape, Value};
+
+/// Numbers that differ by less serve all.
+const SAME: Separation = Separation {
+    distance_m: 0.002 * MM,
+    angle_rad: 0.002 * DEG,
+};
+/// Approaches that a message names.
+const MOST_NAMED: usize = 6;
+
+/// The fake target of one approach, or of several that agree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fake {
+    /// `frame_from_tool` where it is a pose.
+    pub frame_from_tool: Pose,
+    /// The controller's joints.
+    pub q: [f64; 6],
+}
+
+impl Fake {
+    pub fn of(job: &Job, approach: &Approach, outcome: &Outcome) -> Self {
+        let ground = &job.ground;
+        let equipped = ground.arm_with(approach.tool as usize);
+        let world_from_tool = equipped
+            .controller
+            .forward(&outcome.q, &Conditions::default());
+        let world_from_frame = ground.world_from_frame(approach.frame as usize);
+        Self {
+            frame_from_tool: world_from_frame.inverse() * world_from_tool,
+            q: outcome.q,
+        }
+    }
+}
+
+impl Fake {
+    /// What the numbers of a target mean.
+    pub fn meant(job: &Job, approach: &Approach, numbers: &[f64]) -> Self {
+        let ground = &job.ground;
+        let layout = ground.program.targets[approach.target as usize].layout;
+        match ground
+            .language
+            .decode(layout, numbers, ground.settings)
+            .value
+        {
+            Value::Pose(frame_from_tool) => Self {
+                frame_from_tool,
+                q: approach.nominal_q,
+            },
+            Value::Joints(q) => Self {
+                frame_from_tool: Pose::identity(),
+                q,
+            },
+        }
+    }
+}
+
+/// One fake target for all approaches of a target, all of them solved.
+///
+/// # Errors
+/// Where no numbers serve all: what each approach would miss.
+pub(super) fn common(job: &Job, group: &[(Approach, Outcome)]) -> Result<Fake, Finding> {
+    let fakes: Vec<Fake> = group.iter().map(|(a, o)| Fake::of(job, a, o)).collect();
+    let first = fakes[0];
+    if fakes.len() == 1 {
+        return Ok(first);
+    }
+    let is_joints = job.ground.is_joints(group[0].0.target as usize);
+    let alike = |a: &Fake, b: &Fake| {
+        if is_joints {
+            return (0..6).all(|i| (a.q[i] - b.q[i]).abs() < SAME.angle_rad);
+        }
+        let gap = a.frame_from_tool.separation(&b.frame_from_tool);
+        gap.distance_m < SAME.distance_m && gap.angle_rad < SAME.angle_rad
+    };
+    let mean = mean(&fakes);
+    let all_alike =
+        (0..fakes.len()).all(|i| fakes[..i].iter().all(|other| alike(&fakes[i], other)));
+    if all_alike {
+        return Ok(mean);
+    }
+    Err(refused(job, group, &mean))
+}
+
+/// The mean of fake targets that lie near each other; joints as in the first.
+fn mean(fakes: &[Fake]) -> Fake {
+    let part = 1.0 / fakes.len() as f64;
+    let first = fakes[0];
+    let (mut translation, mut rotation, mut q) = ([0.0; 3], [0.0; 3], first.q);
+    for fake in fakes {
+        translation = add(translation, scale(part, fake.frame_from_tool.translation));
+        let from_first = fake.frame_from_tool.rotation * first.frame_from_tool.rotation.transpose();
+        rotation = add(rotation, scale(part, from_first.vector()));
+        for i in 0..6 {
+            q[i] += part * (fake.q[i] - first.q[i]);
+        }
+    }
+    Fake {
+        frame_from_tool: Pose {
+            rotation: Rotation::from_vector(rotation) * first.frame_from_tool.rotation,
+            translation,
+        },
+        q,
+    }
+}
+
+/// What each approach misses with numbers that are meant for all.
+fn refused(job: &Job, group: &[(Approach, Outcome)], mean: &Fake) -> Finding {
+    let ground = &job.ground;
+    let target = group[0].0.target as usize;
+    let mut each: Vec<String> = group
+        .iter()
+        .map(|(approach, outcome)| {
+            let miss = landing(job, approach, outcome, mean);
+            let by = format!(
+                "{:.3} mm, {:.3} deg",
+                mm_from_m(miss.distance_m),
+                miss.angle_rad / DEG
+            );
+            if approach.motion == NOWHERE {
+                return by;
+            }
+            let motion = &ground.program.moves[approach.motion as usize];
+            let file = &ground.sources[motion.file as usize].name;
+            let written = [
+                ("tool", motion.tool_written),
+                ("work frame", motion.frame_written),
+            ];
+            let set: String = written
+                .iter()
+                .filter_map(|(what, place)| {
+                    let place = (*place)?;
+                    let (line, _) =
+                        ground.sources[place.file as usize].line_column(place.offset as usize);
+                    Some(format!(" with the {what} of line {line}"))
+                })
+                .collect();
+            format!("{file} line {}{set}: {by}", ground.line_of(motion))
+        })
+        .collect();
+    let more = each.len().saturating_sub(MOST_NAMED);
+    each.truncate(MOST_NAMED);
+    if more > 0 {
+        each.push(format!("and {more} more"));
+    }
+    let message = format!(
+        "the robot comes to {} in {} ways that one fake target cannot serve (another tool, work frame, posture, or side from \
+         which a joint comes); with the best common numbers each would miss by: {}",
+        ground.name_of(target),
+        group.len(),
+        each.join("; ")
+    );
+    ground.at_target(
+        "target-shared",
+        Severity::Error,
+        target,
+        message,
+        "give each use a target of its own, or --split-targets",
+    )
+}
+
+/// How far from its wanted pose the real tool lands at the end of an approach, with given numbers.
+pub(super) fn landing(
+    job: &Job,
+    approach: &Approach,
+    outcome: &Outcome,
+    given: &Fake,
+) -> Separation {
+    let ground = &job.ground;
+    let target = &ground.program.targets[approach.target as usize];
+    let equipped = ground.arm_with(approach.tool as usize);
+    let q = match target.layout.shape {
+        Shape::Joints => given.q,
+        Shape::Pose => {
+            let world_from_tool =
+                *ground.world_from_frame(approach.frame as usize) * given.frame_from_tool;
+            equipped
+                .controller_joints(&world_from_tool, approach.branch, &outcome.q)
+                .0
+        }
+    };
+    let real = &equipped.inverse.real;
+    real.forward(&q, &approach.conditions(job))
+        .separation(&approach.wanted(job))
+}

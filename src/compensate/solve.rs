@@ -1,0 +1,205 @@
+//! The joints with which the real arm reaches each wanted pose, and from which side each joint comes on the path to it.
+
+use super::Job;
+use super::approach::{Approach, SAME_RAD};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::mm_from_m;
+use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch};
+use crate::model::Conditions;
+use crate::model::effects::Need;
+use crate::motion::walk::{self, Arrival, Arrivals, Pace};
+use crate::program::script::short;
+use crate::program::{Motion, Shape};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Targets solved by one thread at a time.
+const CHUNK: usize = 512;
+/// Times that the directions of arrival are looked at again on the path between fake targets.
+const MOST_ROUNDS: usize = 3;
+
+/// Whether the direction in which joints arrive matters to an effect of the profile.
+pub(super) fn is_directed(job: &Job) -> bool {
+    let effects = &job.ground.profile.effects;
+    effects
+        .iter()
+        .any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions))
+}
+
+/// The outcome of each approach, and the direction of arrival on the path between fake targets.
+pub(super) fn solve(
+    job: &Job,
+    arrivals: &Arrivals,
+    pace: &Pace,
+    approaches: &mut [Approach],
+    findings: &mut Vec<Finding>,
+) -> Vec<Outcome> {
+    let all: Vec<u32> = (0..short(approaches.len())).collect();
+    let mut outcomes: Vec<Option<Outcome>> = vec![None; approaches.len()];
+    solve_some(job, approaches, &all, &mut outcomes);
+    if pace.directed {
+        for round in 0.. {
+            let changed = changed_directions(job, arrivals, pace, approaches, &outcomes);
+            if changed.is_empty() {
+                break;
+            }
+            if round == MOST_ROUNDS {
+                for (at, direction) in changed {
+                    findings.push(unsettled(job, &approaches[at as usize], direction));
+                }
+                break;
+            }
+            let again: Vec<u32> = changed.iter().map(|(at, _)| *at).collect();
+            for (at, direction) in changed {
+                approaches[at as usize].direction = direction;
+            }
+            solve_some(job, approaches, &again, &mut outcomes);
+        }
+    }
+    let outcomes = outcomes.into_iter();
+    outcomes
+        .map(|outcome| outcome.expect("every approach is solved"))
+        .collect()
+}
+
+/// Solves some approaches, those with the same tool and conditions side by side, on all processors.
+fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut [Option<Outcome>]) {
+    let mut alike: BTreeMap<(u32, [i8; 6]), Vec<u32>> = BTreeMap::new();
+    for &at in which {
+        let approach = &approaches[at as usize];
+        let same = alike
+            .entry((approach.tool, approach.direction))
+            .or_default();
+        same.push(at);
+    }
+    let chunks: Vec<&[u32]> = alike.values().flat_map(|same| same.chunks(CHUNK)).collect();
+    let solved: Vec<Vec<Outcome>> = chunks
+        .par_iter()
+        .map(|chunk| {
+            let of = |at: &u32| &approaches[*at as usize];
+            let first = of(&chunk[0]);
+            let inverse = Inverse {
+                conditions: first.conditions(job),
+                ..job.ground.arm_with(first.tool as usize).inverse.clone()
+            };
+            let wanted: Vec<_> = chunk.iter().map(|at| of(at).wanted(job)).collect();
+            let branches: Vec<_> = chunk.iter().map(|at| of(at).branch).collect();
+            let near: Vec<_> = chunk.iter().map(|at| of(at).nominal_q).collect();
+            solve_batch(
+                &inverse,
+                Targets {
+                    wanted: &wanted,
+                    branches: &branches,
+                    near: &near,
+                },
+            )
+        })
+        .collect();
+    for (chunk, solved) in chunks.iter().zip(solved) {
+        for (at, outcome) in chunk.iter().zip(solved) {
+            outcomes[*at as usize] = Some(outcome);
+        }
+    }
+}
+
+/// Approaches whose joints arrive from another side on the path between fake targets than they were solved for.
+fn changed_directions(
+    job: &Job,
+    arrivals: &Arrivals,
+    pace: &Pace,
+    approaches: &[Approach],
+    outcomes: &[Option<Outcome>],
+) -> Vec<(u32, [i8; 6])> {
+    let ground = &job.ground;
+    let fakes = fake_joints(job, arrivals, approaches, outcomes);
+    // directions carry on from arrival to arrival: predecessors come first in the list
+    let mut directions: Vec<[i8; 6]> = vec![[0; 6]; arrivals.all.len()];
+    for (at, arrival) in arrivals.all.iter().enumerate() {
+        let Some(before) = arrivals.start_of(arrival).filter(|_| arrival.known) else {
+            continue;
+        };
+        let motion = &ground.program.moves[arrival.motion as usize];
+        let Some(equipped) = ground.equipped(motion.tool) else {
+            continue;
+        };
+        let carried = directions[arrival.from as usize];
+        let end = fakes[at];
+        let (start, via) = if motion.motion == Motion::ArcEnd {
+            let through = &ground.program.moves[before.motion as usize];
+            let via = (through.motion == Motion::ArcVia).then(|| {
+                let q = &fakes[arrival.from as usize];
+                equipped.controller.forward(q, &Conditions::default())
+            });
+            match (&via, arrivals.start_of(before)) {
+                (Some(_), Some(_)) => (fakes[before.from as usize], via),
+                _ => (fakes[arrival.from as usize], None),
+            }
+        } else {
+            (fakes[arrival.from as usize], None)
+        };
+        let wanted = equipped.controller.forward(&end, &Conditions::default());
+        let course = walk::course(motion, equipped, &start, via.as_ref(), &wanted, &end, pace);
+        directions[at] =
+            walk::arrival_direction(equipped, &course, &start, &end, arrival.branch, carried);
+    }
+    let differs = |(at, approach): (usize, &Approach)| {
+        let direction = *directions.get(approach.arrival as usize)?;
+        (direction != approach.direction).then_some((short(at), direction))
+    };
+    approaches.iter().enumerate().filter_map(differs).collect()
+}
+
+/// The controller's joints at each arrival of the compensated program.
+fn fake_joints(
+    job: &Job,
+    arrivals: &Arrivals,
+    approaches: &[Approach],
+    outcomes: &[Option<Outcome>],
+) -> Vec<[f64; 6]> {
+    let moves = &job.ground.program.moves;
+    let fake = |arrival: &Arrival| {
+        let motion = &moves[arrival.motion as usize];
+        let target = short(motion.target?);
+        let first = approaches.partition_point(|approach| approach.target < target);
+        let of_target = approaches[first..]
+            .iter()
+            .take_while(|a| a.target == target);
+        let found = of_target.zip(&outcomes[first..]).find(|(a, _)| {
+            a.branch == arrival.branch
+                && (0..6).all(|i| (a.nominal_q[i] - arrival.q[i]).abs() < SAME_RAD)
+        });
+        let outcome = found?.1.as_ref()?;
+        (outcome.status == Status::Converged && !arrival.displaced).then_some(outcome.q)
+    };
+    let of = |arrival: &Arrival| fake(arrival).unwrap_or(arrival.q);
+    arrivals.all.iter().map(of).collect()
+}
+
+/// Where the direction of a joint depends on the correction that depends on it.
+fn unsettled(job: &Job, approach: &Approach, direction: [i8; 6]) -> Finding {
+    let ground = &job.ground;
+    let other = Approach {
+        direction,
+        ..*approach
+    };
+    let real = &ground.arm_with(approach.tool as usize).inverse.real;
+    let [a, b] = [approach, &other]
+        .map(|approach| real.forward(&approach.nominal_q, &approach.conditions(job)));
+    let is_pose = ground.program.targets[approach.target as usize]
+        .layout
+        .shape
+        == Shape::Pose;
+    let message = format!(
+        "from which side a joint comes to {} depends on the correction itself: the {} may be off by {:.3} mm",
+        ground.name_of(approach.target as usize),
+        if is_pose { "tool" } else { "joint target" },
+        mm_from_m(a.separation(&b).distance_m)
+    );
+    ground.at_target(
+        "direction-uncertain",
+        Severity::Warning,
+        approach.target as usize,
+        message,
+        "come to the target on a longer move",
+    )
+}

@@ -1,0 +1,65 @@
+//! The arm with one of a program's tools.
+
+use crate::geometry::Pose;
+use crate::inverse::{Arm, Branch, Inverse, Status, Unsupported};
+use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Model};
+
+/// An arm with one of the program's tools.
+pub(crate) struct Equipped {
+    pub arm: Arm,
+    pub controller: Model,
+    /// The inverse of a controller that computes with a calibrated chain of its own.
+    pub calibrated_controller: Option<Inverse>,
+    /// The real arm without conditions.
+    pub inverse: Inverse,
+}
+
+impl Equipped {
+    /// The arm of a profile with one tool.
+    ///
+    /// # Errors
+    /// An arm without an inverse.
+    pub fn of(profile: &Profile, tool: &Mounted) -> Result<Self, Unsupported> {
+        let conditions = Conditions::default();
+        let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)?;
+        let inverse = Inverse {
+            arm: arm.clone(),
+            real: profile.real_model(tool, &conditions),
+            conditions,
+        };
+        let controller = profile.controller_model(tool);
+        let is_calibrated = !profile.controller_effects().is_empty();
+        let calibrated_controller = is_calibrated.then(|| Inverse {
+            arm: arm.clone(),
+            real: controller.clone(),
+            conditions,
+        });
+        Ok(Self {
+            arm,
+            controller,
+            calibrated_controller,
+            inverse,
+        })
+    }
+
+    /// The joints that the controller computes for `world_from_tool` near others, and whether they reach it.
+    pub fn controller_joints(
+        &self,
+        world_from_tool: &Pose,
+        branch: Branch,
+        near: &[f64; 6],
+    ) -> ([f64; 6], bool) {
+        match &self.calibrated_controller {
+            None => {
+                let solution = self.arm.solve_branch(world_from_tool, branch, near);
+                (solution.q, solution.beyond == 0.0)
+            }
+            Some(controller) => {
+                let outcome = controller.solve(world_from_tool, branch, near);
+                let missed = matches!(outcome.status, Status::OutOfReach | Status::NotConverged);
+                (outcome.q, !missed)
+            }
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! Which of the inverse's solutions a target means by itself: by its configuration data where the controller honours them,
+//! and by the joints before.
+
+use super::ground::Ground;
+use crate::finding::{Finding, Severity};
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
+use crate::inverse::{Arm, Branch};
+use crate::program::{Configuration, TargetId};
+
+/// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
+const BORDER_RAD: f64 = 0.05 * DEG;
+/// How far beyond its limits a joint of the nominal arm may stand; the real one is judged exactly.
+pub(super) const LIMIT_RAD: f64 = 2.0 * DEG;
+/// Name of the finding about a target that the nominal arm does not reach.
+pub(crate) const OUT_OF_REACH: &str = "out-of-reach";
+
+/// A way to stand at a target with the nominal arm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Posture {
+    pub branch: Branch,
+    pub q: [f64; 6],
+    /// It is all that the configuration data ask for.
+    pub configured: bool,
+    /// Its joints are in the ranges that the configuration data name.
+    pub in_ranges: bool,
+}
+
+/// A target whose branch is to be found.
+pub(super) struct Asked<'a> {
+    pub target: TargetId,
+    pub arm: &'a Arm,
+    pub wanted: Pose,
+    pub configuration: Configuration,
+    /// The controller goes by the configuration data.
+    pub honoured: bool,
+    /// The joints from which the robot comes, or from which its inverse starts.
+    pub start: Option<[f64; 6]>,
+}
+
+/// The posture that configuration data and the joints before ask for; `None` where there is none, with a finding.
+pub(super) fn choose(
+    ground: &Ground,
+    asked: &Asked,
+    findings: &mut Vec<Finding>,
+) -> Option<Posture> {
+    let Asked {
+        target,
+        arm,
+        wanted,
+        configuration,
+        honoured,
+        start,
+    } = asked;
+    // along a path the next posture is mostly on the branch of the last one; the others are tried where it does not fit
+    if let Some(before) = start {
+        let same = on_branch(arm, wanted, arm.posture(before).0, before, configuration);
+        if let Some(same) = same.filter(|same| same.configured && is_close(&same.q, before)) {
+            return Some(same);
+        }
+    }
+    let middle = arm
+        .mechanism()
+        .joints
+        .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
+    let near = start.unwrap_or(middle);
+    let postures: Vec<Posture> = Branch::ALL
+        .iter()
+        .filter_map(|&branch| on_branch(arm, wanted, branch, &near, configuration))
+        .collect();
+    let nearest = |accept: &dyn Fn(&Posture) -> bool| {
+        let distance = |posture: &Posture| {
+            (0..6)
+                .map(|i| (posture.q[i] - near[i]).abs())
+                .fold(0.0, f64::max)
+        };
+        let accepted = postures.iter().filter(|posture| accept(posture)).copied();
+        accepted.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    if postures.is_empty() {
+        return out_of_reach(ground, asked, &near, findings);
+    }
+    if !honoured && start.is_some() {
+        return nearest(&|_| true);
+    }
+    if let Some(posture) =
+        nearest(&|posture| posture.configured).or_else(|| nearest(&|posture| posture.in_ranges))
+    {
+        return Some(posture);
+    }
+    let name = ground.name_of(*target);
+    let shown = nearest(&|_| true)?
+        .q
+        .map(|q| format!("{:.1}", q / DEG))
+        .join(", ");
+    if start.is_some() {
+        let message = format!(
+            "no solution at {name} has the configuration that the file gives; the one nearest to the target before is taken \
+             (joints {shown} deg)"
+        );
+        let hint =
+            "check the configuration data, and that robot, tool and frame are those of the program";
+        findings.push(ground.at_target(
+            "configuration-mismatch",
+            Severity::Warning,
+            *target,
+            message,
+            hint,
+        ));
+        return nearest(&|_| true);
+    }
+    let message = format!(
+        "no solution at {name} has the configuration that the file gives, and no target before tells how the robot comes here \
+         (nearest: joints {shown} deg)"
+    );
+    let hint =
+        "check that robot, tool and frame are those of the program; start with a joint target";
+    findings.push(ground.at_target(
+        "configuration-unknown",
+        Severity::Error,
+        *target,
+        message,
+        hint,
+    ));
+    None
+}
+
+/// Whether a posture follows the one before without a change of branch or a turn in between.
+fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
+    (0..6).all(|i| (q[i] - before[i]).abs() < 45.0 * DEG)
+}
+
+/// Whether a posture is the one that configuration data ask for.
+pub(super) fn holds(configuration: &Configuration, branch: Branch, q: &[f64; 6]) -> bool {
+    let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);
+    let inside = |i: usize| {
+        configuration.joints[i]
+            .is_none_or(|(low, high)| (low - BORDER_RAD..=high + BORDER_RAD).contains(&q[i]))
+    };
+    agrees(configuration.behind_axis_1, branch.behind_axis_1)
+        && agrees(configuration.behind_lower_arm, branch.behind_lower_arm)
+        && agrees(configuration.joint_5_negative, branch.joint_5_negative)
+        && (0..6).all(inside)
+}
+
+/// The solution on one branch with the turns that the configuration data and the limits ask for; `None` out of reach or
+/// beyond a limit.
+pub(super) fn on_branch(
+    arm: &Arm,
+    wanted: &Pose,
+    branch: Branch,
+    near: &[f64; 6],
+    configuration: &Configuration,
+) -> Option<Posture> {
+    let solution = arm.solve_branch(wanted, branch, near);
+    if solution.beyond > 0.0 {
+        return None;
+    }
+    let mechanism = arm.mechanism();
+    let mut q = solution.q;
+    let mut in_ranges = true;
+    for i in 0..6 {
+        let limits = (
+            mechanism.joints[i].min_rad - LIMIT_RAD,
+            mechanism.joints[i].max_rad + LIMIT_RAD,
+        );
+        let asked =
+            configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
+        // a border belongs to both sides, but what is inside goes first
+        let inside = configuration.joints[i].and_then(|range| turned_into(q[i], range, limits));
+        let turned = |range: (f64, f64)| turned_into(q[i], range, limits);
+        if let Some(angle) = inside.or_else(|| asked.and_then(turned)) {
+            q[i] = angle;
+        } else {
+            in_ranges &= asked.is_none();
+            q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
+        }
+    }
+    let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);
+    let configured = in_ranges
+        && agrees(configuration.behind_axis_1, branch.behind_axis_1)
+        && agrees(configuration.behind_lower_arm, branch.behind_lower_arm)
+        && agrees(configuration.joint_5_negative, branch.joint_5_negative);
+    Some(Posture {
+        branch,
+        q,
+        configured,
+        in_ranges,
+    })
+}
+
+/// The angle, by as few whole turns as can be, that lies in both ranges.
+fn turned_into(angle: f64, range: (f64, f64), limits: (f64, f64)) -> Option<f64> {
+    let (low, high) = (range.0.max(limits.0), range.1.min(limits.1));
+    let turn = std::f64::consts::TAU;
+    if (low..=high).contains(&angle) {
+        return Some(angle);
+    }
+    let moved = if angle < low {
+        angle + turn * ((low - angle) / turn).ceil()
+    } else {
+        angle - turn * ((angle - high) / turn).ceil()
+    };
+    (low..=high).contains(&moved).then_some(moved)
+}
+
+/// A pose that the nominal arm does not reach within its limits: the real one may, so the branch of the posture before or of
+/// the stretched arm goes on; with neither it is an error.
+fn out_of_reach(
+    ground: &Ground,
+    asked: &Asked,
+    near: &[f64; 6],
+    findings: &mut Vec<Finding>,
+) -> Option<Posture> {
+    let Asked {
+        target,
+        arm,
+        wanted,
+        ..
+    } = asked;
+    let branch = arm.posture(near).0;
+    let stretched = arm.solve_branch(wanted, branch, near);
+    // squared cosine of the elbow beyond 1: a few millimetres at full stretch
+    if stretched.beyond > 0.0 && stretched.beyond < 0.02 {
+        return Some(Posture {
+            branch,
+            q: stretched.q,
+            configured: false,
+            in_ranges: false,
+        });
+    }
+    let message = if stretched.beyond > 0.0 {
+        format!(
+            "{} is out of the nominal robot's reach",
+            ground.name_of(*target)
+        )
+    } else {
+        let q = stretched.q;
+        let joint = arm.mechanism().beyond_limit(&q, LIMIT_RAD).unwrap_or(0);
+        let limits = &arm.mechanism().joints[joint];
+        format!(
+            "{} is reachable on no branch within the joint limits (nearest: joint {} at {:.2} deg, limits {:.2} to {:.2})",
+            ground.name_of(*target),
+            joint + 1,
+            q[joint] / DEG,
+            limits.min_rad / DEG,
+            limits.max_rad / DEG
+        )
+    };
+    let hint = "check that robot, tool and frame are those of the program";
+    findings.push(ground.at_target(OUT_OF_REACH, Severity::Error, *target, message, hint));
+    None
+}

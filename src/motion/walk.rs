@@ -1,0 +1,611 @@
+//! In which posture the robot arrives at the end of each move, and which way each joint moves then.
+//!
+//! Moves are gone through along the moves before them, from where programs start. On a joint move configuration data decide
+//! as the controller does; on a straight line or an arc the posture is that of the path itself, followed from the posture before.
+//! The direction of a joint is the sign of its rate at the end of the path; one that stands keeps its last.
+
+use super::course::{Course, Leg, ToolCourse, Turning};
+use super::ground::Ground;
+use super::posture::{self, Asked, Posture};
+use crate::finding::{Finding, Severity};
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
+use crate::inverse::Branch;
+use crate::model::Conditions;
+use crate::program::{Before, Configuration, Displacement, Motion, Move, Role, TargetId, Value};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// A joint that moves less than this on a joint move keeps the direction in which it moved before, radians.
+const STANDSTILL_RAD: f64 = 1e-6;
+/// A joint whose rate at the end of a path is less than this stands, radians per metre.
+const STANDSTILL_RAD_M: f64 = 1e-3;
+/// Parts of an orientation beyond this, in degrees or radians, are no angles: 1e5 degrees are 278 rotations.
+const MOST_ANGLE: f64 = 1e5;
+/// Arrivals at one move that are told apart.
+const MOST_ARRIVALS: usize = 64;
+/// Joints that differ by less are the same, radians.
+const SAME_RAD: f64 = 1e-7;
+/// A joint that moves more in a step of a path may have gone round: the step is halved.
+const MOST_STEP_RAD: f64 = 45.0 * DEG;
+/// The shortest step of a path.
+const SHORTEST_STEP: f64 = 1.0 / 512.0;
+/// A path that turns the tool by more, or is longer, is followed in several steps.
+const MANY_RAD: f64 = 30.0 * DEG;
+const MANY_M: f64 = 0.25;
+/// Nearer to a singularity than this a posture belongs to both branches.
+const SINGULAR_RAD: f64 = 0.02 * DEG;
+const SINGULAR_M: f64 = 1e-4;
+/// How far along a path that begins at a singularity its branch is seen.
+const BEYOND_SINGULAR: f64 = 0.02;
+
+/// The robot at the end of a move.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arrival {
+    /// Index in the program's moves.
+    pub motion: u32,
+    /// The arrival that it comes from; [`NOWHERE`] where that is not known.
+    pub from: u32,
+    /// The controller's joints, radians.
+    pub q: [f64; 6],
+    /// The branch of the inverse.
+    pub branch: Branch,
+    /// Direction in which each joint last moved; 0 where it is not known.
+    pub direction: [i8; 6],
+    /// The joints are known.
+    pub known: bool,
+    /// The joints are those of the target, and the robot goes near it.
+    pub displaced: bool,
+    /// The controller goes by the target's configuration data.
+    pub honoured: bool,
+}
+
+/// Name of the finding about a path that ends in another configuration than the file gives.
+pub(crate) const CONFIGURATION_CHANGE: &str = "configuration-change";
+/// No arrival.
+pub(crate) const NOWHERE: u32 = u32::MAX;
+
+/// All arrivals of a program.
+#[derive(Debug, Default)]
+pub(crate) struct Arrivals {
+    pub all: Vec<Arrival>,
+    /// First arrival at each move, and the next one at the same move behind each.
+    first: Vec<u32>,
+    next: Vec<u32>,
+}
+
+impl Arrivals {
+    /// Indices of the arrivals at a move.
+    pub fn at(&self, motion: usize) -> impl Iterator<Item = usize> + '_ {
+        let first = self.first.get(motion).copied().unwrap_or(NOWHERE);
+        let mut next = (first != NOWHERE).then_some(first as usize);
+        std::iter::from_fn(move || {
+            let here = next?;
+            let behind = self.next[here];
+            next = (behind != NOWHERE).then_some(behind as usize);
+            Some(here)
+        })
+    }
+
+    /// Where an arrival comes from, where its joints are known.
+    pub fn start_of(&self, arrival: &Arrival) -> Option<&Arrival> {
+        let from = self.all.get(arrival.from as usize)?;
+        from.known.then_some(from)
+    }
+
+    fn add(&mut self, arrival: Arrival) {
+        let here = crate::program::script::short(self.all.len());
+        let first = &mut self.first[arrival.motion as usize];
+        self.next.push(std::mem::replace(first, here));
+        self.all.push(arrival);
+    }
+}
+
+/// How a program is walked.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pace {
+    /// The joints in which the robot stands when a program starts, radians.
+    pub start_joints: Option<[f64; 6]>,
+    /// Joints are those of a controller that computes with a calibrated chain of its own, where it does; else those of the
+    /// nominal arm.
+    pub exact: bool,
+    /// A path that ends in another configuration than the file gives is an error.
+    pub strict: bool,
+    /// Directions of arrival matter.
+    pub directed: bool,
+    /// How the controller turns the tool on its path.
+    pub turning: Turning,
+}
+
+/// Goes through all moves of a program.
+pub(crate) fn walk(ground: &Ground, pace: &Pace, findings: &mut Vec<Finding>) -> Arrivals {
+    let count = ground.program.moves.len();
+    let mut walker = Walker {
+        ground,
+        pace,
+        findings,
+        arrivals: Arrivals {
+            all: Vec::with_capacity(count),
+            first: vec![NOWHERE; count],
+            next: Vec::with_capacity(count),
+        },
+        open: BinaryHeap::new(),
+        many: false,
+    };
+    let behind = Behind::of(ground);
+    for at in 0..count {
+        let motion = &ground.program.moves[at];
+        let starts = |before: &Before| !matches!(before, Before::One(_));
+        if ground.program.before(motion).iter().any(starts) {
+            walker
+                .open
+                .push(Reverse((crate::program::script::short(at), NOWHERE)));
+        }
+    }
+    walker.run(&behind);
+    // moves that only moves without an arrival come before
+    for at in 0..count {
+        if walker.arrivals.first[at] == NOWHERE {
+            walker
+                .open
+                .push(Reverse((crate::program::script::short(at), NOWHERE)));
+            walker.run(&behind);
+        }
+    }
+    walker.arrivals
+}
+
+/// The moves behind each move.
+struct Behind {
+    first: Vec<u32>,
+    list: Vec<u32>,
+}
+
+impl Behind {
+    fn of(ground: &Ground) -> Self {
+        let moves = &ground.program.moves;
+        let mut first = vec![0_u32; moves.len() + 1];
+        let each = |take: &mut dyn FnMut(u32, u32)| {
+            for (at, motion) in moves.iter().enumerate() {
+                for before in ground.program.before(motion) {
+                    if let Before::One(before) = before {
+                        take(*before, crate::program::script::short(at));
+                    }
+                }
+            }
+        };
+        each(&mut |before, _| first[before as usize + 1] += 1);
+        for at in 1..first.len() {
+            first[at] += first[at - 1];
+        }
+        let mut list = vec![0; first[moves.len()] as usize];
+        let mut free = first.clone();
+        each(&mut |before, at| {
+            list[free[before as usize] as usize] = at;
+            free[before as usize] += 1;
+        });
+        Self { first, list }
+    }
+
+    fn of_move(&self, at: u32) -> &[u32] {
+        let at = at as usize;
+        &self.list[self.first[at] as usize..self.first[at + 1] as usize]
+    }
+}
+
+struct Walker<'a, 'f> {
+    ground: &'a Ground<'a>,
+    pace: &'a Pace,
+    findings: &'f mut Vec<Finding>,
+    arrivals: Arrivals,
+    /// Moves to arrive at, and from which arrival: the first of the text first.
+    open: BinaryHeap<Reverse<(u32, u32)>>,
+    many: bool,
+}
+
+impl Walker<'_, '_> {
+    fn run(&mut self, behind: &Behind) {
+        while let Some(Reverse((at, from))) = self.open.pop() {
+            let arrival = self.arrive(at, from);
+            let mut others = 0;
+            let mut is_same = false;
+            let mut is_new = true;
+            for other in self.arrivals.at(at as usize) {
+                let other = &self.arrivals.all[other];
+                others += 1;
+                let alike = is_alike(other, &arrival);
+                is_new &= !alike;
+                is_same |= alike && self.motion_of(other.from) == self.motion_of(arrival.from);
+            }
+            if is_same {
+                continue;
+            }
+            if others >= MOST_ARRIVALS {
+                self.too_many(at);
+                continue;
+            }
+            self.arrivals.add(arrival);
+            if is_new {
+                let here = crate::program::script::short(self.arrivals.all.len() - 1);
+                for &next in behind.of_move(at) {
+                    self.open.push(Reverse((next, here)));
+                }
+            }
+        }
+    }
+
+    fn motion_of(&self, arrival: u32) -> Option<u32> {
+        self.arrivals.all.get(arrival as usize).map(|a| a.motion)
+    }
+
+    fn too_many(&mut self, at: u32) {
+        if std::mem::replace(&mut self.many, true) {
+            return;
+        }
+        let motion = &self.ground.program.moves[at as usize];
+        let message = format!(
+            "the robot comes here in more than {MOST_ARRIVALS} ways; the others are not checked"
+        );
+        let hint = "give fewer files in one call";
+        let severity = Severity::Error;
+        self.findings.push(
+            self.ground
+                .at_move("too-many-uses", severity, motion, message, hint),
+        );
+    }
+
+    fn arrive(&mut self, at: u32, from: u32) -> Arrival {
+        let ground = self.ground;
+        let motion = &ground.program.moves[at as usize];
+        let before = self.arrivals.all.get(from as usize).copied();
+        let start = before.filter(|before| before.known).map(|before| before.q);
+        let is_first = ground
+            .program
+            .before(motion)
+            .iter()
+            .any(|before| *before == Before::Start);
+        let start = match (start, from) {
+            (None, NOWHERE) if is_first => self.pace.start_joints,
+            _ => start,
+        };
+        let honoured = motion.configured && motion.near.is_none();
+        let nowhere = Arrival {
+            motion: at,
+            from,
+            q: start.unwrap_or([0.0; 6]),
+            branch: Branch::ALL[0],
+            direction: [0; 6],
+            known: false,
+            displaced: false,
+            honoured,
+        };
+        let Some(target) = motion.target else {
+            return nowhere;
+        };
+        let Some(decoded) =
+            crate::program::meaning(ground.language, ground.program, ground.settings, target)
+        else {
+            return nowhere;
+        };
+        let direction = before.map_or([0; 6], |before| before.direction);
+        if let Value::Joints(q) = decoded.value {
+            let arm = ground.arms.iter().flatten().next();
+            return Arrival {
+                q,
+                branch: arm.map_or(Branch::ALL[0], |equipped| equipped.arm.posture(&q).0),
+                direction: start.map_or([0; 6], |start| turned(&start, &q, direction)),
+                known: true,
+                ..nowhere
+            };
+        }
+        let frame = ground.frame_of(motion);
+        if ground.equipped(motion.tool).is_none() || ground.setting.frames[frame].is_none() {
+            return nowhere;
+        }
+        if let Some(angle) = self.endless_angle(target) {
+            self.say_endless(target, angle);
+            return nowhere;
+        }
+        let (value, displaced) = match (&decoded.value, &motion.displacement) {
+            (Value::Pose(pose), Displacement::By(shift)) => (Value::Pose(shift.apply(pose)), false),
+            (value, Displacement::Unknown) => (*value, true),
+            (value, _) => (*value, false),
+        };
+        let wanted = ground.wanted(&value, motion.tool, frame);
+        // the point on the way of an arc comes before its end
+        let (via, start) = match (motion.motion, before) {
+            (Motion::ArcEnd, Some(before)) => self.arc_start(&before, start),
+            _ => (None, start),
+        };
+        let Some(posture) = self.posture(
+            motion,
+            target,
+            &wanted,
+            &decoded.configuration,
+            start,
+            via.as_ref(),
+        ) else {
+            return nowhere;
+        };
+        let equipped = ground.arm_with(motion.tool);
+        let q = match &equipped.calibrated_controller {
+            Some(controller) if self.pace.exact => {
+                controller.solve(&wanted, posture.branch, &posture.q).q
+            }
+            _ => posture.q,
+        };
+        let direction = match start.filter(|_| self.pace.directed) {
+            Some(start) => {
+                let course = course(
+                    motion,
+                    equipped,
+                    &start,
+                    via.as_ref(),
+                    &wanted,
+                    &q,
+                    self.pace,
+                );
+                arrival_direction(equipped, &course, &start, &q, posture.branch, direction)
+            }
+            None => [0; 6],
+        };
+        Arrival {
+            q,
+            branch: posture.branch,
+            direction,
+            known: true,
+            displaced,
+            ..nowhere
+        }
+    }
+
+    /// The pose that an arc passes through, and the joints where it begins.
+    fn arc_start(
+        &self,
+        via: &Arrival,
+        start: Option<[f64; 6]>,
+    ) -> (Option<Pose>, Option<[f64; 6]>) {
+        let ground = self.ground;
+        let motion = &ground.program.moves[via.motion as usize];
+        if motion.motion != Motion::ArcVia || !via.known {
+            return (None, start);
+        }
+        let pose = ground
+            .equipped(motion.tool)
+            .map(|equipped| equipped.controller.forward(&via.q, &Conditions::default()));
+        (pose, self.arrivals.start_of(via).map(|before| before.q))
+    }
+
+    /// The posture at the end of a move.
+    fn posture(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        configuration: &Configuration,
+        start: Option<[f64; 6]>,
+        via: Option<&Pose>,
+    ) -> Option<Posture> {
+        let ground = self.ground;
+        let equipped = ground.arm_with(motion.tool);
+        let near = motion.near.as_deref().copied();
+        let along = start.filter(|_| {
+            motion.motion != Motion::Joint && !motion.free_orientation && near.is_none()
+        });
+        if let Some(start) = along {
+            let course = course(motion, equipped, &start, via, wanted, &start, self.pace);
+            if let Some((branch, q)) = follow(equipped, &course, &start) {
+                return Some(self.compared(motion, target, wanted, configuration, branch, q));
+            }
+        }
+        let asked = Asked {
+            target,
+            arm: &equipped.arm,
+            wanted: *wanted,
+            configuration: *configuration,
+            honoured: motion.configured && near.is_none(),
+            start: near.or(start),
+        };
+        posture::choose(ground, &asked, self.findings)
+    }
+
+    /// The posture at the end of a path, within the limits by whole rotations; its configuration data are compared where the
+    /// controller does.
+    fn compared(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        configuration: &Configuration,
+        branch: Branch,
+        q: [f64; 6],
+    ) -> Posture {
+        let ground = self.ground;
+        if motion.configured && !posture::holds(configuration, branch, &q) {
+            let shown = q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+            let message = format!(
+                "the path to {} ends in another configuration than the file gives (joints {shown} deg)",
+                ground.name_of(target)
+            );
+            let hint = "check the configuration data, and that robot, tool and frame are those of the program";
+            let (id, severity) = if self.pace.strict {
+                (CONFIGURATION_CHANGE, Severity::Error)
+            } else {
+                ("configuration-mismatch", Severity::Warning)
+            };
+            let finding = ground.at_target(id, severity, target, message, hint);
+            self.findings.push(finding);
+        }
+        let as_it_is = Posture {
+            branch,
+            q,
+            configured: false,
+            in_ranges: false,
+        };
+        let arm = &ground.arm_with(motion.tool).arm;
+        if arm
+            .mechanism()
+            .beyond_limit(&q, posture::LIMIT_RAD)
+            .is_none()
+        {
+            return as_it_is;
+        }
+        let any = Configuration::default();
+        posture::on_branch(arm, wanted, branch, &q, &any).unwrap_or(as_it_is)
+    }
+
+    /// A part of the target's orientation so large that its angle is lost in rounding.
+    fn endless_angle(&self, target: TargetId) -> Option<f64> {
+        let program = self.ground.program;
+        let target = &program.targets[target];
+        let roles = self.ground.language.roles(target.layout);
+        let numbers = program.numbers_of(target).iter().zip(roles);
+        let mut angles = numbers.filter(|(_, role)| **role == Role::Orientation);
+        angles.find_map(|(number, _)| Some(number.value).filter(|angle| angle.abs() > MOST_ANGLE))
+    }
+
+    fn say_endless(&mut self, target: TargetId, angle: f64) {
+        let ground = self.ground;
+        self.findings.push(ground.at_target(
+            "angle-too-large",
+            Severity::Error,
+            target,
+            format!(
+                "an angle of {angle:e} in {} is none that anybody means",
+                ground.name_of(target)
+            ),
+            "write its orientation with angles of a few rotations at most",
+        ));
+    }
+}
+
+fn is_alike(a: &Arrival, b: &Arrival) -> bool {
+    a.known == b.known
+        && a.branch == b.branch
+        && a.direction == b.direction
+        && (0..6).all(|i| (a.q[i] - b.q[i]).abs() < SAME_RAD)
+}
+
+/// Directions after a move of the joints at constant rates.
+fn turned(from: &[f64; 6], to: &[f64; 6], before: [i8; 6]) -> [i8; 6] {
+    std::array::from_fn(|i| sign(to[i] - from[i], STANDSTILL_RAD).unwrap_or(before[i]))
+}
+
+fn sign(by: f64, least: f64) -> Option<i8> {
+    (by.abs() > least).then_some(if by > 0.0 { 1 } else { -1 })
+}
+
+/// The controller's path of a move.
+pub(crate) fn course(
+    motion: &Move,
+    equipped: &super::arms::Equipped,
+    start: &[f64; 6],
+    via: Option<&Pose>,
+    wanted: &Pose,
+    q: &[f64; 6],
+    pace: &Pace,
+) -> Course {
+    if motion.motion == Motion::Joint {
+        return Course::Joint {
+            from: *start,
+            to: *q,
+        };
+    }
+    let from = equipped.controller.forward(start, &Conditions::default());
+    Course::Tool(match via {
+        Some(via) => ToolCourse::arc(&from, via.translation, wanted, pace.turning),
+        None => ToolCourse::straight(&from, wanted, pace.turning),
+    })
+}
+
+/// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations by continuity. `None` where it
+/// leaves the reach on its way.
+fn follow(
+    equipped: &super::arms::Equipped,
+    course: &Course,
+    start: &[f64; 6],
+) -> Option<(Branch, [f64; 6])> {
+    let Course::Tool(path) = course else {
+        return None;
+    };
+    let arm = &equipped.arm;
+    let at = |s: f64, branch: Branch, near: &[f64; 6]| {
+        let solution = arm.solve_branch(&path.pose(s), branch, near);
+        (solution.beyond == 0.0).then_some(solution.q)
+    };
+    let (mut branch, margins) = arm.posture(start);
+    let is_singular = margins.wrist_rad < SINGULAR_RAD
+        || margins.elbow_rad < SINGULAR_RAD
+        || margins.shoulder_m < SINGULAR_M;
+    if is_singular {
+        let away = |branch: &Branch| {
+            let q = at(BEYOND_SINGULAR, *branch, start)?;
+            Some((0..6).map(|i| (q[i] - start[i]).abs()).fold(0.0, f64::max))
+        };
+        let nearest = Branch::ALL
+            .iter()
+            .filter_map(|branch| Some((away(branch)?, *branch)))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        branch = nearest?.1;
+    }
+    let steps = if path.angle_rad() > MANY_RAD || path.length_m() > MANY_M {
+        8.0
+    } else {
+        1.0
+    };
+    let longest = 1.0 / steps;
+    let (mut s, mut step, mut q) = (0.0_f64, longest, *start);
+    while s < 1.0 {
+        let next: f64 = (s + step).min(1.0);
+        let there = at(next, branch, &q)?;
+        let most = (0..6).map(|i| (there[i] - q[i]).abs()).fold(0.0, f64::max);
+        if most > MOST_STEP_RAD
+            && step > SHORTEST_STEP
+            && !(is_singular && s == 0.0 && step < BEYOND_SINGULAR)
+        {
+            step *= 0.5;
+            continue;
+        }
+        (s, q) = (next, there);
+        step = (2.0 * step).min(longest);
+    }
+    Some((branch, q))
+}
+
+/// The sign of each joint's rate at the end of a path; a joint that stands keeps its direction.
+pub(crate) fn arrival_direction(
+    equipped: &super::arms::Equipped,
+    course: &Course,
+    start: &[f64; 6],
+    end: &[f64; 6],
+    branch: Branch,
+    before: [i8; 6],
+) -> [i8; 6] {
+    let Course::Tool(path) = course else {
+        return turned(start, end, before);
+    };
+    // a tenth of a millimetre before the end, or of a milliradian where the tool only rotates
+    let length = path.length_m() + path.angle_rad();
+    if length <= 1e-9 {
+        return before;
+    }
+    let back = (1e-4 / length).clamp(1e-6, 0.1);
+    let leg = Leg {
+        equipped,
+        course: course.clone(),
+        start: *start,
+        branch,
+        conditions: Conditions::default(),
+    };
+    let last = leg.joints(1.0, end);
+    let shortly_before = leg.joints(1.0 - back, &last);
+    let per = back * length;
+    let rates: [f64; 6] = std::array::from_fn(|i| (last[i] - shortly_before[i]) / per);
+    // a joint that stands at the end keeps what it did on the way
+    let on_way = {
+        let half = leg.joints(0.5, end);
+        let first = turned(start, &half, before);
+        turned(&half, end, first)
+    };
+    std::array::from_fn(|i| sign(rates[i], STANDSTILL_RAD_M).unwrap_or(on_way[i]))
+}

@@ -1,0 +1,155 @@
+//! `/MN`: the instructions of a program, each with its place.
+
+use super::sections::line_end;
+use super::words::motion;
+use std::ops::Range;
+
+/// Bytes of an instruction; what is longer is none.
+const MOST_TEXT: usize = 1 << 16;
+
+/// The instructions of a section.
+pub struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    end: usize,
+}
+
+/// The text of one instruction, over several lines where a colon continues it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// From its first byte to behind its last, without the semicolon.
+    pub text: Range<usize>,
+    /// A semicolon ends it.
+    pub is_closed: bool,
+}
+
+impl<'a> Lines<'a> {
+    /// The instructions in this range.
+    pub fn new(bytes: &'a [u8], range: Range<usize>) -> Self {
+        Self {
+            bytes,
+            at: range.start,
+            end: range.end,
+        }
+    }
+
+    /// The first byte of what stands behind blanks, empty lines, line number and colon, and whether there was a number.
+    fn line_start(&self) -> Option<(usize, bool)> {
+        let bytes = &self.bytes[..self.end];
+        let mut at = self.at;
+        while bytes
+            .get(at)
+            .is_some_and(|b| b.is_ascii_whitespace() || *b == b';')
+        {
+            at += 1;
+        }
+        let digits = bytes[at..]
+            .iter()
+            .take_while(|b| b.is_ascii_digit())
+            .count();
+        let mut behind = at + digits;
+        while matches!(bytes.get(behind), Some(b' ' | b'\t')) {
+            behind += 1;
+        }
+        let colon = bytes.get(behind) == Some(&b':');
+        if colon {
+            at = behind + 1;
+            while matches!(bytes.get(at), Some(b' ' | b'\t')) {
+                at += 1;
+            }
+        }
+        (at < bytes.len()).then_some((at, colon && digits > 0))
+    }
+
+    /// Goes on to the `;`. A line with a number of its own, or that starts a move, is another instruction.
+    fn collect(&mut self, start: usize) -> Line {
+        loop {
+            let line = line_end(self.bytes, self.at).min(self.end);
+            let rest = &self.bytes[self.at..line];
+            if let Some(semicolon) = semicolon(rest) {
+                let text = start..self.at + semicolon;
+                self.at = text.end + 1;
+                return Line {
+                    text,
+                    is_closed: true,
+                };
+            }
+            let text = start..self.at + rest.trim_ascii_end().len();
+            self.at = line;
+            let next = self.line_start().filter(|(ahead, numbered)| {
+                let ahead = &self.bytes[*ahead..self.end];
+                !numbered && motion(ahead).is_none() && !ahead.starts_with(b"!")
+            });
+            match next {
+                Some((next, _)) if text.len() <= MOST_TEXT => self.at = next,
+                _ => {
+                    return Line {
+                        text,
+                        is_closed: false,
+                    };
+                }
+            }
+        }
+    }
+}
+
+impl Iterator for Lines<'_> {
+    type Item = Line;
+
+    fn next(&mut self) -> Option<Line> {
+        loop {
+            let Some((start, _)) = self.line_start() else {
+                self.at = self.end;
+                return None;
+            };
+            let rest = &self.bytes[start..self.end];
+            if rest.starts_with(b"!") || rest.starts_with(b"--") || rest.starts_with(b"//") {
+                self.at = line_end(self.bytes, start).min(self.end);
+                continue;
+            }
+            self.at = start;
+            return Some(self.collect(start));
+        }
+    }
+}
+
+/// The `;` that ends an instruction: not one in a string.
+fn semicolon(line: &[u8]) -> Option<usize> {
+    let found = memchr::memchr(b';', line)?;
+    if memchr::memchr(b'\'', &line[..found]).is_none() {
+        return Some(found);
+    }
+    let mut inside = false;
+    let outside = line.iter().position(|&b| {
+        inside ^= b == b'\'';
+        b == b';' && !inside
+    });
+    outside.or(Some(found))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn instructions_end_at_semicolons_or_where_another_begins() {
+        let of = |text: &str| {
+            let lines = Lines::new(text.as_bytes(), 0..text.len());
+            let texts = lines.map(|line| text[line.text].to_owned());
+            texts.collect::<Vec<_>>()
+        };
+        assert_eq!(
+            of("   5:J P[1] 100% FINE    ;\n : ; \n  6: ! L P[9] ;\n"),
+            ["J P[1] 100% FINE    ", ""]
+        );
+        let two = "1:L P[1] 100mm/sec FINE\r\n2:L P[2] 100mm/sec FINE ;\r\n";
+        assert_eq!(of(two), ["L P[1] 100mm/sec FINE", "L P[2] 100mm/sec FINE "]);
+        assert_eq!(of(":L P[1] 9mm/sec FINE\n:J P[2] 1% FINE ;").len(), 2);
+        assert_eq!(
+            of("31:C P[23] \n    :  P[24:end] 250mm/sec CNT2 ;"),
+            ["C P[23] \n    :  P[24:end] 250mm/sec CNT2 "]
+        );
+        assert_eq!(of("1:X('a;b') ; Y ;"), ["X('a;b') ", "Y "]);
+        assert_eq!(of("1: --eg:L P[1] ;\n2://L P[1] ;").len(), 0);
+    }
+}

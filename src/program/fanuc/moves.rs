@@ -1,0 +1,445 @@
+//! Moves: the letter, one or two positions, and the words behind them.
+
+use super::controller::{Kind, Why, kinds};
+use super::lines::Line;
+use super::reader::Reader;
+use super::words::{Named, position, word_length};
+use crate::finding::Severity;
+use crate::geometry::units::MM;
+use crate::program::script::{DISPLACED_SOMEHOW, Expr, Instruction, NOT_DISPLACED, Span, short};
+use crate::program::{Motion, Pace, number};
+use std::ops::Range;
+
+/// What stands behind the positions of a move.
+#[derive(Debug, Default)]
+struct Words {
+    /// By the first four of [`Why`].
+    against: [bool; 4],
+    /// `Offset`, `Tool_Offset`, `VOFFSET` and the like.
+    displaced: bool,
+    /// `Wjnt`
+    wrist_joint: bool,
+    /// `Skip`, `Search[…]`: the robot may stop on the way.
+    may_stop: bool,
+    pace: Pace,
+    /// Nothing but how fast and how near to go.
+    is_plain: bool,
+    /// What happens at the end: calls, jumps, writes.
+    then: Vec<Range<usize>>,
+}
+
+/// Where a move goes, with what.
+struct Goal {
+    target: Expr,
+    tool: Expr,
+    frame: Expr,
+    expected: u32,
+    /// Tool and frame that are active once the robot is there.
+    numbers: [Option<u32>; 2],
+}
+
+/// The row of arcs that `A` moves belong to.
+#[derive(Debug)]
+pub struct Row {
+    /// The instructions of its last point.
+    last: Range<usize>,
+    /// It has no other point.
+    is_first: bool,
+}
+
+impl Reader<'_> {
+    /// A move; its position starts at `at` of its text.
+    pub fn go(&mut self, line: &Line, letter: u8, at: usize) {
+        let text = &self.bytes[line.text.clone()];
+        let start = line.text.start;
+        let Some((first, length)) = position(&text[at..]) else {
+            return;
+        };
+        let mut points = vec![(first, at..at + length)];
+        let mut behind = at + length;
+        if letter == b'C' {
+            let rest = text[behind..].iter();
+            behind += rest
+                .take_while(|b| b.is_ascii_whitespace() || **b == b':')
+                .count();
+            if let Some((end, length)) = position(&text[behind..]) {
+                points.push((end, behind..behind + length));
+                behind += length;
+            }
+        }
+        let mut words = Words::of(text, behind);
+        words.against[Why::LineTracking as usize] = self.listing.tracks_line;
+        let is_arc = points.len() == 2;
+        let is_row = !is_arc && b"AC".contains(&letter);
+        let is_repeatable = words.is_plain && line.is_closed && (is_arc || b"JL".contains(&letter));
+        let instruction = Instruction {
+            end: short(line.text.end + usize::from(line.is_closed)),
+            free_orientation: words.wrist_joint,
+            configured: if letter == b'J' && !words.wrist_joint {
+                Expr::Value(self.controller.honoured)
+            } else {
+                Expr::Absent
+            },
+            displacement: if words.displaced {
+                DISPLACED_SOMEHOW
+            } else {
+                NOT_DISPLACED
+            },
+            guards: self
+                .controller
+                .guards(&mut self.builder.script, words.against),
+            pace: words.pace,
+            ..Instruction::at(self.place)
+        };
+        let listed = self.builder.script.instructions.len();
+        for (index, (named, span)) in points.into_iter().enumerate() {
+            let motion = match (letter, is_arc, index) {
+                (b'J', ..) => Motion::Joint,
+                (_, true, 0) => Motion::ArcVia,
+                (_, true, _) => Motion::ArcEnd,
+                _ => Motion::Linear,
+            };
+            // what is more than a move to its points cannot be repeated
+            let target_span = is_repeatable.then(|| Span {
+                start: short(start + span.start),
+                end: short(start + span.end),
+            });
+            self.go_to(
+                named,
+                &Instruction {
+                    motion,
+                    target_span: target_span.unwrap_or_default(),
+                    ..instruction.clone()
+                },
+            );
+        }
+        self.row(is_row, listed);
+        for part in words.then {
+            self.then(&text[part]);
+        }
+        if words.may_stop {
+            // where the robot stands then is known to nobody
+            self.builder.go(Instruction::at(self.place));
+        }
+    }
+
+    /// What stands behind the positions of a move: a label, a write, the name of a program that is called.
+    fn then(&mut self, text: &[u8]) {
+        let word = &text[..word_length(text)];
+        if is_label(word) {
+            self.jump(&text[word.len()..], true);
+        } else if text.contains(&b'=') {
+            self.statement(text, 1);
+        } else {
+            self.call(text);
+        }
+    }
+
+    /// The first point of a row is reached on a straight line, those after it lie on arcs.
+    fn row(&mut self, is_row: bool, listed: usize) {
+        let here = listed..self.builder.script.instructions.len();
+        let open = self.state.row.take();
+        if !is_row {
+            return;
+        }
+        let mut set = |range: &Range<usize>, motion| {
+            for instruction in &mut self.builder.script.instructions[range.clone()] {
+                instruction.motion = motion;
+            }
+        };
+        if let Some(open) = &open {
+            if !open.is_first {
+                set(&open.last, Motion::ArcVia);
+            }
+            set(&here, Motion::ArcEnd);
+        }
+        self.state.row = Some(Row {
+            last: here,
+            is_first: open.is_none(),
+        });
+    }
+
+    /// Adds the move to each of the positions that may be meant.
+    fn go_to(&mut self, named: Named, instruction: &Instruction) {
+        let goals = self.goals(named);
+        let several = goals.len() > 1;
+        if several {
+            self.builder.begin_choice();
+        }
+        let count = goals.len();
+        for (index, goal) in goals.into_iter().enumerate() {
+            if several {
+                self.builder.next_branch(index + 1 == count);
+            }
+            self.builder.go(Instruction {
+                target: goal.target,
+                tool: goal.tool,
+                frame: goal.frame,
+                expected: goal.expected,
+                ..instruction.clone()
+            });
+            if self.listing.uses_active {
+                self.arrived(goal.numbers);
+            }
+        }
+        if several {
+            self.builder.end_choice();
+        }
+    }
+
+    /// The controller goes to a point only where the numbers are selected that it was taught with.
+    fn arrived(&mut self, numbers: [Option<u32>; 2]) {
+        for (kind, number) in kinds(None).zip(numbers) {
+            if let Some(number) = number {
+                let script = &mut self.builder.script;
+                let value = self.controller.number(script, Some(kind), number);
+                self.set(self.controller.of(kind).active, value);
+            }
+        }
+    }
+
+    /// What a position may mean; nothing where it is one of another robot.
+    fn goals(&mut self, named: Named) -> Vec<Goal> {
+        let target = match named {
+            Named::Point(number) => match self.listing.by_number.get(&number) {
+                Some(&index) => return self.point(index).into_iter().collect(),
+                None => Expr::Unknown(self.controller.missing),
+            },
+            Named::AnyPoint => return self.any_point(),
+            Named::Register(register) => match self.reads(register) {
+                Some(number) => Expr::Variable(self.register(number)),
+                None => {
+                    let at = self.builder.script.instructions.len();
+                    self.to_any_register.push(at);
+                    Expr::Unknown(self.controller.computed)
+                }
+            },
+            Named::Computed => Expr::Unknown(self.controller.computed),
+        };
+        vec![self.goal(target, None, None, false)]
+    }
+
+    fn point(&mut self, index: u32) -> Option<Goal> {
+        let point = self.listing.points[index as usize];
+        let Some(target) = point.target else {
+            if !std::mem::replace(&mut self.listing.told_group, true) {
+                let message = "the point has no group 1: it is one of another group and stays";
+                self.say(self.place, "other-group", Severity::Note, message, "");
+            }
+            return None;
+        };
+        let twin = point
+            .twin
+            .and_then(|twin| self.listing.points[twin as usize].target);
+        let target = match twin {
+            None => Expr::Target(target),
+            Some(twin) => {
+                let both = [Expr::Target(twin), Expr::Target(target)];
+                self.builder.script.any(both)
+            }
+        };
+        Some(self.goal(target, point.tool, point.frame, point.is_joints))
+    }
+
+    fn goal(
+        &mut self,
+        target: Expr,
+        tool: Option<u32>,
+        frame: Option<u32>,
+        is_joints: bool,
+    ) -> Goal {
+        let script = &mut self.builder.script;
+        // joint targets have no work frame
+        let (own, taught) = if is_joints {
+            (frame.or(Some(0)), None)
+        } else {
+            (frame, frame)
+        };
+        Goal {
+            target,
+            tool: self.controller.selected(script, Kind::Tool, tool),
+            frame: self.controller.selected(script, Kind::Frame, own),
+            expected: self.controller.expected(script, tool, taught),
+            numbers: [tool, taught],
+        }
+    }
+
+    /// Any point of the program: those of one tool and frame together.
+    fn any_point(&mut self) -> Vec<Goal> {
+        let groups = self.listing.any.take().unwrap_or_else(|| {
+            let mut groups: Vec<(Option<u32>, Option<u32>, Vec<Expr>)> = Vec::new();
+            for point in &self.listing.points {
+                let Some(target) = point.target.map(Expr::Target) else {
+                    continue;
+                };
+                let key = (point.tool, point.frame);
+                match groups.iter_mut().find(|group| (group.0, group.1) == key) {
+                    Some((.., all)) => all.push(target),
+                    None => groups.push((key.0, key.1, vec![target])),
+                }
+            }
+            let script = &mut self.builder.script;
+            let any = |(tool, frame, all)| (tool, frame, script.any(all));
+            groups.into_iter().map(any).collect()
+        });
+        let goals = groups
+            .iter()
+            .map(|(tool, frame, any)| self.goal(*any, *tool, *frame, false));
+        let goals = goals.collect();
+        self.listing.any = Some(groups);
+        goals
+    }
+}
+
+fn is_label(word: &[u8]) -> bool {
+    word.eq_ignore_ascii_case(b"LBL") || word.eq_ignore_ascii_case(b"LABEL")
+}
+
+impl Words {
+    /// The words from a byte of a move's text on.
+    fn of(text: &[u8], from: usize) -> Self {
+        let mut words = Self {
+            is_plain: true,
+            ..Self::default()
+        };
+        let mut at = from;
+        let mut is_called = false;
+        while let Some(token) = token(text, at) {
+            at = token.end;
+            let text = &text[token.clone()];
+            if std::mem::take(&mut is_called) {
+                words.then.push(token);
+                continue;
+            }
+            words.is_plain &= is_plain(text);
+            is_called = !words.pace_of(text) && words.take(text, token);
+        }
+        words
+    }
+
+    /// One word; whether the name of a program that is called follows.
+    fn take(&mut self, text: &[u8], at: Range<usize>) -> bool {
+        let word = text[..word_length(text)].to_ascii_uppercase();
+        match word.as_slice() {
+            b"INC" | b"INK" => self.against[Why::Incremental as usize] = true,
+            b"RTCP" => self.against[Why::StationaryTool as usize] = true,
+            b"COORD" | b"KOORD" => self.against[Why::Coordinated as usize] = true,
+            b"WJNT" => self.wrist_joint = true,
+            b"SKIP" | b"SEARCH" => self.may_stop = true,
+            b"CALL" | b"AUFRUF" => return true,
+            b"LBL" | b"LABEL" => self.then.push(at),
+            name => {
+                self.displaced |= name.ends_with(b"OFFSET");
+                if text.contains(&b'=') {
+                    self.then.push(at);
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether a word tells how fast or how near to go.
+    fn pace_of(&mut self, text: &[u8]) -> bool {
+        let numbered = |prefix: &[u8]| text.strip_prefix(prefix).and_then(number::parse);
+        if matches!(text, b"FINE" | b"FEIN") || numbered(b"CNT") == Some(0.0) {
+            self.pace.zone_m = Some(0.0);
+        } else if let Some(radius_mm) = numbered(b"CR") {
+            self.pace.zone_m = Some(radius_mm * MM);
+        } else if text.starts_with(b"CNT") {
+            self.pace.blends = true;
+        } else if text[0].is_ascii_digit() {
+            self.pace.speed_m_s = self.pace.speed_m_s.or(speed(text));
+        } else {
+            return false;
+        }
+        true
+    }
+}
+
+/// The next word: up to a blank or comma that stands outside brackets.
+fn token(text: &[u8], from: usize) -> Option<Range<usize>> {
+    let is_gap = |b: &u8| b.is_ascii_whitespace() || matches!(b, b',' | b':');
+    let start = from + text[from..].iter().position(|b| !is_gap(b))?;
+    let mut depth = 0_u32;
+    let length = text[start..].iter().position(|b| {
+        match b {
+            b'[' | b'(' => depth += 1,
+            b']' | b')' => depth = depth.saturating_sub(1),
+            _ => return depth == 0 && is_gap(b),
+        }
+        false
+    });
+    Some(start..length.map_or(text.len(), |length| start + length))
+}
+
+/// Whether a word behind the position says no more than how fast and how near to go.
+fn is_plain(word: &[u8]) -> bool {
+    let numbered = |prefix: &[u8]| {
+        word.strip_prefix(prefix).is_some_and(|rest| {
+            rest.is_empty() || rest.iter().all(u8::is_ascii_digit) || rest.starts_with(b"R[")
+        })
+    };
+    // a time is that of the whole way
+    let is_number = word[0].is_ascii_digit() || word.starts_with(b"R[");
+    let is_rate = word.ends_with(b"%") || word.contains(&b'/');
+    is_number && (is_rate || word.iter().all(u8::is_ascii_digit))
+        || ["FINE", "CNT", "CR", "ACC", "PTH", "Wjnt", "MROT"]
+            .iter()
+            .any(|known| numbered(known.as_bytes()))
+}
+
+/// Metres a second of `250mm/sec`, `150cm/min`, `40inch/min`.
+fn speed(word: &[u8]) -> Option<f64> {
+    let is_number = |b: &&u8| b.is_ascii_digit() || **b == b'.';
+    let digits = word.iter().take_while(is_number).count();
+    let unit_m_s = match word[digits..].to_ascii_lowercase().as_slice() {
+        b"mm/sec" | b"mm/sek" => MM,
+        b"cm/min" => 0.01 / 60.0,
+        b"inch/min" => 0.0254 / 60.0,
+        _ => return None,
+    };
+    number::parse(&word[..digits]).map(|value| value * unit_m_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &str) -> Words {
+        Words::of(text.as_bytes(), 0)
+    }
+
+    #[test]
+    fn speed_and_corner_stand_behind_the_points() {
+        let fine = words("250mm/sec FINE").pace;
+        assert_eq!((fine.speed_m_s, fine.zone_m), (Some(0.25), Some(0.0)));
+        let blended = words("150cm/min CNT50").pace;
+        assert!(blended.speed_m_s.is_some_and(|v| (v - 0.025).abs() < 1e-15));
+        assert_eq!((blended.zone_m, blended.blends), (None, true));
+        assert_eq!(words("100mm/sec CR10").pace.zone_m, Some(10.0 * MM));
+        let joint = words("50% CNT0").pace;
+        assert_eq!((joint.speed_m_s, joint.zone_m), (None, Some(0.0)));
+    }
+
+    #[test]
+    fn what_follows_a_point_is_told() {
+        let plain = words("R[25:INC Offset]mm/sec FINE ACC100 TB .10sec,CALL RTCP(1),LBL[3:COORD]");
+        assert_eq!(plain.against, [false; 4]);
+        assert!(!plain.displaced && plain.then.len() == 2);
+        for text in [
+            "Tool_Offset,PR[2]",
+            "Offset,PR[60:Corr]",
+            "WKZ_Offset",
+            "VOFFSET,VR[1]",
+        ] {
+            assert!(words(&format!("9mm/sec FINE {text}")).displaced, "{text}");
+        }
+        assert!(words("9mm/sec FINE INC").against[0]);
+        assert!(words("9mm/sec FINE RTCP").against[1]);
+        assert!(words("WELD_SPEED CNT100 COORD PTH").against[2]);
+        assert!(words("9mm/sec FINE Wjnt").wrist_joint);
+        assert!(words("9mm/sec FINE Skip,LBL[1],PR[2]=LPOS").may_stop);
+        assert!(words("9mm/sec FINE ACC80 R[3: a b]%").is_plain);
+        assert!(!words("9sec FINE").is_plain);
+    }
+}

@@ -1,0 +1,415 @@
+//! From listings to statements: what the files hold, before their instructions are gone through.
+
+use super::controller::{Controller, Why};
+use super::frames::{self, Frames};
+use super::lines::Lines;
+use super::points::{Content, Fault, Point, Points};
+use super::sections::Sections;
+use super::statements::State;
+use super::words::{Named, Register};
+use super::{ABOUT, in_source};
+use crate::finding::{Finding, Severity};
+use crate::program::kit::check_bytes;
+use crate::program::script::{
+    Builder, Expr, How, Place, RoutineId, Script, Start, Variable, VariableId, short,
+};
+use crate::program::{Layout, ReadError, Shape, Source, Target, TargetId};
+use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
+
+/// One program.
+#[derive(Debug, Default)]
+pub struct Listing {
+    pub routine: RoutineId,
+    /// Index of its file.
+    pub file: u32,
+    lines: Range<usize>,
+    /// Its points, in the order of the text.
+    pub points: Vec<Taught>,
+    /// The last point of each number.
+    pub by_number: HashMap<u32, u32>,
+    /// The points of one tool and frame, for moves to any of them.
+    pub any: Option<Vec<(Option<u32>, Option<u32>, Expr)>>,
+    /// It follows a conveyor.
+    pub tracks_line: bool,
+    /// Which tool and frame are selected matters to some of its moves.
+    pub uses_active: bool,
+    /// It selects by an argument of its call.
+    pub uses_arguments: bool,
+    /// Points that it writes.
+    pub written: HashMap<TargetId, VariableId>,
+    /// An instruction that nobody knows names any of its points.
+    pub gives_any: bool,
+    /// It has told of points of other groups.
+    pub told_group: bool,
+}
+
+/// A point as moves need it.
+#[derive(Clone, Copy, Debug)]
+pub struct Taught {
+    /// `None` where it has no group 1.
+    pub target: Option<TargetId>,
+    pub tool: Option<u32>,
+    pub frame: Option<u32>,
+    pub is_joints: bool,
+    /// The one before it with its number.
+    pub twin: Option<u32>,
+}
+
+/// Reads programs into one script.
+pub struct Reader<'a> {
+    pub builder: Builder,
+    sources: &'a [Source],
+    /// The present program, its file, where it is while it is read, and the present instruction.
+    pub listing: Listing,
+    pub bytes: &'a [u8],
+    pub state: State,
+    pub place: Place,
+    pub controller: Controller,
+    /// Routines by the names of their programs, and whether they select by arguments.
+    pub by_name: HashMap<Box<str>, Vec<(RoutineId, bool)>>,
+    pub arguments: HashMap<(RoutineId, u32), VariableId>,
+    /// Registers that hold something the files know, and those that something reads.
+    pub aliased: BTreeSet<u32>,
+    pub read: BTreeSet<u32>,
+    /// Any register is read.
+    pub reads_any: bool,
+    /// Copies of points into registers.
+    pub copies: Vec<(Place, u32)>,
+    /// Writes of tools and frames from registers.
+    pub from_registers: Vec<(usize, u32)>,
+    /// Moves to any register.
+    pub to_any_register: Vec<usize>,
+}
+
+/// The statements of all files.
+pub fn script(sources: &[Source]) -> Result<Script, ReadError> {
+    let mut builder = Builder::default();
+    let (mut values, mut listings) = (Frames::default(), Vec::new());
+    for (file, source) in sources.iter().enumerate() {
+        check_bytes(source)?;
+        if let Some(sections) = Sections::of(&source.bytes) {
+            let listing = listing(&mut builder, source, short(file), &sections);
+            listings.push(listing.map_err(|fault| in_source(&fault, source))?);
+        } else if let Some(kind) = frames::kind(&source.bytes) {
+            let found = frames::read(&source.bytes, kind).map_err(|bad| {
+                let (at, length) = (bad.at, bad.length);
+                in_source(&Fault::BadValue { at, length }, source)
+            })?;
+            if found.rounded {
+                builder.script.findings.push(frames_rounded(source));
+            }
+            values.add(found);
+        } else {
+            return Err(ReadError::NotThisLanguage {
+                file: source.name.clone(),
+                language: ABOUT.name,
+                missing: "/PROG and /MN, or $MNUTOOL and $MNUFRAME,",
+            });
+        }
+    }
+    builder.script.is_closed = true;
+    let controller = Controller::new(&mut builder.script, values);
+    let mut by_name: HashMap<Box<str>, Vec<(RoutineId, bool)>> = HashMap::new();
+    for listing in &listings {
+        let name = &builder.script.routines[listing.routine as usize].name;
+        let routine = (listing.routine, listing.uses_arguments);
+        by_name.entry(name.clone()).or_default().push(routine);
+    }
+    let mut reader = Reader {
+        builder,
+        sources,
+        listing: Listing::default(),
+        bytes: &[],
+        state: State::default(),
+        place: Place { file: 0, offset: 0 },
+        controller,
+        by_name,
+        arguments: HashMap::new(),
+        aliased: BTreeSet::new(),
+        read: BTreeSet::new(),
+        reads_any: false,
+        copies: Vec::new(),
+        from_registers: Vec::new(),
+        to_any_register: Vec::new(),
+    };
+    for listing in listings {
+        reader.listing(listing);
+    }
+    Ok(reader.finish())
+}
+
+impl Frames {
+    /// Takes in the frames of another file: those of variables are exact and go before those of a list.
+    fn add(&mut self, other: Self) {
+        let (exact, rough) = if other.rounded {
+            (std::mem::take(self), other)
+        } else {
+            (other, std::mem::take(self))
+        };
+        *self = rough;
+        self.tools.extend(exact.tools);
+        self.frames.extend(exact.frames);
+        self.rounded = false;
+    }
+}
+
+fn frames_rounded(source: &Source) -> Finding {
+    Finding {
+        id: "frames-rounded",
+        severity: Severity::Note,
+        file: source.name.clone(),
+        line: 0,
+        column: 0,
+        message: "this list shows tools and user frames to 0.1 mm and 0.1 deg".into(),
+        hint: "SYSFRAME.VA has them to 0.001".into(),
+    }
+}
+
+/// One program and its points.
+fn listing(
+    builder: &mut Builder,
+    source: &Source,
+    file: u32,
+    sections: &Sections,
+) -> Result<Listing, Fault> {
+    let bytes = &source.bytes;
+    let lines = &bytes[sections.lines.clone()];
+    let has = |text: &[u8]| memchr::memmem::find(lines, text).is_some();
+    let name = program_name(&bytes[sections.name.clone()]);
+    let offset = short(sections.name.start);
+    let mut listing = Listing {
+        routine: builder.declare(name, Place { file, offset }, Start::Called),
+        file,
+        lines: sections.lines.clone(),
+        tracks_line: tracks_line(&bytes[sections.head.clone()]),
+        uses_active: has(b"PR["),
+        uses_arguments: has(b"AR["),
+        ..Listing::default()
+    };
+    let script = &mut builder.script;
+    let mut points = Points::new(bytes, sections.points.start);
+    points.numbers = std::mem::take(&mut script.numbers);
+    while let Some(point) = points.next()? {
+        add(script, &mut listing, &point);
+    }
+    script.numbers = points.numbers;
+    Ok(listing)
+}
+
+/// Lists a point. Indices stay those of the text: points without group 1 are of another robot and have no target.
+fn add(script: &mut Script, listing: &mut Listing, point: &Point) {
+    let index = short(listing.points.len());
+    let target = point.content.map(|content| {
+        let (shape, variant, trouble) = match content {
+            Content::Pose { configured } => (Shape::Pose, u8::from(!configured), None),
+            Content::Joints => (Shape::Joints, 0, None),
+            Content::Trouble(trouble) => (Shape::Pose, 1, Some(trouble)),
+        };
+        script.targets.push(Target {
+            name: Some(format!("P[{}]", point.number).into()),
+            file: listing.file,
+            offset: point.offset,
+            layout: Layout { shape, variant },
+            numbers: short(point.numbers.start)..short(point.numbers.end),
+            blocked: trouble.is_some(),
+        });
+        let target = script.targets.len() - 1;
+        if let Some(trouble) = trouble {
+            refuse(script, target, trouble);
+        } else if point.extended {
+            refuse(script, target, Why::ExternalAxis);
+        }
+        target
+    });
+    let twin = listing.by_number.insert(point.number, index);
+    if let Some(twin) = twin {
+        let both = [listing.points[twin as usize].target, target];
+        for target in both.into_iter().flatten() {
+            refuse(script, target, Why::Ambiguous);
+        }
+    }
+    listing.uses_active |= point.tool.is_none() || point.frame.is_none();
+    listing.points.push(Taught {
+        target,
+        tool: point.tool,
+        frame: point.frame,
+        is_joints: point.content == Some(Content::Joints),
+        twin,
+    });
+}
+
+fn refuse(script: &mut Script, target: TargetId, why: Why) {
+    let remark = script.remark(why.remark());
+    script.refused.push((target, remark));
+}
+
+/// The first word behind `/PROG`, in capitals.
+fn program_name(text: &[u8]) -> Box<str> {
+    let word = text.split(u8::is_ascii_whitespace).next();
+    called(word.unwrap_or_default())
+}
+
+/// A program's name, in capitals.
+pub fn called(name: &[u8]) -> Box<str> {
+    Source::text(&name.to_ascii_uppercase()).into()
+}
+
+/// Whether the application data name a line tracking schedule other than 0.
+fn tracks_line(head: &[u8]) -> bool {
+    const KEY: &[u8] = b"LINE_TRACK_SCHEDULE_NUMBER";
+    let Some(at) = memchr::memmem::find(head, KEY) else {
+        return false;
+    };
+    let rest = head[at + KEY.len()..].trim_ascii_start();
+    let value = rest.strip_prefix(b":").unwrap_or(rest).trim_ascii_start();
+    let mut digits = value.iter().take_while(|b| b.is_ascii_digit());
+    digits.any(|&digit| digit != b'0')
+}
+
+impl Reader<'_> {
+    fn listing(&mut self, listing: Listing) {
+        self.listing = listing;
+        let file = self.listing.file;
+        self.bytes = &self.sources[file as usize].bytes;
+        let script = &self.builder.script;
+        let (lists, arguments) = (script.lists.len(), script.arguments.len());
+        let (instructions, writes) = (script.instructions.len(), script.writes.len());
+        self.builder.open(self.listing.routine);
+        for line in Lines::new(self.bytes, self.listing.lines.clone()) {
+            let offset = short(line.text.start);
+            self.place = Place { file, offset };
+            self.line(&line);
+        }
+        self.end();
+        self.builder.close();
+        // points that the program writes are variables wherever it names them
+        let written = std::mem::take(&mut self.listing.written);
+        if written.is_empty() {
+            return;
+        }
+        let replace = |value: &mut Expr| {
+            if let Expr::Target(target) = *value
+                && let Some(&variable) = written.get(&target)
+            {
+                *value = Expr::Variable(variable);
+            }
+        };
+        let script = &mut self.builder.script;
+        script.lists[lists..].iter_mut().for_each(replace);
+        let instructions = script.instructions[instructions..].iter_mut();
+        instructions.for_each(|instruction| replace(&mut instruction.target));
+        let arguments = script.arguments[arguments..].iter_mut();
+        arguments.for_each(|argument| replace(&mut argument.value));
+        for write in &mut script.writes[writes..] {
+            if let How::Whole(value) = &mut write.how {
+                replace(value);
+            }
+        }
+    }
+
+    /// The targets that a position may be.
+    pub fn targets(&self, named: Named) -> Vec<TargetId> {
+        let points = &self.listing.points;
+        match named {
+            Named::Point(number) => {
+                let index = self.listing.by_number.get(&number);
+                index
+                    .and_then(|index| points[*index as usize].target)
+                    .into_iter()
+                    .collect()
+            }
+            Named::AnyPoint => points.iter().filter_map(|point| point.target).collect(),
+            Named::Register(_) | Named::Computed => Vec::new(),
+        }
+    }
+
+    /// The variable of a point that the program writes.
+    pub fn written(&mut self, target: TargetId) -> VariableId {
+        let script = &mut self.builder.script;
+        *self.listing.written.entry(target).or_insert_with(|| {
+            let Target {
+                name, file, offset, ..
+            } = script.targets[target].clone();
+            script.variable(Variable {
+                name: name.unwrap_or_default(),
+                place: Place { file, offset },
+                declared: Expr::Target(target),
+                kept: true,
+                shared: false,
+                routine: None,
+            })
+        })
+    }
+
+    /// The variable of an argument of a routine's call, `AR[n]`.
+    pub fn argument(&mut self, routine: RoutineId, number: u32) -> VariableId {
+        let (script, chosen) = (&mut self.builder.script, self.controller.chosen);
+        *self.arguments.entry((routine, number)).or_insert_with(|| {
+            script.variable(Variable {
+                name: format!("AR[{number}]").into(),
+                place: self.place,
+                declared: Expr::Unknown(chosen),
+                kept: false,
+                shared: false,
+                routine: Some(routine),
+            })
+        })
+    }
+
+    /// The variable of a position register.
+    pub fn register(&mut self, number: u32) -> VariableId {
+        self.controller.register(&mut self.builder.script, number)
+    }
+
+    /// Notes that a register is read; its number where it is one, as a whole.
+    pub fn reads(&mut self, register: Register) -> Option<u32> {
+        match register.number {
+            Some(number) => _ = self.read.insert(number),
+            None => self.reads_any = true,
+        }
+        register.number.filter(|_| !register.is_element)
+    }
+
+    /// A finding of the reader.
+    pub fn say(
+        &mut self,
+        place: Place,
+        id: &'static str,
+        severity: Severity,
+        text: &str,
+        hint: &str,
+    ) {
+        let source = &self.sources[place.file as usize];
+        let finding = source.finding(place.offset as usize, id, severity, text.to_owned(), hint);
+        self.builder.script.findings.push(finding);
+    }
+
+    /// What depends on all programs: what registers hold.
+    fn finish(mut self) -> Script {
+        for (place, register) in std::mem::take(&mut self.copies) {
+            if !self.reads_any && !self.read.contains(&register) {
+                let message = "a point is copied into a register here, which nothing in the files goes to; it takes its correction along";
+                let hint = "look where the register is used, or give those programs too";
+                self.say(place, "target-copied", Severity::Warning, message, hint);
+            }
+        }
+        for (write, number) in std::mem::take(&mut self.from_registers) {
+            if self.aliased.contains(&number) {
+                let variable = self.register(number);
+                self.builder.script.writes[write].how = How::Whole(Expr::Variable(variable));
+            }
+        }
+        let mut all = vec![Expr::Unknown(self.controller.computed)];
+        for number in std::mem::take(&mut self.aliased) {
+            all.push(Expr::Variable(self.register(number)));
+        }
+        if all.len() > 1 && !self.to_any_register.is_empty() {
+            let any = self.builder.script.any(all);
+            for instruction in self.to_any_register {
+                self.builder.script.instructions[instruction].target = any;
+            }
+        }
+        self.builder.finish()
+    }
+}

@@ -1,0 +1,494 @@
+//! Instructions as statements: calls, jumps, blocks, and writes of tools, frames, registers and points.
+
+use super::controller::{Kind, Mode, Which, kinds};
+use super::lines::Line;
+use super::moves::Row;
+use super::reader::{Reader, called};
+use super::words::{
+    Named, Register, assigned, behind_group, comma, concerns_group_1, each_position, indexed,
+    is_word, motion, parts, position, register, whole, word_length, words,
+};
+use crate::program::script::{
+    Argument, Call, DISPLACED_SOMEHOW, Expr, How, Start, VariableId, Write, Written, short,
+};
+use std::collections::BTreeSet;
+
+/// Conditions inside conditions.
+const DEEPEST: u32 = 4;
+/// Arguments of a call.
+const MOST_ARGUMENTS: u32 = 10;
+/// The label that a register names.
+const ANY_LABEL: u64 = u64::MAX;
+
+/// Where one program is while it is read.
+#[derive(Debug, Default)]
+pub struct State {
+    /// A SELECT is open.
+    selects: bool,
+    /// The row of arcs that is open.
+    pub row: Option<Row>,
+    labels: BTreeSet<u64>,
+    /// A register says which label the program goes to.
+    goes_anywhere: bool,
+}
+
+impl Reader<'_> {
+    /// One instruction.
+    pub fn line(&mut self, line: &Line) {
+        let bytes = self.bytes;
+        let text = bytes[line.text.clone()].trim_ascii_end();
+        let word = &text[..word_length(text)];
+        let is_else = word.eq_ignore_ascii_case(b"ELSE") || word.eq_ignore_ascii_case(b"SONST");
+        let is_case = text.starts_with(b"=") || is_else && comma(text).is_some();
+        if !is_case && std::mem::take(&mut self.state.selects) {
+            self.builder.end_choice();
+        }
+        if is_case || is_else {
+            self.builder.next_branch(is_else);
+            self.behind_comma(text, 0);
+        } else if let Some((letter, at)) = motion(text) {
+            self.go(line, letter, at);
+        } else if !text.is_empty() {
+            self.statement(text, 0);
+        }
+    }
+
+    /// The end of a program's text.
+    pub fn end(&mut self) {
+        let state = std::mem::take(&mut self.state);
+        if state.selects {
+            self.builder.end_choice();
+        }
+        if state.goes_anywhere {
+            self.builder.back();
+            self.builder.label(ANY_LABEL);
+            for label in state.labels {
+                self.builder.may_go_to(label);
+            }
+        }
+    }
+
+    /// An instruction that is no move. At a depth it stands behind a condition.
+    pub fn statement(&mut self, text: &[u8], depth: u32) {
+        let (word, rest) = text.split_at(word_length(text));
+        let name = word.to_ascii_uppercase();
+        let rest = rest.trim_ascii();
+        match (name.as_slice(), rest.first()) {
+            (b"MESSAGE" | b"MSG", _) => {}
+            (b"LBL" | b"LABEL", _) if depth == 0 => {
+                if let Some(Some(number)) = indexed(rest) {
+                    self.state.labels.insert(number.into());
+                    self.builder.label(number.into());
+                }
+            }
+            (b"LBL" | b"LABEL", _) => self.jump(rest, false),
+            (b"JMP" | b"SPRUNG", _) => self.jump(&rest[word_length(rest)..], false),
+            (b"IF" | b"WENN", _) if depth == 0 && ends_with_then(rest) => self.builder.begin_if(),
+            (b"ENDIF", _) => self.builder.end_choice(),
+            (b"FOR", _) => self.builder.begin_loop(true),
+            (b"ENDFOR", _) => self.builder.end_loop(false),
+            (b"SELECT", _) if depth == 0 => {
+                self.state.selects = true;
+                self.builder.begin_choice();
+                self.builder.next_branch(false);
+                self.behind_comma(rest, 0);
+            }
+            (b"CALL" | b"AUFRUF", _) => self.call(rest),
+            (b"RUN" | b"MONITOR", _) => self.start(rest),
+            (b"END" | b"ENDE", None) => self.builder.back(),
+            (b"ABORT" | b"ABBRUCH", None) => self.builder.exit(),
+            (b"TOUCH" | b"SEARCH" | b"TRACK", _) => self.mode(&name, rest),
+            (_, Some(b'=')) if selects(&name).is_some() => {
+                self.select(selects(&name).flatten(), rest[1..].trim_ascii());
+            }
+            (_, Some(b'[')) if assigned(rest).is_some() => {
+                let (index, value) = assigned(rest).expect("just asked");
+                self.assign(&name, index, value);
+            }
+            _ => self.other(&name, text, depth),
+        }
+    }
+
+    /// What a condition or a choice does: the text behind its comma.
+    fn behind_comma(&mut self, text: &[u8], depth: u32) {
+        let Some(comma) = comma(text).filter(|_| depth < DEEPEST) else {
+            return;
+        };
+        let action = text[comma + 1..].trim_ascii();
+        if let Some((letter, at)) = motion(action) {
+            let start = action.as_ptr() as usize - self.bytes.as_ptr() as usize;
+            let text = start..start + action.len();
+            let is_closed = false;
+            self.go(&Line { text, is_closed }, letter, at);
+        } else {
+            self.statement(action, depth + 1);
+        }
+    }
+
+    /// An instruction that is none of those above: a condition, or one of which nothing is known.
+    fn other(&mut self, name: &[u8], text: &[u8], depth: u32) {
+        let comma = comma(text);
+        let is_condition = matches!(name, b"IF" | b"WENN" | b"WAIT" | b"WARTEN")
+            || comma.is_some_and(|comma| is_action(text[comma + 1..].trim_ascii()));
+        let mut known = text;
+        if let Some(comma) = comma.filter(|_| is_condition) {
+            known = &text[..comma];
+            self.builder.begin_if();
+            self.behind_comma(text, depth);
+            self.builder.end_choice();
+        }
+        let mut given = Vec::new();
+        each_position(known, |named| {
+            given.extend(matches!(named, Named::Point(_) | Named::AnyPoint).then_some(named));
+        });
+        if !given.is_empty() || !is_condition && is_macro(name, text) {
+            self.unknown(text, &given);
+        }
+    }
+
+    // ---- calls and jumps
+
+    /// `[2]` of a label; the program may go there, or goes.
+    pub fn jump(&mut self, index: &[u8], may: bool) {
+        let Some(number) = indexed(index) else { return };
+        self.state.goes_anywhere |= number.is_none();
+        let key = number.map_or(ANY_LABEL, u64::from);
+        if may {
+            self.builder.may_go_to(key);
+        } else {
+            self.builder.go_to(key);
+        }
+    }
+
+    /// `PROGRAM(1,R[2])`
+    pub fn call(&mut self, text: &[u8]) {
+        let name = called(&text[..word_length(text)]);
+        let given = text[word_length(text)..].trim_ascii_start();
+        let given = given.strip_prefix(b"(").unwrap_or_default();
+        let given = given.strip_suffix(b")").unwrap_or(given);
+        let callees = self.by_name.get(&name).cloned().unwrap_or_default();
+        let first = short(self.builder.script.arguments.len());
+        for (routine, _) in callees.iter().filter(|(_, uses_arguments)| *uses_arguments) {
+            for (number, value) in (1..=MOST_ARGUMENTS).zip(parts(given)) {
+                let value = self.selection(None, value);
+                let parameter = Some(self.argument(*routine, number));
+                self.give(parameter, value);
+            }
+        }
+        self.builder.call(Call {
+            place: self.place,
+            foreign: callees.is_empty(),
+            callees: callees.iter().map(|(routine, _)| *routine).collect(),
+            name,
+            arguments: first..short(self.builder.script.arguments.len()),
+        });
+    }
+
+    fn give(&mut self, parameter: Option<VariableId>, value: Expr) {
+        self.builder.script.arguments.push(Argument {
+            parameter,
+            value,
+            back: None,
+        });
+    }
+
+    /// `RUN PROGRAM`: it runs beside this one.
+    fn start(&mut self, text: &[u8]) {
+        let name = called(&text[..word_length(text)]);
+        for (routine, _) in self.by_name.get(&name).into_iter().flatten() {
+            self.builder.script.routines[*routine as usize].start = Start::Concurrent;
+        }
+    }
+
+    /// An instruction of which only its name is known, such as a macro: a call, which is given the points that it names.
+    fn unknown(&mut self, text: &[u8], given: &[Named]) {
+        let first = short(self.builder.script.arguments.len());
+        for named in given {
+            // once all are given away nothing is new
+            let is_new =
+                *named != Named::AnyPoint || !std::mem::replace(&mut self.listing.gives_any, true);
+            for target in self.targets(*named).into_iter().filter(|_| is_new) {
+                self.give(None, Expr::Target(target));
+            }
+        }
+        // a call in a dictionary that is not known: the program's name is the last word
+        let mut words = words(text);
+        let last = words.nth(1).filter(|_| words.next().is_none());
+        let callees = last.and_then(|name| self.by_name.get(&called(name)));
+        let callees = callees.into_iter().flatten().map(|(routine, _)| *routine);
+        self.builder.call(Call {
+            place: self.place,
+            callees: callees.collect(),
+            foreign: true,
+            name: called(&text[..word_length(text)]),
+            arguments: first..short(self.builder.script.arguments.len()),
+        });
+    }
+
+    // ---- writes
+
+    fn write(&mut self, variable: Written, how: How) {
+        let place = self.place;
+        self.builder.write(Write {
+            place,
+            variable,
+            how,
+        });
+    }
+
+    pub fn set(&mut self, variable: VariableId, value: Expr) {
+        self.write(Written::One(variable), How::Whole(value));
+    }
+
+    fn mode(&mut self, name: &[u8], rest: &[u8]) {
+        let Some((mode, variable, holds)) = self.controller.mode(name, rest) else {
+            return;
+        };
+        self.set(variable, holds);
+        if mode == Mode::Search && holds != Expr::Absent {
+            // what is found goes into the register
+            let mut found = None;
+            each_position(rest, |named| found = found.or(Some(named)));
+            if let Some(Named::Register(Register {
+                number: Some(number),
+                ..
+            })) = found
+            {
+                let register = self.register(number);
+                self.set(register, Expr::Unknown(self.controller.computed));
+            }
+        }
+    }
+
+    /// `UTOOL_NUM=5`
+    fn select(&mut self, which: Which, value: &[u8]) {
+        for kind in kinds(which) {
+            let value = match which {
+                Some(_) => self.selection(which, value),
+                None => Expr::Unknown(self.controller.chosen),
+            };
+            let of = self.controller.of(kind);
+            let (selected, active) = (of.selected, of.active);
+            self.set(selected, value);
+            self.set(active, value);
+        }
+    }
+
+    /// A number that selects a tool or frame: written out, or an argument of the program's call, `AR[1]`.
+    fn selection(&mut self, which: Which, text: &[u8]) -> Expr {
+        if let Some(number) = whole(text) {
+            return self
+                .controller
+                .number(&mut self.builder.script, which, number);
+        }
+        match text.strip_prefix(b"AR").and_then(indexed).flatten() {
+            Some(number) => Expr::Variable(self.argument(self.listing.routine, number)),
+            None => Expr::Unknown(self.controller.chosen),
+        }
+    }
+
+    /// `NAME[index]=value`
+    fn assign(&mut self, name: &[u8], index: &[u8], value: &[u8]) {
+        let is_ours = concerns_group_1(index);
+        match name {
+            b"P" => self.set_point(index, value),
+            b"PR" | b"UFRAME" | b"UTOOL" if !is_ours => {}
+            b"PR" => self.set_register(index, value),
+            b"UFRAME" | b"UTOOL" => {
+                self.set_frame(kind_of(name), whole(behind_group(index)), value);
+            }
+            b"$MNUTOOLNUM" | b"$MNUFRAMENUM" => {
+                if whole(index).is_none_or(|group| group == 1) {
+                    self.select(kind_of(&name[3..]), value);
+                }
+            }
+            b"$MNUTOOL" | b"$MNUFRAME" => {
+                let mut parts = index.split(|&b| b == b',').map(<[u8]>::trim_ascii);
+                let group = parts.next().and_then(whole);
+                if group.is_none_or(|group| group == 1) {
+                    let number = parts.next().and_then(whole);
+                    self.set_frame(kind_of(&name[3..]), number, value);
+                }
+            }
+            _ => match selects(name) {
+                Some(which) if is_ours => self.select(which, value),
+                Some(_) => {}
+                // a position goes into nothing else, in any dictionary
+                None if is_whole_position(value) && !is_data(name) => {
+                    self.set_frame(None, whole(index), value);
+                }
+                None => {}
+            },
+        }
+    }
+
+    /// `UFRAME[6]=PR[60]`; without a number a register says which.
+    fn set_frame(&mut self, which: Which, number: Option<u32>, value: &[u8]) {
+        let assigned = Expr::Unknown(self.controller.assigned);
+        let source = match position(value) {
+            Some((Named::Register(register), _)) => self.reads(register),
+            _ => None,
+        };
+        for kind in kinds(which).filter(|_| number != Some(0)) {
+            let Some(number) = number else {
+                let others = self.controller.of(kind).others;
+                self.write(Written::AnyOf(others), How::Whole(assigned));
+                continue;
+            };
+            let script = &mut self.builder.script;
+            let entry = self.controller.entry(script, kind, number);
+            // whether the register is known depends on the other programs, too
+            if let Some(register) = source.filter(|_| which.is_some()) {
+                self.from_registers.push((script.writes.len(), register));
+            }
+            let value = self.other_frame(value).unwrap_or(assigned);
+            self.set(entry, value);
+        }
+    }
+
+    /// `UTOOL[1]` as a value.
+    fn other_frame(&mut self, value: &[u8]) -> Option<Expr> {
+        let (word, index) = value.split_at(word_length(value));
+        let kind = match word {
+            b"UTOOL" => Kind::Tool,
+            b"UFRAME" => Kind::Frame,
+            _ => return None,
+        };
+        let number = indexed(index)??;
+        let entry = self
+            .controller
+            .entry(&mut self.builder.script, kind, number);
+        Some(Expr::Variable(entry))
+    }
+
+    /// `P[2]=PR[4]`
+    fn set_point(&mut self, index: &[u8], value: &[u8]) {
+        let one = whole(index).map(Named::Point);
+        let holds = self.position_value(value);
+        for target in self.targets(one.unwrap_or(Named::AnyPoint)) {
+            let variable = self.written(target);
+            // a register says which: each may be written
+            if one.is_none() {
+                self.builder.begin_if();
+            }
+            self.set(variable, holds);
+            if one.is_none() {
+                self.builder.end_choice();
+            }
+        }
+    }
+
+    /// `PR[4]=P[2]`, `PR[4,3]=R[1]`
+    fn set_register(&mut self, index: &[u8], value: &[u8]) {
+        let Register { number, is_element } = register(index);
+        let how = if is_element {
+            How::PartSomehow(self.controller.computed)
+        } else {
+            How::Whole(self.position_value(value))
+        };
+        let Some(number) = number else {
+            return self.write(Written::AnyOf(self.controller.registers), how);
+        };
+        if matches!(how, How::Whole(holds) if !matches!(holds, Expr::Unknown(_))) {
+            self.aliased.insert(number);
+        }
+        each_position(value, |named| {
+            if matches!(named, Named::Point(_) | Named::AnyPoint) {
+                self.copies.push((self.place, number));
+            }
+        });
+        let register = self.register(number);
+        self.write(Written::One(register), how);
+    }
+
+    /// The position that a value is: a point, another register, where the robot is, or what is computed of these.
+    fn position_value(&mut self, value: &[u8]) -> Expr {
+        if matches!(value, b"LPOS" | b"JPOS") {
+            return Expr::Value(self.controller.actual);
+        }
+        if let Some(frame) = self.other_frame(value) {
+            return frame;
+        }
+        let (mut all, mut positions) = (Vec::new(), Vec::new());
+        each_position(value, |named| all.push(named));
+        for named in all {
+            match named {
+                Named::Point(_) => {
+                    positions.extend(self.targets(named).into_iter().map(Expr::Target));
+                }
+                Named::Register(register) => {
+                    if let Some(number) = self.reads(register) {
+                        positions.push(Expr::Variable(self.register(number)));
+                    }
+                }
+                Named::AnyPoint | Named::Computed => {}
+            }
+        }
+        let is_whole = position(value).is_some_and(|(_, length)| length == value.len());
+        let script = &mut self.builder.script;
+        match positions.as_slice() {
+            [] => Expr::Unknown(self.controller.computed),
+            [one] if is_whole => *one,
+            _ => {
+                let any = script.any(positions);
+                script.displaced(any, DISPLACED_SOMEHOW)
+            }
+        }
+    }
+}
+
+/// Whether `THEN` ends a condition.
+fn ends_with_then(text: &[u8]) -> bool {
+    let last = text.rsplit(|&b| !is_word(b)).next();
+    last.is_some_and(|word| word.eq_ignore_ascii_case(b"THEN"))
+}
+
+/// Whether a text begins what is done on a condition.
+fn is_action(text: &[u8]) -> bool {
+    let word = text[..word_length(text)].to_ascii_uppercase();
+    let known = "ABORT ABBRUCH AUFRUF CALL END ENDE JMP LABEL LBL SPRUNG";
+    is_one_of(&word, known) || selects(&word).is_some()
+}
+
+/// Whether a word in capitals is one of those.
+fn is_one_of(word: &[u8], all: &str) -> bool {
+    all.split_ascii_whitespace()
+        .any(|known| known.as_bytes() == word)
+}
+
+/// `UTOOL_NUM` and its translations.
+fn selects(name: &[u8]) -> Option<Which> {
+    name.strip_suffix(b"_NUM").map(kind_of)
+}
+
+fn kind_of(name: &[u8]) -> Which {
+    match name {
+        [b'U', b'T', ..] | [b'W', b'K', b'Z', ..] => Some(Kind::Tool),
+        [b'U', b'F', ..] | [b'B', b'E', b'N', ..] => Some(Kind::Frame),
+        _ => None,
+    }
+}
+
+/// Whether a value is a position, and not one number of it.
+fn is_whole_position(value: &[u8]) -> bool {
+    position(value).is_some_and(|(named, _)| match named {
+        Named::Register(register) => !register.is_element,
+        Named::Point(_) | Named::AnyPoint => true,
+        Named::Computed => false,
+    })
+}
+
+/// Registers and signals.
+fn is_data(name: &[u8]) -> bool {
+    is_one_of(name, "R AR SR VR DO RO GO AO DI RI GI AI F M TIMER")
+}
+
+/// Whether an instruction may be a macro of the user's, which is a call: words of the language, and those with an index or
+/// an assignment, are none.
+fn is_macro(name: &[u8], text: &[u8]) -> bool {
+    let known = "ABORT ABBRUCH ARC BREAK CASE COL CONTINUE DEFAULT ENABLE END ENDE IF WENN JOINT_MAX_SPEED LINEAR_MAX_SPEED \
+        LOCK MOVE OFFSET OVERRIDE PAUSE RESET RESUME_PROG RETURN_PATH_DSBL SEMAPHORE SKIP STOP TIMER TOOL_OFFSET UALM \
+        UNLOCK VOFFSET WAIT WARTEN WEAVE WELD";
+    let plain = !text.iter().any(|b| matches!(b, b'[' | b'='));
+    plain && !is_one_of(name, known) && name.first().is_some_and(|b| *b != b'$')
+}

@@ -1,0 +1,169 @@
+//! Position registers, and points that the program writes.
+
+use super::*;
+
+fn two() -> String {
+    usual("1") + &usual("2")
+}
+
+/// Where moves go, and whether beside that by something.
+fn to(program: &Program) -> Vec<(Option<&str>, bool)> {
+    let moves = program.moves.iter();
+    moves
+        .map(|motion| {
+            let target = program.target_of(motion);
+            let name = target.and_then(|target| target.name.as_deref());
+            (name, motion.displacement == Displacement::Unknown)
+        })
+        .collect()
+}
+
+#[test]
+fn moves_to_registers_stay_with_one_warning_a_place() {
+    for line in [
+        "L PR[1:home] 9mm/sec FINE ;",
+        "J PR[R[1]] 9% FINE ;",
+        "J PAL_1[A_1] 9% FINE ;",
+    ] {
+        let program = read(
+            &format!("J P[1] 1% FINE ;\n{line}\nJ P[2] 1% FINE ;"),
+            &two(),
+        );
+        assert_eq!(ids(&program), ["computed-target"], "{line}");
+        let found = &program.findings[0];
+        assert_eq!((found.line, found.severity), (6, Severity::Warning));
+        assert!(blocked(&program).is_empty());
+        assert_eq!(to(&program)[1], (None, false));
+    }
+}
+
+#[test]
+fn where_the_robot_was_is_a_note() {
+    for line in [
+        "PR[1]=LPOS ;\nL PR[1] 9mm/sec FINE ;",
+        "PR[1]=JPOS ;\nPR[2]=PR[1] ;\nJ PR[2] 9% FINE ;",
+    ] {
+        let program = read(&format!("J P[1] 1% FINE ;\n{line}"), &usual("1"));
+        assert_eq!(ids(&program), ["run-time-position"], "{line}");
+        assert_eq!(program.findings[0].severity, Severity::Note);
+    }
+}
+
+#[test]
+fn a_register_that_is_a_copy_of_a_point_is_that_point() {
+    let copied =
+        "UTOOL_NUM=1 ;\nUFRAME_NUM=2 ;\nPR[4]=P[2] ;\nJ P[1] 1% FINE ;\nL PR[4] 9mm/sec FINE ;";
+    let program = read(copied, &two());
+    assert_eq!(to(&program), [(Some("P[1]"), false), (Some("P[2]"), false)]);
+    assert_eq!(program.findings, []);
+    let names = program
+        .moves
+        .iter()
+        .map(|m| program.tools[m.tool].name.as_str());
+    assert!(names.eq(["1", "1"]));
+    // through another register, in another program, by a register as index
+    let through = copied.replace("L PR[4]", "PR[5]=PR[4] ;\nL PR[5]");
+    assert_eq!(to(&read(&through, &two()))[1], (Some("P[2]"), false));
+    let indirect = read(&copied.replace("L PR[4]", "L PR[R[1]]"), &two());
+    assert!(to(&indirect).contains(&(Some("P[2]"), false)));
+    assert_eq!(ids(&indirect), ["computed-target"]);
+    // one number of it is changed, or something is added: beside the point by what only the running program knows
+    for line in [
+        "PR[4,3]=PR[4,3]-R[1] ;",
+        "PR[4]=P[2]+PR[3] ;",
+        "PR[4]=PR[4]+PR[3] ;",
+    ] {
+        let changed = copied.replace("J P[1]", &format!("{line}\nJ P[1]"));
+        assert!(
+            to(&read(&changed, &two())).contains(&(Some("P[2]"), true)),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn a_register_goes_with_the_active_numbers_which_points_tell() {
+    // the controller went to P[1], so that its numbers are selected
+    let lines = "PR[4]=P[2] ;\nJ P[1] 1% FINE ;\nL PR[4] 9mm/sec FINE ;";
+    let program = read(lines, &two());
+    let names = program.moves.iter().map(|m| {
+        let (tool, frame) = (&program.tools[m.tool], &program.frames[m.frame]);
+        (tool.name.as_str(), frame.name.as_str())
+    });
+    assert!(names.eq([("1", "2"), ("1", "2")]));
+    let other = read(&format!("UTOOL_NUM=7 ;\nUFRAME_NUM=2 ;\n{lines}"), &two());
+    assert_eq!(ids(&other), ["frame-number-differs"]);
+}
+
+#[test]
+fn copies_that_nothing_in_the_files_uses_are_told() {
+    let program = read("J P[1] 100% FINE ;\nPR[4]=P[1] ;", &usual("1"));
+    assert_eq!(ids(&program), ["target-copied"]);
+    assert!(blocked(&program).is_empty());
+    let used = read(
+        "J P[1] 100% FINE ;\nPR[4]=P[1] ;\nJ PR[4] 1% FINE ;",
+        &usual("1"),
+    );
+    assert_eq!(used.findings, []);
+}
+
+#[test]
+fn points_that_the_program_writes_are_what_it_writes() {
+    // read from the robot: right as it is; what the file has may be there in the first run
+    let program = read(
+        "J P[1] 1% FINE ;\nP[1]=LPOS ;\nL P[1] 9mm/sec FINE ;",
+        &usual("1"),
+    );
+    let all = to(&program);
+    assert!(all.contains(&(Some("P[1]"), false)) && all.contains(&(None, false)));
+    assert!(ids(&program).iter().all(|id| *id == "run-time-position"));
+    assert!(blocked(&program).is_empty());
+    let program = read(
+        "P[1]=PR[2] ;\nL P[1] 9mm/sec FINE ;\nL P[2] 9mm/sec FINE ;",
+        &two(),
+    );
+    assert_eq!(to(&program), [(None, false), (Some("P[2]"), false)]);
+    assert!(ids(&program).contains(&"computed-target"));
+    assert_eq!(
+        blocked(&program),
+        ["P[1]"],
+        "no move goes to what the file has"
+    );
+    let any = read("P[R[1]]=PR[2] ;\nL P[1] 9mm/sec FINE ;", &two());
+    assert_eq!(to(&any), [(Some("P[1]"), false), (None, false)]);
+}
+
+#[test]
+fn a_register_as_index_means_any_point() {
+    let points = usual("1") + &usual("2");
+    let lines = "L P[R[1]] 9mm/sec FINE ;\nL P[R[2:x]] 9mm/sec FINE ;\nL P[1] 9mm/sec FINE ;";
+    let program = read(lines, &points);
+    let to: Vec<usize> = program.moves.iter().map(|m| m.target.unwrap()).collect();
+    assert_eq!(to, [0, 1, 0, 1, 0]);
+    assert_eq!(program.findings, []);
+    // each with its own tool
+    let points = usual("1") + &usual("2").replace("UT : 1", "UT : 3");
+    let program = read(lines, &points);
+    let tools = program
+        .moves
+        .iter()
+        .map(|m| (m.target.unwrap(), &*program.tools[m.tool].name));
+    assert!(tools.eq([(0, "1"), (1, "3"), (0, "1"), (1, "3"), (0, "1")]));
+}
+
+#[test]
+fn a_frame_is_what_a_register_is_copied_from() {
+    let lines = "PR[3]=P[2] ;\nUFRAME[2]=PR[3] ;\nL P[1] 9mm/sec FINE ;";
+    let program = read(lines, &two());
+    let frame = &program.frames[program.moves[0].frame];
+    assert_eq!(
+        (frame.name.as_str(), frame.world_from_frame.is_some()),
+        ("P[2]", true)
+    );
+    assert_eq!(blocked(&program), ["P[2]"], "a frame stays");
+    let program = read("UFRAME[2]=UFRAME[0] ;\nL P[1] 9mm/sec FINE ;", &usual("1"));
+    assert_eq!(
+        program.frames[program.moves[0].frame].world_from_frame,
+        Some(Pose::identity())
+    );
+}

@@ -1,0 +1,233 @@
+//! The words of instructions: positions, indices, numbers.
+
+/// Bytes of an index with its name.
+const MOST_INDEX: usize = 256;
+
+/// A position that an instruction names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Named {
+    /// `P[3]`, `P[3:name]`
+    Point(u32),
+    /// `P[R[1]]`: any point of the program.
+    AnyPoint,
+    /// `PR[4]`
+    Register(Register),
+    /// `PAL_1[BTM]`: a position that the controller computes.
+    Computed,
+}
+
+/// A position register, or one number of it: `PR[4]`, `PR[4,2]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Register {
+    /// `None` where another register says which: `PR[R[1]]`.
+    pub number: Option<u32>,
+    pub is_element: bool,
+}
+
+/// Letters of instructions, of any dictionary.
+pub fn is_word(b: u8) -> bool {
+    b.is_ascii_alphanumeric() || matches!(b, b'_' | b'$' | b'.') || !b.is_ascii()
+}
+
+/// How many bytes of a word a text starts with.
+pub fn word_length(text: &[u8]) -> usize {
+    text.iter().take_while(|b| is_word(**b)).count()
+}
+
+/// The letter of a move, and where the text of its position starts: `J P[`, `L PR[`.
+pub fn motion(text: &[u8]) -> Option<(u8, usize)> {
+    let letter = text.first()?.to_ascii_uppercase();
+    if !b"JLSCA".contains(&letter) {
+        return None;
+    }
+    let blanks = text[1..].iter().take_while(|b| b.is_ascii_whitespace());
+    let mut at = 1 + blanks.count();
+    // the listing of a pendant marks where the robot is
+    at += usize::from(text.get(at) == Some(&b'@'));
+    let (named, _) = position(&text[at..])?;
+    (named != Named::Computed || at > 1).then_some((letter, at))
+}
+
+/// The position that a text starts with, and its length.
+pub fn position(text: &[u8]) -> Option<(Named, usize)> {
+    if !text.first()?.eq_ignore_ascii_case(&b'P') {
+        return None;
+    }
+    let name = word_length(&text[..text.len().min(MOST_INDEX)]);
+    if text.get(name) != Some(&b'[') {
+        return None;
+    }
+    let inside = &text[name + 1..];
+    let length = bracket_end(inside)?;
+    let index = inside[..length].trim_ascii();
+    let named = match &text[1..name] {
+        [] => whole(index).map_or(Named::AnyPoint, Named::Point),
+        [b'R' | b'r'] => Named::Register(register(index)),
+        [b'A' | b'a', b'L' | b'l', b'_', ..] => Named::Computed,
+        _ => return None,
+    };
+    Some((named, name + 1 + length + 1))
+}
+
+/// `4`, `4:name`, `GP1:4`, `4,2:name`, `R[1]`
+pub fn register(index: &[u8]) -> Register {
+    let index = behind_group(index);
+    let colon = memchr::memchr(b':', index).unwrap_or(index.len());
+    // a comma may be a part of the name
+    let comma = memchr::memchr(b',', index);
+    let comma = comma.filter(|comma| *comma < colon || index[..colon].contains(&b'['));
+    Register {
+        number: whole(index[..comma.unwrap_or(index.len())].trim_ascii()),
+        is_element: comma.is_some(),
+    }
+}
+
+/// The length of what stands before the `]` that closes a bracket.
+pub fn bracket_end(inside: &[u8]) -> Option<usize> {
+    let mut depth = 0_u32;
+    inside.iter().take(MOST_INDEX).position(|&b| {
+        match b {
+            b'[' => depth += 1,
+            b']' if depth == 0 => return true,
+            b']' => depth -= 1,
+            _ => {}
+        }
+        false
+    })
+}
+
+/// A whole number, and nothing else but the name behind its colon.
+pub fn whole(text: &[u8]) -> Option<u32> {
+    let digits = text.iter().take_while(|b| b.is_ascii_digit()).count();
+    let rest = text[digits..].trim_ascii_start();
+    let plain = rest.is_empty() || rest[0] == b':';
+    let number = std::str::from_utf8(&text[..digits]).ok()?.parse().ok();
+    number.filter(|_| plain)
+}
+
+/// The number between the brackets behind a word: 2 of `LBL[2:name]`; `None` where something else says it.
+#[allow(clippy::option_option)]
+pub fn indexed(text: &[u8]) -> Option<Option<u32>> {
+    let inside = text.trim_ascii_start().strip_prefix(b"[")?;
+    Some(whole(inside[..bracket_end(inside)?].trim_ascii()))
+}
+
+/// Index and value of `[index]=value`.
+pub fn assigned(rest: &[u8]) -> Option<(&[u8], &[u8])> {
+    let inside = rest.strip_prefix(b"[")?;
+    let length = bracket_end(inside)?;
+    let value = inside[length + 1..].trim_ascii_start().strip_prefix(b"=")?;
+    Some((inside[..length].trim_ascii(), value.trim_ascii()))
+}
+
+/// Whether `GP1`, `GP1,GP2` or a text that names no group concerns group 1.
+pub fn concerns_group_1(text: &[u8]) -> bool {
+    let group = |word: &&[u8]| word.len() > 2 && word[..2].eq_ignore_ascii_case(b"GP");
+    let mut groups = text.split(|&b| !is_word(b)).filter(group).peekable();
+    groups.peek().is_none() || groups.any(|group| &group[2..] == b"1")
+}
+
+/// `6` of `GP1:6`.
+pub fn behind_group(index: &[u8]) -> &[u8] {
+    let is_group = index.len() > 2 && index[..2].eq_ignore_ascii_case(b"GP");
+    match memchr::memchr(b':', index) {
+        Some(colon) if is_group => index[colon + 1..].trim_ascii(),
+        _ => index,
+    }
+}
+
+/// The words of a text.
+pub fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(|&b| !is_word(b)).filter(|word| !word.is_empty())
+}
+
+/// Hands over the positions of a text that stand outside strings.
+pub fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
+    let (mut counted, mut quotes) = (0, 0_usize);
+    for open in memchr::memchr2_iter(b'P', b'p', text) {
+        quotes += memchr::memchr_iter(b'\'', &text[counted..open]).count();
+        counted = open;
+        let alone = open == 0 || !is_word(text[open - 1]);
+        if alone
+            && quotes.is_multiple_of(2)
+            && let Some((named, _)) = position(&text[open..])
+        {
+            take(named);
+        }
+    }
+}
+
+/// The first comma that stands outside brackets and strings.
+pub fn comma(text: &[u8]) -> Option<usize> {
+    let (mut depth, mut quoted) = (0_i32, false);
+    text.iter().position(|&b| {
+        match b {
+            b'\'' => quoted = !quoted,
+            _ if quoted => {}
+            b'[' | b'(' => depth += 1,
+            b']' | b')' => depth -= 1,
+            _ => return depth <= 0 && b == b',',
+        }
+        false
+    })
+}
+
+/// The parts of a text between its commas.
+pub fn parts(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut rest = Some(text);
+    std::iter::from_fn(move || {
+        let text = rest?;
+        let end = comma(text);
+        rest = end.map(|end| &text[end + 1..]);
+        Some(text[..end.unwrap_or(text.len())].trim_ascii())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_points_and_registers_of_group_1() {
+        let register = |number, is_element| Named::Register(Register { number, is_element });
+        for (text, wanted) in [
+            ("P[3]", Named::Point(3)),
+            ("P[ 3 : a[b] ]", Named::Point(3)),
+            ("P[R[3]]", Named::AnyPoint),
+            ("PR[4:home, left]", register(Some(4), false)),
+            ("PR[4,2]", register(Some(4), true)),
+            ("PR[GP1:4,2:x]", register(Some(4), true)),
+            ("PR[R[1:a]]", register(None, false)),
+            ("PR[R[1:a],3]", register(None, true)),
+            ("PAL_1[BTM]", Named::Computed),
+        ] {
+            let found = position(text.as_bytes());
+            assert_eq!(found, Some((wanted, text.len())), "{text}");
+        }
+        for text in ["", "P", "P[1", "PX[1]", "R[1]", "PAL"] {
+            assert_eq!(position(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn moves_start_with_a_letter_and_a_position() {
+        for (text, wanted) in [
+            ("J P[1] 5%", Some((b'J', 2))),
+            ("L   PR[1]", Some((b'L', 4))),
+            ("JP[1]", Some((b'J', 1))),
+            ("J @P[1] 5%", Some((b'J', 3))),
+            ("J PAL_1[A_1] 5%", Some((b'J', 2))),
+            ("SPAL_1[1]", None),
+            ("LBL[1]", None),
+            ("CALL P", None),
+        ] {
+            assert_eq!(motion(text.as_bytes()), wanted, "{text}");
+        }
+    }
+
+    #[test]
+    fn parts_stand_outside_brackets_and_strings() {
+        let all: Vec<_> = parts(b"1, R[2,3] ,'a,b',(4,5)").collect();
+        assert_eq!(all, [&b"1"[..], b"R[2,3]", b"'a,b'", b"(4,5)"]);
+    }
+}

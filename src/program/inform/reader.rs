@@ -1,0 +1,462 @@
+//! Jobs as statements.
+
+use super::cnd::Conditions;
+use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
+use super::job::Positions;
+use super::lines::{Line, Lines, words};
+use super::remarks::Cause;
+use super::variables::{Variables, always};
+use crate::finding::Severity;
+use crate::program::script::{
+    Argument, Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId,
+    ValueId, VariableId, Write, Written, short,
+};
+use crate::program::{Source, TargetId};
+use std::collections::{HashMap, HashSet};
+
+/// The statements of all jobs.
+pub fn script<'a>(
+    sources: &'a [Source],
+    positions: Positions<'a>,
+    conditions: &Conditions,
+) -> Script {
+    let mut builder = Builder::default();
+    let variables = Variables::of(&mut builder, &positions, conditions);
+    let named = vec![false; positions.targets.len()];
+    builder.script.instructions.reserve(named.len());
+    builder.script.statements.reserve(named.len());
+    let honoured = builder.script.value(Held::Flag(true));
+    let mut reader = Reader {
+        sources,
+        builder,
+        variables,
+        named,
+        names: HashMap::new(),
+        honoured,
+        copies: HashMap::new(),
+        copied: Vec::new(),
+        written: HashSet::new(),
+        all_written: HashSet::new(),
+        starts: Vec::new(),
+        called: HashSet::new(),
+        shifts: false,
+        here: Here::default(),
+        positions,
+    };
+    for job in &reader.positions.jobs {
+        let place = Place {
+            file: job.file,
+            offset: job.offset,
+        };
+        let name = Source::text(job.name);
+        let routine = reader.builder.declare(name, place, Start::Called);
+        reader.names.entry(job.name).or_default().push(routine);
+    }
+    for job in 0..reader.positions.jobs.len() {
+        reader.job(job);
+    }
+    reader.finish()
+}
+
+/// Where the reader is.
+#[derive(Default)]
+pub(super) struct Here {
+    /// Index of the job, which is also that of its routine.
+    pub job: usize,
+    pub file: u32,
+    pub arc: Arc,
+    /// A move to a position of the files has been read.
+    pub is_moving: bool,
+    /// It has been said that RCONF of the post is not used.
+    pub said_rconf: bool,
+    /// Reasons against moves with base and station axes that do not stand at zero.
+    pub external: [Option<VariableId>; 2],
+}
+
+/// Successive MOVC: how many so far, and the last one among the instructions.
+#[derive(Default)]
+pub(super) struct Arc {
+    pub points: usize,
+    pub last: usize,
+}
+
+pub(super) struct Reader<'a> {
+    pub sources: &'a [Source],
+    pub positions: Positions<'a>,
+    pub builder: Builder,
+    pub variables: Variables,
+    /// Targets that a move names.
+    pub named: Vec<bool>,
+    names: HashMap<&'a [u8], Vec<RoutineId>>,
+    /// Configuration data count.
+    pub honoured: ValueId,
+    /// What each variable may be a copy of.
+    pub copies: HashMap<VariableId, Vec<VariableId>>,
+    /// Where something is computed from a P variable.
+    pub copied: Vec<(Place, u32)>,
+    /// Variables that instructions write.
+    pub written: HashSet<VariableId>,
+    /// Tables of which an instruction writes any entry.
+    pub all_written: HashSet<TableId>,
+    /// The first move of jobs that begin with a pose whose wrist nothing tells.
+    pub starts: Vec<(RoutineId, Place)>,
+    /// Jobs that others call.
+    pub called: HashSet<RoutineId>,
+    pub shifts: bool,
+    pub here: Here,
+}
+
+impl<'a> Reader<'a> {
+    fn job(&mut self, job: usize) {
+        let (sources, of) = (self.sources, &self.positions.jobs[job]);
+        let source = &sources[of.file as usize];
+        let range = of.instructions.clone();
+        self.here = Here {
+            job,
+            file: of.file,
+            ..Here::default()
+        };
+        self.builder.open(short(job));
+        for line in Lines::from(&source.bytes[..range.end], range.start) {
+            match line.text {
+                [] | [b'\'' | b'/', ..] => {}
+                [b'*', name @ ..] => self.builder.label(key(first_word(name))),
+                _ => self.line(line),
+            }
+        }
+        self.end_arc();
+        self.builder.close();
+    }
+
+    pub fn routine(&self) -> RoutineId {
+        short(self.here.job)
+    }
+
+    pub fn place(&self, offset: usize) -> Place {
+        Place {
+            file: self.here.file,
+            offset: short(offset),
+        }
+    }
+
+    fn line(&mut self, line: Line<'a>) {
+        let mut rest = words(line.text);
+        let first = rest.next().unwrap_or_default();
+        if is_move(first) {
+            self.moves(line);
+            return;
+        }
+        match first {
+            b"WHILE" | b"WHILEEXP" | b"FOR" => self.builder.begin_loop(true),
+            b"NEXT" | b"ENDWHILE" => self.builder.end_loop(false),
+            b"IFTHEN" | b"IFTHENEXP" => self.builder.begin_if(),
+            b"SWITCH" => {
+                self.builder.begin_choice();
+                if rest.any(|word| word == b"CASE") {
+                    self.builder.next_branch(false);
+                }
+            }
+            b"ELSEIF" | b"ELSEIFEXP" | b"CASE" => self.builder.next_branch(false),
+            b"ELSE" | b"DEFAULT" => self.builder.next_branch(true),
+            b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),
+            b"NOP" | b"COMM" => {}
+            // the name of a local variable, below ///LVARS
+            [b'L', .., b'0'..=b'9'] => {}
+            _ => self.instruction(line, first),
+        }
+    }
+
+    /// An instruction that may have a condition behind it.
+    fn instruction(&mut self, line: Line<'a>, first: &'a [u8]) {
+        let conditional = words(line.text).skip(1).any(|word| word == b"IF");
+        let second = words(line.text).nth(1).unwrap_or_default();
+        if let (b"JUMP", [b'*', name @ ..]) = (first, second) {
+            if conditional {
+                self.builder.may_go_to(key(name));
+            } else {
+                self.builder.go_to(key(name));
+            }
+            return;
+        }
+        if conditional {
+            self.builder.begin_if();
+        }
+        match first {
+            b"RET" => self.builder.back(),
+            b"CALL" => self.call(line, second),
+            b"JUMP" => {
+                // the caller goes on where the other job ends
+                self.call(line, second);
+                self.builder.back();
+            }
+            b"PSTART" => {
+                for &routine in self.callees(second).iter() {
+                    self.builder.script.routines[routine as usize].start = Start::Concurrent;
+                }
+            }
+            _ if first.starts_with(b"SFTON") => self.shift(line, true),
+            _ if first.starts_with(b"SFTOF") => self.shift(line, false),
+            _ => self.writes(line, first, second),
+        }
+        if conditional {
+            self.builder.end_choice();
+        }
+    }
+
+    fn shift(&mut self, line: Line, is_on: bool) {
+        self.shifts |= is_on;
+        let value = if is_on {
+            let remark = self.builder.script.remark(Cause::Shifted.remark());
+            Held::Remark(remark)
+        } else {
+            Held::Flag(false)
+        };
+        let value = Expr::Value(self.builder.script.value(value));
+        let variable = self.variables.shift;
+        self.write(line, Written::One(variable), How::Whole(value));
+    }
+
+    fn write(&mut self, line: Line, variable: Written, how: How) {
+        let place = self.place(line.start);
+        self.builder.write(Write {
+            place,
+            variable,
+            how,
+        });
+    }
+
+    // ---- calls
+
+    /// The jobs of a name such as `JOB:A`.
+    fn callees(&self, name: &[u8]) -> Box<[RoutineId]> {
+        let known = name
+            .strip_prefix(b"JOB:")
+            .and_then(|name| self.names.get(name));
+        known.map_or_else(Box::default, |routines| routines.as_slice().into())
+    }
+
+    fn call(&mut self, line: Line<'a>, name: &'a [u8]) {
+        let callees = self.callees(name);
+        let caller = self.routine();
+        let others = callees.iter().filter(|callee| **callee != caller);
+        self.called.extend(others);
+        let place = self.place(line.start);
+        let first = short(self.builder.script.arguments.len());
+        let mut given = words(line.text).skip(2);
+        let mut number = 0;
+        while let Some(word) = given.next() {
+            let Some(text) = word.strip_prefix(b"ARGF") else {
+                continue;
+            };
+            number += 1;
+            let text = if text.is_empty() {
+                given.next().unwrap_or_default()
+            } else {
+                text
+            };
+            let Some(value) = Operand::of(text).map(|operand| self.value(operand, place)) else {
+                continue;
+            };
+            for &callee in &callees {
+                let builder = &mut self.builder;
+                let parameter = self.variables.parameter(builder, callee, number, place);
+                self.note_copy(Written::One(parameter), value);
+                self.builder.script.arguments.push(Argument {
+                    parameter: Some(parameter),
+                    value,
+                    back: None,
+                });
+            }
+            if callees.is_empty() {
+                self.builder.script.arguments.push(Argument {
+                    parameter: None,
+                    value,
+                    back: None,
+                });
+            }
+        }
+        let end = short(self.builder.script.arguments.len());
+        self.builder.call(Call {
+            place,
+            foreign: callees.is_empty(),
+            callees,
+            name: Source::text(name).into(),
+            arguments: first..end,
+        });
+    }
+
+    // ---- writes
+
+    /// What a position that an instruction names holds.
+    fn value(&mut self, operand: Operand, place: Place) -> Expr {
+        match self.written_by(operand, place) {
+            Some(Written::One(variable)) => Expr::Variable(variable),
+            _ => Expr::Unknown(self.builder.script.remark(Cause::Computed.remark())),
+        }
+    }
+
+    /// What a position that an instruction names is when it is written.
+    pub fn written_by(&mut self, operand: Operand, place: Place) -> Option<Written> {
+        let routine = self.routine();
+        let (builder, variables) = (&mut self.builder, &mut self.variables);
+        Some(match operand {
+            Operand::C(_) => return None,
+            Operand::P(number) => Written::One(variables.position(builder, number, place)),
+            Operand::Local(number) => {
+                Written::One(variables.local(builder, routine, number, place))
+            }
+            Operand::AnyP => Written::AnyOf(variables.all_positions),
+            Operand::AnyLocal => Written::AnyOf(variables.locals_of(builder, routine)),
+        })
+    }
+
+    fn note_copy(&mut self, written: Written, value: Expr) {
+        let Expr::Variable(from) = value else { return };
+        match written {
+            Written::One(to) => self.copies.entry(to).or_default().push(from),
+            Written::AnyOf(table) => {
+                let all = self.builder.script.tables[table as usize].entries.values();
+                for &to in all {
+                    self.copies.entry(to).or_default().push(from);
+                }
+            }
+        }
+    }
+
+    /// An instruction that may write what it names first.
+    fn writes(&mut self, line: Line<'a>, first: &[u8], second: &[u8]) {
+        let place = self.place(line.start);
+        let table = match second {
+            [b'U', b'F', b'#', ..] => Some((self.variables.all_frames, &b"UF#"[..])),
+            [b'T', b'L', b'#', ..] => Some((self.variables.all_tools, &b"TL#"[..])),
+            _ => None,
+        };
+        if let Some((table, prefix)) = table {
+            if first == b"MFRAME" || first.starts_with(b"SET") {
+                self.frame(line, table, numbered(second, prefix));
+                self.note_sources(line, None);
+            }
+            return;
+        }
+        let Some(operand) = Operand::of(second) else {
+            return;
+        };
+        let effect = effect(first);
+        let Some(written) = self.written_by(operand, place) else {
+            return;
+        };
+        if effect == Effect::None {
+            return;
+        }
+        match written {
+            Written::One(variable) => self.written.insert(variable),
+            Written::AnyOf(table) => self.all_written.insert(table),
+        };
+        let computed = self.builder.script.remark(Cause::Computed.remark());
+        let third = words(line.text).nth(2).unwrap_or_default();
+        let value = match effect {
+            // with another tool it is another place
+            Effect::Copy if !words(line.text).any(|word| word.starts_with(b"TL#")) => {
+                Operand::of(third).map(|operand| self.value(operand, place))
+            }
+            Effect::System if is_actual(third) => {
+                Some(Expr::Value(self.builder.script.value(Held::Actual)))
+            }
+            Effect::Argument => {
+                let routine = self.routine();
+                let builder = &mut self.builder;
+                numbered(third, b"IARG#").map(|number| {
+                    let variables = &mut self.variables;
+                    Expr::Variable(variables.parameter(builder, routine, number, place))
+                })
+            }
+            _ => None,
+        };
+        if let Some(value) = value {
+            self.note_copy(written, value);
+            self.write(line, written, How::Whole(value));
+            return;
+        }
+        self.note_sources(line, Some(operand));
+        match effect {
+            Effect::Part => self.write(line, written, How::PartSomehow(computed)),
+            Effect::Perhaps => {
+                self.builder.begin_if();
+                self.write(line, written, How::Whole(Expr::Unknown(computed)));
+                self.builder.end_choice();
+            }
+            _ => self.write(line, written, How::Whole(Expr::Unknown(computed))),
+        }
+    }
+
+    /// Notes the P variables that something is computed from.
+    fn note_sources(&mut self, line: Line, target: Option<Operand>) {
+        let place = self.place(line.start);
+        for operand in words(line.text).skip(2).filter_map(Operand::of) {
+            if let Operand::P(number) = operand
+                && Some(operand) != target
+            {
+                self.copied.push((place, number));
+            }
+        }
+    }
+
+    /// MFRAME and SETTOOL: what the frame or tool is then only the running program knows.
+    fn frame(&mut self, line: Line, table: TableId, number: Option<u32>) {
+        let unknown = self.builder.script.remark(Cause::FrameAssigned.remark());
+        let entries = &self.builder.script.tables[table as usize].entries;
+        let written = match number {
+            None => Written::AnyOf(table),
+            Some(number) => match entries.get(&i64::from(number)) {
+                Some(variable) => Written::One(*variable),
+                // no position needs it
+                None => return,
+            },
+        };
+        self.write(line, written, How::Whole(Expr::Unknown(unknown)));
+    }
+
+    /// Why positions of a job with other axes must stay: the first of base or station axes that does not stand at zero.
+    pub fn external(&mut self, name: &[u8]) -> Option<VariableId> {
+        let is_station = name.starts_with(b"E") || name.starts_with(b"LE");
+        let known = &self.positions.jobs[self.here.job].external;
+        let moved = super::job::External::of(name).and_then(|external| known.get(&external));
+        let what = if is_station { "station" } else { "base" };
+        let shown = Source::text(&name[..name.len().min(20)]);
+        let text = match moved {
+            Some(None) => return None,
+            Some(Some((axis, value))) => {
+                format!("axis {axis} of the {what} stands at {value} ({shown}), not at zero")
+            }
+            None => {
+                format!("only the running program knows where the {what} stands ({shown})")
+            }
+        };
+        let remark = Remark {
+            id: "external-axis",
+            severity: Severity::Error,
+            text: text.into(),
+            hint: "write the position in robot coordinates (POSTYPE ROBOT) or in pulses; positions with other axes at zero are compensated",
+        };
+        let builder = &mut self.builder;
+        let reason = &mut self.here.external[usize::from(is_station)];
+        Some(*reason.get_or_insert_with(|| always(builder, remark)))
+    }
+
+    /// The target that a letter and number name in the present job.
+    pub fn target(&self, letter: super::job::Letter, number: u32) -> Option<TargetId> {
+        let job = &self.positions.jobs[self.here.job];
+        job.named.get(&(letter, number)).copied()
+    }
+}
+
+fn first_word(text: &[u8]) -> &[u8] {
+    words(text).next().unwrap_or_default()
+}
+
+/// A label's name as a number: FNV-1a. Two names of one job with the same would be one label; at 64 bits there are none.
+fn key(name: &[u8]) -> u64 {
+    name.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

@@ -1,0 +1,156 @@
+//! Statements that lead elsewhere: choices, loops, jumps, handlers.
+
+use super::reader::Reader;
+use super::syntax::{Expression, StatementKind};
+use super::tokens::{Fault, Kind};
+
+/// Words that begin, part or end a block, or leave one.
+pub(super) const BLOCK_WORDS: [&[u8]; 22] = [
+    b"if",
+    b"elseif",
+    b"else",
+    b"endif",
+    b"while",
+    b"endwhile",
+    b"for",
+    b"endfor",
+    b"test",
+    b"case",
+    b"default",
+    b"endtest",
+    b"error",
+    b"undo",
+    b"backward",
+    b"goto",
+    b"return",
+    b"raise",
+    b"retry",
+    b"trynext",
+    b"exit",
+    b"exitcycle",
+];
+
+impl Reader<'_> {
+    /// A statement that starts with one of [`BLOCK_WORDS`], the present token.
+    pub(super) fn block(&mut self, start: u32, word: &[u8]) -> Result<(), Fault> {
+        self.advance()?;
+        match word {
+            b"if" => {
+                let is_block = self.condition()?;
+                self.note(start, StatementKind::If);
+                self.short_ifs += u32::from(!is_block);
+            }
+            b"elseif" | b"case" => {
+                self.note(start, StatementKind::Branch { is_last: false });
+                self.condition()?;
+            }
+            b"else" | b"default" => {
+                self.note(start, StatementKind::Branch { is_last: true });
+                if self.token.is(b':') {
+                    self.advance()?;
+                }
+            }
+            b"endif" | b"endtest" => self.note(start, StatementKind::EndChoice),
+            b"while" => self.while_loop(start)?,
+            b"for" => {
+                self.condition()?;
+                self.note(start, StatementKind::Loop { may_pass: true });
+                self.loops.push(false);
+            }
+            b"endwhile" | b"endfor" => {
+                let endless = self.loops.pop().unwrap_or(false);
+                self.note(start, StatementKind::EndLoop { endless });
+            }
+            b"test" => {
+                self.condition()?;
+                self.note(start, StatementKind::Test);
+            }
+            b"error" | b"undo" | b"backward" => self.handler(start)?,
+            b"goto" => {
+                if self.token.kind == Kind::Name {
+                    let label = self.notes.symbols.intern(self.text(self.token));
+                    self.note(start, StatementKind::Goto(label));
+                }
+                self.finish_statement()?;
+            }
+            b"return" => {
+                let value = if self.token.is(b';') || self.at_statement(true) {
+                    Expression::Nothing
+                } else {
+                    self.argument(None)?
+                };
+                self.end_statement()?;
+                self.note(start, StatementKind::Return(value));
+            }
+            b"retry" | b"trynext" => {
+                self.end_statement()?;
+                self.note(start, StatementKind::Retry);
+            }
+            b"exit" | b"exitcycle" => {
+                self.end_statement()?;
+                self.note(start, StatementKind::Exit);
+            }
+            // an error that is raised is for the caller's handler
+            _ => {
+                if !self.token.is(b';') && !self.at_statement(true) {
+                    self.finish_statement()?;
+                } else {
+                    self.end_statement()?;
+                }
+                self.note(start, StatementKind::Return(Expression::Nothing));
+            }
+        }
+        Ok(())
+    }
+
+    /// `WHILE condition DO`; functions in the condition are called each time round.
+    fn while_loop(&mut self, start: u32) -> Result<(), Fault> {
+        let forever = self.is_word(b"true");
+        let at = self.notes.statements.len();
+        self.note(start, StatementKind::Loop { may_pass: false });
+        let first = self.token;
+        self.condition()?;
+        let forever = forever
+            && self.bytes[first.end as usize..]
+                .trim_ascii_start()
+                .get(..2)
+                .is_some_and(|word| word.eq_ignore_ascii_case(b"do"));
+        let calls = self.notes.statements.len() > at + 1;
+        if calls {
+            self.note(start, StatementKind::If);
+            self.note(start, StatementKind::Leave);
+            self.note(start, StatementKind::EndChoice);
+        } else if !forever {
+            self.notes.statements[at].kind = StatementKind::Loop { may_pass: true };
+        }
+        self.loops.push(forever || calls);
+        Ok(())
+    }
+
+    /// `ERROR`, `UNDO`, `BACKWARD`, with the numbers of errors in brackets.
+    fn handler(&mut self, start: u32) -> Result<(), Fault> {
+        if self.token.is(b'(') {
+            self.expression()?;
+        }
+        if let Some(routine) = self.context.routine {
+            self.notes.routines[routine as usize].has_handler = true;
+        }
+        self.note(start, StatementKind::Handler);
+        Ok(())
+    }
+
+    /// `condition THEN`, `1,2:` and their like, without the statements behind; whether a word or colon ends it.
+    fn condition(&mut self) -> Result<bool, Fault> {
+        loop {
+            self.expression()?;
+            match self.token.kind {
+                Kind::Sign(b',' | b'\\') | Kind::Assign => self.advance()?,
+                Kind::Sign(b':') => return self.advance().map(|()| true),
+                Kind::Name if self.is_word(b"then") || self.is_word(b"do") => {
+                    return self.advance().map(|()| true);
+                }
+                _ => return Ok(false),
+            }
+        }
+    }
+}

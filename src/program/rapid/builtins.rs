@@ -1,0 +1,128 @@
+//! What the instructions and functions of the language write, and those that write nothing.
+//!
+//! # Source
+//! ABB, Technical reference manual RAPID Instructions, Functions and Data types: the arguments that are described as `VAR`,
+//! `INOUT` or `PERS` and take a result.
+
+use super::syntax::Verb;
+
+/// Instructions that write the argument at this position, options not counted.
+const WRITERS: &[(&str, u8)] = &[
+    ("add", 0),
+    ("bitclear", 0),
+    ("bitset", 0),
+    ("camgetparameter", 2),
+    ("camgetresult", 1),
+    ("clear", 0),
+    ("decr", 0),
+    ("getdataval", 1),
+    ("getsysdata", 0),
+    ("incr", 0),
+    ("readanybin", 1),
+    ("readrawbytes", 1),
+    ("tpreaddnum", 0),
+    ("tpreadfk", 0),
+    ("tpreadnum", 0),
+    ("unpackrawbytes", 2),
+];
+
+/// Instructions that measure a tool or its load and write it.
+const TOOL_WRITERS: &str = "\
+    loadid manloadidproc mtoolrotcalib mtooltcpcalib stoolrotcalib stooltcpcalib";
+
+/// Instructions that move nothing and write no target, tool or frame.
+const HARMLESS: &str = "\
+    accset actevent actunit aliasio bookerrno break cambreak camflush camloadjob camreqimage camsetexposure \
+    camsetparameter camsetprogrammode camsetrunmode camstartloadjob camwaitloadjob circpathmode cirpathmode \
+    clearpath clearrawbytes clkreset clkstart clkstop close closedir collisiondetect copyfile copyrawbytes \
+    corrclear corrcon corrdiscon corrwrite deactunit dropsensor dropwobj egmactjoint egmactpose egmgetid egmreset \
+    egmsetupai egmsetupuc egmstop egmstreamstart egmstreamstop eoffsgoto erase errlog errwrite fricideval \
+    fricidinit fricidsetfriclevels gettrapdata iactunit idelete idisable ienable ierror indamove indcmove inddmove \
+    indreset indrmove invertdo iodisable ioenable ipathpos ipers isignalai isignalao isignaldi isignaldo isignalgi \
+    isignalgo isleep itimer ivarvalue iwatch load makedir mechunitload motionprocessmodeset motionsup moveextj nop \
+    open opendir packdnheader packrawbytes pathacclim pathreclstart pathrecstart pathrecstop pathresol \
+    procerrrecovery pulsedo readblock readcfgdata readerrdata removedir removefile renamefile reset resetppmoved \
+    restopath rewind save setao setdatasearch setdo setgo setleadthrough setsysdata sismoveoff skipwarn \
+    socketaccept socketbind socketclose socketconnect socketcreate socketlisten socketreceive socketsend \
+    socketsendto softact softdeact speedlimaxis speedlimcheckpoint speedrefresh spyon spystart spystop startload \
+    startmove startmoveretry stop stopmove stopmovereset storepath syncmoveoff syncmoveon syncmoveresume \
+    syncmovesuspend syncmoveundo systemstopaction testsigndefine testsignreset texttabinstall tpdefaultdi tperase \
+    tpshow tpwrite triggcheckio triggdatacopy triggdatareset triggequip triggint triggio triggrampao triggspeed \
+    triggstopproc triggtabdef tunereset tuneservo uialphaentry uimsgbox uimsgwrite uishow unload velset waitai \
+    waitao waitdi waitdo waitgi waitgo waitload waitrob waitsensor waitsyncmove waitsynctask waittestandset \
+    waittime waituntil waitwobj warmstart worldacclim worldzone write writeanybin writebin writeblock writecfgdata \
+    writerawbytes writestrbin writevar wzboxdef wzcyldef wzdisable wzdosset wzenable wzfree wzhomejointdef \
+    wzlimjointdef wzlimsup wzsphdef";
+
+/// Functions that write the argument at this position.
+const WRITING_FUNCTIONS: &[(&str, u8)] = &[("getnextsym", 0), ("strtoval", 1), ("testandset", 0)];
+
+/// Functions that tell where the robot is, or where it is taken to be for joints or a pose.
+const ACTUAL_FUNCTIONS: &str = "\
+    calcjointt calcrobt cjointt crobt";
+
+/// Functions that write nothing.
+const HARMLESS_FUNCTIONS: &str = "\
+    abs absdnum acos acosdnum ainput aoutput argname asin asindnum atan atan2 atan2dnum atandnum bitand bitanddnum \
+    bitcheck bitcheckdnum bitlsh bitlshdnum bitneg bitnegdnum bitor bitordnum bitrsh bitrshdnum bitxor bitxordnum \
+    bytetostr camgetexposure camgetloadedjob camgetname camnumberofresults cdate clkread corrread cos cosdnum cpos \
+    ctime ctool cwobj dectohex defaccframe defdframe defframe dim dinput distance dnumtonum dnumtostr dotprod \
+    doutput eulerzyx eventtype execlevel exp filesize filetime fssize getaxisdistance getaxismoveduration \
+    getmecunitname getmodalpayloadmode getmotorcurrent getmotortorque getnextmechunit getnextoption getserviceinfo \
+    getsignalorigin getsysinfo gettaskname gettime gettsstatus getuasstatus ginput ginputdnum goutput goutputdnum \
+    hextodec indinpos indspeed iobusstate iounitstate isbrakecheckactive iscyclicbool isfile isleadthrough \
+    ismechunitactive ispers isstopmoveact issyncmoveon issysid isvar log10 max maxrobspeed min mirpos modexist \
+    modtime modtimednum motionplannerno nonmotionmode numtodnum numtostr opmode orient orientzyx orobt \
+    paridposvalid paridrobvalid pathlengthget pathlevel pathrecvalidbwd pathrecvalidfwd pfrestart poseinv posemult \
+    posevect pow powdnum present progmemfree quad quaddnum rawbyteslen readbin readdir readmotor readnum readstr \
+    readstrbin readvar rmqgetslotname robname robos round rounddnum runmode sin sindnum socketgetstatus socketpeek \
+    sqrt sqrtdnum strdigcalc strdigcmp strdigitcmp strfind strlen strmap strmatch strmemb strorder strpart \
+    strtobyte tan tandnum taskrunmec taskrunrob tasksinsync testdi testsignread textget texttabfreetouse \
+    texttabget triggdatavalid trunc truncdnum type uialphaentry uiclientexist uidnumentry uidnumtune uilistview \
+    uimessagebox uinumentry uinumtune validio valtostr vectmagn";
+
+/// Whether a list of words has one.
+fn has(words: &str, word: &str) -> bool {
+    words.split_ascii_whitespace().any(|known| known == word)
+}
+
+/// The position that a name stands with.
+fn position(list: &[(&str, u8)], name: &str) -> Option<u8> {
+    let mut found = list.iter().filter(|(known, _)| *known == name);
+    found.next().map(|(_, position)| *position)
+}
+
+/// What an instruction of the language writes; `None` where the name, in lower case, is none that is known.
+pub(super) fn instruction(name: &str) -> Option<Verb> {
+    if let Some(at) = position(WRITERS, name) {
+        return Some(Verb::Writes(at));
+    }
+    if has(TOOL_WRITERS, name) {
+        return Some(Verb::WritesTool);
+    }
+    has(HARMLESS, name).then_some(Verb::Harmless)
+}
+
+/// What a function does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Known {
+    /// It writes nothing.
+    Harmless,
+    /// It tells where the robot is.
+    Actual,
+    /// It writes the argument at this position.
+    Writes(u8),
+    /// It is none of the language.
+    Other,
+}
+
+/// What a function of this name, in lower case, does if it is one of the language.
+pub(super) fn function(name: &str) -> Known {
+    if has(HARMLESS_FUNCTIONS, name) {
+        Known::Harmless
+    } else if has(ACTUAL_FUNCTIONS, name) {
+        Known::Actual
+    } else {
+        position(WRITING_FUNCTIONS, name).map_or(Known::Other, Known::Writes)
+    }
+}

@@ -1,0 +1,397 @@
+//! Calls: routines of the files with their parameters, others, and instructions that write their arguments.
+
+use super::builtins::Known;
+use super::syntax::{
+    Argument, Base, Callee, Expression, Index, Part, Path, Storage, Type, Verb, indices,
+};
+use super::translate::Translator;
+use super::world::{Callees, Entity, named};
+use crate::program::names::{Meaning, Symbol};
+use crate::program::script::{Call, Expr, How, Place, VariableId, Write, Written, short};
+
+/// An instruction that is not known but has a target and a tool moves like the ones that are.
+const UNKNOWN_MOVE: Verb = Verb::Move {
+    path: Path::Linear,
+    first: 0,
+    tool_inside: false,
+};
+
+impl Translator<'_> {
+    /// An instruction or a procedure call.
+    pub(super) fn call(&mut self, callee: Callee, verb: Verb, arguments: Part, end: u32) {
+        let world = self.world;
+        let all = &world.notes.arguments[indices(arguments)];
+        match self.meant(callee, verb, arguments) {
+            Verb::Mode(mode, set) => self.mode(mode, set, arguments),
+            Verb::Wander { back } => self.wander(back, end),
+            Verb::GripLoad => self.grip_load(arguments),
+            Verb::Writes(position) => {
+                let mut positional = all.iter().filter(|argument| argument.option.is_none());
+                if let Some(argument) = positional.nth(usize::from(position)) {
+                    self.becomes_unknown(argument);
+                }
+            }
+            Verb::WritesTool => {
+                for argument in all {
+                    if self.is_tool(argument) {
+                        self.becomes_unknown(argument);
+                    }
+                }
+            }
+            Verb::WritesNamed => self.writes_named(all),
+            verb @ Verb::Move { .. } => self.go(verb, arguments, end),
+            Verb::CallByVar => {
+                let callees = match all.first().map(|argument| argument.expression) {
+                    Some(Expression::Text(start, end)) => {
+                        let bytes = &world.sources[self.here.file as usize].bytes;
+                        let prefix = &bytes[start as usize..end as usize];
+                        world.any_routine((0, 0), &crate::program::Source::text(prefix))
+                    }
+                    _ => world.any_routine((0, 0), ""),
+                };
+                self.goes_to(&callees, &[], "CallByVar".into());
+            }
+            Verb::Harmless | Verb::Other => {
+                let callees = world.callees(callee, arguments, self.context, self.here.file);
+                let name = match callee {
+                    Callee::Named(name) => world.spelling(name).into(),
+                    Callee::Text(..) | Callee::Late => "a late-bound call".into(),
+                };
+                self.goes_to(&callees, all, name);
+            }
+        }
+    }
+
+    /// What an instruction does where the files do not declare a routine of its name.
+    fn meant(&self, callee: Callee, verb: Verb, arguments: Part) -> Verb {
+        let Callee::Named(name) = callee else {
+            return verb;
+        };
+        match verb {
+            Verb::Move { .. } if self.world.is_routine(name, self.context) => Verb::Other,
+            Verb::Other if self.is_like_move(name, arguments) => UNKNOWN_MOVE,
+            _ => verb,
+        }
+    }
+
+    fn is_like_move(&self, name: Symbol, arguments: Part) -> bool {
+        let all = &self.world.notes.arguments[indices(arguments)];
+        let wobj = self.words.wobj;
+        let is_frame = |argument: &Argument| {
+            wobj.is_some() && argument.option == wobj || self.is_tool(argument)
+        };
+        all.iter().any(is_frame)
+            && all.iter().any(|argument| self.leads_to_target(argument))
+            && !self.world.is_routine(name, self.context)
+    }
+
+    /// Whether an argument gives a target away.
+    fn leads_to_target(&self, argument: &Argument) -> bool {
+        let world = self.world;
+        let is_target = |name: Symbol| world.kind(name, self.context).is_some_and(Type::is_target);
+        match argument.expression {
+            Expression::Point { base, .. } => match base {
+                Base::Target(_) => true,
+                Base::Named { name, .. } => is_target(name),
+                Base::Function(_) => false,
+            },
+            Expression::Member { name, .. } => is_target(name),
+            Expression::Composed(part) | Expression::Computed(part) => world.notes.mentions
+                [indices(part)]
+            .iter()
+            .any(|&name| is_target(name)),
+            Expression::Nothing | Expression::Text(..) => false,
+        }
+    }
+
+    /// Names that an instruction uses as targets or frames.
+    pub(super) fn wants(&self, callee: Callee, verb: Verb, arguments: Part) -> Vec<(Symbol, Type)> {
+        let all = &self.world.notes.arguments[indices(arguments)];
+        match self.meant(callee, verb, arguments) {
+            Verb::Move {
+                path,
+                first,
+                tool_inside,
+            } => self.wants_of_move(all, path, first, tool_inside),
+            Verb::Other => {
+                let callees = self
+                    .world
+                    .callees(callee, arguments, self.context, self.here.file);
+                let mut wants = Vec::new();
+                for routine in callees.routines {
+                    for (datum, argument) in self.world.parameters(routine, all) {
+                        let kind = self.world.datum(datum).kind;
+                        if kind.is_target() || kind.is_frame() {
+                            let name = argument.and_then(|argument| named(&argument.expression));
+                            wants.extend(name.map(|name| (name, kind)));
+                        }
+                    }
+                }
+                wants
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// A function that the present statement calls; the last of them where `is_last`.
+    pub(super) fn function(&mut self, function: u32, is_last: bool) {
+        let world = self.world;
+        let of = world.notes.functions[function as usize];
+        let all = &world.notes.given[indices(of.arguments)];
+        self.here.offset = of.offset;
+        if let Known::Writes(position) = world.known(&of) {
+            let mut positional = all.iter().filter(|argument| argument.option.is_none());
+            if let Some(argument) = positional.nth(usize::from(position)) {
+                self.becomes_unknown(argument);
+            }
+            return;
+        }
+        let callee = Callee::Named(of.name);
+        let callees = world.callees(callee, of.arguments, self.context, self.here.file);
+        self.goes_to(&callees, all, world.spelling(of.name).into());
+        // the next call of it writes over what it gives
+        if !is_last && let Some(result) = self.result_of(function) {
+            let apart = self.temporary(world.spelling(of.name), Expr::Absent);
+            self.set(apart, Expr::Variable(result));
+            self.kept_results.insert(function, apart);
+        }
+    }
+
+    /// The variable that holds what a function of the files gives; `None` where it gives no target or frame.
+    pub(super) fn result_of(&mut self, function: u32) -> Option<VariableId> {
+        if let Some(&apart) = self.kept_results.get(&function) {
+            return Some(apart);
+        }
+        let of = self.world.notes.functions[function as usize];
+        let callee = Callee::Named(of.name);
+        let callees = self
+            .world
+            .callees(callee, of.arguments, self.context, self.here.file);
+        let [routine] = callees.routines[..] else {
+            return None;
+        };
+        let gives = self.world.notes.routines[routine as usize].gives;
+        (gives.is_target() || gives.is_frame()).then(|| self.result(routine))
+    }
+
+    /// A call of routines with arguments.
+    fn goes_to(&mut self, callees: &Callees, all: &[Argument], name: Box<str>) {
+        let mut given = Vec::new();
+        for &routine in &callees.routines {
+            self.bind(routine, all, &mut given);
+        }
+        if callees.foreign {
+            self.give_away(all, &mut given);
+            // a routine that is not in the files and gets nothing changes nothing that is known
+            if callees.routines.is_empty() && given.is_empty() {
+                return;
+            }
+        }
+        let arguments = &mut self.builder.script.arguments;
+        let start = short(arguments.len());
+        arguments.extend(given);
+        let arguments = start..short(arguments.len());
+        self.emit_call(Call {
+            place: self.here,
+            callees: callees.routines.clone().into(),
+            foreign: callees.foreign,
+            name,
+            arguments,
+        });
+        for &routine in &callees.routines {
+            self.written_arrays(routine, all);
+        }
+    }
+
+    /// What the parameters of a routine are given.
+    fn bind(
+        &mut self,
+        routine: u32,
+        all: &[Argument],
+        given: &mut Vec<crate::program::script::Argument>,
+    ) {
+        let world = self.world;
+        for (datum, argument) in world.parameters(routine, all) {
+            let parameter = *world.datum(datum);
+            let kind = parameter.kind;
+            if !kind.is_target() && !kind.is_frame() {
+                continue;
+            }
+            let variable = self.parameter(datum);
+            let value = match argument {
+                None => self.unknown(kind),
+                Some(argument) if kind.is_frame() => self.frame_from(argument.expression),
+                Some(argument) => self.position_from(argument.expression, kind),
+            };
+            let by_reference = matches!(
+                parameter.storage,
+                Storage::Parameter {
+                    by_reference: true,
+                    ..
+                }
+            );
+            let back = match value {
+                Expr::Variable(variable)
+                    if by_reference && world.is_written(Entity::Declared(datum)) =>
+                {
+                    Some(variable)
+                }
+                _ => None,
+            };
+            given.push(crate::program::script::Argument {
+                parameter: Some(variable),
+                value,
+                back,
+            });
+        }
+    }
+
+    /// The variable of a parameter.
+    fn parameter(&mut self, datum: u32) -> VariableId {
+        let entity = Entity::Declared(datum);
+        if let Some(&known) = self.variables.get(&(entity, 0)) {
+            return known;
+        }
+        let kind = self.world.datum(datum).kind;
+        let holds = self.unknown(kind);
+        self.variable(entity, 0, holds)
+    }
+
+    fn unknown(&mut self, kind: Type) -> Expr {
+        if kind.is_frame() {
+            self.frame_chosen()
+        } else {
+            self.computed()
+        }
+    }
+
+    /// What a routine gets that is not in the files.
+    fn give_away(&mut self, all: &[Argument], given: &mut Vec<crate::program::script::Argument>) {
+        for argument in all {
+            let frame = match argument.expression {
+                Expression::Point {
+                    base: Base::Named { name, index },
+                    steps: (a, b),
+                } if a == b
+                    && self
+                        .world
+                        .kind(name, self.context)
+                        .is_some_and(Type::is_frame) =>
+                {
+                    Some(self.frame(name, self.world.notes.index(index)))
+                }
+                _ => None,
+            };
+            let value = match frame {
+                Some(value) => value,
+                None if self.leads_to_target(argument) => match argument.expression {
+                    Expression::Member { name, index } => {
+                        let index = self.world.notes.index(index);
+                        self.position(name, index, Type::Robtarget)
+                    }
+                    expression => self.position_from(expression, Type::Robtarget),
+                },
+                None => continue,
+            };
+            let back = match value {
+                Expr::Variable(variable) => Some(variable),
+                _ => None,
+            };
+            if frame.is_none() || back.is_some() {
+                given.push(crate::program::script::Argument {
+                    parameter: None,
+                    value,
+                    back,
+                });
+            }
+        }
+    }
+
+    /// Arrays that a routine writes through its parameter: which elements is known at run time only.
+    fn written_arrays(&mut self, routine: u32, all: &[Argument]) {
+        let world = self.world;
+        for (datum, argument) in world.parameters(routine, all) {
+            let Some(argument) = argument else {
+                continue;
+            };
+            let kind = world.datum(datum).kind;
+            if !kind.is_target() || !world.is_written(Entity::Declared(datum)) {
+                continue;
+            }
+            if let Expression::Point {
+                base: Base::Named { name, index: 0 },
+                ..
+            } = argument.expression
+                && let Meaning::One(of) = world.meaning(name, self.context)
+                && matches!(self.position_of_datum(of, Index::Whole), Expr::Any { .. })
+                && world.is_written(Entity::Declared(of))
+            {
+                let how = How::PartSomehow(self.changed());
+                let table = self.table(of);
+                self.emit_write(Write {
+                    place: self.here,
+                    variable: Written::AnyOf(table),
+                    how,
+                });
+            }
+        }
+    }
+
+    /// An instruction writes its argument.
+    fn becomes_unknown(&mut self, argument: &Argument) {
+        let kind = named(&argument.expression).and_then(|name| self.world.kind(name, self.context));
+        let value = self.unknown(kind.unwrap_or(Type::Robtarget));
+        let value = if kind.is_some_and(Type::is_frame) {
+            self.frame_assigned()
+        } else {
+            value
+        };
+        self.write_argument(argument, How::Whole(value));
+    }
+
+    /// `SetDataVal`, `SetAllDataVal`: writes data whose names or types it is given.
+    fn writes_named(&mut self, all: &[Argument]) {
+        let world = self.world;
+        let text = all.iter().find_map(|argument| match argument.expression {
+            Expression::Text(start, end) => Some((start as usize, end as usize)),
+            _ => None,
+        });
+        let bytes = &world.sources[self.here.file as usize].bytes;
+        let text = text.map(|(start, end)| bytes[start..end].to_ascii_lowercase());
+        for at in 0..short(world.notes.data.len()) {
+            let datum = world.datum(at);
+            if !world.is_written(Entity::Declared(at)) || datum.context.routine.is_some() {
+                continue;
+            }
+            let name = world.spelling(datum.name).as_bytes().to_ascii_lowercase();
+            let names_type = text
+                .as_ref()
+                .is_some_and(|text| Type::named(text) != Type::Other);
+            let meant = match &text {
+                Some(text) if names_type => Type::named(text) == datum.kind,
+                Some(text) => *text == name,
+                None => true,
+            };
+            if !meant {
+                continue;
+            }
+            let value = if datum.kind.is_target() {
+                self.position_of_datum(at, Index::Whole)
+            } else {
+                continue;
+            };
+            let how = How::PartSomehow(self.changed());
+            let variable = match value {
+                Expr::Variable(variable) => Written::One(variable),
+                Expr::Any { .. } => Written::AnyOf(self.table(at)),
+                _ => continue,
+            };
+            let place: Place = self.here;
+            self.emit_write(Write {
+                place,
+                variable,
+                how,
+            });
+        }
+    }
+}

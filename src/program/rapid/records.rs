@@ -1,0 +1,208 @@
+//! Tools, work objects and loads of their parts (see [`super::aggregate::TOOLDATA`], [`super::aggregate::WOBJDATA`]).
+
+use super::aggregate::{Leaf, UNIT_LIMIT};
+use super::arguments::{LARGEST, is_unit};
+use super::tokens::Fault;
+use crate::finding::Severity;
+use crate::geometry::units::m_from_mm;
+use crate::geometry::{Pose, Quaternion};
+use crate::program::script::{NamedFrame, Part, PartValue, Place, Remark};
+use crate::program::{Load, ReadError, Source};
+
+/// Parts of the load of a tool begin here.
+pub(super) const TOOL_LOAD: usize = 8;
+
+/// Leaves as parts of a record.
+pub(super) fn part_of(leaf: Leaf, place: Place) -> Part {
+    let at = |start| Place {
+        offset: start,
+        ..place
+    };
+    let (value, place, length) = match leaf {
+        Leaf::Number {
+            value,
+            start,
+            length,
+        } => (PartValue::Number(value), at(start), length),
+        Leaf::Bool(flag) => (PartValue::Flag(flag), place, 0),
+        Leaf::Text { empty } => (PartValue::Text { empty }, place, 0),
+        Leaf::Computed => (PartValue::Computed, place, 0),
+        Leaf::Missing => (PartValue::Missing, place, 0),
+    };
+    Part {
+        value,
+        place,
+        length,
+    }
+}
+
+/// The parts of a record, one after another; behind the last they are missing.
+struct Parts<'a> {
+    parts: &'a [Part],
+    sources: &'a [Source],
+}
+
+impl Parts<'_> {
+    fn value(&self, at: usize) -> PartValue {
+        self.parts
+            .get(at)
+            .map_or(PartValue::Missing, |part| part.value)
+    }
+
+    fn number(&self, at: usize) -> Option<f64> {
+        match self.value(at) {
+            PartValue::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    fn is(&self, at: usize, truth: bool) -> bool {
+        self.value(at) == PartValue::Flag(truth)
+    }
+
+    /// The pose whose seven parts start at `first`; `None` where one is missing.
+    fn pose(&self, first: usize) -> Result<Result<Option<Pose>, Remark>, ReadError> {
+        let mut values = [0.0; 7];
+        let mut computed = false;
+        for (value, at) in values.iter_mut().zip(first..) {
+            match self.value(at) {
+                PartValue::Missing => return Ok(Ok(None)),
+                PartValue::Number(number) => *value = number,
+                _ => computed = true,
+            }
+        }
+        if computed {
+            return Ok(Err(assigned()));
+        }
+        let [x, y, z, quaternion @ ..] = values;
+        let far = [x, y, z].iter().position(|v| v.abs() >= LARGEST);
+        let wrong = match far {
+            Some(at) => Some((at, "coordinate", "the limit is 1000000 mm either way")),
+            None if !is_unit(quaternion) => Some((3, "unit quaternion", UNIT_LIMIT)),
+            None => None,
+        };
+        if let Some((at, meaning, limit)) = wrong {
+            let Part { place, length, .. } = self.parts[first + at];
+            let fault = Fault::BadValue {
+                start: place.offset,
+                end: place.offset + u32::from(length),
+                meaning,
+                limit,
+            };
+            return Err(fault.in_source(&self.sources[place.file as usize]));
+        }
+        let translation = [x, y, z].map(m_from_mm);
+        let rotation = Quaternion(quaternion).normalized();
+        Ok(Ok(Some(Pose::from_parts(translation, rotation))))
+    }
+
+    /// The load whose parts start at `first`, where it has a mass.
+    fn load(&self, first: usize) -> Option<Load> {
+        let number = |at: usize| self.number(first + at);
+        let mass_kg = number(0).filter(|&mass| mass > 0.0 && mass < LARGEST)?;
+        let cog_m = [number(1)?, number(2)?, number(3)?].map(m_from_mm);
+        Some(Load { mass_kg, cog_m })
+    }
+}
+
+/// The running program changes a part of a tool or work object.
+pub(super) fn assigned() -> Remark {
+    refused(
+        "frame-assigned-at-run-time",
+        "the running program changes the tool or work object",
+        "assign it once, with numbers, or declare one for each place",
+    )
+}
+
+/// Why a move with this tool or work object stays.
+pub(super) fn refused(id: &'static str, text: &str, hint: &'static str) -> Remark {
+    Remark {
+        id,
+        severity: Severity::Error,
+        text: text.into(),
+        hint,
+    }
+}
+
+/// See [`crate::program::Language::frame_of`].
+pub(super) fn frame_of(
+    is_tool: bool,
+    name: &str,
+    parts: &[Part],
+    sources: &[Source],
+) -> Result<Result<NamedFrame, Remark>, ReadError> {
+    let parts = Parts { parts, sources };
+    let pose = if is_tool {
+        tool(name, &parts)?
+    } else {
+        work_object(name, &parts)?
+    };
+    Ok(pose.map(|pose| NamedFrame {
+        name: name.into(),
+        pose,
+        load: is_tool.then(|| parts.load(TOOL_LOAD)).flatten(),
+    }))
+}
+
+type Found = Result<Result<Option<Pose>, Remark>, ReadError>;
+
+fn tool(name: &str, parts: &Parts) -> Found {
+    if parts.is(0, false) {
+        return Ok(Err(refused(
+            "stationary-tool",
+            "the tool does not hang on the robot (robhold FALSE)",
+            "moves with a stationary tool are not compensated",
+        )));
+    }
+    let load = TOOL_LOAD..TOOL_LOAD + 4;
+    if load
+        .into_iter()
+        .any(|at| parts.value(at) == PartValue::Computed)
+    {
+        return Ok(Err(assigned()));
+    }
+    let or_tool0 = |pose: Option<Pose>| {
+        pose.or_else(|| name.eq_ignore_ascii_case("tool0").then(Pose::identity))
+    };
+    Ok(parts.pose(1)?.map(or_tool0))
+}
+
+fn work_object(name: &str, parts: &Parts) -> Found {
+    if parts.is(0, true) {
+        return Ok(Err(refused(
+            "held-work-piece",
+            "the robot holds the work object (robhold TRUE)",
+            "moves with a held work piece are not compensated",
+        )));
+    }
+    if parts.is(1, false) || parts.value(2) == (PartValue::Text { empty: false }) {
+        return Ok(Err(refused(
+            "moving-frame",
+            "a conveyor or another mechanical unit moves the work object (ufprog FALSE or ufmec named)",
+            "moves in a moving frame are not compensated",
+        )));
+    }
+    let user = match parts.pose(3)? {
+        Ok(user) => user,
+        Err(remark) => return Ok(Err(remark)),
+    };
+    let object = match parts.pose(10)? {
+        Ok(object) => object,
+        Err(remark) => return Ok(Err(remark)),
+    };
+    Ok(Ok(match (user, object) {
+        (Some(user), Some(object)) => Some(user * object),
+        _ => name.eq_ignore_ascii_case("wobj0").then(Pose::identity),
+    }))
+}
+
+/// The load of leaves of a loaddata.
+pub(super) fn load_of(leaves: &[Leaf]) -> Option<Load> {
+    let place = Place { file: 0, offset: 0 };
+    let parts: Vec<Part> = leaves.iter().map(|&leaf| part_of(leaf, place)).collect();
+    let parts = Parts {
+        parts: &parts,
+        sources: &[],
+    };
+    parts.load(0)
+}

@@ -1,0 +1,547 @@
+//! From what was noted to statements: who may be where, is for [`crate::motion`].
+
+use super::handlers::Handlers;
+use super::records::refused;
+use super::syntax::{
+    Assigned, Component, Expression, Index, Mode, Part, Set, StatementKind, Storage, Type, indices,
+};
+use super::world::{Entity, World};
+use crate::finding::Severity;
+use crate::program::names::{Context, Symbol};
+use crate::program::script::{
+    Builder, Call, Expr, Held, How, Instruction, NamedFrame, Part as RecordPart, PartValue, Place,
+    Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
+};
+use crate::program::{Shape, TargetId};
+use std::collections::{HashMap, HashSet};
+
+/// Names of options.
+#[derive(Debug, Default)]
+pub(super) struct Words {
+    pub wobj: Option<Symbol>,
+    pub tload: Option<Symbol>,
+    pub id: Option<Symbol>,
+    pub corr: Option<Symbol>,
+    off: Option<Symbol>,
+    wrist: Option<Symbol>,
+}
+
+/// What the controller keeps in mind from one statement to the next.
+#[derive(Debug)]
+pub(super) struct Modes {
+    pub conf_j: VariableId,
+    pub conf_l: VariableId,
+    pub wrist: VariableId,
+    program_displacement: VariableId,
+    external_offset: VariableId,
+    /// The guards of moves that a displacement concerns, and of those whose target's name is ambiguous.
+    pub guards: u32,
+    pub ambiguous_guards: u32,
+    on: ValueId,
+    off: ValueId,
+    displaced: ValueId,
+}
+
+/// Puts a script together.
+pub(super) struct Translator<'a> {
+    pub world: &'a World<'a>,
+    pub builder: Builder,
+    /// Where the present statement stands.
+    pub here: Place,
+    pub context: Context,
+    /// The present routine is open.
+    is_open: bool,
+    pub handlers: Handlers,
+    pub words: Words,
+    pub modes: Modes,
+    pub actual: ValueId,
+    pub wobj0: ValueId,
+    pub variables: HashMap<(Entity, u32), VariableId>,
+    pub records: HashMap<Entity, ValueId>,
+    pub named_elements: HashMap<String, ValueId>,
+    pub loads: HashMap<Symbol, ValueId>,
+    pub lists: HashMap<u32, (u32, u32)>,
+    pub tables: HashMap<u32, TableId>,
+    pub remarks: HashMap<(&'static str, Symbol), RemarkId>,
+    /// What functions of the files give, by routine.
+    pub results: HashMap<u32, VariableId>,
+    /// What functions that the present statement calls give, where that is kept apart.
+    pub kept_results: HashMap<u32, VariableId>,
+    /// Targets whose numbers no robot can use and that are written over.
+    dead: HashSet<TargetId>,
+    /// Names that the files do not declare and that moves use: what for.
+    pub wanted: HashMap<Symbol, Type>,
+    /// Data of each routine's own that are written in it.
+    own: HashMap<u32, Vec<u32>>,
+    /// A name in the present expression is declared more than once.
+    pub ambiguous: bool,
+}
+
+/// The script of what was noted. `dead` are targets that are written over and have no numbers of their own.
+pub(super) fn translate(world: &World, script: Script, dead: HashSet<TargetId>) -> Script {
+    let mut builder = Builder::default();
+    builder.script = script;
+    for routine in &world.notes.routines {
+        let name = world.spelling(routine.name);
+        let start = if routine.is_trap {
+            Start::Concurrent
+        } else if name.eq_ignore_ascii_case("main") {
+            Start::Main
+        } else {
+            Start::Called
+        };
+        builder.declare(name, routine.place, start);
+    }
+    let find = |word: &[u8]| world.notes.symbols.find(word);
+    let modes = Modes::new(&mut builder.script);
+    let script = &mut builder.script;
+    let mut translator = Translator {
+        world,
+        here: Place { file: 0, offset: 0 },
+        context: Context {
+            module: 0,
+            routine: None,
+        },
+        is_open: false,
+        handlers: Handlers::default(),
+        words: Words {
+            wobj: find(b"wobj"),
+            tload: find(b"tload"),
+            id: find(b"id"),
+            corr: find(b"corr"),
+            off: find(b"off"),
+            wrist: find(b"wrist"),
+        },
+        modes,
+        actual: script.value(Held::Actual),
+        wobj0: script.value(Held::Frame(NamedFrame {
+            name: "wobj0".into(),
+            pose: Some(crate::geometry::Pose::identity()),
+            load: None,
+        })),
+        variables: HashMap::new(),
+        records: HashMap::new(),
+        named_elements: HashMap::new(),
+        loads: HashMap::new(),
+        lists: HashMap::new(),
+        tables: HashMap::new(),
+        remarks: HashMap::new(),
+        results: HashMap::new(),
+        kept_results: HashMap::new(),
+        dead,
+        wanted: HashMap::new(),
+        own: HashMap::new(),
+        ambiguous: false,
+        builder,
+    };
+    translator.find_own();
+    translator.find_wanted();
+    translator.external_axes();
+    for at in 0..world.notes.statements.len() {
+        translator.statement(at);
+    }
+    translator.close();
+    translator.builder.finish()
+}
+
+impl Modes {
+    fn new(script: &mut Script) -> Self {
+        let on = script.value(Held::Flag(true));
+        let off = script.value(Held::Flag(false));
+        let remark = script.remark(refused(
+            "displacement-active",
+            "a program displacement or external offset may be active",
+            "switch it off with PDispOff or EOffsOff before the move",
+        ));
+        let displaced = script.value(Held::Remark(remark));
+        let remark = script.remark(refused(
+            "target-name-ambiguous",
+            "this name is declared more than once, and a use does not tell which one is meant",
+            "pass only the modules of one task, or make the data LOCAL",
+        ));
+        let ambiguous = script.value(Held::Remark(remark));
+        let mut mode = |name: &str, holds: ValueId| {
+            script.variable(Variable {
+                name: name.into(),
+                place: Place { file: 0, offset: 0 },
+                declared: Expr::Value(holds),
+                kept: false,
+                shared: false,
+                routine: None,
+            })
+        };
+        let (conf_j, conf_l) = (mode("ConfJ", on), mode("ConfL", on));
+        let wrist = mode("SingArea", off);
+        let program_displacement = mode("PDispOn", off);
+        let external_offset = mode("EOffsOn", off);
+        let ambiguous = mode("", ambiguous);
+        let displacements = [program_displacement, external_offset];
+        script.guards.push(Box::new(displacements));
+        script
+            .guards
+            .push(Box::new([program_displacement, external_offset, ambiguous]));
+        let last = crate::program::script::short(script.guards.len() - 1);
+        Self {
+            conf_j,
+            conf_l,
+            wrist,
+            program_displacement,
+            external_offset,
+            guards: last - 1,
+            ambiguous_guards: last,
+            on,
+            off,
+            displaced,
+        }
+    }
+}
+
+impl Translator<'_> {
+    pub fn place(&self, offset: u32) -> Place {
+        Place {
+            offset,
+            ..self.here
+        }
+    }
+
+    pub fn say(&mut self, id: &'static str, severity: Severity, message: String, hint: &str) {
+        let source = &self.world.sources[self.here.file as usize];
+        let at = self.here.offset as usize;
+        let finding = source.finding(at, id, severity, message, hint);
+        self.builder.script.findings.push(finding);
+    }
+
+    pub fn is_dead(&self, target: TargetId) -> bool {
+        self.dead.contains(&target)
+    }
+
+    // ---- what statements become
+
+    pub fn emit_move(&mut self, instruction: Instruction) {
+        self.may_fail();
+        self.builder.go(instruction);
+    }
+
+    pub fn emit_write(&mut self, write: Write) {
+        self.may_fail();
+        self.builder.write(write);
+    }
+
+    pub fn emit_call(&mut self, call: Call) {
+        self.may_fail();
+        self.builder.call(call);
+    }
+
+    /// Text begins that stands elsewhere.
+    fn text(&mut self, at: usize, file: u32, context: Context) {
+        self.close();
+        self.here.file = file;
+        self.context = context;
+        let Some(routine) = context.routine else {
+            return;
+        };
+        self.builder.open(routine);
+        self.is_open = true;
+        let of = &self.world.notes.routines[routine as usize];
+        if of.has_handler {
+            self.handlers = self.handlers_of(at + 1);
+        }
+        for datum in self.own.get(&routine).cloned().unwrap_or_default() {
+            self.begin_own(datum);
+        }
+    }
+
+    fn close(&mut self) {
+        if self.is_open {
+            self.end_handlers();
+            self.builder.close();
+        }
+        self.handlers = Handlers::default();
+        self.is_open = false;
+    }
+
+    fn statement(&mut self, at: usize) {
+        let statement = self.world.notes.statements[at];
+        self.here.offset = statement.offset;
+        if let StatementKind::Text { file, context } = statement.kind {
+            self.text(at, file, context);
+            return;
+        }
+        if self.handlers.is_skipping && !matches!(statement.kind, StatementKind::Handler) {
+            return;
+        }
+        if !self.is_open {
+            // statements outside routines
+            let routine = self.builder.declare("", self.here, Start::Called);
+            self.builder.open(routine);
+            self.is_open = true;
+        }
+        match statement.kind {
+            StatementKind::Text { .. } => {}
+            StatementKind::Assign {
+                name,
+                index,
+                component,
+                value,
+            } => self.assign(name, index, component, value),
+            StatementKind::Call {
+                callee,
+                verb,
+                arguments,
+                end,
+            } => self.call(callee, verb, arguments, end),
+            StatementKind::Function(function) => {
+                let next = self.world.notes.statements.get(at + 1);
+                let is_last = !next.is_some_and(|n| matches!(n.kind, StatementKind::Function(_)));
+                self.function(function, is_last);
+            }
+            StatementKind::If => self.builder.begin_if(),
+            StatementKind::Branch { is_last } => self.builder.next_branch(is_last),
+            StatementKind::Test => self.builder.begin_choice(),
+            StatementKind::EndChoice => self.builder.end_choice(),
+            StatementKind::Loop { may_pass } => self.builder.begin_loop(may_pass),
+            StatementKind::EndLoop { endless } => self.builder.end_loop(endless),
+            StatementKind::Leave => self.builder.leave_loop(),
+            StatementKind::Label(name) => self.builder.label(u64::from(name.0)),
+            StatementKind::Goto(name) => self.builder.go_to(u64::from(name.0)),
+            StatementKind::Handler => self.handler(at),
+            StatementKind::Retry => self.retry(),
+            StatementKind::Return(value) => {
+                self.give_back(value);
+                self.builder.back();
+            }
+            StatementKind::Exit => self.builder.exit(),
+        }
+        if !matches!(statement.kind, StatementKind::Function(_)) {
+            self.kept_results.clear();
+        }
+    }
+
+    /// A mode of the controller is set.
+    pub fn mode(&mut self, mode: Mode, set: Set, arguments: Part) {
+        let world = self.world;
+        let has = |word: Option<Symbol>| {
+            let all = &world.notes.arguments[indices(arguments)];
+            word.is_some() && all.iter().any(|argument| argument.option == word)
+        };
+        let (modes, words) = (&self.modes, &self.words);
+        let flag = |on: bool| if on { modes.on } else { modes.off };
+        let (variable, value) = match mode {
+            Mode::ConfJ => (modes.conf_j, flag(!has(words.off))),
+            Mode::ConfL => (modes.conf_l, flag(!has(words.off))),
+            Mode::Wrist => (modes.wrist, flag(has(words.wrist))),
+            Mode::ProgramDisplacement | Mode::ExternalOffset => {
+                let value = if set == Set::Off {
+                    modes.off
+                } else {
+                    modes.displaced
+                };
+                let variable = if mode == Mode::ExternalOffset {
+                    modes.external_offset
+                } else {
+                    modes.program_displacement
+                };
+                (variable, value)
+            }
+        };
+        self.set(variable, Expr::Value(value));
+    }
+
+    pub fn set(&mut self, variable: VariableId, value: Expr) {
+        let place = self.here;
+        self.emit_write(Write {
+            place,
+            variable: Written::One(variable),
+            how: How::Whole(value),
+        });
+    }
+
+    /// `name{i}.part := value`
+    fn assign(&mut self, name: Symbol, index: Index, component: Component, value: Assigned) {
+        let kind = self.world.kind(name, self.context);
+        let is_frame = match kind {
+            Some(kind) => kind.is_frame(),
+            None => {
+                matches!(component, Component::Leaves(..)) || matches!(value, Assigned::Leaves(_))
+            }
+        };
+        if kind.is_some_and(|kind| !kind.is_frame() && !kind.is_target()) {
+            return;
+        }
+        if is_frame && kind.is_none() {
+            self.wanted.entry(name).or_insert(Type::Tooldata);
+        }
+        let all = self.written(name, index);
+        if all.is_empty() {
+            return;
+        }
+        let wanted = kind.or_else(|| self.wanted.get(&name).copied());
+        let wanted = wanted.unwrap_or(Type::Robtarget);
+        let how = if wanted.is_frame() {
+            self.frame_becomes(name, component, value)
+        } else {
+            self.target_becomes(name, component, value, wanted)
+        };
+        for variable in all {
+            let (place, how) = (self.here, how.clone());
+            self.emit_write(Write {
+                place,
+                variable,
+                how,
+            });
+        }
+    }
+
+    fn target_becomes(
+        &mut self,
+        name: Symbol,
+        component: Component,
+        value: Assigned,
+        wanted: Type,
+    ) -> How {
+        let Assigned::To(expression) = value else {
+            return How::Whole(self.computed());
+        };
+        if component != Component::Whole {
+            return How::PartSomehow(self.changed());
+        }
+        if let Expression::Point {
+            base: super::syntax::Base::Target(target),
+            ..
+        } = expression
+        {
+            let named = &mut self.builder.script.targets[target as usize].name;
+            *named = Some(self.world.spelling(name).into());
+        }
+        How::Whole(self.position_from(expression, wanted))
+    }
+
+    fn frame_becomes(&mut self, name: Symbol, component: Component, value: Assigned) -> How {
+        match (component, value) {
+            (Component::Leaves(first, _), Assigned::Leaves(leaves)) => How::Parts {
+                first: u32::from(first),
+                parts: self.record_parts(leaves, self.here),
+            },
+            (Component::Leaves(first, count), Assigned::To(_)) => {
+                let computed = RecordPart {
+                    value: PartValue::Computed,
+                    place: self.here,
+                    length: 0,
+                };
+                How::Parts {
+                    first: u32::from(first),
+                    parts: self.add_parts(vec![computed; usize::from(count)]),
+                }
+            }
+            (Component::Whole, Assigned::Leaves(leaves)) => {
+                let parts = self.record_parts(leaves, self.here);
+                let name = self.world.spelling(name).into();
+                let record = self.builder.script.value(Held::Record { name, parts });
+                How::Whole(Expr::Value(record))
+            }
+            (Component::Whole, Assigned::To(expression)) => match expression {
+                Expression::Point { .. } => How::Whole(self.frame_from(expression)),
+                _ => How::Whole(self.frame_assigned()),
+            },
+            (Component::Other, _) => How::PartSomehow(self.changed()),
+        }
+    }
+
+    // ---- before the first statement
+
+    /// Data of routines' own begin with what they are declared with each time.
+    fn find_own(&mut self) {
+        let world = self.world;
+        for (at, datum) in (0..).zip(&world.notes.data) {
+            let matters = datum.kind.is_target() || datum.kind.is_frame();
+            if let Some(routine) = datum.context.routine
+                && matters
+                && datum.storage == Storage::Variable
+                && world.is_written(Entity::Declared(at))
+            {
+                self.own.entry(routine).or_default().push(at);
+            }
+        }
+    }
+
+    fn begin_own(&mut self, datum: u32) {
+        let value = if self.world.datum(datum).kind.is_target() {
+            self.position_of_datum(datum, Index::Whole)
+        } else {
+            self.frame(self.world.datum(datum).name, Index::Whole)
+        };
+        if let Expr::Variable(variable) = value {
+            let declared = self.builder.script.variables[variable as usize].declared;
+            self.set(variable, declared);
+        }
+    }
+
+    /// What the names are for that are written and not declared.
+    fn find_wanted(&mut self) {
+        let world = self.world;
+        if !world.has_undeclared() {
+            return;
+        }
+        for at in 0..world.notes.statements.len() {
+            match world.notes.statements[at].kind {
+                StatementKind::Text { file, context } => {
+                    self.here.file = file;
+                    self.context = context;
+                }
+                StatementKind::Call {
+                    callee,
+                    verb,
+                    arguments,
+                    ..
+                } => {
+                    for (name, kind) in self.wants(callee, verb, arguments) {
+                        if world.kind(name, self.context).is_none() {
+                            self.wanted.entry(name).or_insert(kind);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// External axes say where the robot or the work piece is carried, which the files do not describe.
+    fn external_axes(&mut self) {
+        let notes = &self.world.notes;
+        let moving = notes
+            .external
+            .iter()
+            .fold(0, |axes, (_, axis, _)| axes | 1 << axis);
+        if moving == 0 {
+            return;
+        }
+        let mut all: Vec<(TargetId, u8, f64)> = notes.external.clone();
+        for (target, zeros) in notes.external_zeros.iter().enumerate() {
+            let standing = (0..6).filter(|axis| zeros & moving & 1 << axis != 0);
+            all.extend(standing.map(|axis| (target, axis, 0.0)));
+        }
+        all.sort_unstable_by_key(|(target, axis, _)| (*target, *axis));
+        let mut known: HashMap<(u8, u64), RemarkId> = HashMap::new();
+        let script = &mut self.builder.script;
+        for (target, axis, value) in all {
+            if script.targets[target].layout.shape == Shape::Joints {
+                continue;
+            }
+            let remarks = &mut script.remarks;
+            let remark = *known.entry((axis, value.to_bits())).or_insert_with(|| {
+                let name = char::from(b'a' + axis);
+                remarks.push(Remark {
+                    id: "external-axis",
+                    severity: Severity::Error,
+                    text: format!(
+                        "external axis eax_{name} is {value}, and where that carries the robot or the work piece is not known"
+                    )
+                    .into(),
+                    hint: "targets with external axes are not compensated until the profile describes the unit",
+                });
+                crate::program::script::short(remarks.len() - 1)
+            });
+            script.refused.push((target, remark));
+        }
+    }
+}

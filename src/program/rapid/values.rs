@@ -1,0 +1,582 @@
+//! Names and expressions as values: targets, tools, work objects, and the variables that hold them.
+
+use super::builtins::Known;
+use super::records::{assigned, load_of, part_of, refused};
+use super::syntax::{
+    Amount, Base, Element, Expression, Index, Part, Step, Storage, Stored, Type, indices,
+};
+use super::translate::Translator;
+use super::world::Entity;
+use crate::finding::Severity;
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::{Pose, add};
+use crate::program::names::{Context, Meaning, Symbol};
+use crate::program::script::{
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark,
+    RemarkId, Table, TableId, Variable, VariableId, short,
+};
+use crate::program::{Displacement, Shift};
+
+/// Copies of copies of a target that are followed.
+const DEEPEST: u32 = 8;
+
+/// What is said of a position that the files do not tell.
+pub(super) const AT_RUN_TIME: &str = "write the position with numbers where it must be exact";
+
+impl Translator<'_> {
+    // ---- remarks
+
+    /// A remark about a name, the same for every use of it.
+    fn remark(&mut self, name: Symbol, make: impl FnOnce(&str) -> Remark) -> RemarkId {
+        let remark = make(self.world.spelling(name));
+        let key = (remark.id, name);
+        if let Some(&known) = self.remarks.get(&key) {
+            return known;
+        }
+        let remarks = &mut self.builder.script.remarks;
+        remarks.push(remark);
+        let id = short(remarks.len() - 1);
+        self.remarks.insert(key, id);
+        id
+    }
+
+    /// A position that only the running program knows.
+    pub(super) fn computed(&mut self) -> Expr {
+        Expr::Unknown(self.builder.script.remark(Remark {
+            id: "computed-target",
+            severity: Severity::Warning,
+            text: "the position that this move goes to is known at run time only; the move stays as it is"
+                .into(),
+            hint: AT_RUN_TIME,
+        }))
+    }
+
+    fn computed_name(&mut self, name: Symbol) -> Expr {
+        Expr::Unknown(self.remark(name, |name| Remark {
+            id: "computed-target",
+            severity: Severity::Warning,
+            text: format!("{name}, where this move goes to, is known at run time only; the move stays as it is")
+                .into(),
+            hint: AT_RUN_TIME,
+        }))
+    }
+
+    fn not_in_files(&mut self, name: Symbol, wanted: Type) -> Expr {
+        let (id, severity) = match wanted {
+            Type::Jointtarget => ("joint-target-not-in-files", Severity::Note),
+            _ => ("target-not-in-files", Severity::Error),
+        };
+        Expr::Unknown(self.remark(name, |name| Remark {
+            id,
+            severity,
+            text:
+                format!("{name} is not declared in the files; this move is not compensated").into(),
+            hint: "name the module that declares it, too",
+        }))
+    }
+
+    fn frame_refused(&mut self, remark: Remark) -> Expr {
+        Expr::Unknown(self.builder.script.remark(remark))
+    }
+
+    pub(super) fn frame_chosen(&mut self) -> Expr {
+        self.frame_refused(refused(
+            "frame-chosen-at-run-time",
+            "only the running program knows the tool or work object",
+            "name the tool and the work object in the move",
+        ))
+    }
+
+    pub(super) fn frame_assigned(&mut self) -> Expr {
+        self.frame_refused(assigned())
+    }
+
+    // ---- targets
+
+    /// The position that a name with an index means.
+    pub(super) fn position(&mut self, name: Symbol, index: Index, wanted: Type) -> Expr {
+        self.position_in(name, index, wanted, self.context, 0)
+    }
+
+    fn position_in(
+        &mut self,
+        name: Symbol,
+        index: Index,
+        wanted: Type,
+        context: Context,
+        depth: u32,
+    ) -> Expr {
+        match self.world.meaning(name, context) {
+            Meaning::Nothing if self.world.is_written(Entity::Undeclared(name)) => {
+                let declared = self.not_in_files(name, wanted);
+                Expr::Variable(self.variable(Entity::Undeclared(name), 0, declared))
+            }
+            Meaning::Nothing => self.not_in_files(name, wanted),
+            Meaning::One(datum) => self.position_of(datum, index, wanted, depth),
+            Meaning::Several(list) => {
+                let world = self.world;
+                let all: Vec<Expr> = world
+                    .several(list)
+                    .iter()
+                    .filter(|&&datum| world.datum(datum).kind.is_target())
+                    .map(|&datum| self.position_of(datum, index, wanted, depth))
+                    .collect();
+                if all.is_empty() {
+                    return self.not_in_files(name, wanted);
+                }
+                self.ambiguous = true;
+                self.builder.script.any(all)
+            }
+        }
+    }
+
+    fn position_of(&mut self, datum: u32, index: Index, wanted: Type, depth: u32) -> Expr {
+        let declared = *self.world.datum(datum);
+        if !declared.kind.is_target() {
+            return self.not_in_files(declared.name, wanted);
+        }
+        let Stored::Elements { elements, sizes } = declared.value else {
+            let holds = self.computed_name(declared.name);
+            let parameter = matches!(declared.storage, Storage::Parameter { .. });
+            if parameter || self.world.is_written(Entity::Declared(datum)) {
+                return Expr::Variable(self.variable(Entity::Declared(datum), 0, holds));
+            }
+            return holds;
+        };
+        match index {
+            Index::At(place) => match element(place, sizes, elements) {
+                Some(one) => self.element(datum, one, depth),
+                None => self.computed_name(declared.name),
+            },
+            Index::Whole | Index::Variable if elements.1 - elements.0 == 1 => {
+                self.element(datum, elements.0, depth)
+            }
+            Index::Whole | Index::Variable => {
+                let known = self.lists.get(&datum).copied();
+                let (first, end) = known.unwrap_or_else(|| {
+                    let all: Vec<Expr> = (elements.0..elements.1)
+                        .map(|one| self.element(datum, one, depth))
+                        .collect();
+                    let Expr::Any { first, end } = self.builder.script.any(all) else {
+                        return (0, 0);
+                    };
+                    self.lists.insert(datum, (first, end));
+                    (first, end)
+                });
+                Expr::Any { first, end }
+            }
+        }
+    }
+
+    /// The position that a declaration with an index means.
+    pub(super) fn position_of_datum(&mut self, datum: u32, index: Index) -> Expr {
+        let wanted = self.world.datum(datum).kind;
+        self.position_of(datum, index, wanted, 0)
+    }
+
+    /// What a name is taken for that the files do not declare.
+    pub(super) fn undeclared(&mut self, name: Symbol) -> Expr {
+        match self.wanted.get(&name) {
+            Some(Type::Tooldata | Type::Wobjdata) => self.record(Entity::Undeclared(name)),
+            Some(&wanted) => self.not_in_files(name, wanted),
+            None => self.not_in_files(name, Type::Robtarget),
+        }
+    }
+
+    /// An element of a declaration, by its index in the notes.
+    fn element(&mut self, datum: u32, element: u32, depth: u32) -> Expr {
+        let declared = *self.world.datum(datum);
+        let entity = Entity::Declared(datum);
+        let is_written = self.world.is_written(entity);
+        let key = (entity, element);
+        if is_written && let Some(&known) = self.variables.get(&key) {
+            return Expr::Variable(known);
+        }
+        let holds = match self.world.notes.elements[element as usize] {
+            Element::Target(target) if self.is_dead(target) => self.computed_name(declared.name),
+            Element::Target(target) => Expr::Target(target),
+            Element::Named(_) | Element::Composed(_) if depth > DEEPEST => self.computed(),
+            Element::Named(other) => self.position_in(
+                other,
+                Index::Whole,
+                declared.kind,
+                declared.context,
+                depth + 1,
+            ),
+            Element::Composed(names) => self.composed(names),
+            Element::Computed => self.computed_name(declared.name),
+        };
+        if is_written {
+            return Expr::Variable(self.variable(entity, element, holds));
+        }
+        holds
+    }
+
+    /// A target some of whose parts are expressions with these names.
+    fn composed(&mut self, names: Part) -> Expr {
+        self.somewhere_near(names).unwrap_or_else(|| {
+            Expr::Unknown(self.builder.script.remark(Remark {
+                id: "target-has-expressions",
+                severity: Severity::Warning,
+                text: "parts of the target that this move goes to are expressions, not numbers; it stays as it is"
+                    .into(),
+                hint: "write the target with numbers in the offline system",
+            }))
+        })
+    }
+
+    /// A position that is worked out from the targets with these names; `None` where there is none.
+    fn somewhere_near(&mut self, names: Part) -> Option<Expr> {
+        let world = self.world;
+        let mut all = Vec::new();
+        for &name in &world.notes.mentions[indices(names)] {
+            let kind = world.kind(name, self.context);
+            if kind.is_some_and(Type::is_target) {
+                let base = self.position(name, Index::Whole, Type::Robtarget);
+                all.push(self.builder.script.displaced(base, DISPLACED_SOMEHOW));
+            }
+        }
+        (!all.is_empty()).then(|| self.builder.script.any(all))
+    }
+
+    /// The position that an expression gives.
+    pub(super) fn position_from(&mut self, expression: Expression, wanted: Type) -> Expr {
+        match expression {
+            Expression::Nothing | Expression::Text(..) => self.computed(),
+            Expression::Point { base, steps } => {
+                let base = match base {
+                    Base::Named { name, index } => {
+                        let index = self.world.notes.index(index);
+                        self.position(name, index, wanted)
+                    }
+                    Base::Target(target) => Expr::Target(target as usize),
+                    Base::Function(function) => self.given_by(function, wanted),
+                };
+                let by = self.displacement(steps);
+                if by != NOT_DISPLACED && base == Expr::Value(self.actual) {
+                    return self.computed();
+                }
+                self.builder.script.displaced(base, by)
+            }
+            Expression::Member { name, .. } => self.computed_name(name),
+            Expression::Composed(names) => self.composed(names),
+            Expression::Computed(names) => self
+                .somewhere_near(names)
+                .unwrap_or_else(|| self.computed()),
+        }
+    }
+
+    /// The position that a function gives.
+    fn given_by(&mut self, function: u32, wanted: Type) -> Expr {
+        let of = self.world.notes.functions[function as usize];
+        if self.world.known(&of) != Known::Actual {
+            return match self.result_of(function) {
+                Some(result) => Expr::Variable(result),
+                None => self.computed(),
+            };
+        }
+        let world = self.world;
+        let mut near = Vec::new();
+        for argument in &world.notes.given[indices(of.arguments)] {
+            let Some(name) = super::world::named(&argument.expression) else {
+                continue;
+            };
+            match world.kind(name, self.context) {
+                Some(Type::Robtarget) if wanted == Type::Robtarget => {
+                    let base = self.position(name, Index::Whole, wanted);
+                    near.push(self.builder.script.displaced(base, DISPLACED_SOMEHOW));
+                }
+                // joints for a position: they follow what is written for it
+                Some(Type::Robtarget) => return self.computed(),
+                _ => {}
+            }
+        }
+        if near.is_empty() {
+            Expr::Value(self.actual)
+        } else {
+            self.builder.script.any(near)
+        }
+    }
+
+    // ---- tools and work objects
+
+    /// The tool or work object that an expression gives.
+    pub(super) fn frame_from(&mut self, expression: Expression) -> Expr {
+        match expression {
+            Expression::Point {
+                base: Base::Named { name, index },
+                steps: (a, b),
+            } if a == b => {
+                let index = self.world.notes.index(index);
+                self.frame(name, index)
+            }
+            Expression::Point {
+                base: Base::Function(function),
+                steps: (a, b),
+            } if a == b => match self.result_of(function) {
+                Some(result) => Expr::Variable(result),
+                None => self.frame_chosen(),
+            },
+            _ => self.frame_chosen(),
+        }
+    }
+
+    /// The tool or work object that a name with an index means.
+    pub(super) fn frame(&mut self, name: Symbol, index: Index) -> Expr {
+        let entity = match self.world.meaning(name, self.context) {
+            Meaning::One(datum) => Entity::Declared(datum),
+            Meaning::Nothing => Entity::Undeclared(name),
+            Meaning::Several(_) => {
+                return self.frame_refused(refused(
+                    "frame-name-ambiguous",
+                    "the tool or work object is declared more than once",
+                    "pass only the modules of one task, or make the data LOCAL",
+                ));
+            }
+        };
+        let is_written = self.world.is_written(entity);
+        match index {
+            Index::Variable => return self.frame_chosen(),
+            Index::At(_) if is_written => return self.frame_assigned(),
+            Index::At(place) => return self.frame_element(name, place),
+            Index::Whole => {}
+        }
+        if let Entity::Declared(datum) = entity
+            && matches!(self.world.datum(datum).storage, Storage::Parameter { .. })
+        {
+            let chosen = self.frame_chosen();
+            return Expr::Variable(self.variable(entity, 0, chosen));
+        }
+        let declared = self.record(entity);
+        if is_written {
+            return Expr::Variable(self.variable(entity, 0, declared));
+        }
+        declared
+    }
+
+    /// An element of an array of tools or work objects.
+    fn frame_element(&mut self, name: Symbol, place: [u32; 3]) -> Expr {
+        let name = self.world.spelling(name);
+        let name = match place {
+            [i, 0, _] => format!("{name}{{{i}}}"),
+            [i, j, 0] => format!("{name}{{{i},{j}}}"),
+            [i, j, k] => format!("{name}{{{i},{j},{k}}}"),
+        };
+        let known = self.named_elements.get(&name).copied();
+        Expr::Value(known.unwrap_or_else(|| {
+            let value = self.builder.script.value(Held::Frame(NamedFrame {
+                name: name.as_str().into(),
+                pose: None,
+                load: None,
+            }));
+            self.named_elements.insert(name, value);
+            value
+        }))
+    }
+
+    /// A tool or work object as it is declared.
+    fn record(&mut self, entity: Entity) -> Expr {
+        if let Some(&known) = self.records.get(&entity) {
+            return Expr::Value(known);
+        }
+        let (name, place, leaves) = match entity {
+            Entity::Undeclared(name) => (name, self.place(0), Stored::Nothing),
+            Entity::Declared(datum) => {
+                let datum = self.world.datum(datum);
+                (datum.name, datum.place, datum.value)
+            }
+        };
+        let parts = match leaves {
+            Stored::Leaves(leaves) => self.record_parts(leaves, place),
+            Stored::Computed => {
+                let computed = part_of(super::aggregate::Leaf::Computed, place);
+                self.add_parts(vec![computed; super::aggregate::MOST])
+            }
+            _ => 0..0,
+        };
+        let name = self.world.spelling(name).into();
+        let value = self.builder.script.value(Held::Record { name, parts });
+        self.records.insert(entity, value);
+        Expr::Value(value)
+    }
+
+    /// Leaves as parts of records.
+    pub(super) fn record_parts(&mut self, leaves: Part, place: Place) -> std::ops::Range<u32> {
+        let leaves = &self.world.notes.leaves[indices(leaves)];
+        let parts = leaves.iter().map(|&leaf| part_of(leaf, place)).collect();
+        self.add_parts(parts)
+    }
+
+    pub(super) fn add_parts(
+        &mut self,
+        parts: Vec<crate::program::script::Part>,
+    ) -> std::ops::Range<u32> {
+        let all = &mut self.builder.script.parts;
+        let start = short(all.len());
+        all.extend(parts);
+        start..short(all.len())
+    }
+
+    /// The load of a name that nothing writes, where its numbers are in the files.
+    pub(super) fn load(&self, name: Symbol) -> Option<crate::program::Load> {
+        let Meaning::One(datum) = self.world.meaning(name, self.context) else {
+            return None;
+        };
+        let Stored::Leaves(leaves) = self.world.datum(datum).value else {
+            return None;
+        };
+        let is_load = self.world.datum(datum).kind == Type::Loaddata;
+        let fixed = is_load && !self.world.is_written(Entity::Declared(datum));
+        fixed.then(|| load_of(&self.world.notes.leaves[indices(leaves)]))?
+    }
+
+    // ---- variables
+
+    /// The variable of data, or of an element of it; `holds` is what it is declared with.
+    pub(super) fn variable(&mut self, entity: Entity, element: u32, holds: Expr) -> VariableId {
+        if let Some(&known) = self.variables.get(&(entity, element)) {
+            return known;
+        }
+        let script = &mut self.builder.script;
+        let variable = match entity {
+            Entity::Declared(datum) => {
+                let datum = self.world.datum(datum);
+                let name = match holds {
+                    Expr::Target(target) => script.targets[target].name.clone(),
+                    _ => None,
+                };
+                Variable {
+                    name: name.unwrap_or_else(|| self.world.spelling(datum.name).into()),
+                    place: datum.place,
+                    declared: holds,
+                    kept: datum.storage == Storage::Persistent,
+                    shared: false,
+                    routine: datum.context.routine,
+                }
+            }
+            Entity::Undeclared(name) => Variable {
+                name: self.world.spelling(name).into(),
+                place: self.here,
+                declared: holds,
+                kept: true,
+                shared: false,
+                routine: None,
+            },
+        };
+        let made = script.variable(variable);
+        self.variables.insert((entity, element), made);
+        made
+    }
+
+    /// The variables of all elements of an array.
+    pub(super) fn table(&mut self, datum: u32) -> TableId {
+        if let Some(&known) = self.tables.get(&datum) {
+            return known;
+        }
+        let declared = *self.world.datum(datum);
+        let mut table = Table {
+            name: self.world.spelling(declared.name).into(),
+            ..Table::default()
+        };
+        if let Stored::Elements { elements, .. } = declared.value {
+            for (number, element) in (1..).zip(indices(elements)) {
+                if let Expr::Variable(variable) = self.element(datum, short(element), 0) {
+                    table.entries.insert(number, variable);
+                }
+            }
+        }
+        let tables = &mut self.builder.script.tables;
+        tables.push(table);
+        let made = short(tables.len() - 1);
+        self.tables.insert(datum, made);
+        made
+    }
+
+    // ---- displacements
+
+    /// What these steps add; Offs shifts in the work object and `RelTool` in the tool, so their order among each other does
+    /// not matter.
+    fn displacement(&mut self, steps: Part) -> DisplacementId {
+        if steps.0 == steps.1 {
+            return NOT_DISPLACED;
+        }
+        let found = self.steps(&self.world.notes.steps[indices(steps)]);
+        let displacement = match found {
+            None => Displacement::Unknown,
+            Some(Shift {
+                in_frame_m,
+                in_tool,
+            }) if in_frame_m == [0.0; 3] && in_tool == Pose::identity() => Displacement::None,
+            Some(shift) => Displacement::By(Box::new(shift)),
+        };
+        self.builder.script.displacement(displacement)
+    }
+
+    fn steps(&self, steps: &[Step]) -> Option<Shift> {
+        let mut frame_mm = [0.0; 3];
+        let mut in_tool = Pose::identity();
+        for step in steps {
+            match step {
+                Step::Offs(amounts) => frame_mm = add(frame_mm, self.amounts(amounts)?),
+                Step::RelTool(amounts) => {
+                    let [x, y, z, rx, ry, rz] = self.amounts(amounts)?;
+                    let [x, y, z] = [x, y, z].map(m_from_mm);
+                    let by = Pose::from_xyz_rxryrz([x, y, z, rx * DEG, ry * DEG, rz * DEG]);
+                    in_tool = in_tool * by;
+                }
+            }
+        }
+        Some(Shift {
+            in_frame_m: frame_mm.map(m_from_mm),
+            in_tool,
+        })
+    }
+
+    fn amounts<const N: usize>(&self, amounts: &[Amount; N]) -> Option<[f64; N]> {
+        let mut values = [0.0; N];
+        for (value, amount) in values.iter_mut().zip(amounts) {
+            *value = match *amount {
+                Amount::Number(number) => number,
+                Amount::Named(name, sign) => match self.world.meaning(name, self.context) {
+                    Meaning::One(datum) => match self.world.datum(datum).value {
+                        Stored::Number(number) => sign * number,
+                        _ => return None,
+                    },
+                    _ => return None,
+                },
+                Amount::Computed => return None,
+            };
+        }
+        values.iter().all(|v| v.is_finite()).then_some(values)
+    }
+}
+
+/// The element at a place of an array.
+fn element(place: [u32; 3], sizes: [u32; 3], elements: Part) -> Option<u32> {
+    let count: u64 = sizes.iter().map(|&s| u64::from(s.max(1))).product();
+    if count != u64::from(elements.1 - elements.0) {
+        return None;
+    }
+    let mut offset = 0;
+    for (&at, &size) in place.iter().zip(&sizes) {
+        if (at == 0) != (size == 0) || at > size {
+            return None;
+        }
+        offset = offset * size.max(1) + at.max(1) - 1;
+    }
+    Some(elements.0 + offset)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_of_arrays_are_counted_by_rows() {
+        assert_eq!(element([2, 3, 0], [2, 4, 0], (10, 18)), Some(16));
+        assert_eq!(element([3, 0, 0], [3, 0, 0], (0, 3)), Some(2));
+        assert_eq!(element([4, 0, 0], [3, 0, 0], (0, 3)), None);
+        assert_eq!(element([1, 1, 0], [3, 0, 0], (0, 3)), None);
+        assert_eq!(element([1, 1, 0], [2, 2, 0], (0, 3)), None, "ragged");
+    }
+}

@@ -1,0 +1,516 @@
+//! What values mean as positions, features and tools.
+
+use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Notes, Symbol};
+use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
+use crate::finding::Severity;
+use crate::geometry::units::DEG;
+use crate::geometry::{Pose, Quaternion};
+use crate::program::script::{
+    self, Builder, DISPLACED_SOMEHOW, DisplacementId, Held, NamedFrame, Remark, RemarkId, Script,
+    Span, ValueId, VariableId,
+};
+use crate::program::{Displacement, Shift, TargetId};
+use std::collections::HashMap;
+
+/// The name of every tool that `set_tcp` sets.
+const TOOL: &str = "tcp";
+/// The name of the frame of poses without a feature.
+const BASE: &str = "base";
+
+/// Where a move goes.
+pub struct Goal {
+    pub target: script::Expr,
+    pub feature: Feature,
+    /// The tool that the inverse is given, where it is not the one that is set.
+    pub tool: Option<script::Expr>,
+    pub near: Option<[f64; 6]>,
+    /// The bytes of the target's numbers or of the variable that holds them alone.
+    pub span: Span,
+    /// It is nothing but a target's numbers, by whichever name.
+    is_plain: bool,
+}
+
+impl Goal {
+    fn to(target: script::Expr) -> Self {
+        Self {
+            target,
+            feature: Feature::Base,
+            tool: None,
+            near: None,
+            span: Span::default(),
+            is_plain: false,
+        }
+    }
+}
+
+/// The feature that a position is in.
+pub enum Feature {
+    Base,
+    Known(Pose, String),
+    Held(script::Expr),
+}
+
+/// The script's variables for one of the program's.
+#[derive(Clone, Copy, Default)]
+pub struct Facets {
+    /// The position.
+    pub position: Option<VariableId>,
+    /// The feature that the position is in.
+    pub feature: Option<VariableId>,
+    /// The tool that the position is computed with.
+    pub tool: Option<VariableId>,
+    /// The variable as a feature or tool itself.
+    pub frame: Option<VariableId>,
+}
+
+/// Values and remarks that several places name.
+pub struct Common {
+    pub base: ValueId,
+    actual: ValueId,
+    pub computed: RemarkId,
+    not_called: RemarkId,
+    pub frame_computed: RemarkId,
+    pub frame_changes: RemarkId,
+    pub somewhere: RemarkId,
+    frames: HashMap<(String, [u64; 7]), ValueId>,
+}
+
+impl Common {
+    pub fn new(script: &mut Script) -> Self {
+        let base = script.value(Held::Frame(NamedFrame {
+            name: BASE.into(),
+            pose: Some(Pose::identity()),
+            load: None,
+        }));
+        let mut remark = |id, severity, text: &str, hint| {
+            script.remark(Remark {
+                id,
+                severity,
+                text: text.into(),
+                hint,
+            })
+        };
+        let computed = remark(
+            "computed-target",
+            Severity::Warning,
+            "where this move goes is known at run time only; the move stays as it is",
+            "write the target with numbers, or as pose_trans or pose_add of them",
+        );
+        let not_called = remark(
+            "computed-target",
+            Severity::Warning,
+            "this move goes to a parameter of a function that the file does not call; the move stays as it is",
+            "give the call too, or write the target in the move",
+        );
+        let frame_computed = remark(
+            "frame-chosen-at-run-time",
+            Severity::Error,
+            "only the running program knows its feature or tool",
+            "assign the feature once, with numbers; call set_tcp with numbers before the move",
+        );
+        let frame_changes = remark(
+            "frame-assigned-at-run-time",
+            Severity::Error,
+            "a part of its feature or tool is assigned",
+            "assign it as a whole, with numbers",
+        );
+        let somewhere = remark(
+            "motion-without-target",
+            Severity::Note,
+            "the robot moves by speed, force or hand here; this is not compensated",
+            "",
+        );
+        Self {
+            base,
+            actual: script.value(Held::Actual),
+            computed,
+            not_called,
+            frame_computed,
+            frame_changes,
+            somewhere,
+            frames: HashMap::new(),
+        }
+    }
+
+    /// What the parameters of a function hold that nothing in the file calls.
+    pub fn from_outside(&self) -> script::Expr {
+        script::Expr::Unknown(self.not_called)
+    }
+
+    /// A tool or feature, the same for the same name and pose.
+    pub fn frame(&mut self, script: &mut Script, name: &str, pose: Option<Pose>) -> script::Expr {
+        let key = (name.to_owned(), pose.as_ref().map_or([u64::MAX; 7], bits));
+        let value = *self.frames.entry(key).or_insert_with(|| {
+            script.value(Held::Frame(NamedFrame {
+                name: name.into(),
+                pose,
+                load: None,
+            }))
+        });
+        script::Expr::Value(value)
+    }
+
+    /// The tool of a file that sets none.
+    pub fn no_tool(&mut self, script: &mut Script) -> script::Expr {
+        self.frame(script, TOOL, None)
+    }
+}
+
+/// The same pose as numbers that tell poses apart.
+fn bits(pose: &Pose) -> [u64; 7] {
+    let Quaternion([w, x, y, z]) = pose.rotation.quaternion();
+    let [a, b, c] = pose.translation;
+    // -0 is 0
+    [a, b, c, w, x, y, z].map(|number| (number + 0.0).to_bits())
+}
+
+/// Understands the values of one file.
+pub struct Goals<'m, 'n, 'a> {
+    pub notes: &'n Notes<'a>,
+    pub variables: &'m Variables<'n, 'a>,
+    pub builder: &'m mut Builder,
+    pub common: &'m mut Common,
+    /// By variable of the program.
+    pub held: Vec<Facets>,
+    /// By literal.
+    pub targets: Vec<Option<TargetId>>,
+    /// Names that the file does not assign.
+    pub unknown: HashMap<Symbol, RemarkId>,
+    /// Since this was last looked at, joints that an inverse starts from were none that the text tells.
+    pub lost_start: bool,
+    /// Targets that are offsets of others too, and the offset's first byte.
+    pub offsets: Vec<(TargetId, u32)>,
+}
+
+impl Goals<'_, '_, '_> {
+    /// Follows a position to its numbers.
+    pub fn goal(&mut self, value: ExprId, function: FunctionId) -> Goal {
+        self.goal_within(value, function, MOST_STEPS)
+    }
+
+    fn unknown(&self) -> Goal {
+        Goal::to(script::Expr::Unknown(self.common.computed))
+    }
+
+    fn goal_within(&mut self, value: ExprId, function: FunctionId, steps: u32) -> Goal {
+        let Some(steps) = steps.checked_sub(1) else {
+            return self.unknown();
+        };
+        match self.notes.expression(value) {
+            Expr::Literal(id) => self.literal(id),
+            Expr::List(list) => match self.variables.joints_of(list) {
+                Some(id) => self.literal(id),
+                None => self.unknown(),
+            },
+            Expr::Name(name, offset) => {
+                let Some(variable) = self.variables.meaning(name, function) else {
+                    return Goal::to(self.not_in_files(name));
+                };
+                let Some(source) = self.variables.fixed(variable) else {
+                    return self.variable(variable);
+                };
+                let goal = self.goal_within(source.value, source.function, steps);
+                let span = Span {
+                    start: offset,
+                    end: offset + script::short(self.notes.bytes(name).len()),
+                };
+                Goal {
+                    span: if goal.is_plain { span } else { Span::default() },
+                    ..goal
+                }
+            }
+            Expr::Element(name, at) => self.element(name, at, function, steps),
+            Expr::Call(call) => match self.variables.result(call) {
+                Some(variable) => self.variable(variable),
+                None => self.unknown(),
+            },
+            Expr::Actual => Goal::to(script::Expr::Value(self.common.actual)),
+            Expr::Kinematics { pose, near, tcp } => {
+                let goal = self.goal_within(pose, function, steps);
+                let own = tcp.map(|tcp| self.tool(tcp, function));
+                let start = near.and_then(|near| self.joints(near, function));
+                self.lost_start |= start.is_none()
+                    && near.is_some_and(|near| !self.variables.is_actual(near, function));
+                Goal {
+                    tool: own.or(goal.tool),
+                    near: start.or(goal.near),
+                    is_plain: false,
+                    ..goal
+                }
+            }
+            Expr::Trans(a, b) => {
+                if self.variables.goes_to(a, function) {
+                    let goal = self.goal_within(a, function, steps);
+                    self.note_offset(goal.target, b, function);
+                    let by = self.variables.constant(b, function).ok();
+                    let by = by.map(|in_tool| Shift {
+                        in_frame_m: [0.0; 3],
+                        in_tool,
+                    });
+                    return self.displaced(goal, by);
+                }
+                if self.variables.is_actual(a, function) {
+                    return self.unknown();
+                }
+                let goal = self.goal_within(b, function, steps);
+                let feature = self.feature(a, function);
+                Goal {
+                    feature: self.inside(feature, goal.feature),
+                    is_plain: false,
+                    ..goal
+                }
+            }
+            Expr::Add(a, b) => {
+                let goal = self.goal_within(a, function, steps);
+                self.note_offset(goal.target, b, function);
+                let by = self.variables.constant(b, function).ok();
+                // the sum is in the base, the displacement in the feature
+                let base_from_feature = match &goal.feature {
+                    Feature::Base => Some(Pose::identity()),
+                    Feature::Known(pose, _) => Some(*pose),
+                    Feature::Held(_) => None,
+                };
+                let by = by
+                    .zip(base_from_feature)
+                    .map(|(by, base_from_feature)| Shift {
+                        in_frame_m: base_from_feature.rotation.transpose() * by.translation,
+                        in_tool: Pose::from_rotation(by.rotation),
+                    });
+                self.displaced(goal, by)
+            }
+            Expr::Inverse(_) | Expr::Other => self.unknown(),
+        }
+    }
+
+    fn literal(&self, id: LiteralId) -> Goal {
+        let literal = self.notes.literal(id);
+        match self.targets[id as usize] {
+            Some(target) => Goal {
+                span: Span {
+                    start: literal.offset,
+                    end: literal.end,
+                },
+                is_plain: true,
+                ..Goal::to(script::Expr::Target(target))
+            },
+            None => self.unknown(),
+        }
+    }
+
+    /// What a variable holds that has several values.
+    fn variable(&self, variable: VarId) -> Goal {
+        let held = self.held[variable as usize];
+        let Some(position) = held.position else {
+            return self.unknown();
+        };
+        Goal {
+            feature: match held.feature {
+                Some(feature) => Feature::Held(script::Expr::Variable(feature)),
+                None => Feature::Base,
+            },
+            tool: held.tool.map(script::Expr::Variable),
+            ..Goal::to(script::Expr::Variable(position))
+        }
+    }
+
+    /// Any of the elements of a list that the index may mean.
+    fn element(&mut self, name: Symbol, at: Option<u32>, function: FunctionId, steps: u32) -> Goal {
+        if self.variables.meaning(name, function).is_none() {
+            return Goal::to(self.not_in_files(name));
+        }
+        let Some(elements) = self.variables.elements(name, at, function) else {
+            return self.unknown();
+        };
+        let mut all = Vec::with_capacity(elements.len());
+        for (value, within) in elements {
+            let goal = self.goal_within(value, within, steps);
+            if !matches!(goal.feature, Feature::Base) || goal.tool.is_some() {
+                return self.unknown();
+            }
+            all.push(goal.target);
+        }
+        match *all {
+            [] => self.unknown(),
+            [one] => Goal::to(one),
+            _ => Goal::to(self.builder.script.any(all)),
+        }
+    }
+
+    fn displaced(&mut self, goal: Goal, by: Option<Shift>) -> Goal {
+        let by: DisplacementId = match by {
+            Some(shift) => self
+                .builder
+                .script
+                .displacement(Displacement::By(Box::new(shift))),
+            None => DISPLACED_SOMEHOW,
+        };
+        Goal {
+            target: match goal.target {
+                script::Expr::Unknown(_) => goal.target,
+                target => self.builder.script.displaced(target, by),
+            },
+            is_plain: false,
+            ..goal
+        }
+    }
+
+    /// A pose that moves go to may not be the offset of another.
+    fn note_offset(&mut self, of: script::Expr, offset: ExprId, function: FunctionId) {
+        let (Expr::Literal(id), _) = self.variables.follow(offset, function) else {
+            return;
+        };
+        if let Some(target) = self.targets[id as usize] {
+            let at = self.notes.literal(id).offset;
+            self.offsets.push((target, at));
+            if let script::Expr::Target(of) = of {
+                self.offsets.push((of, at));
+            }
+        }
+    }
+
+    fn not_in_files(&mut self, name: Symbol) -> script::Expr {
+        let script = &mut self.builder.script;
+        let notes = self.notes;
+        let remark = *self.unknown.entry(name).or_insert_with(|| {
+            script.remarks.push(Remark {
+                id: "target-not-in-files",
+                severity: Severity::Error,
+                text: format!(
+                    "`{}`: the file does not assign this variable; the move is not compensated",
+                    notes.spelling(name)
+                )
+                .into(),
+                hint: "save the program together with the installation's variables",
+            });
+            script::short(script.remarks.len() - 1)
+        });
+        script::Expr::Unknown(remark)
+    }
+
+    /// A feature that a target stands in.
+    fn feature(&mut self, value: ExprId, function: FunctionId) -> Feature {
+        match self.variables.constant(value, function) {
+            Ok(pose) => {
+                let name = match self.notes.expression(value) {
+                    Expr::Name(name, _) => self.notes.spelling(name),
+                    _ => "feature".into(),
+                };
+                Feature::Known(pose, name)
+            }
+            Err(why) => Feature::Held(self.not_constant(why)),
+        }
+    }
+
+    /// A feature inside another.
+    fn inside(&mut self, outer: Feature, inner: Feature) -> Feature {
+        match (outer, inner) {
+            (outer, Feature::Base) => outer,
+            (Feature::Base, inner) => inner,
+            (Feature::Known(outer, before), Feature::Known(inner, name)) => {
+                Feature::Known(outer * inner, format!("{before}.{name}"))
+            }
+            _ => Feature::Held(script::Expr::Unknown(self.common.frame_computed)),
+        }
+    }
+
+    /// A feature as an expression.
+    pub fn frame_of(&mut self, feature: Feature) -> script::Expr {
+        match feature {
+            Feature::Base => script::Expr::Value(self.common.base),
+            Feature::Known(pose, name) => {
+                self.common
+                    .frame(&mut self.builder.script, &name, Some(pose))
+            }
+            Feature::Held(held) => held,
+        }
+    }
+
+    /// A feature or tool by its name.
+    pub fn named_frame(&mut self, value: ExprId, function: FunctionId, name: &str) -> script::Expr {
+        match self.variables.constant(value, function) {
+            Ok(pose) => self
+                .common
+                .frame(&mut self.builder.script, name, Some(pose)),
+            Err(why) => self.not_constant(why),
+        }
+    }
+
+    /// A tool.
+    pub fn tool(&mut self, value: ExprId, function: FunctionId) -> script::Expr {
+        self.named_frame(value, function, TOOL)
+    }
+
+    fn not_constant(&mut self, why: NotConstant) -> script::Expr {
+        let held = match why {
+            NotConstant::Unknown(name) => {
+                let name = self.notes.spelling(name);
+                return self.common.frame(&mut self.builder.script, &name, None);
+            }
+            NotConstant::Changing(variable) => self.held[variable as usize].frame,
+            NotConstant::Computed => None,
+        };
+        held.map_or(
+            script::Expr::Unknown(self.common.frame_computed),
+            script::Expr::Variable,
+        )
+    }
+
+    /// Six joint angles that the text tells, radians.
+    fn joints(&self, value: ExprId, function: FunctionId) -> Option<[f64; 6]> {
+        let (Expr::Literal(id), _) = self.variables.follow(value, function) else {
+            return None;
+        };
+        let literal = self.notes.literal(id);
+        let values = self.notes.values(literal).filter(|_| !literal.pose)?;
+        let unit = if literal.content == Content::Degrees {
+            DEG
+        } else {
+            1.0
+        };
+        Some(values.map(|value| value * unit))
+    }
+
+    /// Whether a value holds a target that moves go to elsewhere.
+    pub fn has_target(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+        let Some(steps) = steps.checked_sub(1) else {
+            return false;
+        };
+        let inner = |value| self.has_target(value, function, steps);
+        match self.notes.expression(value) {
+            Expr::Literal(id) => self.targets[id as usize].is_some(),
+            Expr::Name(name, _) => {
+                self.variables.meaning(name, function).is_some_and(|v| {
+                    match self.variables.fixed(v) {
+                        Some(source) => self.has_target(source.value, source.function, steps),
+                        None => self.held[v as usize].position.is_some(),
+                    }
+                })
+            }
+            Expr::Trans(a, b) => inner(a) || inner(b),
+            Expr::Add(a, _) => inner(a),
+            Expr::Kinematics { pose, .. } => inner(pose),
+            Expr::Element(name, at) => {
+                let elements = self.variables.elements(name, at, function);
+                let mut elements = elements.into_iter().flatten();
+                elements.any(|(value, function)| self.has_target(value, function, steps / 2))
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether a value may be a pose, not joints.
+    pub fn may_be_pose(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+        let Some(steps) = steps.checked_sub(1) else {
+            return true;
+        };
+        match self.notes.expression(value) {
+            Expr::Literal(id) => self.notes.literal(id).pose,
+            Expr::Name(name, _) => self.variables.meaning(name, function).is_some_and(|v| {
+                let mut sources = self.variables.sources(v);
+                sources.any(|s| self.may_be_pose(s.value, s.function, steps / 2))
+            }),
+            Expr::List(_) => false,
+            _ => true,
+        }
+    }
+}

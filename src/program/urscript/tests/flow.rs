@@ -1,0 +1,235 @@
+//! Variables, parameters, tools and the moves before, followed through the program.
+
+use super::*;
+
+fn severities(program: &Program) -> Vec<(&str, Severity)> {
+    program
+        .findings
+        .iter()
+        .map(|f| (f.id, f.severity))
+        .collect()
+}
+
+#[test]
+fn each_value_of_a_variable_is_a_target_of_its_own() {
+    let program = path("x=p[1,2,3,0,0,0]\nmovel(x)\nx=p[1,2,3,0,0,1]\nmovel(x)");
+    assert_eq!(program.findings, []);
+    assert_eq!(to(&program), ["x", "x"]);
+    assert_ne!(program.moves[0].target, program.moves[1].target);
+    let program = path("if a:\nx=p[1,2,3,0,0,0]\nelse:\nx=p[1,2,3,0,0,1]\nend\nmovel(x)");
+    assert_eq!((to(&program).len(), program.findings.len()), (2, 0));
+    let program = path("global x=p[1,2,3,0,0,0]\nlocal i=0\nx=foo()\nmovel(x)");
+    assert_eq!(ids(&program), ["computed-target"]);
+}
+
+#[test]
+fn parameters_are_what_calls_give_by_position_and_by_name() {
+    let program = path(
+        "def go(x, y, z=p[1,2,5,0,0,0]):\nmovel(x)\nmovej(y)\nmovel(z)\nend\nw=p[1,2,3,0,0,0]\ngo(w, [0,1,2,3,4,5])\ngo(y=[0,1,2,3,4,6], x=p[1,2,4,0,0,0])",
+    );
+    assert_eq!(program.findings, []);
+    assert_eq!(program.targets.len(), 5);
+    let mut found = to(&program);
+    found.sort_unstable();
+    assert_eq!(found, ["-", "-", "-", "-", "-", "w"]);
+    // nothing in the file calls it
+    let program = path("def go(x):\nmovel(x)\nend\nmovel(p[1,2,3,0,0,0])");
+    assert_eq!(
+        severities(&program),
+        [("computed-target", Severity::Warning)]
+    );
+    // in a feature, with a tool of the call's place
+    let program = path(
+        "def go(x, t):\nset_tcp(t)\nmovel(x)\nend\nset_tcp(p[3,0,0,0,0,0])\nq=get_inverse_kin(p[1,2,4,0,0,0])\n\
+         go(pose_trans(p[7,0,0,0,0,0],p[1,2,3,0,0,0]), p[1,0,0,0,0,0])\ngo(p[1,2,5,0,0,0], p[2,0,0,0,0,0])\nmovej(q)",
+    );
+    assert_eq!(program.findings, []);
+    let mut told: Vec<_> = program
+        .moves
+        .iter()
+        .map(|m| {
+            let x = |pose: Option<Pose>| pose.expect("a pose").translation[0];
+            let frame = program.frames[m.frame].world_from_frame;
+            (x(program.tools[m.tool].flange_from_tool), x(frame))
+        })
+        .map(|(tool, frame)| format!("{tool} {frame}"))
+        .collect();
+    told.sort_unstable();
+    assert_eq!(told, ["1 7", "2 0", "3 0"]);
+}
+
+#[test]
+fn results_of_functions_are_what_they_return() {
+    let program = path(
+        "def home():\nreturn [0,1,2,3,4,5]\nend\ndef place(n):\nif n==1:\nreturn p[1,2,3,0,0,0]\nend\nreturn p[1,2,4,0,0,0]\nend\nmovej(home())\nx=place(i)\nmovel(x)",
+    );
+    assert_eq!((to(&program).len(), program.findings.len()), (3, 0));
+}
+
+#[test]
+fn elements_of_lists_are_any_of_them() {
+    let program = path(
+        "w=p[1,2,3,0,0,1]\nway=[p[1,2,3,0,0,0], w, p[1,2,4,0,0,0]]\nmovel(way[2])\ni=0\nwhile i<3:\nmovel(way[i])\ni=i+1\nend",
+    );
+    assert_eq!(program.findings, []);
+    let mut found = to(&program);
+    found.sort_unstable();
+    assert_eq!(found, ["-", "-", "-", "w"]);
+    // a list that the program fills
+    let program = path("way=[]\nway[0]=p[1,2,3,0,0,0]\nway[1]=vision()\nmovel(way[i])");
+    assert_eq!(ids(&program), ["computed-target"]);
+    assert_eq!(to(&program).len(), 2);
+    // joints by their names are none
+    let program = path("movej([j1,j2,j3,j4,j5,j6])");
+    assert_eq!(
+        severities(&program),
+        [("target-has-expressions", Severity::Warning)]
+    );
+}
+
+#[test]
+fn joints_keep_the_tool_that_is_set_where_they_are_computed() {
+    let text = "set_tcp(p[1,0,0,0,0,0])\nq=get_inverse_kin(p[.1,.2,.3,0,0,0], [0,1,2,3,4,5])\nset_tcp(p[2,0,0,0,0,0])\nmovej(q)\nmovej(get_inverse_kin(p[.1,.2,.4,0,0,0], tcp=p[3,0,0,0,0,0]))\nmovej(p[.1,.2,.5,0,0,0])";
+    let program = path(text);
+    assert_eq!(program.findings, []);
+    let tools: Vec<_> = (0..3).map(|k| tool_x(&program, k)).collect();
+    assert_eq!(tools, [Some(1.0), Some(3.0), Some(2.0)]);
+    // configuration is not told: the inverse starts from the present joints
+    assert!(program.moves.iter().all(|m| !m.configured));
+    // in a branch: the tool of either
+    let program = path(&text.replace("q=get", "if a:\nset_tcp(p[4,0,0,0,0,0])\nend\nq=get"));
+    let mut tools: Vec<_> = (0..2).map(|k| tool_x(&program, k)).collect();
+    tools.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    assert_eq!(tools, [Some(1.0), Some(4.0)]);
+}
+
+#[test]
+fn a_sum_of_a_pose_in_a_feature_is_in_the_base() {
+    let program = path(
+        "movel(pose_add(pose_trans(p[0,0,0,0,0,1.5707963267948966],p[1,2,3,0,0,0]),p[.1,0,0,0,0,0]))",
+    );
+    let Displacement::By(shift) = &program.moves[0].displacement else {
+        panic!("a shift")
+    };
+    assert!((shift.in_frame_m[1] + 0.1).abs() < 1e-12 && shift.in_frame_m[0].abs() < 1e-12);
+}
+
+#[test]
+fn what_is_given_to_functions_that_are_not_in_the_file() {
+    for (lines, found) in [
+        ("foo(x)", vec!["target-passed-to-routine"]),
+        (
+            "y=foo(pose_trans(x,p[0,0,.1,0,0,0]))",
+            vec!["target-passed-to-routine"],
+        ),
+        // functions of the language move nothing, and servers are none of the robot
+        ("y=pose_dist(x,get_actual_tcp_pose())", vec![]),
+        ("socket_send_string(x)", vec![]),
+        ("server.look(x)", vec![]),
+        // nothing that moves go to
+        ("foo(p[1,2,3,0,0,0], [1,2,3,4,5,6], z)", vec![]),
+    ] {
+        let program = path(&format!("x=p[1,2,3,0,0,0]\n{lines}\nmovel(x)"));
+        assert_eq!(ids(&program), found, "{lines}");
+        assert_eq!(program.targets.len(), 1);
+    }
+}
+
+#[test]
+fn a_function_that_is_not_in_the_file_may_set_another_tool() {
+    let text = "set_tcp(p[1,0,0,0,0,0])\nmovel(p[.1,.2,.3,0,0,0])\nset_tcp(p[2,0,0,0,0,0])\ngrip()\nmovel(pose_trans(p[1,0,0,0,0,0],p[.1,.2,.4,0,0,0]))";
+    assert_eq!(ids(&path(text)), ["frame-chosen-at-run-time"]);
+    assert_eq!(path(text).targets.iter().filter(|t| t.blocked).count(), 1);
+    // with one tool there is none to take; features are named by the moves
+    assert_eq!(path(&text.replace("p[2,", "p[1,")).findings, []);
+    // a function of the file tells, and so does one of the language
+    for known in [
+        "textmsg()",
+        "set_gravity([0,0,9])",
+        "def grip():\nend\ngrip()",
+    ] {
+        assert_eq!(path(&text.replace("grip()", known)).findings, [], "{known}");
+    }
+}
+
+#[test]
+fn the_moves_before_are_those_that_run_before() {
+    let program = path(
+        "def sub():\nmovel(p[1,2,3,0,0,0])\nend\nmovel(p[1,2,4,0,0,0])\nsub()\nspeedl([0,0,1,0,0,0])\nmovel(p[1,2,5,0,0,0])\nif a:\nmovej(get_actual_joint_positions())\nend\nmovel(p[1,2,6,0,0,0])",
+    );
+    let before: Vec<_> = program
+        .moves
+        .iter()
+        .map(|m| program.before(m).to_vec())
+        .collect();
+    assert_eq!(
+        before,
+        [
+            vec![Before::One(1)],
+            vec![Before::Start],
+            vec![Before::One(0)],
+            vec![Before::One(2)],
+            vec![Before::One(3)],
+            vec![Before::One(3), Before::One(4)],
+        ]
+    );
+}
+
+#[test]
+fn tracking_refuses_until_it_ends() {
+    let program = path(
+        "movel(p[1,2,3,0,0,0])\ntrack_conveyor_linear(p[1,0,0,0,0,0],500)\nmovel(p[1,2,4,0,0,0])\nstop_conveyor_tracking()\nmovel(p[1,2,5,0,0,0])",
+    );
+    assert_eq!(ids(&program), ["moving-frame"]);
+    let blocked: Vec<_> = program.targets.iter().map(|t| t.blocked).collect();
+    assert_eq!(blocked, [false, true, false]);
+}
+
+#[test]
+fn a_tool_that_the_file_does_not_assign_has_its_name() {
+    let program = path("set_tcp(gripper)\nmovel(p[1,2,3,0,0,0])");
+    let tool = &program.tools[program.moves[0].tool];
+    assert_eq!(
+        (tool.name.as_str(), tool.flange_from_tool),
+        ("gripper", None)
+    );
+    assert_eq!(program.findings, []);
+}
+
+#[test]
+fn speed_and_radius_are_arguments_by_place_or_name() {
+    let of = |text: &str| path(text).moves.last().expect("a move").pace;
+    let named = of("movel(p[1,2,3,0,0,0], a=1.2, r=0.005, v=0.25)");
+    assert_eq!((named.speed_m_s, named.zone_m), (Some(0.25), Some(0.005)));
+    let placed = of("movec(p[1,2,3,0,0,0], p[1,2,4,0,0,0], 1.2, 0.1, 0.02, 0)");
+    assert_eq!((placed.speed_m_s, placed.zone_m), (Some(0.1), Some(0.02)));
+    let joint = of("movej([0,1,2,3,4,5], 1.4, 1.05)");
+    assert_eq!((joint.speed_m_s, joint.zone_m), (None, Some(0.0)));
+    let variable = of("movel(p[1,2,3,0,0,0], a, v, 0, radius)");
+    assert!(variable.cuts_corner() && variable.speed_m_s.is_none());
+}
+
+#[test]
+fn threads_begin_with_what_is_set_where_they_are_run() {
+    let tools = |lines: &str| {
+        let program = path(lines);
+        let mut tools: Vec<_> = (0..program.moves.len())
+            .map(|k| tool_x(&program, k))
+            .collect();
+        tools.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+        (tools, program.findings.len())
+    };
+    let thread =
+        "thread t():\nmovel(x)\nend\nset_tcp(p[1,0,0,0,0,0])\nglobal x=p[1,2,3,0,0,0]\nrun t()\n";
+    assert_eq!(tools(thread), (vec![Some(1.0)], 0));
+    // what the others set while it runs
+    let more = format!("{thread}set_tcp(p[2,0,0,0,0,0])\n");
+    assert_eq!(tools(&more), (vec![Some(1.0), Some(2.0)], 0));
+    // what the thread writes, others may find at any place
+    let program =
+        path("global x=p[1,2,3,0,0,0]\nthread t():\nx=p[1,2,4,0,0,0]\nend\nrun t()\nmovel(x)");
+    assert_eq!(to(&program), ["x", "x"]);
+    let program = path("thread t():\nmovel(p[1,2,3,0,0,0])\nend\nrun t()\nmovel(p[1,2,4,0,0,0])");
+    assert_eq!(program.before(&program.moves[0]), [Before::Anywhere]);
+    assert_eq!(program.before(&program.moves[1]), [Before::Start]);
+}

@@ -1,0 +1,585 @@
+//! The statements of one file.
+
+use super::goals::{Common, Facets, Goals};
+use super::syntax::{Called, Content, Event, Expr, ExprId, FunctionId, Notes, Step};
+use super::variables::{MOST_STEPS, VarId, Variables, Way};
+use super::verbs;
+use crate::finding::Severity;
+use crate::program::script::{
+    self, Argument, Builder, Call, Held, How, Instruction, Place, Remark, RoutineId, Start,
+    Variable, VariableId, Write, Written, short,
+};
+use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
+use std::collections::{HashMap, HashSet};
+
+/// Adds the statements of a file.
+pub fn translate(
+    builder: &mut Builder,
+    common: &mut Common,
+    source: &Source,
+    file: u32,
+    mut notes: Notes,
+) {
+    let variables = Variables::new(&notes);
+    let mut translator = Translator::new(builder, common, source, file, &variables);
+    translator.list_targets();
+    translator.declare_variables();
+    for function in 0..short(notes.functions.len()) {
+        translator.function(function);
+    }
+    translator.goals.builder.close();
+    translator.report();
+    builder.script.numbers.append(&mut notes.numbers);
+}
+
+struct Translator<'m, 'n, 'a> {
+    goals: Goals<'m, 'n, 'a>,
+    source: &'m Source,
+    file: u32,
+    tcp: VariableId,
+    load: VariableId,
+    /// Whether moves go along a frame that moves.
+    tracking: VariableId,
+    /// Sets of guards: while tracking, as a stream, and both.
+    guards: [u32; 3],
+    first_routine: RoutineId,
+    loads: HashMap<Option<[u64; 4]>, script::ValueId>,
+    said: HashSet<(TargetId, &'static str)>,
+}
+
+impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
+    fn new(
+        builder: &'m mut Builder,
+        common: &'m mut Common,
+        source: &'m Source,
+        file: u32,
+        variables: &'m Variables<'n, 'a>,
+    ) -> Self {
+        let notes = variables.notes;
+        let place = Place { file, offset: 0 };
+        let first_routine = short(builder.script.routines.len());
+        for (at, function) in notes.functions.iter().enumerate() {
+            let name = function.name.map_or(String::new(), |n| notes.spelling(n));
+            let start = match (at, function.thread) {
+                (0, _) => Start::Main,
+                (_, true) => Start::Concurrent,
+                (_, false) => Start::Called,
+            };
+            let offset = function.offset;
+            builder.declare(name, Place { file, offset }, start);
+        }
+        let script = &mut builder.script;
+        let unknown = common.no_tool(script);
+        let mut variable = |name: &str, declared, shared| {
+            script.variable(Variable {
+                name: name.into(),
+                place,
+                declared,
+                kept: false,
+                shared,
+                routine: None,
+            })
+        };
+        let tcp = variable("tcp", unknown, true);
+        let load = variable("load", script::Expr::Absent, true);
+        let tracking = variable("tracking", script::Expr::Absent, false);
+        let streamed = Held::Remark(script.remark(Remark {
+            id: "streamed-motion",
+            severity: Severity::Error,
+            text: "servoing to poses is not compensated".into(),
+            hint: "use movel or movej, or servoj with joints",
+        }));
+        let declared = script::Expr::Value(script.value(streamed));
+        let stream = script.variable(Variable {
+            name: "stream".into(),
+            place,
+            declared,
+            kept: false,
+            shared: false,
+            routine: None,
+        });
+        let guards = [vec![tracking], vec![stream], vec![tracking, stream]].map(|of| {
+            script.guards.push(of.into());
+            short(script.guards.len() - 1)
+        });
+        Self {
+            goals: Goals {
+                notes,
+                variables,
+                builder,
+                common,
+                held: vec![Facets::default(); variables.list.len()],
+                targets: vec![None; notes.literals.len()],
+                unknown: HashMap::new(),
+                lost_start: false,
+                offsets: Vec::new(),
+            },
+            source,
+            file,
+            tcp,
+            load,
+            tracking,
+            guards,
+            first_routine,
+            loads: HashMap::new(),
+            said: HashSet::new(),
+        }
+    }
+
+    fn at(&self, offset: u32) -> Place {
+        Place {
+            file: self.file,
+            offset,
+        }
+    }
+
+    // ---- targets and variables
+
+    /// Lists the literals that moves go to.
+    fn list_targets(&mut self) {
+        let notes = self.goals.notes;
+        let mut names = HashMap::new();
+        for assignment in &notes.assignments {
+            let value = match notes.expression(assignment.value) {
+                Expr::Kinematics { pose, .. } => notes.expression(pose),
+                other => other,
+            };
+            if let Expr::Literal(id) = value
+                && !assignment.part
+            {
+                names.insert(id, assignment.name);
+            }
+        }
+        let all = &self.goals.variables.targets;
+        let mut literals: Vec<u32> = (0..short(all.len()))
+            .filter(|id| all[*id as usize])
+            .collect();
+        literals.retain(|id| {
+            let literal = notes.literal(*id);
+            literal.pose || literal.elements == 6
+        });
+        literals.sort_by_key(|id| notes.literal(*id).offset);
+        let first = short(self.goals.builder.script.numbers.len());
+        self.goals.builder.script.targets.reserve(literals.len());
+        for id in literals {
+            let literal = notes.literal(id);
+            let is_known = literal.content != Content::Expressions;
+            let targets = &mut self.goals.builder.script.targets;
+            targets.push(Target {
+                name: names.get(&id).map(|name| notes.spelling(*name).into()),
+                file: self.file,
+                offset: literal.offset,
+                layout: Layout {
+                    shape: if literal.pose {
+                        Shape::Pose
+                    } else {
+                        Shape::Joints
+                    },
+                    variant: u8::from(literal.content == Content::Degrees),
+                },
+                numbers: first + literal.numbers.start..first + literal.numbers.end,
+                blocked: !is_known,
+            });
+            let target = targets.len() - 1;
+            self.goals.targets[id as usize] = Some(target);
+            if !is_known {
+                self.block(
+                    target,
+                    "target-has-expressions",
+                    "parts of this target are expressions, not numbers",
+                    "write the target with numbers in the offline system",
+                    literal.offset,
+                );
+            }
+        }
+    }
+
+    /// The target stays as it is; `because` says so.
+    fn block(&mut self, target: TargetId, id: &'static str, wrong: &str, hint: &str, because: u32) {
+        let script = &mut self.goals.builder.script;
+        script.targets[target].blocked = true;
+        if !self.said.insert((target, id)) {
+            return;
+        }
+        let found = &script.targets[target];
+        let severity = match found.layout.shape {
+            Shape::Pose => Severity::Error,
+            Shape::Joints => Severity::Warning,
+        };
+        let see = if because == found.offset {
+            String::new()
+        } else {
+            let (line, _) = self.source.line_column(because as usize);
+            format!(" (see line {line})")
+        };
+        let name = found.name.as_ref().map(|name| format!("`{name}`: "));
+        let message = format!("{}{wrong}{see}", name.unwrap_or_default());
+        let offset = found.offset;
+        self.say(offset, id, severity, message, hint);
+    }
+
+    fn say(
+        &mut self,
+        offset: u32,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) {
+        let finding = self
+            .source
+            .finding(offset as usize, id, severity, message, hint);
+        self.goals.builder.script.findings.push(finding);
+    }
+
+    /// Variables with several values become variables of the script.
+    fn declare_variables(&mut self) {
+        let variables = self.goals.variables;
+        for (at, variable) in variables.list.iter().enumerate() {
+            if variable.is_fixed {
+                continue;
+            }
+            let place = self.at(variable.offset);
+            let routine = variables
+                .routine_of(short(at))
+                .map(|f| self.first_routine + f);
+            let name = self.goals.notes.spelling(variable.name);
+            let from_outside = match variable.parameter {
+                Some(_) => self.goals.common.from_outside(),
+                None => script::Expr::Absent,
+            };
+            let position = match variable.has_parts {
+                true => self.first_target(short(at)).unwrap_or(from_outside),
+                false => from_outside,
+            };
+            let frame = match variable.parameter {
+                Some(_) => script::Expr::Unknown(self.goals.common.frame_computed),
+                None => script::Expr::Absent,
+            };
+            let script = &mut self.goals.builder.script;
+            let mut declare = |wanted: bool, declared| {
+                wanted.then(|| {
+                    script.variable(Variable {
+                        name: name.as_str().into(),
+                        place,
+                        declared,
+                        kept: false,
+                        shared: false,
+                        routine,
+                    })
+                })
+            };
+            let is_position = variable.is_position;
+            self.goals.held[at] = Facets {
+                position: declare(is_position, position),
+                feature: declare(is_position && variable.in_features, frame),
+                tool: declare(is_position && variable.with_tools, frame),
+                frame: declare(variable.is_frame, frame),
+            };
+        }
+    }
+
+    /// The first target that is assigned to a variable: what is written of it in parts is that target's.
+    fn first_target(&self, variable: VarId) -> Option<script::Expr> {
+        let mut sources = self.goals.variables.sources(variable);
+        sources.find_map(|source| match self.goals.notes.expression(source.value) {
+            Expr::Literal(id) if source.way == Way::Whole => {
+                self.goals.targets[id as usize].map(script::Expr::Target)
+            }
+            _ => None,
+        })
+    }
+
+    // ---- statements
+
+    fn function(&mut self, function: FunctionId) {
+        let notes = self.goals.notes;
+        let routine = self.first_routine + function;
+        self.goals.builder.open(routine);
+        for event in &notes.functions[function as usize].events {
+            let builder = &mut *self.goals.builder;
+            match *event {
+                Event::Assign(number) => self.assign(number),
+                Event::Tool(value, offset) => {
+                    let tool = self.goals.tool(value, function);
+                    self.write(Some(self.tcp), How::Whole(tool), offset);
+                }
+                Event::Load(load, offset) => {
+                    let load = self.load(load);
+                    self.write(Some(self.load), How::Whole(load), offset);
+                }
+                Event::Tracking(on, offset) => {
+                    let held = match on {
+                        true => Held::Remark(builder.script.remark(Remark {
+                            id: "moving-frame",
+                            severity: Severity::Error,
+                            text: "moves along a conveyor, with a path offset or on a part that moves are not compensated".into(),
+                            hint: "",
+                        })),
+                        false => Held::Flag(false),
+                    };
+                    let value = builder.script.value(held);
+                    let how = How::Whole(script::Expr::Value(value));
+                    self.write(Some(self.tracking), how, offset);
+                }
+                Event::Call(call) => self.call(&notes.calls[call as usize]),
+                Event::If => builder.begin_if(),
+                Event::Switch => builder.begin_choice(),
+                Event::Branch { is_last } => builder.next_branch(is_last),
+                Event::EndIf => builder.end_choice(),
+                Event::Loop => builder.begin_loop(false),
+                Event::Condition => {
+                    builder.begin_if();
+                    builder.leave_loop();
+                    builder.end_choice();
+                }
+                // text behind an endless loop is taken for text behind one
+                Event::EndLoop { endless } => builder.end_loop(!endless),
+                Event::Break => builder.leave_loop(),
+                Event::Continue => builder.repeat_loop(),
+                Event::Return(value, offset) => {
+                    if let Some(result) = self.goals.variables.result_of(function) {
+                        self.whole(result, value, function, offset);
+                    }
+                    self.goals.builder.back();
+                }
+                Event::Halt => builder.exit(),
+                Event::Step(step) => self.step(&notes.steps[step as usize], function),
+            }
+        }
+    }
+
+    fn write(&mut self, variable: Option<VariableId>, how: How, offset: u32) {
+        let place = self.at(offset);
+        if let Some(variable) = variable {
+            self.goals.builder.write(Write {
+                place,
+                variable: Written::One(variable),
+                how,
+            });
+        }
+    }
+
+    fn assign(&mut self, number: u32) {
+        let assignment = &self.goals.notes.assignments[number as usize];
+        let variable = self.goals.variables.assigned[number as usize];
+        let offset = assignment.offset;
+        if !assignment.part {
+            self.whole(variable, assignment.value, assignment.function, offset);
+            return;
+        }
+        let held = self.goals.held[variable as usize];
+        let (computed, changes) = (self.goals.common.computed, self.goals.common.frame_changes);
+        self.write(held.position, How::PartSomehow(computed), offset);
+        self.write(held.frame, How::PartSomehow(changes), offset);
+    }
+
+    /// A variable with several values gets one of them.
+    fn whole(&mut self, variable: VarId, value: ExprId, function: FunctionId, offset: u32) {
+        for (of, value) in self.values(variable, value, function) {
+            self.write(Some(of), How::Whole(value), offset);
+        }
+    }
+
+    /// What a value is to each of the script's variables for one of the program's.
+    fn values(
+        &mut self,
+        variable: VarId,
+        value: ExprId,
+        function: FunctionId,
+    ) -> Vec<(VariableId, script::Expr)> {
+        let held = self.goals.held[variable as usize];
+        let mut found = Vec::new();
+        if let Some(position) = held.position {
+            let goal = self.goals.goal(value, function);
+            found.push((position, goal.target));
+            if let Some(feature) = held.feature {
+                found.push((feature, self.goals.frame_of(goal.feature)));
+            }
+            if let Some(tool) = held.tool {
+                let of = goal.tool.unwrap_or_else(|| self.tool_of(value, function));
+                found.push((tool, of));
+            }
+        }
+        if let Some(frame) = held.frame {
+            let name = self.goals.variables.list[variable as usize].name;
+            let name = self.goals.notes.spelling(name);
+            found.push((frame, self.goals.named_frame(value, function, &name)));
+        }
+        found
+    }
+
+    /// The tool of a position in a variable that also holds joints computed from poses: these have the tool that is set
+    /// where they are computed, a pose that of its move.
+    fn tool_of(&self, value: ExprId, function: FunctionId) -> script::Expr {
+        let is_computed = matches!(
+            self.goals.variables.follow(value, function).0,
+            Expr::Kinematics { .. }
+        );
+        if is_computed || !self.goals.may_be_pose(value, function, MOST_STEPS) {
+            script::Expr::Variable(self.tcp)
+        } else {
+            script::Expr::Unknown(self.goals.common.frame_computed)
+        }
+    }
+
+    fn load(&mut self, load: Option<Load>) -> script::Expr {
+        let key = load.map(|load| {
+            let [x, y, z] = load.cog_m;
+            [load.mass_kg, x, y, z].map(f64::to_bits)
+        });
+        let script = &mut self.goals.builder.script;
+        let value = *self
+            .loads
+            .entry(key)
+            .or_insert_with(|| script.value(Held::Load(load)));
+        script::Expr::Value(value)
+    }
+
+    fn call(&mut self, call: &Called) {
+        let notes = self.goals.notes;
+        let callees = self.goals.variables.callees(call).to_vec();
+        if callees.is_empty() && verbs::is_of_language(notes.bytes(call.name)) {
+            return;
+        }
+        let mut arguments = Vec::new();
+        if callees.is_empty() {
+            for &(_, value) in notes.arguments_of(call) {
+                if self.goals.has_target(value, call.function, MOST_STEPS) {
+                    let value = self.goals.goal(value, call.function).target;
+                    arguments.push(Argument {
+                        parameter: None,
+                        value,
+                        back: None,
+                    });
+                }
+            }
+        }
+        for &callee in &callees {
+            for position in 0..notes.functions[callee as usize].parameters.len() {
+                let (parameter, given) = self.goals.variables.given(call, callee, position);
+                let values = match given {
+                    Some((value, function)) => self.values(parameter, value, function),
+                    // what was given before is no longer there
+                    None => {
+                        let held = self.goals.held[parameter as usize].position;
+                        let outside = self.goals.common.from_outside();
+                        held.map(|held| (held, outside)).into_iter().collect()
+                    }
+                };
+                arguments.extend(values.into_iter().map(|(parameter, value)| Argument {
+                    parameter: Some(parameter),
+                    value,
+                    back: None,
+                }));
+            }
+        }
+        let place = self.at(call.offset);
+        let builder = &mut *self.goals.builder;
+        let first = short(builder.script.arguments.len());
+        builder.script.arguments.extend(arguments);
+        let call = Call {
+            place,
+            callees: callees.iter().map(|f| self.first_routine + f).collect(),
+            foreign: callees.is_empty(),
+            name: notes.spelling(call.name).into(),
+            arguments: first..short(builder.script.arguments.len()),
+        };
+        let is_thread = |callee: &FunctionId| notes.functions[*callee as usize].thread;
+        if callees.iter().any(is_thread) {
+            builder.start(call);
+        } else {
+            builder.call(call);
+        }
+    }
+
+    fn step(&mut self, step: &Step, function: FunctionId) {
+        let place = self.at(step.offset);
+        let mut instruction = Instruction {
+            end: step.end,
+            motion: step.motion,
+            target: script::Expr::Unknown(self.goals.common.somewhere),
+            tool: script::Expr::Variable(self.tcp),
+            frame: script::Expr::Value(self.goals.common.base),
+            load: script::Expr::Variable(self.load),
+            guards: self.guards[0],
+            pace: step.pace,
+            ..Instruction::at(place)
+        };
+        if let Some(target) = step.target {
+            self.goals.lost_start = false;
+            let goal = self.goals.goal(target, function);
+            if self.goals.lost_start {
+                let message = "the joints that the inverse starts from are known at run time only; it is taken to start from the present ones";
+                let hint = "write qnear with numbers, or as a variable that is assigned once";
+                let id = "inverse-start-unknown";
+                self.say(step.offset, id, Severity::Warning, message.into(), hint);
+            }
+            let is_stream = step.streamed && self.goals.may_be_pose(target, function, MOST_STEPS);
+            instruction.target = goal.target;
+            instruction.frame = self.goals.frame_of(goal.feature);
+            instruction.near = goal.near.map(Box::new);
+            if let Some(tool) = goal.tool {
+                instruction.tool = tool;
+            }
+            if is_stream {
+                instruction.guards = self.guards[2];
+            }
+            if step.repeatable && !step.streamed {
+                instruction.target_span = goal.span;
+            }
+        }
+        self.goals.builder.go(instruction);
+    }
+
+    // ---- what concerns the whole
+
+    fn report(&mut self) {
+        for (target, at) in std::mem::take(&mut self.goals.offsets) {
+            self.block(
+                target,
+                "target-used-as-offset",
+                "this target is the offset of another one too, or has one; compensating it would change that one",
+                "give the offset a variable of its own",
+                at,
+            );
+        }
+        for &offset in &self.goals.notes.forces {
+            let remarks = &self.goals.builder.script.remarks;
+            let remark = &remarks[self.goals.common.somewhere as usize];
+            let (id, message) = (remark.id, remark.text.to_string());
+            self.say(offset, id, Severity::Note, message, "");
+        }
+        self.report_copies();
+    }
+
+    /// Values that are computed from targets.
+    fn report_copies(&mut self) {
+        let notes = self.goals.notes;
+        let mut said = HashSet::new();
+        for &(name, function, offset) in &notes.mentions {
+            let Some(variable) = self.goals.variables.meaning(name, function) else {
+                continue;
+            };
+            let targets = &self.goals.builder.script.targets;
+            let mut sources = self.goals.variables.sources(variable);
+            let is_target = !self.goals.variables.list[variable as usize].has_parts
+                && sources.any(|source| match notes.expression(source.value) {
+                    Expr::Literal(id) => self.goals.targets[id as usize].is_some_and(|target| {
+                        let target = &targets[target];
+                        !target.blocked && target.layout.shape == Shape::Pose
+                    }),
+                    _ => false,
+                });
+            if !is_target || !said.insert((variable, offset)) {
+                continue;
+            }
+            let message = format!(
+                "a value is computed from `{}`, whose numbers change",
+                notes.spelling(name)
+            );
+            let hint = "look where the new value is used";
+            self.say(offset, "target-copied", Severity::Warning, message, hint);
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! What literals and variables are used for.
+//!
+//! Poses of targets, features, offsets and tools look alike. What a literal is follows from where it goes: to a move it is
+//! a target. In `pose_trans(a, b)` a is a target and b its offset where other moves go to a; else a is a feature and b the
+//! target in it.
+
+use super::syntax::{Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
+use super::variables::{MOST_STEPS, VarId, Variables, Way};
+use crate::program::script::short;
+
+impl Variables<'_, '_> {
+    /// Finds the literals and variables that moves go to.
+    pub(super) fn find_targets(&mut self) {
+        let notes = self.notes;
+        let mut open = Vec::new();
+        // what `pose_trans(a, b)` goes to depends on whether others go to a
+        for round in 0..4 {
+            let mut changed = false;
+            let mut seen = vec![false; self.list.len()];
+            for (at, function) in notes.functions.iter().enumerate() {
+                for event in &function.events {
+                    if let Event::Step(step) = event
+                        && let Some(target) = notes.steps[*step as usize].target
+                    {
+                        open.push((target, short(at)));
+                        changed |= self.mark_targets(&mut open, &mut seen, round > 0);
+                    }
+                }
+            }
+            if round > 0 && !changed {
+                break;
+            }
+        }
+    }
+
+    /// Marks what values go to; whether that is new.
+    fn mark_targets(
+        &mut self,
+        open: &mut Vec<(ExprId, FunctionId)>,
+        seen: &mut [bool],
+        through_features: bool,
+    ) -> bool {
+        let notes = self.notes;
+        let mut changed = false;
+        while let Some((value, function)) = open.pop() {
+            let variable = match notes.expression(value) {
+                Expr::Literal(id) => {
+                    changed |= !std::mem::replace(&mut self.targets[id as usize], true);
+                    None
+                }
+                Expr::List(list) => {
+                    if let Some(id) = self.joints_of(list) {
+                        changed |= !std::mem::replace(&mut self.targets[id as usize], true);
+                    }
+                    None
+                }
+                Expr::Element(name, at) => {
+                    open.extend(self.elements(name, at, function).unwrap_or_default());
+                    None
+                }
+                Expr::Name(name, _) => self.meaning(name, function),
+                Expr::Call(call) => self.result(call),
+                Expr::Kinematics { pose, .. } => {
+                    open.push((pose, function));
+                    None
+                }
+                Expr::Trans(a, b) if through_features => {
+                    let is_offset = self.goes_to(a, function) || self.is_actual(a, function);
+                    if !is_offset {
+                        open.push((b, function));
+                    }
+                    None
+                }
+                Expr::Add(a, _) if through_features => {
+                    open.push((a, function));
+                    None
+                }
+                _ => None,
+            };
+            if let Some(variable) = variable
+                && !std::mem::replace(&mut seen[variable as usize], true)
+            {
+                let of = &mut self.list[variable as usize];
+                changed |= !std::mem::replace(&mut of.is_position, true);
+                let whole = self.sources(variable).filter(|s| s.way != Way::Part);
+                open.extend(whole.map(|source| (source.value, source.function)));
+            }
+        }
+        changed
+    }
+
+    /// A list of six values that are no literals: joints.
+    pub fn joints_of(&self, list: u32) -> Option<LiteralId> {
+        let list = &self.notes.lists[list as usize];
+        let is_plain = |value: &ExprId| {
+            let value = self.notes.expression(*value);
+            matches!(value, Expr::Name(..) | Expr::Other)
+        };
+        (list.elements.len() == 6 && list.elements.iter().all(is_plain)).then_some(list.literal)
+    }
+
+    /// What an element of a list may be: by its number where the list is written out once, else any. `None` where the
+    /// text does not tell them all.
+    pub fn elements(
+        &self,
+        name: Symbol,
+        at: Option<u32>,
+        function: FunctionId,
+    ) -> Option<Vec<(ExprId, FunctionId)>> {
+        let mut found = Vec::new();
+        let mut seen = vec![self.meaning(name, function)?];
+        let mut is_one = true;
+        let mut next = 0;
+        while let Some(&variable) = seen.get(next) {
+            next += 1;
+            for (number, source) in self.sources(variable).enumerate() {
+                is_one &= number == 0 && source.way != Way::Part;
+                if source.way == Way::Part {
+                    found.push((source.value, source.function));
+                    continue;
+                }
+                match self.notes.expression(source.value) {
+                    Expr::List(list) => {
+                        let elements = &self.notes.lists[list as usize].elements;
+                        found.extend(elements.iter().map(|value| (*value, source.function)));
+                    }
+                    Expr::Name(name, _) => {
+                        let of = self.meaning(name, source.function)?;
+                        if !seen.contains(&of) {
+                            seen.push(of);
+                        }
+                    }
+                    // an empty list is filled by its elements
+                    Expr::Literal(id) if self.notes.literal(id).elements <= 1 => {}
+                    _ => return None,
+                }
+                if seen.len() > MOST_STEPS as usize {
+                    return None;
+                }
+            }
+        }
+        if let Some(at) = at.filter(|_| is_one) {
+            found = vec![*found.get(at as usize)?];
+        }
+        // an element of this list is one of the others; lists of lists are not looked into
+        let again = |(value, function): &(ExprId, FunctionId)| match self.notes.expression(*value) {
+            Expr::Element(name, _) => self.meaning(name, *function),
+            _ => None,
+        };
+        found.retain(|one| !again(one).is_some_and(|variable| seen.contains(&variable)));
+        let is_plain = found
+            .iter()
+            .all(|(value, _)| !matches!(self.notes.expression(*value), Expr::Element(..)));
+        is_plain.then_some(found)
+    }
+
+    /// Whether a value is, by names alone, a position that moves go to.
+    pub fn goes_to(&self, value: ExprId, function: FunctionId) -> bool {
+        match self.follow(value, function) {
+            (Expr::Literal(id), _) => self.targets[id as usize],
+            (Expr::Name(name, _), function) => self.meaning(name, function).is_some_and(|v| {
+                !self.list[v as usize].is_fixed && self.list[v as usize].is_position
+            }),
+            _ => false,
+        }
+    }
+
+    /// Whether a value is where the robot is, or displaced from there: what stands in it is no target.
+    pub fn is_actual(&self, value: ExprId, function: FunctionId) -> bool {
+        self.comes_from_actual(value, function, MOST_STEPS)
+    }
+
+    fn comes_from_actual(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+        let Some(steps) = steps.checked_sub(1) else {
+            return false;
+        };
+        match self.notes.expression(value) {
+            Expr::Actual => true,
+            Expr::Trans(a, _) | Expr::Add(a, _) => self.comes_from_actual(a, function, steps),
+            Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
+                let mut sources = self.sources(variable).filter(|s| s.way != Way::Part);
+                let mut all = sources.by_ref().take(MOST_STEPS as usize).peekable();
+                all.peek().is_some()
+                    && all.all(|s| self.comes_from_actual(s.value, s.function, steps / 2))
+                    && sources.next().is_none()
+            }),
+            _ => false,
+        }
+    }
+
+    /// Finds the variables that are features and tools, and those whose positions have some of their own.
+    pub(super) fn find_frames(&mut self) {
+        let notes = self.notes;
+        let mut open = Vec::new();
+        for (at, function) in notes.functions.iter().enumerate() {
+            for event in &function.events {
+                match *event {
+                    Event::Tool(value, _) => open.push((value, short(at))),
+                    Event::Step(step) => {
+                        if let Some(target) = notes.steps[step as usize].target {
+                            self.frames_in(target, short(at), &mut open);
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        for variable in 0..short(self.list.len()) {
+            if self.list[variable as usize].is_position {
+                for source in self.sources(variable) {
+                    self.frames_in(source.value, source.function, &mut open);
+                }
+            }
+        }
+        while let Some((value, function)) = open.pop() {
+            let variable = match notes.expression(value) {
+                Expr::Name(name, _) => self.meaning(name, function),
+                _ => None,
+            };
+            if let Some(variable) = variable
+                && !std::mem::replace(&mut self.list[variable as usize].is_frame, true)
+            {
+                let sources = self.sources(variable);
+                open.extend(sources.map(|source| (source.value, source.function)));
+            }
+        }
+        for pass in 0..=MOST_STEPS {
+            let mut changed = false;
+            for variable in 0..self.list.len() {
+                let of = &self.list[variable];
+                if of.is_fixed || !of.is_position {
+                    continue;
+                }
+                let (mut features, mut tools) = (pass == MOST_STEPS, pass == MOST_STEPS);
+                for source in self.sources(short(variable)) {
+                    let (feature, tool) = self.has_own(source.value, source.function, MOST_STEPS);
+                    features |= feature;
+                    tools |= tool;
+                }
+                let of = &mut self.list[variable];
+                changed |= (features && !of.in_features) || (tools && !of.with_tools);
+                of.in_features |= features;
+                of.with_tools |= tools;
+            }
+            if !changed {
+                break;
+            }
+        }
+    }
+
+    /// The features and tools in a position.
+    fn frames_in(
+        &self,
+        value: ExprId,
+        function: FunctionId,
+        found: &mut Vec<(ExprId, FunctionId)>,
+    ) {
+        match self.notes.expression(value) {
+            Expr::Trans(a, _) if self.goes_to(a, function) => self.frames_in(a, function, found),
+            Expr::Trans(a, b) => {
+                found.push((a, function));
+                self.frames_in(b, function, found);
+            }
+            Expr::Add(a, _) => self.frames_in(a, function, found),
+            Expr::Kinematics { pose, tcp, .. } => {
+                found.extend(tcp.map(|tcp| (tcp, function)));
+                self.frames_in(pose, function, found);
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether a position has a feature, and a tool, of its own.
+    fn has_own(&self, value: ExprId, function: FunctionId, steps: u32) -> (bool, bool) {
+        let Some(steps) = steps.checked_sub(1) else {
+            return (true, true);
+        };
+        let of = |variable: Option<VarId>| {
+            let Some(variable) = variable else {
+                return (false, false);
+            };
+            match self.fixed(variable) {
+                Some(source) => self.has_own(source.value, source.function, steps),
+                None => {
+                    let of = &self.list[variable as usize];
+                    (of.in_features, of.with_tools)
+                }
+            }
+        };
+        match self.notes.expression(value) {
+            Expr::Name(name, _) => of(self.meaning(name, function)),
+            Expr::Call(call) => of(self.result(call)),
+            Expr::Trans(a, b) if !self.goes_to(a, function) => {
+                (true, self.has_own(b, function, steps).1)
+            }
+            Expr::Trans(a, _) | Expr::Add(a, _) => self.has_own(a, function, steps),
+            Expr::Kinematics { pose, tcp, .. } => {
+                let (feature, tool) = self.has_own(pose, function, steps);
+                (feature, tool || tcp.is_some() || self.sets_tool)
+            }
+            _ => (false, false),
+        }
+    }
+}

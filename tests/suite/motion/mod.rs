@@ -1,0 +1,4 @@
+//! What a program makes the robot do: where straight moves end, from which side joints come, which tool holds.
+
+mod rows;
+mod straight;

@@ -1,0 +1,353 @@
+//! Small programs whose thin reading lands beside: what each means, or that it is refused with both places.
+
+use crate::support::repository;
+use poseshift::compensate::{CompensateError, Compensation, Given, Options, compensate};
+use poseshift::finding::Severity;
+use poseshift::geometry::Pose;
+use poseshift::model::profile::{Mounted, Profile};
+use poseshift::program::{self, Source};
+
+/// Effects of the arm of these tests.
+const PLAIN: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
+const BACKLASH: &str = "{effect: backlash, joint: 2, width_deg: -0.1}";
+const COMPLIANCE: &str = "{effect: joint_compliance, joint: 2, rad_per_n_m: 3.0e-5}";
+
+fn profile(effects: &[&str]) -> Profile {
+    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
+    let plain = &text[..text.find("calibration:").expect("a list of effects")];
+    let effects = effects.join(", ");
+    Profile::from_yaml(&format!("{plain}calibration: {{effects: [{effects}]}}\n"))
+        .expect("a profile")
+}
+
+fn try_with(
+    options: Options,
+    effects: &[&str],
+    files: &[(&str, &str)],
+) -> Result<Compensation, CompensateError> {
+    let sources: Vec<Source> = files
+        .iter()
+        .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
+        .collect();
+    let language = program::language_of(&sources[0]).expect("a language");
+    compensate(language, &sources, &profile(effects), &options)
+}
+
+fn given() -> Options {
+    let mut given = Given::default();
+    given.tools.insert(None, Mounted::flange());
+    given.frames.insert(None, Pose::identity());
+    Options {
+        given,
+        ..Options::default()
+    }
+}
+
+fn done(effects: &[&str], files: &[(&str, &str)]) -> Compensation {
+    try_with(given(), effects, files).expect("read")
+}
+
+fn errors(done: &Compensation) -> Vec<&'static str> {
+    let errors = done
+        .findings
+        .iter()
+        .filter(|f| f.severity == Severity::Error);
+    errors.map(|f| f.id).collect()
+}
+
+/// The message of an error, which must be there.
+fn message<'a>(done: &'a Compensation, id: &str) -> &'a str {
+    let found = done.findings.iter().find(|f| f.id == id);
+    &found
+        .unwrap_or_else(|| panic!("{id} in {:?}", done.findings))
+        .message
+}
+
+fn rapid(data: &str, body: &str) -> String {
+    format!("MODULE t\n{data}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n")
+}
+
+const P: &str = "[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+
+#[test]
+fn a_target_that_joints_reach_from_both_sides_is_refused_with_both_lines() {
+    // row b: joint 2 comes to p from below and from above
+    let data = format!("CONST robtarget p := [[430,0,400],{P};");
+    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\n\
+                MoveAbsJ [[0,60,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;";
+    let done = done(&[BACKLASH], &[("t.mod", &rapid(&data, body))]);
+    assert_eq!(errors(&done), ["target-shared"]);
+    let told = message(&done, "target-shared");
+    assert!(told.contains("line 5") && told.contains("line 7"), "{told}");
+}
+
+#[test]
+fn a_target_reached_twice_in_one_way_has_one_fake_target() {
+    let data = format!("CONST robtarget p := [[430,0,400],{P};");
+    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\n\
+                MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;";
+    let done = done(&[BACKLASH, PLAIN], &[("t.mod", &rapid(&data, body))]);
+    assert_eq!(errors(&done), [""; 0]);
+    assert_eq!(done.summary.compensated, 1);
+}
+
+#[test]
+fn a_straight_move_keeps_the_branch_of_its_path() {
+    // row d: the nearest largest joint change is on another branch
+    let program = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {A1 0,A2 -20,A3 40,A4 0,A5 70,A6 -60}\n\
+                   LIN {X 420.0,Y 0,Z 430.0,A -160,B 20,C 180}\nEND\n";
+    let done = done(&[PLAIN], &[("t.src", program)]);
+    let end = &done.targets[1];
+    let branch = end.branch.expect("solved").to_string();
+    let q = end.q.expect("solved");
+    assert!(q[4] > 0.0, "joint 5 keeps its sign: {branch} {q:?}");
+}
+
+#[test]
+fn an_assignment_in_a_branch_before_the_move_is_refused_with_both_values() {
+    // row h
+    let data = "PERS wobjdata w1 := [FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nVAR num n := 0;";
+    let body = format!(
+        "IF n > 0 THEN\nw1.oframe.trans.x := -20;\nENDIF\nMoveJ [[430,0,400],{P},v100,fine,tool0\\WObj:=w1;"
+    );
+    let done = done(&[PLAIN], &[("t.mod", &rapid(data, &body))]);
+    assert_eq!(errors(&done), ["target-shared"]);
+    assert!(
+        message(&done, "target-shared").contains("line 6"),
+        "{:?}",
+        done.findings
+    );
+}
+
+#[test]
+fn an_assignment_behind_the_move_reaches_the_next_run_of_data_that_is_kept() {
+    // row h
+    let wobj = "wobjdata w1 := [FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];";
+    let body =
+        format!("MoveJ [[430,0,400],{P},v100,fine,tool0\\WObj:=w1;\nw1.oframe.trans.x := -20;");
+    let kept = done(
+        &[PLAIN],
+        &[("t.mod", &rapid(&format!("PERS {wobj}"), &body))],
+    );
+    assert_eq!(errors(&kept), ["target-shared"]);
+    let before =
+        format!("w1.oframe.trans.x := -20;\nMoveJ [[430,0,400],{P},v100,fine,tool0\\WObj:=w1;");
+    let before = done(
+        &[PLAIN],
+        &[("t.mod", &rapid(&format!("PERS {wobj}"), &before))],
+    );
+    assert_eq!(errors(&before), [""; 0]);
+}
+
+#[test]
+fn an_assignment_in_a_routine_that_nothing_calls_leaves_the_declaration() {
+    // row h
+    let text = format!(
+        "MODULE t\nPERS wobjdata w1 := [FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n\
+         PROC main()\nMoveJ [[430,0,400],{P},v100,fine,tool0\\WObj:=w1;\nENDPROC\n\
+         PROC setup()\nw1.oframe.trans.x := -200;\nENDPROC\nENDMODULE\n"
+    );
+    let done = done(&[PLAIN], &[("t.mod", &text)]);
+    assert_eq!(errors(&done), [""; 0]);
+    let told = message(&done, "write-not-called");
+    assert!(told.contains("w1"), "{told}");
+}
+
+#[test]
+fn writes_of_instructions_and_functions_are_seen() {
+    // row j
+    for write in [
+        "Add p10.trans.y, 40;",
+        "Incr p10.trans.y;",
+        "UnpackRawBytes rb, 1, p10.trans.x \\Float4;",
+        "ReadAnyBin io, p10;",
+        "ok := StrToVal(s, p10.trans.x);",
+    ] {
+        let data = format!(
+            "PERS robtarget p10 := [[430,0,400],{P};\nVAR rawbytes rb;\nVAR iodev io;\nVAR bool ok;\nVAR string s;"
+        );
+        let body = format!("{write}\nMoveJ p10,v100,fine,tool0;");
+        let done = done(&[PLAIN], &[("t.mod", &rapid(&data, &body))]);
+        assert_eq!(errors(&done), ["target-assigned-at-run-time"], "{write}");
+    }
+}
+
+#[test]
+fn a_target_given_to_a_function_that_is_not_in_the_files_is_refused() {
+    // row k
+    let data = format!("PERS robtarget p10 := [[430,0,400],{P};\nVAR bool b;");
+    let body = "b := fPlace(p10);\nMoveJ p10,v100,fine,tool0;";
+    let done = done(&[PLAIN], &[("t.mod", &rapid(&data, body))]);
+    assert_eq!(errors(&done), ["target-passed-to-routine"]);
+    assert!(message(&done, "target-passed-to-routine").contains("line 6"));
+}
+
+#[test]
+fn the_tool_of_the_inverse_is_that_of_its_call() {
+    // row l
+    let text = "def t():\n  set_tcp(p[0,0,0.15,0,0,0])\n  q = get_inverse_kin(p[0.35,0,0.4,0,3.1415926,0])\n  \
+                set_tcp(p[0,0,0,0,0,0])\n  movej(q)\nend\nt()\n";
+    let done = done(&[PLAIN], &[("t.script", text)]);
+    let used: Vec<_> = done
+        .program
+        .moves
+        .iter()
+        .map(|m| {
+            done.program.tools[m.tool]
+                .flange_from_tool
+                .expect("a tool")
+                .translation[2]
+        })
+        .collect();
+    assert_eq!(used, [0.15]);
+}
+
+#[test]
+fn external_axes_that_carry_something_are_refused_until_they_are_described() {
+    // row i
+    let target =
+        |eax: &str| format!("[[430,0,400],[0,0,1,0],[0,0,0,0],[{eax},9E9,9E9,9E9,9E9,9E9]]");
+    let one = |eax: &str| {
+        let body = format!("MoveJ {},v100,fine,tool0;", target(eax));
+        errors(&done(&[PLAIN], &[("t.mod", &rapid("", &body))]))
+    };
+    assert_eq!(one("9E9"), [""; 0]);
+    assert_eq!(one("0"), [""; 0]);
+    assert_eq!(one("1500"), ["external-axis"]);
+    let krl = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {X 430,Y 0,Z 400,A 0,B 90,C 0,S 2,T 0,E1 1800.0}\nEND\n";
+    assert_eq!(
+        errors(&done(&[PLAIN], &[("t.src", krl)])),
+        ["external-axis"]
+    );
+}
+
+#[test]
+fn a_tool_written_out_keeps_the_load_that_was_set() {
+    // row g
+    let config = "DEFDAT $CONFIG\nLOAD_DATA[1]={M 4.0,CM {X 0,Y 0,Z 100,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\nTOOL_DATA[1]={X 0,Y 0,Z 50,A 0,B 0,C 0}\nENDDAT\n";
+    let with = |set: &str| {
+        let text = format!(
+            "DEF t()\n$BASE=$WORLD\n{set}\n$TOOL={{X 0,Y 0,Z 50,A 0,B 0,C 0}}\nPTP {{A1 0,A2 0,A3 0,A4 0,A5 60,A6 0}}\n\
+             LIN {{X 420.0,Y 0,Z 400.0,A 0,B 90,C 0}}\nEND\n"
+        );
+        let done = done(&[COMPLIANCE], &[("t.src", &text), ("$config.dat", config)]);
+        done.targets[1].shift.distance_m
+    };
+    let (bare, loaded) = (with(""), with("BAS(#TOOL,1)"));
+    assert!(loaded > 1.2 * bare, "{bare} {loaded}");
+}
+
+#[test]
+fn rounding_may_not_give_the_error_back() {
+    // row o: quaternion and coordinates without decimals
+    let body = format!("MoveJ [[430,0,400],{P},v100,fine,tool0;");
+    let done = done(&[PLAIN], &[("t.mod", &rapid("", &body))]);
+    assert_eq!(errors(&done), [""; 0]);
+    assert!(done.summary.max_before_m > 2e-4, "{:?}", done.summary);
+    assert!(done.summary.max_rounding_m < 1e-6, "{:?}", done.summary);
+    assert!(done.summary.max_rounding_rad < 2e-5, "{:?}", done.summary);
+}
+
+#[test]
+fn a_profile_that_corrects_nothing_marks_nothing() {
+    // row q
+    let body = format!("MoveJ [[430,0,400],{P},v100,fine,tool0;");
+    let files = [("t.mod", &*rapid("", &body))];
+    let refused = try_with(given(), &[], &files);
+    assert!(matches!(refused, Err(CompensateError::NothingToCorrect)));
+    let moved = Options {
+        work_offset: Some(Pose::from_translation(0.001, 0.0, 0.0)),
+        ..given()
+    };
+    let moved = try_with(moved, &[], &files).expect("the part is moved");
+    assert_eq!(moved.summary.compensated, 1);
+}
+
+#[test]
+fn conf_off_lasts_across_calls() {
+    // row r
+    let text = format!(
+        "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\ngo;\nENDPROC\n\
+         PROC go()\nMoveL [[420,0,400],[0,0,1,0],[1,1,1,1],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n"
+    );
+    let done = done(&[PLAIN], &[("t.mod", &text)]);
+    assert!(
+        !done
+            .findings
+            .iter()
+            .any(|f| f.id == "configuration-mismatch"),
+        "{:?}",
+        done.findings
+    );
+}
+
+#[test]
+fn parameters_bind_at_every_call() {
+    let text = format!(
+        "MODULE t\nCONST robtarget p1 := [[430,0,400],{P};\nCONST robtarget p2 := [[430,50,400],{P};\n\
+         PROC main()\nrm p1;\nrm p2;\nENDPROC\nPROC rm(robtarget p)\nMoveJ p,v100,fine,tool0;\nENDPROC\nENDMODULE\n"
+    );
+    let done = done(&[PLAIN], &[("t.mod", &text)]);
+    assert_eq!(errors(&done), [""; 0]);
+    assert_eq!(done.summary.compensated, 2);
+}
+
+#[test]
+fn a_position_that_the_robot_told_itself_stays() {
+    let data = format!("VAR robtarget here;\nCONST robtarget p1 := [[430,0,400],{P};");
+    let body = "MoveJ p1,v100,fine,tool0;\nhere := CRobT(\\Tool:=tool0);\nMoveL here,v100,fine,tool0;\nMoveL p1,v100,fine,tool0;";
+    let done = done(&[PLAIN], &[("t.mod", &rapid(&data, body))]);
+    assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+    assert_eq!(done.summary.compensated, 1);
+}
+
+#[test]
+fn a_dead_point_among_used_ones_stays_with_a_note() {
+    let data = format!(
+        "CONST robtarget p1 := [[430,0,400],{P};\nCONST robtarget old := [[430,0,300],{P};"
+    );
+    let done = done(
+        &[PLAIN],
+        &[("t.mod", &rapid(&data, "MoveJ p1,v100,fine,tool0;"))],
+    );
+    assert_eq!(errors(&done), [""; 0]);
+    assert!(message(&done, "target-unused-here").contains("old"));
+}
+
+#[test]
+fn all_unknown_tools_and_frames_are_named_with_the_options_that_give_them() {
+    let body = format!(
+        "MoveJ [[430,0,400],{P},v100,fine,tGun\\WObj:=wLeft;\nMoveJ [[430,0,410],{P},v100,fine,tGrip\\WObj:=wRight;"
+    );
+    let refused = try_with(
+        Options::default(),
+        &[PLAIN],
+        &[("t.mod", &rapid("", &body))],
+    );
+    let Err(CompensateError::Placement(unknown)) = refused else {
+        panic!("refused");
+    };
+    let hint = unknown.hint();
+    for option in [
+        "--tool tGun=",
+        "--tool tGrip=",
+        "--frame wLeft=",
+        "--frame wRight=",
+    ] {
+        assert!(hint.contains(option), "{hint}");
+    }
+}
+
+#[test]
+fn the_first_posture_can_be_given() {
+    let body = "ConfJ\\Off;\nMoveJ [[430,0,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;";
+    let from = |q4: f64| {
+        let options = Options {
+            start_joints: Some([0.0, 0.3, 0.1, q4, if q4 > 1.0 { -1.2 } else { 1.2 }, 0.0]),
+            ..given()
+        };
+        let done = try_with(options, &[PLAIN], &[("t.mod", &rapid("", body))]).expect("read");
+        done.targets[0].q.expect("solved")[4]
+    };
+    assert!(from(0.0) > 0.0 && from(2.6) < 0.0);
+}
