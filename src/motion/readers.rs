@@ -93,7 +93,7 @@ fn each_read(
                 each_variable(script, *value, lists, visit);
             }
         }
-        Statement::Call(at) => {
+        Statement::Call(at) | Statement::Start(at) => {
             let range = &script.calls[at as usize].arguments;
             for argument in &script.arguments[range.start as usize..range.end as usize] {
                 each_variable(script, argument.value, lists, visit);
