@@ -1,6 +1,7 @@
 //! Aggregates: `{X 1.0,Y 2.0,Z 3.0,A 0,B 90,C 0,S 2,T 35}`, `{E6AXIS: A1 0,...}`, keys in any case and order.
 
-use super::tokens::{Cursor, Fault, Kind, Token, bits_value, capitals};
+use super::tokens::{Cursor, Kind, Token, bits_value, capitals};
+use crate::program::kit::Fault;
 use crate::program::script::short;
 use crate::program::{Number, number};
 
@@ -54,7 +55,7 @@ pub fn each(
             return Err(unclosed);
         }
         if key.kind != Kind::Name {
-            return Err(Fault::unexpected(key, "a component"));
+            return Err(key.unexpected("a component"));
         }
         cursor.brackets()?;
         let (field, ended) = value(cursor).ok_or(unclosed)?;
@@ -231,10 +232,7 @@ pub fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
             }
         };
         if *mask & 1 << at != 0 {
-            return Err(Fault::unexpected(
-                token,
-                "a component that is not yet given",
-            ));
+            return Err(token.unexpected("a component that is not yet given"));
         }
         *mask |= 1 << at;
         match field {

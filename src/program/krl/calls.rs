@@ -4,8 +4,8 @@ use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
 use super::targets::{Owner, computed, passed};
 use super::tokens::{Cursor, Kind, Token, capitals};
-use crate::program::number;
 use crate::program::names::Symbol;
+use crate::program::number;
 use crate::program::script::{Argument, Call, Expr, How, Place, Start, short};
 
 /// Calls in one expression; a line of the controller has no room for more.
@@ -214,7 +214,6 @@ impl Reader {
                         self.names.choosing.contains(&name)
                     });
                     if is_chosen {
-                        self.foresee(number);
                         (self.number_value(number), Some(DataKind::Number), false)
                     } else {
                         (Expr::Absent, None, false)

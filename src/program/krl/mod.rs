@@ -47,6 +47,7 @@ mod names;
 mod reader;
 mod sniff;
 mod statements;
+mod states;
 mod status;
 mod targets;
 mod tokens;
@@ -227,12 +228,12 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
             });
         }
         let read = reader.declarations(source, short(file));
-        read.map_err(|fault| fault.in_source(source))?;
+        read.map_err(|fault| fault.in_source(source, "the line"))?;
     }
     reader.settle();
     for (file, source) in sources.iter().enumerate() {
         let read = reader.statements(source, short(file));
-        read.map_err(|fault| fault.in_source(source))?;
+        read.map_err(|fault| fault.in_source(source, "the line"))?;
     }
     Ok(reader.finish(sources, settings))
 }

@@ -5,7 +5,7 @@ use super::frames::{State, pose_of};
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
 use super::targets::{computed, copied};
-use super::tokens::{Cursor, Fault, Kind, Read, Token, capitals};
+use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
@@ -291,7 +291,7 @@ impl Reader {
                 let aggregate = aggregate::read(cursor)?;
                 return Ok(Operand::Inline(self.add(&aggregate, start, None)));
             }
-            0 | b';' => return Err(Fault::unexpected(cursor.next(), "a position")),
+            0 | b';' => return Err(cursor.next().unexpected("a position")),
             _ => {}
         }
         let before = *cursor;

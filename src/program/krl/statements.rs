@@ -228,10 +228,7 @@ impl Reader {
             return;
         };
         let value = match number {
-            Some(number) => {
-                self.foresee(number);
-                self.number_value(number)
-            }
+            Some(number) => self.number_value(number),
             None => self.chosen(),
         };
         if at == Index::Whole {

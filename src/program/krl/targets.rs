@@ -22,8 +22,8 @@ pub enum Owner {
     Nobody(Symbol),
 }
 
-/// What is wrong with a target whatever the program does: a sentence without its subject.
-fn against(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Remark {
+/// Why a target has to stay: a sentence without its subject.
+pub fn refusal(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Remark {
     Remark {
         id,
         severity: Severity::Error,
@@ -33,7 +33,7 @@ fn against(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> R
 }
 
 pub fn partial() -> Remark {
-    against(
+    refusal(
         "partial-target",
         "components are missing, which keep the value of the position before",
         "write X, Y, Z, A, B and C",
@@ -41,7 +41,7 @@ pub fn partial() -> Remark {
 }
 
 pub fn expressions() -> Remark {
-    against(
+    refusal(
         "target-has-expressions",
         "parts of this target are expressions, not numbers",
         "write the target with numbers in the offline system",
@@ -54,7 +54,7 @@ pub fn external(axis: usize, value: f64) -> Remark {
     } else {
         value.to_string()
     };
-    against(
+    refusal(
         "external-axis",
         format!("external axis E{axis} goes to {to}, and what that moves is not known"),
         "targets with external axes in use are not compensated",
@@ -62,7 +62,7 @@ pub fn external(axis: usize, value: f64) -> Remark {
 }
 
 pub fn assigned() -> Remark {
-    against(
+    refusal(
         "target-assigned-at-run-time",
         "the running program changes elements of this array, and which only it knows",
         "correct the value where the program computes it, or keep the target out of the path",
@@ -70,7 +70,7 @@ pub fn assigned() -> Remark {
 }
 
 pub fn passed() -> Remark {
-    against(
+    refusal(
         "target-passed-to-routine",
         "elements of this array are given to a routine that is not in the files, which may use them with any tool and base",
         "give the file with the routine too, or move to the target where its tool and base are set",
@@ -78,7 +78,7 @@ pub fn passed() -> Remark {
 }
 
 fn ambiguous() -> Remark {
-    against(
+    refusal(
         "target-name-ambiguous",
         "this name is declared more than once, and a use does not tell which one is meant",
         "pass only the programs of one robot",
@@ -86,7 +86,7 @@ fn ambiguous() -> Remark {
 }
 
 fn accurate() -> Remark {
-    against(
+    refusal(
         "absolutely-accurate",
         "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets itself",
         "switch the correction of the controller off, or --force",
@@ -158,7 +158,6 @@ impl Reader {
         }
         let declared = self.names.data[datum as usize];
         if let (Some((_, _, Stored::Number(number))), DataKind::Number) = (found, declared.kind) {
-            self.foresee(number);
             return self.number_value(number);
         }
         let remark = match declared.kind {

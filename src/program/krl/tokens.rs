@@ -3,8 +3,8 @@
 //! A statement is one line; nothing goes on to the next. Nothing is decoded or copied. Bytes of 0x80 and above count as
 //! letters, so Latin-1 and UTF-8 both pass. A line may end with LF, CR LF or CR.
 
+use crate::program::kit::Fault;
 use crate::program::script::short;
-use crate::program::{ReadError, Source};
 
 /// What reading gives where it fails.
 pub type Read<T> = Result<T, Fault>;
@@ -39,92 +39,13 @@ impl Token {
     pub fn is(self, sign: u8) -> bool {
         self.kind == Kind::Sign(sign)
     }
-}
 
-/// Why the text cannot be read, by offsets; becomes a [`ReadError`] with the source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
-    /// What opens here is not closed.
-    Unclosed { at: u32, what: &'static str },
-    /// Something else stands where one thing belongs.
-    Unexpected {
-        start: u32,
-        end: u32,
-        expected: &'static str,
-    },
-    /// A number no robot can use.
-    BadValue {
-        start: u32,
-        end: u32,
-        meaning: &'static str,
-        limit: &'static str,
-    },
-}
-
-/// Bytes of a wrong token that an error message repeats at most.
-const SHOWN: usize = 40;
-
-impl Fault {
-    /// This token where something else belongs.
-    pub fn unexpected(token: Token, expected: &'static str) -> Self {
-        Self::Unexpected {
-            start: token.start,
-            end: token.end,
+    /// It stands where something else belongs.
+    pub fn unexpected(self, expected: &'static str) -> Fault {
+        Fault::Unexpected {
+            start: self.start,
+            end: self.end,
             expected,
-        }
-    }
-
-    /// The error with file, line and column.
-    pub fn in_source(self, source: &Source) -> ReadError {
-        let file = source.name.clone();
-        let place = |at: u32| source.line_column(at as usize);
-        let shown = |start: u32, end: u32| {
-            let end = (end as usize).min(start as usize + SHOWN);
-            match source.bytes.get(start as usize..end) {
-                Some(text) if !text.is_empty() => Source::text(text),
-                _ => "the end of the line".to_owned(),
-            }
-        };
-        match self {
-            Self::Unclosed { at, what } => {
-                let (line, column) = place(at);
-                ReadError::Unclosed {
-                    file,
-                    line,
-                    column,
-                    what,
-                }
-            }
-            Self::Unexpected {
-                start,
-                end,
-                expected,
-            } => {
-                let (line, column) = place(start);
-                ReadError::Unexpected {
-                    file,
-                    line,
-                    column,
-                    found: shown(start, end),
-                    expected,
-                }
-            }
-            Self::BadValue {
-                start,
-                end,
-                meaning,
-                limit,
-            } => {
-                let (line, column) = place(start);
-                ReadError::BadValue {
-                    file,
-                    line,
-                    column,
-                    value: shown(start, end),
-                    meaning,
-                    limit,
-                }
-            }
         }
     }
 }
