@@ -95,7 +95,7 @@ pub(super) fn check(
 }
 
 /// How far a sensor or a register usually displaces a point, metres.
-const SOMEHOW_M: f64 = 10.0 * MM;
+const SOMEHOW_M: f64 = 5.0 * MM;
 
 /// Displacements that stand for one that only the running program knows.
 static SOMEHOW: [Shift; 6] = {

@@ -94,7 +94,8 @@ impl Portion {
         report.before = worst(group.iter().map(|(approach, _)| uncorrected(job, approach)));
         self.findings.extend(singularity(job, approach, outcome));
         self.findings.extend(other_posture(job, approach, outcome));
-        if shift.distance_m < NO_SHIFT.distance_m && shift.angle_rad < NO_SHIFT.angle_rad {
+        let moved = job.ground.off_part(wanted).separation(&given);
+        if moved.distance_m < NO_SHIFT.distance_m && moved.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
         let Some(written) = self.written(job, approach, fake, fractions) else {
@@ -289,6 +290,12 @@ fn rounding_finding(
     rounding: Separation,
     shift: Separation,
 ) -> Finding {
+    // what a field for joints takes is that
+    let severity = if job.ground.is_joints(approach.target as usize) {
+        Severity::Warning
+    } else {
+        Severity::Error
+    };
     let message = format!(
         "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg off its wanted pose; the limit is 0.010 mm and 0.010 deg (the shift is {:.3} mm, {:.3} deg)",
         job.ground.name_of(approach.target as usize),
@@ -299,7 +306,7 @@ fn rounding_finding(
     );
     job.ground.at_target(
         "rounding",
-        Severity::Error,
+        severity,
         approach.target as usize,
         message,
         "--decimals 4 writes more",

@@ -116,6 +116,7 @@ fn changed_directions(
     let mut directions: Vec<[i8; 6]> = vec![[0; 6]; arrivals.all.len()];
     for (at, arrival) in arrivals.all.iter().enumerate() {
         let Some(before) = arrivals.start_of(arrival).filter(|_| arrival.known) else {
+            directions[at] = arrival.direction;
             continue;
         };
         let motion = &ground.program.moves[arrival.motion as usize];

@@ -876,7 +876,11 @@ impl Resolver<'_, '_> {
         let mut said = HashSet::new();
         for (variable, site) in std::mem::take(&mut self.flow.by_operator) {
             let of = &self.script.variables[variable as usize];
-            if of.shared || matches!(of.declared, Expr::Absent | Expr::Unknown(_)) {
+            // a mode that is off is off when another routine starts
+            let is_mode = matches!(of.declared, Expr::Value(value)
+                if matches!(self.flow.value(value), Held::Flag(_)));
+            let is_unknown = matches!(of.declared, Expr::Absent | Expr::Unknown(_));
+            if of.shared || is_mode || is_unknown {
                 continue;
             }
             let Some(place) = self.flow.place_of(site) else {

@@ -10,7 +10,7 @@ use super::posture::{self, Asked, Posture};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
-use crate::inverse::Branch;
+use crate::inverse::{Arm, Branch};
 use crate::model::Conditions;
 use crate::program::{Before, Configuration, Displacement, Motion, Move, Role, TargetId, Value};
 use std::cmp::Reverse;
@@ -28,6 +28,9 @@ const MOST_ARRIVALS: usize = 64;
 const SAME_RAD: f64 = 1e-7;
 /// A joint that moves more in a step of a path may have gone round: the step is halved.
 const MOST_STEP_RAD: f64 = 45.0 * DEG;
+/// Nearer to alignment than this joint 5 goes through, where the other joints then move less than the second angle.
+const NEAR_WRIST_RAD: f64 = 5.0 * DEG;
+const MOST_THROUGH_RAD: f64 = 20.0 * DEG;
 /// The shortest step of a path.
 const SHORTEST_STEP: f64 = 1.0 / 512.0;
 /// A path that turns the tool by more, or is longer, is followed in several steps.
@@ -443,15 +446,24 @@ impl Walker<'_, '_> {
             in_ranges: false,
         };
         let arm = &ground.arm_with(motion.tool).arm;
-        if arm
-            .mechanism()
-            .beyond_limit(&q, posture::LIMIT_RAD)
-            .is_none()
-        {
+        let mechanism = arm.mechanism();
+        if mechanism.beyond_limit(&q, 0.0).is_none() {
             return as_it_is;
         }
+        // a whole rotation less, where that is within the limits
+        let turn = std::f64::consts::TAU;
+        let near = std::array::from_fn(|i| {
+            let limits = &mechanism.joints[i];
+            let back = turn * f64::from(u8::from(q[i] > limits.max_rad));
+            let on = turn * f64::from(u8::from(q[i] < limits.min_rad));
+            q[i] - back + on
+        });
         let any = Configuration::default();
-        posture::on_branch(arm, wanted, branch, &q, &any).unwrap_or(as_it_is)
+        let inside = posture::on_branch(arm, wanted, branch, &near, &any);
+        inside
+            .filter(|inside| mechanism.beyond_limit(&inside.q, 0.0).is_none())
+            .or_else(|| posture::on_branch(arm, wanted, branch, &q, &any))
+            .unwrap_or(as_it_is)
     }
 
     /// A part of the target's orientation so large that its angle is lost in rounding.
@@ -558,7 +570,14 @@ fn follow(
     while s < 1.0 {
         let next: f64 = (s + step).min(1.0);
         let there = at(next, branch, &q)?;
-        let most = (0..6).map(|i| (there[i] - q[i]).abs()).fold(0.0, f64::max);
+        let most = farthest(&there, &q);
+        if most > MOST_STEP_RAD
+            && let Some((other, there)) =
+                through_wrist(arm, branch, &q, |branch| at(next, branch, &q))
+        {
+            (s, q, branch) = (next, there, other);
+            continue;
+        }
         if most > MOST_STEP_RAD
             && step > SHORTEST_STEP
             && !(is_singular && s == 0.0 && step < BEYOND_SINGULAR)
@@ -570,6 +589,28 @@ fn follow(
         step = (2.0 * step).min(longest);
     }
     Some((branch, q))
+}
+
+fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
+}
+
+/// A path that passes the wrist's singularity so near that the joints beside it would spin goes through it: joint 5 changes its
+/// sign and nothing else moves much. `there` gives the joints behind it on a branch.
+fn through_wrist(
+    arm: &Arm,
+    branch: Branch,
+    q: &[f64; 6],
+    there: impl Fn(Branch) -> Option<[f64; 6]>,
+) -> Option<(Branch, [f64; 6])> {
+    let other = Branch {
+        joint_5_negative: !branch.joint_5_negative,
+        ..branch
+    };
+    let behind = there(other)?;
+    let near = |q: &[f64; 6]| arm.posture(q).1.wrist_rad < NEAR_WRIST_RAD;
+    let is_through = near(q) && near(&behind) && farthest(&behind, q) < MOST_THROUGH_RAD;
+    is_through.then_some((other, behind))
 }
 
 /// The sign of each joint's rate at the end of a path; a joint that stands keeps its direction.

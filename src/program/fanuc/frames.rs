@@ -18,6 +18,24 @@ pub struct Frames {
     pub rounded: bool,
 }
 
+impl Frames {
+    /// Takes in the frames of another file: those of variables are exact and go before those of a list.
+    pub fn add(&mut self, mut other: Self) {
+        if !other.rounded {
+            std::mem::swap(self, &mut other);
+            self.rounded = false;
+        }
+        for (all, more) in [
+            (&mut self.tools, other.tools),
+            (&mut self.frames, other.frames),
+        ] {
+            for (number, pose) in more {
+                all.entry(number).or_insert(pose);
+            }
+        }
+    }
+}
+
 /// A number that no robot can use.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadNumber {

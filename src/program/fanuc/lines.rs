@@ -103,7 +103,7 @@ impl Iterator for Lines<'_> {
                 return None;
             };
             let rest = &self.bytes[start..self.end];
-            if rest.starts_with(b"!") || rest.starts_with(b"--") || rest.starts_with(b"//") {
+            if rest.starts_with(b"!") || rest.starts_with(b"--") {
                 self.at = line_end(self.bytes, start).min(self.end);
                 continue;
             }
@@ -150,6 +150,7 @@ mod tests {
             ["C P[23] \n    :  P[24:end] 250mm/sec CNT2 "]
         );
         assert_eq!(of("1:X('a;b') ; Y ;"), ["X('a;b') ", "Y "]);
-        assert_eq!(of("1: --eg:L P[1] ;\n2://L P[1] ;").len(), 0);
+        assert_eq!(of("1: --eg:L P[1] ;\n2: !L P[1] ;").len(), 0);
+        assert_eq!(of("2://C P[1]\n : P[2] 9mm/sec FINE ;").len(), 1);
     }
 }

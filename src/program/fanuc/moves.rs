@@ -12,6 +12,7 @@ use std::ops::Range;
 
 /// What stands behind the positions of a move.
 #[derive(Debug, Default)]
+#[allow(clippy::struct_excessive_bools)]
 struct Words {
     /// By the first four of [`Why`].
     against: [bool; 4],
@@ -119,7 +120,15 @@ impl Reader<'_> {
         }
         if words.may_stop {
             // where the robot stands then is known to nobody
-            self.builder.go(Instruction::at(self.place));
+            let last = self.builder.script.instructions.last();
+            let stopped = last.map(|last| Instruction {
+                tool: last.tool,
+                frame: last.frame,
+                ..Instruction::at(self.place)
+            });
+            if let Some(stopped) = stopped {
+                self.builder.go(stopped);
+            }
         }
     }
 

@@ -139,21 +139,6 @@ pub fn script(sources: &[Source]) -> Result<Script, ReadError> {
     Ok(reader.finish())
 }
 
-impl Frames {
-    /// Takes in the frames of another file: those of variables are exact and go before those of a list.
-    fn add(&mut self, other: Self) {
-        let (exact, rough) = if other.rounded {
-            (std::mem::take(self), other)
-        } else {
-            (other, std::mem::take(self))
-        };
-        *self = rough;
-        self.tools.extend(exact.tools);
-        self.frames.extend(exact.frames);
-        self.rounded = false;
-    }
-}
-
 fn frames_rounded(source: &Source) -> Finding {
     Finding {
         id: "frames-rounded",

@@ -76,25 +76,10 @@ fn keyword(bytes: &[u8], at: usize, word: &[u8]) -> Option<usize> {
 fn slash_at_line_start(bytes: &[u8], at: usize) -> Option<usize> {
     let slashes = memchr::memchr_iter(b'/', &bytes[at..]);
     slashes.map(|k| at + k).find(|&slash| {
-        let before = &bytes[..slash];
-        let kept = before.trim_ascii_end_of_line().len();
-        kept == 0 || matches!(before[kept - 1], b'\n' | b'\r')
+        let before = bytes[..slash].iter().rev();
+        let kept = before.copied().find(|b| !matches!(b, b' ' | b'\t'));
+        matches!(kept, None | Some(b'\n' | b'\r'))
     })
-}
-
-/// Trimming that stops at line ends.
-trait TrimLine {
-    fn trim_ascii_end_of_line(&self) -> &Self;
-}
-
-impl TrimLine for [u8] {
-    fn trim_ascii_end_of_line(&self) -> &Self {
-        let kept = self
-            .iter()
-            .rposition(|b| !matches!(b, b' ' | b'\t'))
-            .map_or(0, |last| last + 1);
-        &self[..kept]
-    }
 }
 
 fn blanks(bytes: &[u8]) -> usize {

@@ -37,6 +37,10 @@ impl Reader<'_> {
     pub fn line(&mut self, line: &Line) {
         let bytes = self.bytes;
         let text = bytes[line.text.clone()].trim_ascii_end();
+        // taken out
+        if text.starts_with(b"//") {
+            return;
+        }
         let word = &text[..word_length(text)];
         let is_else = word.eq_ignore_ascii_case(b"ELSE") || word.eq_ignore_ascii_case(b"SONST");
         let is_case = text.starts_with(b"=") || is_else && comma(text).is_some();

@@ -41,31 +41,16 @@ pub enum Letter {
     P,
 }
 
-/// A position of axes that are not the robot's own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum External {
-    /// `BC`
-    Base(u32),
-    /// `BP`
-    BaseVariable(u32),
-    /// `EC`
-    Station(u32),
-    /// `EX`
-    StationVariable(u32),
-}
+/// A name such as `BC00001`, `BP001`, `EC00001` or `EX001`: a position of the base or of a station.
+pub type External = ([u8; 2], u32);
 
-impl External {
-    /// The position that a name means.
-    pub fn of(name: &[u8]) -> Option<Self> {
-        let (of, digits): (fn(u32) -> Self, _) = match name {
-            [b'B', b'C', digits @ ..] => (Self::Base, digits),
-            [b'B', b'P', digits @ ..] => (Self::BaseVariable, digits),
-            [b'E', b'C', digits @ ..] => (Self::Station, digits),
-            [b'E', b'X', digits @ ..] => (Self::StationVariable, digits),
-            _ => return None,
-        };
-        whole(digits).map(of)
-    }
+/// The position of other axes that a name means; `None` where only the running program knows.
+pub fn external(name: &[u8]) -> Option<External> {
+    let (letters, digits) = name.split_first_chunk()?;
+    let is_known = matches!(letters, b"BC" | b"BP" | b"EC" | b"EX");
+    whole(digits)
+        .filter(|_| is_known)
+        .map(|number| (*letters, number))
 }
 
 /// An axis that does not stand at zero, from 1, and where it stands.
@@ -369,7 +354,7 @@ impl<'a> Positions<'a> {
             [b'C', digits @ ..] => (Letter::C, digits),
             [b'P', digits @ ..] => (Letter::P, digits),
             _ => {
-                if let Some(external) = External::of(name) {
+                if let Some(external) = external(name) {
                     job.external
                         .insert(external, moved(&line.text[equals + 1..]));
                 }

@@ -1,7 +1,7 @@
 //! Moves: what goes where with what, and what can be said of it once all jobs are read.
 
 use super::instruction::{Kind, Operand, is_move};
-use super::job::{Coordinates, Header, Letter, Origin};
+use super::job::{Coordinates, Header, Origin};
 use super::lines::{Line, placed_words};
 use super::rconf;
 use super::reader::{Arc, Reader};
@@ -9,7 +9,7 @@ use super::remarks::Cause;
 use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::script::{Expr, Instruction, Script, Span, VariableId, Written, short};
-use crate::program::{Motion, Pace, Shape, TargetId, number};
+use crate::program::{Motion, Pace, Place, Shape, TargetId, number};
 use std::collections::{HashMap, HashSet};
 
 /// Tags that say how fast and how near to go.
@@ -142,29 +142,19 @@ impl<'a> Reader<'a> {
             pace: words.pace,
             ..Instruction::at(place)
         };
-        let unknown = |reader: &mut Self, cause: Cause| {
-            Expr::Unknown(reader.builder.script.remark(cause.remark()))
-        };
         instruction.target = match words.robot {
-            _ if kind == Kind::Incremental => unknown(self, Cause::Incremental),
-            None => unknown(self, Cause::OtherMove),
+            _ if kind == Kind::Incremental => self.unknown(Cause::Incremental),
+            None => self.unknown(Cause::OtherMove),
             Some((operand, span)) => {
                 instruction.target_span = span;
                 self.destination(operand, place)
             }
         };
-        let target = match instruction.target {
-            Expr::Target(target) => Some(target),
-            Expr::Variable(_) => match words.robot {
-                Some((Operand::P(number), _)) => self.held(number),
-                _ => None,
-            },
-            _ => None,
-        };
+        let target = self.targets_of(instruction.target).first().copied();
         if let Some(target) = target {
             let header = *self.positions.header(target);
-            (instruction.tool, instruction.frame) = self.variables.frames_of(&header);
-            self.begin(target, kind, &header, instruction.place);
+            (instruction.tool, instruction.frame) = self.frames_of(target);
+            self.begin(target, kind, &header, place);
         }
         if kind == Kind::Joint {
             instruction.configured = Expr::Value(self.honoured);
@@ -213,70 +203,42 @@ impl<'a> Reader<'a> {
     }
 
     /// Where a move goes; what it may be is named.
-    fn destination(&mut self, operand: Operand, place: crate::program::Place) -> Expr {
-        let mut unknown = |cause: Cause| {
-            let remark = self.builder.script.remark(cause.remark());
-            Expr::Unknown(remark)
-        };
-        match operand {
-            Operand::AnyP | Operand::AnyLocal => unknown(Cause::Computed),
-            Operand::C(number) => match self.target(Letter::C, number) {
-                Some(target) => {
-                    self.named[target] = true;
-                    Expr::Target(target)
-                }
-                None => {
-                    let remark = self.builder.script.remark(Cause::NotInFiles.remark());
-                    Expr::Unknown(remark)
-                }
+    fn destination(&mut self, operand: Operand, place: Place) -> Expr {
+        let found = match operand {
+            Operand::C(number) => match self.target(number) {
+                Some(target) => Expr::Target(target),
+                None => self.unknown(Cause::NotInFiles),
             },
-            Operand::P(_) | Operand::Local(_) => match self.written_by(operand, place) {
-                Some(Written::One(variable)) => {
-                    self.name(variable);
-                    Expr::Variable(variable)
-                }
-                _ => Expr::Absent,
+            _ => match self.written_by(operand, place) {
+                Some(Written::One(variable)) => Expr::Variable(variable),
+                _ => self.unknown(Cause::Computed),
             },
-        }
-    }
-
-    /// The targets that a variable is declared with.
-    fn declared(&self, variable: VariableId) -> Vec<TargetId> {
-        let script = &self.builder.script;
-        let list = match script.variables[variable as usize].declared {
-            Expr::Any { first, end } => script.lists[first as usize..end as usize].to_vec(),
-            other => vec![other],
         };
-        let target = |value: Expr| match value {
-            Expr::Target(target) => Some(target),
-            _ => None,
-        };
-        list.into_iter().filter_map(target).collect()
-    }
-
-    fn name(&mut self, variable: VariableId) {
-        for target in self.declared(variable) {
+        for target in self.targets_of(found) {
             self.named[target] = true;
         }
+        found
     }
 
-    /// A position of the files that a P variable of this number is.
-    fn held(&mut self, number: u32) -> Option<TargetId> {
-        let own = self.target(Letter::P, number);
-        own.or_else(|| {
-            let variable = self.variables.known(number)?;
-            self.declared(variable).first().copied()
-        })
+    /// The targets that an expression is, or that its variable is declared with.
+    fn targets_of(&self, value: Expr) -> Vec<TargetId> {
+        let script = &self.builder.script;
+        match value {
+            Expr::Target(target) => vec![target],
+            Expr::Variable(variable) => {
+                self.targets_of(script.variables[variable as usize].declared)
+            }
+            Expr::Any { first, end } => {
+                let list = &script.lists[first as usize..end as usize];
+                let targets = list.iter().map(|value| self.targets_of(*value));
+                targets.flatten().collect()
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// What is to be said of the first move to a position of the files.
-    fn begin(
-        &mut self,
-        target: TargetId,
-        kind: Kind,
-        header: &Header,
-        place: crate::program::Place,
-    ) {
+    fn begin(&mut self, target: TargetId, kind: Kind, header: &Header, place: Place) {
         let is_first = !std::mem::replace(&mut self.here.is_moving, true);
         if header.coordinates() != Some(Coordinates::Rectangular) {
             return;
@@ -324,7 +286,7 @@ impl<'a> Reader<'a> {
     /// Moves to variables that nothing writes go to what is declared.
     fn place_variables(&mut self) {
         let (written, all) = (&self.written, &self.all_written);
-        if all.contains(&self.variables.all_positions) {
+        if all.contains(&self.variables.positions) {
             return;
         }
         let script = &mut self.builder.script;
@@ -338,56 +300,44 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The tool and the work frame that the header above a target tells.
+    fn frames_of(&self, target: TargetId) -> (Expr, Expr) {
+        self.variables.of_headers[self.positions.points[target].header as usize]
+    }
+
     /// Tool and frame of moves to variables: those of the positions that are copied into them.
     fn follow_copies(&mut self) {
-        let mut known: HashMap<VariableId, Option<Vec<u32>>> = HashMap::new();
+        let differ = self.unknown(Cause::FrameCopied);
+        let mut known: HashMap<VariableId, Option<(Expr, Expr)>> = HashMap::new();
         for at in 0..self.builder.script.instructions.len() {
             let Expr::Variable(variable) = self.builder.script.instructions[at].target else {
                 continue;
             };
-            let headers = known
-                .entry(variable)
-                .or_insert_with(|| self.headers_of(variable));
-            let Some(headers) = headers else {
-                let remark = Cause::FrameCopied.remark();
-                let unknown = Expr::Unknown(self.builder.script.remark(remark));
-                self.builder.script.instructions[at].tool = unknown;
-                continue;
-            };
-            if let [header, ..] = headers[..] {
-                let header = &self.positions.headers[header as usize];
-                let (tool, frame) = self.variables.frames_of(header);
+            let frames = *known.entry(variable).or_insert_with(|| {
+                let mut all = self.poses_of(variable).into_iter();
+                let first = self.frames_of(all.next()?);
+                let same = all.all(|target| self.frames_of(target) == first);
+                Some(if same { first } else { (differ, first.1) })
+            });
+            if let Some(frames) = frames {
                 let instruction = &mut self.builder.script.instructions[at];
-                (instruction.tool, instruction.frame) = (tool, frame);
+                (instruction.tool, instruction.frame) = frames;
             }
         }
     }
 
-    /// The headers above the poses that a variable may be; none where these differ in tool or frame.
-    fn headers_of(&self, variable: VariableId) -> Option<Vec<u32>> {
-        let mut seen = HashSet::from([variable]);
-        let mut open = vec![variable];
-        let mut found: Vec<u32> = Vec::new();
+    /// The poses that a variable may be, by its declaration or copied into it.
+    fn poses_of(&self, variable: VariableId) -> Vec<TargetId> {
+        let (mut seen, mut open) = (HashSet::from([variable]), vec![variable]);
+        let mut found = Vec::new();
         while let Some(variable) = open.pop() {
-            for target in self.declared(variable) {
-                if self.positions.targets[target].layout.shape == Shape::Pose {
-                    found.push(self.positions.points[target].header);
-                }
-            }
-            for from in self.copies.get(&variable).into_iter().flatten() {
-                if seen.insert(*from) {
-                    open.push(*from);
-                }
-            }
+            let targets = self.targets_of(Expr::Variable(variable)).into_iter();
+            let is_pose = |t: &TargetId| self.positions.targets[*t].layout.shape == Shape::Pose;
+            found.extend(targets.filter(is_pose));
+            let copied = self.copies.get(&variable).into_iter().flatten().copied();
+            open.extend(copied.filter(|from| seen.insert(*from)));
         }
-        let of = |header: u32| {
-            let header = &self.positions.headers[header as usize];
-            (header.tool, header.origin())
-        };
         found
-            .windows(2)
-            .all(|two| of(two[0]) == of(two[1]))
-            .then_some(found)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::cnd::Conditions;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
-use super::job::Positions;
+use super::job::{Letter, Positions};
 use super::lines::{Line, Lines, words};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
@@ -183,16 +183,23 @@ impl<'a> Reader<'a> {
         }
         match first {
             b"RET" => self.builder.back(),
-            b"CALL" => self.call(line, second),
-            b"JUMP" => {
-                // the caller goes on where the other job ends
-                self.call(line, second);
-                self.builder.back();
+            b"CALL" | b"JUMP" => {
+                let call = self.call(line, second);
+                let caller = self.routine();
+                let others = call.callees.iter().filter(|job| **job != caller);
+                self.called.extend(others);
+                self.builder.call(call);
+                if first == b"JUMP" {
+                    // the caller goes on where the other job ends
+                    self.builder.back();
+                }
             }
             b"PSTART" => {
-                for &routine in self.callees(second).iter() {
+                let call = self.call(line, second);
+                for &routine in &*call.callees {
                     self.builder.script.routines[routine as usize].start = Start::Concurrent;
                 }
+                self.builder.start(call);
             }
             _ if first.starts_with(b"SFTON") => self.shift(line, true),
             _ if first.starts_with(b"SFTOF") => self.shift(line, false),
@@ -235,11 +242,8 @@ impl<'a> Reader<'a> {
         known.map_or_else(Box::default, |routines| routines.as_slice().into())
     }
 
-    fn call(&mut self, line: Line<'a>, name: &'a [u8]) {
+    fn call(&mut self, line: Line<'a>, name: &'a [u8]) -> Call {
         let callees = self.callees(name);
-        let caller = self.routine();
-        let others = callees.iter().filter(|callee| **callee != caller);
-        self.called.extend(others);
         let place = self.place(line.start);
         let first = short(self.builder.script.arguments.len());
         let mut given = words(line.text).skip(2);
@@ -261,37 +265,35 @@ impl<'a> Reader<'a> {
                 let builder = &mut self.builder;
                 let parameter = self.variables.parameter(builder, callee, number, place);
                 self.note_copy(Written::One(parameter), value);
-                self.builder.script.arguments.push(Argument {
-                    parameter: Some(parameter),
-                    value,
-                    back: None,
-                });
+                let argument = given_to(Some(parameter), value);
+                self.builder.script.arguments.push(argument);
             }
             if callees.is_empty() {
-                self.builder.script.arguments.push(Argument {
-                    parameter: None,
-                    value,
-                    back: None,
-                });
+                self.builder.script.arguments.push(given_to(None, value));
             }
         }
         let end = short(self.builder.script.arguments.len());
-        self.builder.call(Call {
+        Call {
             place,
             foreign: callees.is_empty(),
             callees,
             name: Source::text(name).into(),
             arguments: first..end,
-        });
+        }
     }
 
     // ---- writes
+
+    /// Something that nobody knows.
+    pub fn unknown(&mut self, cause: Cause) -> Expr {
+        Expr::Unknown(self.builder.script.remark(cause.remark()))
+    }
 
     /// What a position that an instruction names holds.
     fn value(&mut self, operand: Operand, place: Place) -> Expr {
         match self.written_by(operand, place) {
             Some(Written::One(variable)) => Expr::Variable(variable),
-            _ => Expr::Unknown(self.builder.script.remark(Cause::Computed.remark())),
+            _ => self.unknown(Cause::Computed),
         }
     }
 
@@ -305,54 +307,44 @@ impl<'a> Reader<'a> {
             Operand::Local(number) => {
                 Written::One(variables.local(builder, routine, number, place))
             }
-            Operand::AnyP => Written::AnyOf(variables.all_positions),
-            Operand::AnyLocal => Written::AnyOf(variables.locals_of(builder, routine)),
+            Operand::AnyP => Written::AnyOf(variables.positions),
+            Operand::AnyLocal => Written::AnyOf(variables.locals(builder, routine)[0]),
         })
     }
 
     fn note_copy(&mut self, written: Written, value: Expr) {
         let Expr::Variable(from) = value else { return };
-        match written {
-            Written::One(to) => self.copies.entry(to).or_default().push(from),
+        let all: Vec<VariableId> = match written {
+            Written::One(to) => vec![to],
             Written::AnyOf(table) => {
-                let all = self.builder.script.tables[table as usize].entries.values();
-                for &to in all {
-                    self.copies.entry(to).or_default().push(from);
-                }
+                let entries = &self.builder.script.tables[table as usize].entries;
+                entries.values().copied().collect()
             }
+        };
+        for to in all {
+            self.copies.entry(to).or_default().push(from);
         }
     }
 
     /// An instruction that may write what it names first.
     fn writes(&mut self, line: Line<'a>, first: &[u8], second: &[u8]) {
-        let place = self.place(line.start);
-        let table = match second {
-            [b'U', b'F', b'#', ..] => Some((self.variables.all_frames, &b"UF#"[..])),
-            [b'T', b'L', b'#', ..] => Some((self.variables.all_tools, &b"TL#"[..])),
-            _ => None,
-        };
-        if let Some((table, prefix)) = table {
-            if first == b"MFRAME" || first.starts_with(b"SET") {
-                self.frame(line, table, numbered(second, prefix));
-                self.note_sources(line, None);
-            }
-            return;
+        let is_setting = first == b"MFRAME" || first.starts_with(b"SET");
+        match second {
+            [b'U', b'F', b'#', ..] if is_setting => self.frame(line, self.variables.frames, second),
+            [b'T', b'L', b'#', ..] if is_setting => self.frame(line, self.variables.tools, second),
+            _ => {}
         }
-        let Some(operand) = Operand::of(second) else {
+        let (place, effect) = (self.place(line.start), effect(first));
+        let operand = Operand::of(second).filter(|_| effect != Effect::None);
+        let Some((operand, written)) =
+            operand.and_then(|operand| Some((operand, self.written_by(operand, place)?)))
+        else {
             return;
         };
-        let effect = effect(first);
-        let Some(written) = self.written_by(operand, place) else {
-            return;
-        };
-        if effect == Effect::None {
-            return;
-        }
         match written {
             Written::One(variable) => self.written.insert(variable),
             Written::AnyOf(table) => self.all_written.insert(table),
         };
-        let computed = self.builder.script.remark(Cause::Computed.remark());
         let third = words(line.text).nth(2).unwrap_or_default();
         let value = match effect {
             // with another tool it is another place
@@ -362,14 +354,10 @@ impl<'a> Reader<'a> {
             Effect::System if is_actual(third) => {
                 Some(Expr::Value(self.builder.script.value(Held::Actual)))
             }
-            Effect::Argument => {
-                let routine = self.routine();
-                let builder = &mut self.builder;
-                numbered(third, b"IARG#").map(|number| {
-                    let variables = &mut self.variables;
-                    Expr::Variable(variables.parameter(builder, routine, number, place))
-                })
-            }
+            Effect::Argument => numbered(third, b"IARG#").map(|number| {
+                let (routine, builder) = (self.routine(), &mut self.builder);
+                Expr::Variable(self.variables.parameter(builder, routine, number, place))
+            }),
             _ => None,
         };
         if let Some(value) = value {
@@ -378,6 +366,7 @@ impl<'a> Reader<'a> {
             return;
         }
         self.note_sources(line, Some(operand));
+        let computed = self.builder.script.remark(Cause::Computed.remark());
         match effect {
             Effect::Part => self.write(line, written, How::PartSomehow(computed)),
             Effect::Perhaps => {
@@ -402,10 +391,11 @@ impl<'a> Reader<'a> {
     }
 
     /// MFRAME and SETTOOL: what the frame or tool is then only the running program knows.
-    fn frame(&mut self, line: Line, table: TableId, number: Option<u32>) {
-        let unknown = self.builder.script.remark(Cause::FrameAssigned.remark());
+    fn frame(&mut self, line: Line, table: TableId, name: &[u8]) {
+        self.note_sources(line, None);
+        let unknown = self.unknown(Cause::FrameAssigned);
         let entries = &self.builder.script.tables[table as usize].entries;
-        let written = match number {
+        let written = match numbered(name, &name[..3]) {
             None => Written::AnyOf(table),
             Some(number) => match entries.get(&i64::from(number)) {
                 Some(variable) => Written::One(*variable),
@@ -413,14 +403,14 @@ impl<'a> Reader<'a> {
                 None => return,
             },
         };
-        self.write(line, written, How::Whole(Expr::Unknown(unknown)));
+        self.write(line, written, How::Whole(unknown));
     }
 
     /// Why positions of a job with other axes must stay: the first of base or station axes that does not stand at zero.
     pub fn external(&mut self, name: &[u8]) -> Option<VariableId> {
         let is_station = name.starts_with(b"E") || name.starts_with(b"LE");
         let known = &self.positions.jobs[self.here.job].external;
-        let moved = super::job::External::of(name).and_then(|external| known.get(&external));
+        let moved = super::job::external(name).and_then(|external| known.get(&external));
         let what = if is_station { "station" } else { "base" };
         let shown = Source::text(&name[..name.len().min(20)]);
         let text = match moved {
@@ -443,10 +433,19 @@ impl<'a> Reader<'a> {
         Some(*reason.get_or_insert_with(|| always(builder, remark)))
     }
 
-    /// The target that a letter and number name in the present job.
-    pub fn target(&self, letter: super::job::Letter, number: u32) -> Option<TargetId> {
+    /// A `C` position of the present job.
+    pub fn target(&self, number: u32) -> Option<TargetId> {
         let job = &self.positions.jobs[self.here.job];
-        job.named.get(&(letter, number)).copied()
+        job.named.get(&(Letter::C, number)).copied()
+    }
+}
+
+/// Arguments are given by value.
+fn given_to(parameter: Option<VariableId>, value: Expr) -> Argument {
+    Argument {
+        parameter,
+        value,
+        back: None,
     }
 }
 

@@ -1,52 +1,38 @@
 //! What a running program writes: position variables, tools and user frames, shifts; and constant reasons against moves.
 
 use super::cnd::Conditions;
-use super::job::{Header, Letter, Origin, Positions};
+use super::job::{Letter, Origin, Positions};
 use super::remarks::Cause;
 use crate::geometry::Pose;
 use crate::program::script::{
-    Builder, Expr, Held, NamedFrame, Place, RoutineId, Table, TableId, Variable, VariableId, short,
+    Builder, Expr, Held, NamedFrame, Place, Remark, RoutineId, Table, TableId, Variable,
+    VariableId, short,
 };
 use crate::program::{Load, TargetId};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Name of the tool of positions that tell none.
 const NO_TOOL: &str = "none";
+/// The beginning of everything.
+const NOWHERE: Place = Place { file: 0, offset: 0 };
 
 /// The variables of all jobs.
 pub struct Variables {
-    /// Position variables that hold everywhere, by number.
-    positions: HashMap<u32, VariableId>,
-    /// Those of one job.
-    locals: HashMap<(RoutineId, u32), VariableId>,
-    /// What callers give, by the argument's number from 1.
-    parameters: HashMap<(RoutineId, u32), VariableId>,
-    tools: HashMap<Option<u32>, Expr>,
-    frames: HashMap<Origin, Expr>,
-    /// Reasons against moves that always hold.
-    reasons: HashMap<Cause, VariableId>,
-    sets: HashMap<Box<[VariableId]>, u32>,
     /// Shifted or not.
     pub shift: VariableId,
     /// `P[…]`
-    pub all_positions: TableId,
+    pub positions: TableId,
     /// `UF#(…)`
-    pub all_frames: TableId,
+    pub frames: TableId,
     /// `TL#(…)`
-    pub all_tools: TableId,
-    all_locals: HashMap<RoutineId, TableId>,
-}
-
-/// A variable of the controller, kept from run to run.
-fn kept(name: String, place: Place, declared: Expr) -> Variable {
-    Variable {
-        name: name.into(),
-        place,
-        declared,
-        kept: true,
-        shared: false,
-        routine: None,
-    }
+    pub tools: TableId,
+    /// The tool and the work frame of positions below each header.
+    pub of_headers: Vec<(Expr, Expr)>,
+    /// `LP[…]` and the arguments, from 1, of each job.
+    locals: HashMap<RoutineId, [TableId; 2]>,
+    /// Reasons against moves that always hold.
+    reasons: HashMap<Cause, VariableId>,
+    sets: HashMap<Box<[VariableId]>, u32>,
 }
 
 fn table(builder: &mut Builder, name: &str) -> TableId {
@@ -57,136 +43,126 @@ fn table(builder: &mut Builder, name: &str) -> TableId {
     short(builder.script.tables.len() - 1)
 }
 
-/// The beginning of everything.
-const NOWHERE: Place = Place { file: 0, offset: 0 };
+/// An entry of a table; where there is none yet it is a variable of the controller, kept from run to run, or a job's own.
+fn entry(
+    builder: &mut Builder,
+    table: TableId,
+    number: u32,
+    routine: Option<RoutineId>,
+    place: Place,
+    declared: impl FnOnce(&mut Builder) -> Expr,
+) -> VariableId {
+    let key = i64::from(number);
+    if let Some(known) = builder.script.tables[table as usize].entries.get(&key) {
+        return *known;
+    }
+    let name = &builder.script.tables[table as usize].name;
+    let name = match name.strip_suffix('#') {
+        Some(_) => format!("{name}({number})"),
+        None => format!("{name}{number:03}"),
+    };
+    let declared = declared(builder);
+    let made = builder.script.variable(Variable {
+        name: name.into(),
+        place,
+        declared,
+        kept: routine.is_none(),
+        shared: false,
+        routine,
+    });
+    let entries = &mut builder.script.tables[table as usize].entries;
+    entries.insert(key, made);
+    made
+}
 
 impl Variables {
     /// Those that the headers and positions of all jobs name.
     pub fn of(builder: &mut Builder, positions: &Positions, conditions: &Conditions) -> Self {
-        let off = builder.script.value(Held::Flag(false));
-        let shift = builder.script.variable(Variable {
-            kept: false,
-            ..kept("SFTON".to_owned(), NOWHERE, Expr::Value(off))
-        });
         let mut variables = Self {
-            positions: HashMap::new(),
+            shift: constant(builder, Held::Flag(false)),
+            positions: table(builder, "P"),
+            frames: table(builder, "UF#"),
+            tools: table(builder, "TL#"),
+            of_headers: Vec::new(),
             locals: HashMap::new(),
-            parameters: HashMap::new(),
-            tools: HashMap::new(),
-            frames: HashMap::new(),
             reasons: HashMap::new(),
             sets: HashMap::new(),
-            shift,
-            all_positions: table(builder, "P"),
-            all_frames: table(builder, "UF#"),
-            all_tools: table(builder, "TL#"),
-            all_locals: HashMap::new(),
         };
-        let mut holders: HashMap<u32, Vec<TargetId>> = HashMap::new();
+        let mut holders: BTreeMap<u32, Vec<TargetId>> = BTreeMap::new();
         for (target, point) in positions.points.iter().enumerate() {
             if point.letter == Letter::P {
                 holders.entry(point.number).or_default().push(target);
             }
         }
-        let mut numbers: Vec<u32> = holders.keys().copied().collect();
-        numbers.sort_unstable();
-        for number in numbers {
-            let targets = &holders[&number];
-            let declared = match targets[..] {
-                [one] => Expr::Target(one),
-                // every job may be the one that was loaded last
-                _ => builder.script.any(targets.iter().map(|t| Expr::Target(*t))),
-            };
+        for (number, targets) in holders {
             let first = &positions.targets[targets[0]];
             let place = Place {
                 file: first.file,
                 offset: first.offset,
             };
-            variables.add_position(builder, number, place, declared);
+            entry(builder, variables.positions, number, None, place, |b| {
+                match targets[..] {
+                    [one] => Expr::Target(one),
+                    // every job may be the one that was loaded last
+                    _ => b.script.any(targets.iter().map(|t| Expr::Target(*t))),
+                }
+            });
         }
-        for header in &positions.headers {
-            variables.add_tool(builder, conditions, header.tool);
-            variables.add_frame(builder, conditions, header.origin());
-        }
+        variables.read_headers(builder, positions, conditions);
         variables
     }
 
-    fn add_position(
+    fn read_headers(
         &mut self,
         builder: &mut Builder,
-        number: u32,
-        place: Place,
-        declared: Expr,
-    ) -> VariableId {
-        let variable = kept(format!("P{number:03}"), place, declared);
-        let made = builder.script.variable(variable);
-        self.positions.insert(number, made);
-        let table = &mut builder.script.tables[self.all_positions as usize];
-        table.entries.insert(i64::from(number), made);
-        made
-    }
-
-    fn add_tool(&mut self, builder: &mut Builder, conditions: &Conditions, number: Option<u32>) {
-        if self.tools.contains_key(&number) {
-            return;
-        }
-        let known = number.and_then(|n| conditions.tools.get(&n).copied().flatten());
-        let name = number.map_or_else(|| NO_TOOL.to_owned(), |n| n.to_string());
-        let made = frame_value(builder, name, known);
-        let made = match number {
-            None => made,
-            Some(number) => {
-                let name = format!("TL#({number})");
-                let variable = builder.script.variable(kept(name, NOWHERE, made));
-                let table = &mut builder.script.tables[self.all_tools as usize];
-                table.entries.insert(i64::from(number), variable);
-                Expr::Variable(variable)
-            }
-        };
-        self.tools.insert(number, made);
-    }
-
-    fn add_frame(&mut self, builder: &mut Builder, conditions: &Conditions, origin: Origin) {
-        if self.frames.contains_key(&origin) {
-            return;
-        }
+        positions: &Positions,
+        conditions: &Conditions,
+    ) {
         let fixed = Some((Pose::identity(), None));
-        let made = match origin {
-            Origin::Base => frame_value(builder, "BASE".to_owned(), fixed),
-            Origin::Robot => frame_value(builder, "ROBOT".to_owned(), fixed),
-            Origin::User(number) => {
-                let known = conditions.frames.get(&number).copied().flatten();
-                let known = known.map(|pose| (pose, None));
-                let value = frame_value(builder, number.to_string(), known);
-                let name = format!("UF#({number})");
-                let variable = builder.script.variable(kept(name, NOWHERE, value));
-                let table = &mut builder.script.tables[self.all_frames as usize];
-                table.entries.insert(i64::from(number), variable);
-                Expr::Variable(variable)
-            }
-            Origin::Tool => Expr::Unknown(builder.script.remark(Cause::ToolCoordinates.remark())),
-            Origin::Unknown => Expr::Unknown(builder.script.remark(Cause::FrameNotNamed.remark())),
-        };
-        self.frames.insert(origin, made);
-    }
-
-    /// The tool and the work frame of positions below a header.
-    pub fn frames_of(&self, header: &Header) -> (Expr, Expr) {
-        (self.tools[&header.tool], self.frames[&header.origin()])
-    }
-
-    /// A P variable that the files hold or write.
-    pub fn known(&self, number: u32) -> Option<VariableId> {
-        self.positions.get(&number).copied()
+        let none = frame(builder, NO_TOOL.into(), None);
+        let base = frame(builder, "BASE".into(), fixed);
+        let robot = frame(builder, "ROBOT".into(), fixed);
+        let mut unknown = |cause: Cause| Expr::Unknown(builder.script.remark(cause.remark()));
+        let (relative, not_named) = (
+            unknown(Cause::ToolCoordinates),
+            unknown(Cause::FrameNotNamed),
+        );
+        for header in &positions.headers {
+            let tool = header.tool.map_or(none, |number| {
+                let made = entry(builder, self.tools, number, None, NOWHERE, |builder| {
+                    let known = conditions.tools.get(&number).copied().flatten();
+                    frame(builder, number.to_string(), known)
+                });
+                Expr::Variable(made)
+            });
+            let frame = match header.origin() {
+                Origin::Base => base,
+                Origin::Robot => robot,
+                Origin::User(number) => {
+                    let made = entry(builder, self.frames, number, None, NOWHERE, |builder| {
+                        let known = conditions.frames.get(&number).copied().flatten();
+                        frame(builder, number.to_string(), known.map(|pose| (pose, None)))
+                    });
+                    Expr::Variable(made)
+                }
+                Origin::Tool => relative,
+                Origin::Unknown => not_named,
+            };
+            self.of_headers.push((tool, frame));
+        }
     }
 
     /// A P variable; one that the files do not hold is unknown until it is written.
     pub fn position(&mut self, builder: &mut Builder, number: u32, place: Place) -> VariableId {
-        if let Some(&known) = self.positions.get(&number) {
-            return known;
-        }
-        let unknown = builder.script.remark(Cause::NotInFiles.remark());
-        self.add_position(builder, number, place, Expr::Unknown(unknown))
+        entry(builder, self.positions, number, None, place, |builder| {
+            Expr::Unknown(builder.script.remark(Cause::NotInFiles.remark()))
+        })
+    }
+
+    /// `LP[…]` and the arguments of a job.
+    pub fn locals(&mut self, builder: &mut Builder, routine: RoutineId) -> [TableId; 2] {
+        let made = || [table(builder, "LP"), table(builder, "IARG#")];
+        *self.locals.entry(routine).or_insert_with(made)
     }
 
     /// An LP variable of a job.
@@ -197,21 +173,8 @@ impl Variables {
         number: u32,
         place: Place,
     ) -> VariableId {
-        if let Some(&known) = self.locals.get(&(routine, number)) {
-            return known;
-        }
-        let made = own(builder, routine, format!("LP{number:03}"), place);
-        self.locals.insert((routine, number), made);
-        let table = self.locals_of(builder, routine);
-        let entries = &mut builder.script.tables[table as usize].entries;
-        entries.insert(i64::from(number), made);
-        made
-    }
-
-    /// `LP[…]` of a job.
-    pub fn locals_of(&mut self, builder: &mut Builder, routine: RoutineId) -> TableId {
-        let made = || table(builder, "LP");
-        *self.all_locals.entry(routine).or_insert_with(made)
+        let [table, _] = self.locals(builder, routine);
+        entry(builder, table, number, Some(routine), place, computed)
     }
 
     /// What the callers of a job give as its argument of this number.
@@ -222,18 +185,14 @@ impl Variables {
         number: u32,
         place: Place,
     ) -> VariableId {
-        *self
-            .parameters
-            .entry((routine, number))
-            .or_insert_with(|| own(builder, routine, format!("IARG#({number})"), place))
+        let [_, table] = self.locals(builder, routine);
+        entry(builder, table, number, Some(routine), place, computed)
     }
 
     /// A variable that always holds a reason against moves.
     pub fn reason(&mut self, builder: &mut Builder, cause: Cause) -> VariableId {
-        *self
-            .reasons
-            .entry(cause)
-            .or_insert_with(|| always(builder, cause.remark()))
+        let made = || always(builder, cause.remark());
+        *self.reasons.entry(cause).or_insert_with(made)
     }
 
     /// The index of reasons against a move.
@@ -248,26 +207,32 @@ impl Variables {
     }
 }
 
-/// A variable that nothing writes, with a reason against moves.
-pub fn always(builder: &mut Builder, remark: crate::program::script::Remark) -> VariableId {
-    let remark = builder.script.remark(remark);
-    let value = builder.script.value(Held::Remark(remark));
-    builder
-        .script
-        .variable(kept(String::new(), NOWHERE, Expr::Value(value)))
+/// What a variable of a job holds before it is written.
+fn computed(builder: &mut Builder) -> Expr {
+    Expr::Unknown(builder.script.remark(Cause::Computed.remark()))
 }
 
-/// A variable of a job: what it holds before it is written nobody knows.
-fn own(builder: &mut Builder, routine: RoutineId, name: String, place: Place) -> VariableId {
-    let unknown = builder.script.remark(Cause::Computed.remark());
+/// A variable that holds a reason against moves, and that nothing writes.
+pub fn always(builder: &mut Builder, remark: Remark) -> VariableId {
+    let remark = builder.script.remark(remark);
+    constant(builder, Held::Remark(remark))
+}
+
+/// A state of the controller.
+fn constant(builder: &mut Builder, value: Held) -> VariableId {
+    let declared = Expr::Value(builder.script.value(value));
     builder.script.variable(Variable {
+        name: Box::default(),
+        place: NOWHERE,
+        declared,
         kept: false,
-        routine: Some(routine),
-        ..kept(name, place, Expr::Unknown(unknown))
+        shared: false,
+        routine: None,
     })
 }
 
-fn frame_value(builder: &mut Builder, name: String, known: Option<(Pose, Option<Load>)>) -> Expr {
+/// A tool or work frame.
+fn frame(builder: &mut Builder, name: String, known: Option<(Pose, Option<Load>)>) -> Expr {
     let value = builder.script.value(Held::Frame(NamedFrame {
         name: name.into(),
         pose: known.map(|(pose, _)| pose),

@@ -109,8 +109,13 @@ fn a_profile_without_effects_changes_nothing_but_the_header() {
         let profile = std::fs::read_to_string(folder.join(&case.profile)).expect("a profile");
         let plain = without_effects(&profile);
         std::fs::write(scratch.path().join("plain.yaml"), plain).expect("scratch");
+        let offset = scratch.path().join("offset.yaml");
+        std::fs::write(&offset, NO_OFFSET).expect("scratch");
+        let mut options = case.options.clone();
+        options.extend(["--work-offset".into(), offset.display().to_string()]);
         let case = Case {
             profile: scratch.path().join("plain.yaml").display().to_string(),
+            options,
             ..case
         };
         let out = scratch.path().join("out");
@@ -131,13 +136,15 @@ fn a_profile_without_effects_changes_nothing_but_the_header() {
     }
 }
 
-/// A profile's text with one effect, a picometre of a link: a profile without any is refused.
+/// A part that stands where it was simulated: without it a profile without effects is refused.
+const NO_OFFSET: &str = "poseshift: frame/1
+pose: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}
+";
+
+/// A profile's text with an empty list of effects.
 fn without_effects(profile: &str) -> String {
     let start = profile.find("calibration:").expect("a calibrated profile");
-    format!(
-        "{}calibration: {{effects: [{{effect: link_geometry, link: 3, a_mm: 1.0e-9}}]}}\n",
-        &profile[..start]
-    )
+    format!("{}calibration: {{effects: []}}\n", &profile[..start])
 }
 
 /// The file without its marker: what stands where its language puts one, as many bytes as it has grown by.

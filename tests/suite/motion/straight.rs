@@ -136,7 +136,8 @@ impl Peer {
             let elbow = next[2] + (0.07_f64).atan2(0.302);
             let wrist = from.between(to, s);
             let centre = wrist.position - wrist.rotation * Vector3::new(0.072, 0.0, 0.0);
-            let clear = centre.x.hypot(centre.y) > 0.1 && (elbow - 1.570_796).abs() > 0.2;
+            let clear =
+                centre.x.hypot(centre.y) > 0.1 && (elbow - std::f64::consts::FRAC_PI_2).abs() > 0.2;
             if !clear {
                 return None;
             }

@@ -316,7 +316,7 @@ fn offsets_of_moves_are_known_at_run_time_only() {
 
 #[test]
 fn comments_remarks_and_strings_are_no_instructions() {
-    let lines = "  1:  !L P[1] 40mm/sec FINE ;\n  2:  --eg:L P[1] 40mm/sec FINE ;\n  3:  //L P[1] 40mm/sec FINE ;\n  4:  MESSAGE[L P[1] now] ;\n  5:  CALL LOG('P[1]') ;\n   : ;\n  6:J P[1] 1% FINE ;\n  7:  ! no end\n";
+    let lines = "  1:  !L P[1] 40mm/sec FINE ;\n  2:  --eg:L P[1] 40mm/sec FINE ;\n  3:  //C P[1]\n    :  P[1] 40mm/sec FINE ;\n  4:  MESSAGE[L P[1] now] ;\n  5:  CALL LOG('P[1]') ;\n   : ;\n  6:J P[1] 1% FINE ;\n  7:  ! no end\n";
     let program = read(lines, &usual("1"));
     assert_eq!((program.moves.len(), program.findings.len()), (1, 0));
 }
