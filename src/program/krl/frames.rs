@@ -5,11 +5,11 @@ use super::reader::Reader;
 use super::targets::{Owner, refusal};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Rotation};
+use crate::program::names::Symbol;
 use crate::program::script::{
     Expr, Held, NamedFrame, Part, PartValue, Place, Remark, Script, TableId, ValueId, Variable,
     VariableId, short,
 };
-use crate::program::names::Symbol;
 use crate::program::{Load, Number};
 use std::collections::{HashMap, HashSet};
 

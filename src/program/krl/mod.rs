@@ -119,8 +119,8 @@ impl Language for Krl {
         sniff::recognises(&source.bytes)
     }
 
-    fn script(&self, sources: &[Source], settings: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources, settings))
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+        script(sources, settings)
     }
 
     fn frame_of(

@@ -7,7 +7,9 @@ use super::reader::{Reader, fdat, is_external, load};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::number;
-use crate::program::script::{Expr, How, Part, PartValue, Place, VariableId, Write, Written, short};
+use crate::program::script::{
+    Expr, How, Part, PartValue, Place, VariableId, Write, Written, short,
+};
 
 impl Reader {
     /// Sets a state of the controller.
