@@ -173,3 +173,32 @@ pub fn run(arguments: &[&str]) -> (i32, String, String) {
         text(output.stderr),
     )
 }
+
+/// The files of the repository as git has them, relative to its top: what lies about besides is none of them. Of an archive
+/// without git, every file that is there.
+pub fn tracked() -> &'static std::collections::BTreeSet<PathBuf> {
+    static FILES: std::sync::OnceLock<std::collections::BTreeSet<PathBuf>> =
+        std::sync::OnceLock::new();
+    FILES.get_or_init(|| {
+        let listed = std::process::Command::new("git")
+            .args(["ls-files", "-z"])
+            .current_dir(repository(""))
+            .output()
+            .ok()
+            .filter(|output| output.status.success() && !output.stdout.is_empty());
+        match listed {
+            Some(output) => String::from_utf8(output.stdout)
+                .expect("plain names")
+                .split_terminator('\0')
+                .map(PathBuf::from)
+                .collect(),
+            None => files_below(&repository("")).into_iter().collect(),
+        }
+    })
+}
+
+/// Whether a word names a file of the repository or a folder of such.
+pub fn is_tracked(word: &str) -> bool {
+    let path = Path::new(word.trim_end_matches('/'));
+    !word.is_empty() && tracked().iter().any(|file| file.starts_with(path))
+}

@@ -2,41 +2,20 @@
 //!
 //! A position is `{X ..,Y ..,Z ..,A ..,B ..,C ..,S ..,T ..,E1 ..}`, mm and degrees, `R = Rz(A) · Ry(B) · Rx(C)`; S and T tell
 //! the inverse solution (`status`) where the move is a PTP. Axes are `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes
-//! stay as they are. The pose is that of $TOOL in $BASE, and both are variables of the controller: what they are at a move
-//! is worked out over branches, loops and calls (`flow`), from $TOOL and $BASE themselves, BAS, FDAT of inline forms, WITH,
-//! `TOOL_DATA` and `BASE_DATA` (`places`). Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere.
+//! stay as they are, and are not understood where they are in use. The pose is that of $TOOL in $BASE. Both are variables of
+//! the controller, as are $LOAD, $`IPO_MODE`, what `FDAT_ACT` holds, and the entries of `TOOL_DATA`, `BASE_DATA`, `LOAD_DATA`
+//! (`frames`); $TOOL=, BAS, inline forms and WITH write them (`states`). Positions that a statement writes, or that are
+//! parameters, are variables too (`targets`); what of it reaches a move is worked out in [`crate::motion`].
 //!
-//! # Findings
+//! Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere. Of a data list everything keeps its
+//! value from one run to the next. Routines of interrupts and triggers, and submit programs, run at any time.
 //!
-//! | id | severity | meaning |
-//! |---|---|---|
-//! | `target-assigned-at-run-time` | error | the running program changes the target |
-//! | `target-has-expressions` | error | parts of the target are expressions, not numbers |
-//! | `partial-target` | error | components are missing, which keep the value of the position before |
-//! | `target-passed-to-routine` | error | the target is handed to a routine |
-//! | `target-name-ambiguous` | error | a name is declared more than once, and its use does not tell which is meant |
-//! | `target-used-as-frame` | error | the target is a tool or base, too |
-//! | `frame-assigned-at-run-time` | error | the running program changes the tool or base |
-//! | `frame-chosen-at-run-time` | error | ways that meet, an expression or a routine outside the files decide the tool or base |
-//! | `frame-name-ambiguous` | error | `TOOL_DATA` or `BASE_DATA` is declared more than once with different values |
-//! | `moving-frame` | error | the base hangs on another kinematic |
-//! | `external-tcp` | error | the robot holds the work piece (`#TCP`) |
-//! | `absolutely-accurate` | error | S bit 4: the controller corrects the target itself; with `--force` a warning, once a file |
-//! | `computed-target` | error | a move goes to a position that only the running program knows |
-//! | `target-not-in-files` | error | a move goes to a target that the files do not declare |
-//! | `relative-move` | error | a _REL move from a position that the text does not tell |
-//! | `target-copied` | warning | another target is computed from this one |
-//! | `long-line` | warning | new numbers may make the line longer than the controller takes |
-//! | `relative-joint-move` | note | a _REL move of axes |
-//! | `joint-target-not-in-files` | note | a move goes to axes without a value in the files, such as XHOME |
-//! | `target-never-used` | note | no move in the program of this data list goes to the target; it stays |
-//!
-//! For joint targets, which stay unless asked for, the first twelve are warnings.
+//! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
-//! Positions in structures, routines called by interrupts and triggers, and sensor corrections are not followed. A routine
-//! outside the files is taken to change tool or base only where moves use more than one.
+//! Positions in structures and sensor corrections are not followed. A routine outside the files is taken to change tool or
+//! base only where moves use more than one. An arc to an angle (CA) is refused.
 
 mod aggregate;
 mod calls;

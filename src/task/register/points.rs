@@ -1,11 +1,11 @@
 //! Tables of points and of probe touches, and which of them belong together.
 
-use super::failure::Failure;
-use super::table::Table;
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, norm, scale};
+use crate::program::Source;
+use crate::task::failure::Failure;
+use crate::task::table::Table;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Columns of a position.
 pub const POINT: [&str; 3] = ["x_mm", "y_mm", "z_mm"];
@@ -42,8 +42,8 @@ pub struct Points {
 }
 
 impl Points {
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        let table = Table::read(path)?;
+    pub fn read(source: &Source) -> Result<Self, Failure> {
+        let table = Table::read(source)?;
         table.require(&POINT)?;
         let optional = |column: &'static str| table.has(column).then_some(column);
         let (radius, sigma, weight) = (
@@ -99,7 +99,7 @@ impl Points {
             });
         }
         Ok(Self {
-            name: path.display().to_string(),
+            name: source.name.clone(),
             rows,
             has_ids: table.has("id"),
         })

@@ -4,9 +4,11 @@ use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{ControllerModel, Mounted, Profile};
 use crate::model::{Conditions, Model};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// How far a robot's real tool is from where its controller believes it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Deviation {
     /// Mean distance, mm.
     pub mean_mm: f64,
@@ -111,13 +113,13 @@ pub fn facts(profile: &Profile) -> Vec<(String, String)> {
 
 /// Mean and largest distance between the real and the controller's tool over an even grid of postures.
 #[must_use]
-pub fn typical_deviation(profile: &Profile, conditions: &Conditions) -> Deviation {
-    let tool = first_tool(profile);
+pub fn typical_deviation(profile: &Profile) -> Deviation {
+    let (tool, conditions) = (first_tool(profile), Conditions::default());
     deviation(
         profile,
-        &profile.real_model(&tool, conditions),
+        &profile.real_model(&tool, &conditions),
         &profile.controller_model(&tool),
-        conditions,
+        &conditions,
     )
 }
 

@@ -1,34 +1,36 @@
 //! CSV tables with a header: columns in any order, errors by line and column.
 
 use super::failure::Failure;
-use super::files;
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::{Pose, Quaternion};
 use crate::identify::doubt::csv::not_csv;
 use crate::program::Source;
-use std::path::Path;
 
 /// A table read whole.
-pub struct Table {
-    source: Source,
+pub struct Table<'a> {
+    source: &'a Source,
     header: Vec<String>,
     rows: Vec<(usize, csv::StringRecord)>,
 }
 
 /// One row of a table.
 pub struct Row<'a> {
-    table: &'a Table,
+    table: &'a Table<'a>,
     /// Line in the file, from 1.
     pub line: usize,
     cells: &'a csv::StringRecord,
 }
 
-impl Table {
+impl<'a> Table<'a> {
     /// Reads a table; lines that start with `#` are comments.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        let source = Source::new(path.display().to_string(), files::read(path)?);
+    ///
+    /// # Errors
+    /// Text that is no table, with line and column.
+    pub fn read(source: &'a Source) -> Result<Self, Failure> {
         if let Some(doubt) = not_csv(&source.bytes) {
             let (line, column) = (doubt.line, doubt.column);
             return Err(Failure::at(
-                &source,
+                source,
                 line,
                 column,
                 None,
@@ -51,7 +53,7 @@ impl Table {
                 csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".into(),
                 _ => error.to_string(),
             };
-            Failure::at(&source, line, 1, None, message, String::new())
+            Failure::at(source, line, 1, None, message, "")
         };
         let header = reader
             .headers()
@@ -67,7 +69,6 @@ impl Table {
                 .map_or(0, |p| usize::try_from(p.line()).unwrap_or(0));
             rows.push((line, record));
         }
-        drop(reader);
         Ok(Self {
             source,
             header,
@@ -80,7 +81,10 @@ impl Table {
         self.header.iter().any(|name| name == column)
     }
 
-    /// Fails where one of these columns is missing or stands twice.
+    /// That it has these columns.
+    ///
+    /// # Errors
+    /// One of them is missing or stands twice.
     pub fn require(&self, columns: &[&str]) -> Result<(), Failure> {
         let count = |column: &str| self.header.iter().filter(|name| *name == column).count();
         let missing: Vec<_> = columns
@@ -126,6 +130,9 @@ impl Row<'_> {
     }
 
     /// A finite number in a required column.
+    ///
+    /// # Errors
+    /// The cell is none.
     pub fn number(&self, column: &str) -> Result<f64, Failure> {
         let text = self.text(column).unwrap_or_default();
         let number = text.parse().ok().filter(|n: &f64| n.is_finite());
@@ -137,17 +144,20 @@ impl Row<'_> {
             };
             let message = format!("column {column}: {found} is not a finite number");
             Failure::at(
-                &self.table.source,
+                self.table.source,
                 self.line,
                 self.column_of(column),
                 Some(text.len()),
                 message,
-                String::new(),
+                "",
             )
         })
     }
 
     /// Finite numbers in required columns.
+    ///
+    /// # Errors
+    /// One of the cells is none.
     pub fn numbers<const N: usize>(&self, columns: [&str; N]) -> Result<[f64; N], Failure> {
         let mut out = [0.0; N];
         for (slot, column) in out.iter_mut().zip(columns) {
@@ -156,16 +166,17 @@ impl Row<'_> {
         Ok(out)
     }
 
+    /// The six joint angles of the controller, radians.
+    ///
+    /// # Errors
+    /// One of the cells is no finite number.
+    pub fn joints(&self) -> Result<[f64; 6], Failure> {
+        Ok(self.numbers(JOINTS)?.map(|q| q * DEG))
+    }
+
     /// A failure at this row.
     pub fn failure(&self, message: String) -> Failure {
-        Failure::at(
-            &self.table.source,
-            self.line,
-            1,
-            None,
-            message,
-            String::new(),
-        )
+        Failure::at(self.table.source, self.line, 1, None, message, "")
     }
 
     /// The `id` column, else the row's number from 1.
@@ -195,6 +206,8 @@ impl Row<'_> {
     }
 }
 
+/// How far a quaternion of a table may be from length 1.
+pub const UNIT_TOLERANCE: f64 = 1e-3;
 /// Joint columns.
 pub const JOINTS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
 /// Pose columns.
@@ -203,4 +216,30 @@ pub const POSE: [&str; 7] = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"];
 /// A number for output tables: every digit that a reader needs to get the same number back.
 pub fn cell(value: f64) -> String {
     format!("{}", if value == 0.0 { 0.0 } else { value })
+}
+
+/// Seven columns of a pose, mm and a quaternion whose length is 1 to [`UNIT_TOLERANCE`].
+///
+/// # Errors
+/// A cell that is no number; another length of the quaternion.
+pub fn pose(row: &Row) -> Result<Pose, Failure> {
+    let [x, y, z, w, i, j, k] = row.numbers(POSE)?;
+    Ok(Pose::from_parts(
+        [x, y, z].map(m_from_mm),
+        unit(row, Quaternion([w, i, j, k]))?,
+    ))
+}
+
+/// A quaternion of a row, normalised.
+///
+/// # Errors
+/// Its length differs from 1 by more than [`UNIT_TOLERANCE`].
+pub fn unit(row: &Row, quaternion: Quaternion) -> Result<Quaternion, Failure> {
+    let norm = quaternion.norm();
+    if (norm - 1.0).abs() > UNIT_TOLERANCE {
+        return Err(row.failure(format!(
+            "the quaternion's length is {norm:.6}; it may differ from 1 by {UNIT_TOLERANCE}"
+        )));
+    }
+    Ok(quaternion.normalized())
 }

@@ -1,8 +1,6 @@
 //! The way of a measuring program: which configurations the arm may stand in, in which order, and what its moves meet.
 
-use super::check::Loader;
-use super::compensate::language_by_id;
-use super::failure::Failure;
+use super::approach::Stop;
 use crate::check::passage::Passage;
 use crate::check::posture::touching;
 use crate::check::{Options, Scene, Subject, check};
@@ -13,8 +11,9 @@ use crate::identify::route;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use crate::program::Source;
-use crate::report::approach::Stop;
-use std::path::Path;
+use crate::task::meshes::{Loader, Reader};
+use crate::task::programs::language_by_id;
+use crate::task::{Failure, ProfileFile};
 
 /// Where moves are sampled, so far apart, radians.
 const STEP_RAD: f64 = 2.0 * DEG;
@@ -38,15 +37,16 @@ pub struct Driving<'a> {
 impl<'a> Driving<'a> {
     /// Reads the meshes that the profile's shapes name.
     pub fn new(
-        profile: &'a Profile,
-        path: &Path,
+        file: &'a ProfileFile,
         tool: &'a Mounted,
         constraints: &'a Constraints,
+        read: Reader,
     ) -> Result<Self, Failure> {
+        let profile = &file.profile;
         let mut shaped = profile.clone();
-        let mut meshes = Loader::default();
+        let mut meshes = Loader::new(read);
         for shape in &mut shaped.shapes {
-            meshes.load(&mut shape.shape, path)?;
+            meshes.load(&mut shape.shape, &file.name)?;
         }
         let scene = Scene::new(&shaped, None, &meshes.meshes)
             .map_err(|missing| Failure::new(missing.to_string()))?;
@@ -130,15 +130,8 @@ impl<'a> Driving<'a> {
     }
 
     /// What the moves of a program meet: what each configuration is come to over, its approach, then the configuration.
-    pub fn findings(
-        &self,
-        language: &str,
-        program: &Path,
-        text: &str,
-        stops: &[Stop],
-    ) -> Vec<Finding> {
-        let file = program.display().to_string();
-        let mut findings = self.touched(language, &file, text, stops);
+    pub fn findings(&self, language: &str, file: &str, text: &str, stops: &[Stop]) -> Vec<Finding> {
+        let mut findings = self.touched(language, file, text, stops);
         let mut at: Option<[f64; 6]> = None;
         for (index, stop) in stops.iter().enumerate() {
             let approach = self.constraints.approach(&stop.q);
@@ -178,7 +171,7 @@ impl<'a> Driving<'a> {
             };
             findings.push(warning(
                 id,
-                &file,
+                file,
                 0,
                 format!("the way to configuration {} {what}", index + 1),
             ));
@@ -263,5 +256,6 @@ fn warning(id: &'static str, file: &str, line: usize, message: String) -> Findin
         column: usize::from(line > 0),
         message,
         hint: BY_HAND.into(),
+        accepted: false,
     }
 }
