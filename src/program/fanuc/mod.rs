@@ -108,8 +108,8 @@ impl Language for Fanuc {
             && (Sections::of(bytes).is_some() || frames::kind(bytes).is_some())
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(reader::script(sources))
+    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
+        reader::script(sources)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {

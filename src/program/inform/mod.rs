@@ -97,8 +97,8 @@ impl Language for Inform {
             && (is_job(&source.bytes) || cnd::recognises(&source.bytes))
     }
 
-    fn script(&self, sources: &[Source], settings: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources, settings))
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+        script(sources, settings)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {

@@ -31,9 +31,6 @@ mod values;
 mod verbs;
 mod world;
 
-// until every language names the shared kit itself
-pub(in crate::program) use super::names;
-
 use super::kit::check_bytes;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
@@ -98,8 +95,8 @@ impl Language for Rapid {
         sniff::recognises(&source.bytes)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources))
+    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
+        script(sources)
     }
 
     fn frame_of(

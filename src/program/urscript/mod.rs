@@ -94,8 +94,8 @@ impl Language for UrScript {
         sniff::recognises(&source.bytes)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources))
+    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
+        script(sources)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {
