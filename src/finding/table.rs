@@ -67,7 +67,9 @@ pub fn kind(id: &str) -> Option<&'static Kind> {
 /// Every finding, by id.
 pub const TABLE: &[Kind] = &[
     row("absolutely-accurate", Error, "S bit 4: the controller corrects the target itself; with `--force` a warning, once a file", "compensate a program that was written without absolute accuracy", &["compensate", "check"], &["krl"]),
+    row("acceptance-unused", Warning, "an error that --accept names is not there", "leave the option out", &["compensate"], &[]),
     row("angle-too-large", Error, "an angle of a target is none that anybody means", "write its orientation with angles of a few turns at most", &["compensate"], &[]).never_accepted(),
+    row("at-singularity", Warning, "a target at the singularity of the wrist, where the real arm has no posture on the meant side, is solved as --at-singularity says", "check the move slowly, or move the target", &["compensate"], &[]),
     row("axes-unlike", Warning, "two measured joint axes lie otherwise to one another than in the profile", "is it this robot? does one joint move at a time?", &["axes"], &[]),
     row("bad-touch", Warning, "a touch contradicts the others and is left out (--robust)", "touch it again", &["register"], &[]),
     row("base-not-determined", Warning, "distances from few fixed points do not tell how the base is rotated", "believe the arm's own values only; distances from three fixed points, or some positions, determine the base", &["calibrate", "validate", "diagnose"], &[]),
@@ -108,6 +110,7 @@ pub const TABLE: &[Kind] = &[
     row("frame-name-ambiguous", Error, "a tool or frame is declared more than once", "pass only the files of one controller, or make the data local", &["compensate", "check"], &["rapid", "krl"]).never_accepted(),
     row("frame-not-named", Error, "a rectangular position without POSTYPE, or without the number of its user frame", "write POSTYPE, and UFNO of a user frame", &["compensate", "check"], &["inform"]).never_accepted(),
     row("frame-number-differs", Warning, "another number is selected than the point was taught with", "see which frame and tool the point was taught with", &["compensate", "check"], &["fanuc"]),
+    row("frame-unknown", Error, "neither files nor profile nor command line say where a tool or work frame is (with --write-good an error of the programs that use it)", "give the files that declare it, or --tool and --frame", &["compensate"], &[]).never_accepted(),
     row("frames-rounded", Note, "FRAME.DG shows tools and frames with one decimal", "give SYSFRAME.VA, or --tool and --frame with their decimals", &["compensate", "check"], &["fanuc"]),
     row("grip-load", Note, "the robot carries something that is not in the tool's load", "put the load into the tool of the profile that is used there", &["compensate", "check"], &["rapid"]),
     row("hardly-determined", Warning, "the model has nearly as many parameters as the rows have numbers", "measure more configurations, or identify less with --level", &["calibrate", "validate", "diagnose"], &[]),
@@ -157,6 +160,7 @@ pub const TABLE: &[Kind] = &[
     row("rconf-of-post", Warning, "RCONF of a post that is known to mix its fields up; it is not used", "see that the controller stands so, or teach the joints", &["compensate", "check"], &["inform"]),
     row("relative-joint-move", Note, "a relative move of axes", "it stays as it is", &["compensate", "check"], &["krl"]),
     row("relative-move", Error, "a relative move from a position that the text does not tell", "move to a target with its own numbers", &["compensate", "check"], &["krl", "fanuc", "inform"]).was(&["incremental-move"]),
+    row("rounding", Error, "the decimals that the file can hold leave the tool more than 0.01 mm or 0.01 deg off its wanted pose; a warning of targets in joints", "--decimals 4 writes more, where the controller takes them", &["compensate"], &[]),
     row("run-time-position", Note, "a move goes to where the robot itself was; that is right as it is", "it stays as it is", &["compensate", "check"], &[]),
     row("scale", Warning, "TO is larger or smaller than FROM", "other units, or a part that is warmer or colder than its drawing", &["register"], &[]),
     row("search-move", Error, "a search decides where the move ends", "move to a target that the files declare with numbers", &["compensate", "check"], &["inform"]),
@@ -172,6 +176,7 @@ pub const TABLE: &[Kind] = &[
     row("target-assigned-at-run-time", Error, "the running program changes the target", "correct the value where the program computes it, or keep the target out of the path", &["compensate", "check"], &[]).was(&["target-used-by-instruction"]),
     row("target-copied", Warning, "another target is computed from this one", "see whether the other one should be compensated, too", &["compensate", "check"], &["krl", "fanuc", "urscript", "inform"]),
     row("target-has-expressions", Error, "parts of the target are expressions, not numbers", "write the target with numbers in the offline system", &["compensate", "check"], &["rapid", "krl", "urscript"]).was(&["joints-have-expressions"]),
+    row("target-in-context", Error, "a move goes to a target in a file that is read for its declarations only", "give that file as a program too", &["compensate"], &[]),
     row("target-name-ambiguous", Error, "a name is declared more than once, and its use does not tell which is meant", "pass only the files of one controller, or make the data local", &["compensate", "check"], &["rapid", "krl", "fanuc", "inform"]).was(&["target-declared-twice"]),
     row("target-not-in-files", Error, "a move goes to a target that the files do not declare", "give the file that declares it together", &["compensate", "check"], &["rapid", "krl", "fanuc", "urscript", "inform"]).was(&["target-not-in-file"]),
     row("target-not-six-axes", Error, "the target does not have the six joints of the arm", "compensate programs of arms with six joints", &["compensate", "check"], &["fanuc", "inform"]).was(&["axis-count"]),

@@ -35,6 +35,8 @@ const NEAR_AXIS_1_M: f64 = 0.008;
 const NEAR_STRAIGHT_RAD: f64 = 0.15;
 /// Where the two first starts end farther from the wanted pose, no other start can help: the pose is out of reach.
 const HOPELESS_M: f64 = 0.002;
+/// A metre at the tip counts as much as so many radians where not all can be had.
+const TIP_FIRST: f64 = 1e4;
 /// Turns of joint 4 against joint 6 that are tried at an aligned wrist, as parts of a right angle.
 const WRIST_TURNS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
@@ -62,7 +64,15 @@ pub(super) fn from_near(inverse: &Inverse, wanted: &Pose, near: &[f64; 6]) -> Op
     } = inverse;
     let gap = real.forward(near, conditions).separation(wanted);
     let is_near = gap.distance_m < NEAR_TARGET.0 && gap.angle_rad < NEAR_TARGET.1;
-    is_near.then(|| descend(&real.cast(), conditions, wanted, near))
+    is_near.then(|| descend(&real.cast(), conditions, wanted, near, None))
+}
+
+/// The descent from `near` with one joint held where it is: the tool's tip goes to `wanted`, its orientation as near as may be.
+pub(super) fn held(inverse: &Inverse, wanted: &Pose, near: &[f64; 6], joint: usize) -> Found {
+    let Inverse {
+        real, conditions, ..
+    } = inverse;
+    descend(&real.cast(), conditions, wanted, near, Some(joint))
 }
 
 /// Searches from the given start and the nominal solution, then from starts beside the singularities that these are near
@@ -94,7 +104,7 @@ pub(super) fn solve(
         if spent > MOST_EVALUATIONS {
             break;
         }
-        let found = descend(&real, conditions, wanted, &q);
+        let found = descend(&real, conditions, wanted, &q, None);
         spent += found.iterations;
         if is_meant(&found) {
             return Found {
@@ -203,21 +213,40 @@ struct Linearized {
     gap: Separation,
 }
 
-/// Levenberg–Marquardt from one start.
+impl Linearized {
+    /// Without one joint; with six demands on five joints those of the tip go first.
+    fn hold(&mut self, joint: usize) {
+        self.jacobian.column_mut(joint).fill(0.0);
+        for row in 0..3 {
+            self.error[row] *= TIP_FIRST;
+            self.jacobian.row_mut(row).scale_mut(TIP_FIRST);
+        }
+    }
+}
+
+/// Levenberg–Marquardt from one start; with a joint held, distances count more than angles.
 fn descend(
     real: &Model<Dual<6>>,
     conditions: &Conditions,
     wanted: &Pose,
     start: &[f64; 6],
+    held: Option<usize>,
 ) -> Found {
+    let linearize = |q: &[f64; 6]| {
+        let mut here = linearize(real, conditions, wanted, q);
+        if let Some(joint) = held {
+            here.hold(joint);
+        }
+        here
+    };
     let mut q = *start;
-    let mut here = linearize(real, conditions, wanted, &q);
+    let mut here = linearize(&q);
     let mut lambda = LEAST_DAMPING;
     let mut iterations = 1;
     let mut idle = 0;
     while iterations < MOST_ITERATIONS && lambda < MOST_DAMPING && idle < STALLS.1 {
         let trial = stepped(&q, &here, lambda);
-        let there = linearize(real, conditions, wanted, &trial);
+        let there = linearize(&trial);
         iterations += 1;
         let (before, after) = (here.error.norm(), there.error.norm());
         idle = if after < (1.0 - STALLS.0) * before {

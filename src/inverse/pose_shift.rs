@@ -130,6 +130,32 @@ impl Inverse {
         self.solve(wanted, self.arm.posture(near).0, near)
     }
 
+    /// The posture with one joint where it is in `near` that brings the tip of the real tool to `wanted`, and its orientation as near
+    /// as may be: [`Status::Converged`] tells that the tip is there and the joints are within their limits.
+    #[must_use]
+    pub fn solve_held(&self, wanted: &Pose, near: &[f64; 6], joint: usize) -> Outcome {
+        if !is_finite(wanted, near) {
+            return self.refused(near);
+        }
+        let found = newton::held(self, wanted, near, joint);
+        let beyond = self.arm.mechanism().beyond_limit(&found.q, 0.0);
+        let status = match beyond {
+            Some(joint) => Status::JointLimit(joint),
+            None if found.residual.distance_m < TOLERANCE_M => Status::Converged,
+            None => Status::NotConverged,
+        };
+        Outcome {
+            q: found.q,
+            status,
+            method: Method::Newton,
+            residual: found.residual,
+            iterations: found.iterations,
+            shift_evaluations: 0,
+            newton_evaluations: found.iterations,
+            margins: self.stance_at(&found.q).margins(),
+        }
+    }
+
     /// [`Inverse::solve`] with the methods that are allowed.
     #[must_use]
     pub fn solve_by(
