@@ -8,8 +8,8 @@ use poseshift::model::profile::{Mounted, Profile};
 use poseshift::program::{self, Source};
 
 /// Effects of the arm of these tests.
-const PLAIN: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
-const BACKLASH: &str = "{effect: backlash, joint: 2, width_deg: -0.1}";
+pub(super) const PLAIN: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
+pub(super) const BACKLASH: &str = "{effect: backlash, joint: 2, width_deg: -0.1}";
 
 fn profile(effects: &[&str]) -> Profile {
     let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
@@ -19,7 +19,7 @@ fn profile(effects: &[&str]) -> Profile {
         .expect("a profile")
 }
 
-fn try_with(
+pub(super) fn try_with(
     options: Options,
     effects: &[&str],
     files: &[(&str, &str)],
@@ -32,7 +32,7 @@ fn try_with(
     compensate(language, &sources, &profile(effects), &options)
 }
 
-fn given() -> Options {
+pub(super) fn given() -> Options {
     let mut given = Given::default();
     given.tools.insert(None, Mounted::flange());
     given.frames.insert(None, Pose::identity());
@@ -42,11 +42,11 @@ fn given() -> Options {
     }
 }
 
-fn done(effects: &[&str], files: &[(&str, &str)]) -> Compensation {
+pub(super) fn done(effects: &[&str], files: &[(&str, &str)]) -> Compensation {
     try_with(given(), effects, files).expect("read")
 }
 
-fn errors(done: &Compensation) -> Vec<&'static str> {
+pub(super) fn errors(done: &Compensation) -> Vec<&'static str> {
     let errors = done
         .findings
         .iter()
@@ -55,7 +55,7 @@ fn errors(done: &Compensation) -> Vec<&'static str> {
 }
 
 /// The message of an error, which must be there.
-fn message<'a>(done: &'a Compensation, id: &str) -> &'a str {
+pub(super) fn message<'a>(done: &'a Compensation, id: &str) -> &'a str {
     let found = done.findings.iter().find(|f| f.id == id);
     &found
         .unwrap_or_else(|| panic!("{id} in {:?}", done.findings))
