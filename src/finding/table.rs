@@ -129,6 +129,7 @@ pub const TABLE: &[Kind] = &[
     row("large-turn", Note, "a joint rotates by more than half a turn in one move", "cables and hoses rotate along: look at them", &["check"], &[]),
     row("leaves-box", Warning, "a move of the program takes the tool out of --inside-mm", "drive it by hand, over a pose between, or leave the configuration out", &["plan"], &[]),
     row("little-variety", Warning, "the rows are of too few configurations to fit base and tool", "validate on more configurations", &["validate"], &[]),
+    row("load-chosen-at-run-time", Warning, "only the running program knows the load that the robot carries; that of the tool is taken", "write the load with numbers, or choose an entry of LOAD_DATA", &["compensate", "check"], &["krl"]),
     row("long-line", Warning, "new numbers may make the line longer than the controller takes", "break the line before compensating, or use fewer decimals", &["compensate", "check"], &["krl"]),
     row("motion-without-target", Note, "moves by speed or force: they have no target", "they stay as they are", &["compensate", "check"], &["urscript"]),
     row("move-not-supported", Error, "other moves: conveyors, external reference points", "move to targets with MOVJ, MOVL, MOVC or MOVS", &["compensate", "check"], &["inform"]),

@@ -887,7 +887,15 @@ impl<'a> Flow<'a> {
             How::Whole(value) => {
                 let held = self.evaluate(state, *value, site);
                 let atoms = self.holdings.of(held).to_vec();
-                let here = atoms.into_iter().map(|(atom, _)| (atom, site)).collect();
+                // of a copy the write that made it another tells more than the copying
+                let is_copy = matches!(value, Expr::Variable(_) | Expr::Element { .. });
+                let here = atoms
+                    .into_iter()
+                    .map(|(atom, of)| match of {
+                        of if is_copy && of != DECLARED => (atom, of),
+                        _ => (atom, site),
+                    })
+                    .collect();
                 return self.holdings.intern(here);
             }
             How::Parts { first, parts } => (*first, parts.clone(), None),
@@ -1108,11 +1116,33 @@ impl<'a> Flow<'a> {
                 && self.script.variables[parameter as usize].routine == Some(routine)
                 && self.slots[parameter as usize].is_some()
             {
-                let written = self.variable(&exit, parameter);
+                let held = self.variable(&exit, parameter);
+                let written = self.come_back(held, variable);
                 self.set(&mut back, variable, written);
             }
         }
         back
+    }
+
+    /// What a variable holds that was given by reference: of its own position parts may have been written.
+    fn come_back(&mut self, held: Holding, variable: VariableId) -> Holding {
+        let Expr::Target(own) = self.script.variables[variable as usize].declared else {
+            return held;
+        };
+        let part_written = Atom::Target {
+            target: short(own),
+            displacement: DISPLACED_SOMEHOW,
+        };
+        let mut atoms = self.holdings.of(held).to_vec();
+        if atoms.iter().all(|(atom, _)| *atom != part_written) {
+            return held;
+        }
+        for (atom, _) in &mut atoms {
+            if *atom == part_written {
+                *atom = Atom::Changed { target: short(own) };
+            }
+        }
+        self.holdings.intern(atoms)
     }
 
     // ---- where programs start

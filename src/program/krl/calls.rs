@@ -2,7 +2,8 @@
 
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::targets::{Owner, computed, passed};
+use super::remarks::{computed, passed};
+use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::number;

@@ -2,7 +2,8 @@
 
 use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
-use super::targets::{Owner, refusal};
+use super::remarks::{angle, chosen, frame_assigned, moving, refusal};
+use super::targets::Owner;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Rotation};
 use crate::program::names::Symbol;
@@ -151,7 +152,7 @@ pub struct Modal {
     pub on: ValueId,
     off: ValueId,
     external: ValueId,
-    /// Indices in the script's guards: by `$IPO_MODE`, by it and an angle, by a fixed tool, by an unknown mode.
+    /// Indices in the script's guards: by `$IPO_MODE` and `$LOAD`, by it and an angle, by a fixed tool, by an unknown mode.
     pub guards: u32,
     pub angle_guards: u32,
     fixed_guards: u32,
@@ -213,7 +214,7 @@ impl Modal {
             "moves with a fixed tool are not compensated",
         ));
         let external = script.value(Held::Remark(external));
-        let angle = script.remark(super::moves::angle());
+        let angle = script.remark(angle());
         let angle = script.value(Held::Remark(angle));
         let [angle, fixed, chosen] = [
             Expr::Value(angle),
@@ -236,7 +237,7 @@ impl Modal {
             short(script.guards.len() - 1)
         };
         Self {
-            guards: guard(&[mode]),
+            guards: guard(&[mode, states[State::Load as usize]]),
             angle_guards: guard(&[mode, angle]),
             fixed_guards: guard(&[fixed]),
             chosen_guards: guard(&[chosen]),
@@ -267,31 +268,6 @@ impl Modal {
     }
 }
 
-/// Only the running program knows the tool or base.
-pub fn chosen() -> Remark {
-    refusal(
-        "frame-chosen-at-run-time",
-        "only the running program knows the tool or base",
-        "set $TOOL and $BASE before the move in the same routine",
-    )
-}
-
-pub fn assigned() -> Remark {
-    refusal(
-        "frame-assigned-at-run-time",
-        "the running program changes the tool or base",
-        "assign it with numbers, or use another entry for each place",
-    )
-}
-
-pub fn moving() -> Remark {
-    refusal(
-        "moving-frame",
-        "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
-        "moves in a moving base are not compensated",
-    )
-}
-
 /// `X Y Z A B C` in mm and degrees as a pose.
 pub fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
     Pose {
@@ -311,14 +287,14 @@ pub fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark> {
                 given += u32::from(at < 6);
             }
             PartValue::Missing => missing += u32::from(at < 6),
-            _ => return Err(assigned()),
+            _ => return Err(frame_assigned()),
         }
     }
     if missing > 0 && given > 0 {
         return Err(Remark {
             text: "the running program changes a part of the tool or base, and the files do not tell the rest".into(),
             hint: "give the $config.dat that declares it, too",
-            ..assigned()
+            ..frame_assigned()
         });
     }
     let [frame @ .., mass_kg, x, y, z] = numbers;

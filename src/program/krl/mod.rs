@@ -3,8 +3,8 @@
 //! A position is `{X ..,Y ..,Z ..,A ..,B ..,C ..,S ..,T ..,E1 ..}`, mm and degrees, `R = Rz(A) · Ry(B) · Rx(C)`; S and T tell
 //! the inverse solution (`status`) where the move is a PTP. Axes are `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes
 //! stay as they are, and are not understood where they are in use. The pose is that of $TOOL in $BASE. Both are variables of
-//! the controller, as are $LOAD, $`IPO_MODE`, what `FDAT_ACT` holds, and the entries of `TOOL_DATA`, `BASE_DATA`, `LOAD_DATA`
-//! (`frames`); $TOOL=, BAS, inline forms and WITH write them (`states`). Positions that a statement writes, or that are
+//! the controller, as are $LOAD, `$IPO_MODE`, what `FDAT_ACT` holds, and the entries of `TOOL_DATA`, `BASE_DATA`, `LOAD_DATA`
+//! (`frames`); `$TOOL=`, BAS, inline forms and WITH write them (`states`). Positions that a statement writes, or that are
 //! parameters, are variables too (`targets`); what of it reaches a move is worked out in [`crate::motion`].
 //!
 //! Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere. Of a data list everything keeps its
@@ -19,11 +19,14 @@
 
 mod aggregate;
 mod calls;
+mod data;
 mod frames;
 mod insert;
 mod moves;
 mod names;
+mod points;
 mod reader;
+mod remarks;
 mod sniff;
 mod statements;
 mod states;

@@ -1,16 +1,14 @@
 //! Files into a [`Script`]: first what all of them declare, then their statements.
 
-use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
-use super::frames::{Declared, Modal, Table};
+use super::frames::{Declared, Modal};
 use super::moves::Last;
-use super::names::{DataKind, Datum, Fdat, Head, Index, Names, Stored, whole};
-use super::targets::{self, Owner};
+use super::names::{DataKind, Datum, Head, Index, Names};
+use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals, content_start, lines};
-use crate::geometry::units::m_from_mm;
+use crate::program::Source;
 use crate::program::kit::Fault;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, VariableId, short};
-use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
 use std::collections::{HashMap, HashSet};
 
 /// Reads files into one script.
@@ -21,9 +19,9 @@ pub struct Reader {
     /// Tools, bases and loads of data lists.
     pub(super) declared: Declared,
     pub(super) file: u32,
-    module: u32,
+    pub(super) module: u32,
     routine: Option<u32>,
-    in_data: Option<u32>,
+    pub(super) in_data: Option<u32>,
     /// Routines that were begun, in the second reading.
     begun: u32,
     pub(super) variables: HashMap<(Owner, Index), VariableId>,
@@ -302,192 +300,6 @@ impl Reader {
     pub(super) fn symbol(&mut self, cursor: &Cursor, token: Token) -> Symbol {
         self.names.symbols.intern(cursor.text(token))
     }
-
-    /// The names behind a type, each with sizes and a value or without.
-    fn declared(&mut self, kind: DataKind, global: bool, mut cursor: Cursor) -> Read<()> {
-        let in_data = self.in_data.is_some();
-        let is_table = kind == DataKind::Frame || kind == DataKind::Other;
-        if kind == DataKind::Other && in_data {
-            // data of other types cannot be targets; their names do not matter
-            return Ok(());
-        }
-        loop {
-            let name = cursor.next();
-            if name.kind != Kind::Name {
-                return Ok(());
-            }
-            let system = self.names.modules[self.module as usize].is_system;
-            let datum = Datum {
-                name: self.symbol(&cursor, name),
-                context: self.context(),
-                kind,
-                place: self.place(name),
-                kept: in_data,
-            };
-            let datum = self.names.declare(datum, in_data && (global || system));
-            let sizes = cursor.brackets()?;
-            if cursor.take(b'=') {
-                if is_table && self.table(name, sizes, &mut cursor)? {
-                    return Ok(());
-                }
-                let index = Index::of(sizes, &cursor);
-                if let Some(value) = self.stored(kind, name, &mut cursor)? {
-                    self.names.values.push((datum, index, value));
-                }
-            }
-            if !cursor.take(b',') {
-                return Ok(());
-            }
-        }
-    }
-
-    /// `name[1,2]={...}` in a data list.
-    fn initial(&mut self, name: Token, mut cursor: Cursor) -> Read<()> {
-        let at = cursor.brackets()?;
-        if !cursor.take(b'=') || self.table(name, at, &mut cursor)? {
-            return Ok(());
-        }
-        let symbol = self.symbol(&cursor, name);
-        let Some(datum) = self.names.last_of(symbol, self.module) else {
-            return Ok(());
-        };
-        let kind = self.names.data[datum as usize].kind;
-        let index = Index::of(at, &cursor);
-        if let Some(value) = self.stored(kind, name, &mut cursor)? {
-            self.names.values.push((datum, index, value));
-        }
-        Ok(())
-    }
-
-    /// The value behind `=`; `None` where it does not matter.
-    fn stored(&mut self, kind: DataKind, name: Token, cursor: &mut Cursor) -> Read<Option<Stored>> {
-        if kind == DataKind::Other {
-            return Ok(None);
-        }
-        if kind == DataKind::Number {
-            let token = cursor.next();
-            let value = crate::program::number::parse(cursor.text(token));
-            return Ok(Some(whole(value).map_or(Stored::Computed, Stored::Number)));
-        }
-        if cursor.blanks() != b'{' {
-            return Ok(Some(Stored::Computed));
-        }
-        if kind == DataKind::Fdat {
-            return Ok(Some(Stored::Fdat(fdat(cursor)?)));
-        }
-        let start = cursor.at;
-        let aggregate = aggregate::read(cursor)?;
-        let text = &cursor.bytes[name.start as usize..start];
-        let text = text.split(|&b| b == b'=').next().unwrap_or(text);
-        let name = Source::text(text.trim_ascii());
-        let target = self.add(&aggregate, start, Some(name.into()));
-        Ok(Some(Stored::Target(target)))
-    }
-
-    /// A target with the numbers of an aggregate; one that cannot be rewritten has none.
-    pub(super) fn add(
-        &mut self,
-        aggregate: &Aggregate,
-        start: usize,
-        name: Option<Box<str>>,
-    ) -> TargetId {
-        let script = &mut self.builder.script;
-        let first = short(script.numbers.len());
-        let id = script.targets.len();
-        let is_axes = aggregate.is_axes();
-        let is_whole = if is_axes {
-            aggregate.has_axes == WHOLE && aggregate.has == 0
-        } else {
-            aggregate.has & WHOLE == WHOLE
-        };
-        let flaw = if aggregate.computed {
-            Some(targets::expressions())
-        } else if is_whole {
-            None
-        } else {
-            Some(targets::partial())
-        };
-        let shape = if is_axes { Shape::Joints } else { Shape::Pose };
-        let mut variant = 0;
-        if flaw.is_none() && is_axes {
-            script.numbers.extend_from_slice(&aggregate.axes);
-        } else if flaw.is_none() {
-            variant = aggregate.has >> 6;
-            script.numbers.extend_from_slice(&aggregate.position[..6]);
-            for (bit, at) in [(STATUS, 6), (TURN, 7)] {
-                if aggregate.has & bit != 0 {
-                    script.numbers.push(aggregate.position[at]);
-                }
-            }
-        }
-        script.targets.push(Target {
-            name,
-            file: self.file,
-            offset: short(start),
-            layout: Layout { shape, variant },
-            numbers: first..short(script.numbers.len()),
-            blocked: flaw.is_some(),
-        });
-        if let Some(flaw) = flaw {
-            let remark = script.remark(flaw);
-            script.refused.push((id, remark));
-        }
-        if let Some((axis, value)) = aggregate.driven() {
-            // the same is rarely said twice
-            script.remarks.push(targets::external(axis, value));
-            let remark = short(script.remarks.len() - 1);
-            script.refused.push((id, remark));
-        }
-        id
-    }
-
-    /// Values of the controller's tables in data lists; whether it is one of them.
-    fn table(
-        &mut self,
-        name: Token,
-        at: Option<(usize, usize)>,
-        cursor: &mut Cursor,
-    ) -> Read<bool> {
-        let mut buffer = [0; 24];
-        let word = capitals(cursor.text(name), &mut buffer);
-        let table = Table::named(word);
-        if table.is_none() && word != b"MACHINE_FRAME_DAT" {
-            return Ok(false);
-        }
-        let Index::At([element, 0, 0]) = Index::of(at, cursor) else {
-            return Ok(true);
-        };
-        let is_aggregate = cursor.blanks() == b'{';
-        match table {
-            Some(Table::Load) if is_aggregate => {
-                if let Some(load) = load(cursor)? {
-                    self.declared.loads.entry(element).or_insert(load);
-                }
-            }
-            Some(Table::Load) => {}
-            Some(table) => {
-                let frame = match is_aggregate {
-                    true => aggregate::read(cursor)?.frame(),
-                    false => None,
-                };
-                self.declared.add(table, element, frame, self.file);
-            }
-            None if is_aggregate => {
-                let mut moving = false;
-                aggregate::each(cursor, |key, _, field| {
-                    if let (b"MACH_DEF_INDEX", aggregate::Field::Number(number)) = (key, field) {
-                        moving = number.value > 0.0;
-                    }
-                    Ok(())
-                })?;
-                if moving {
-                    self.declared.moving.insert(element);
-                }
-            }
-            None => {}
-        }
-        Ok(true)
-    }
 }
 
 /// `[GLOBAL] [DECL] [GLOBAL] [CONST] type names`, or `[GLOBAL] DEF`, `GLOBAL INTERRUPT DECL`.
@@ -527,62 +339,5 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
         if token.kind != Kind::Name {
             return Line::Nothing;
         }
-    }
-}
-
-/// `{M 10.0,CM {X 0,Y 0,Z 100,...},J {...}}`; `None` where it does not tell a load.
-pub fn load(cursor: &mut Cursor) -> Read<Option<Load>> {
-    let (mut mass, mut inside) = (None, None);
-    aggregate::each(cursor, |key, _, field| {
-        match (key, field) {
-            (b"M", aggregate::Field::Number(number)) => mass = Some(number.value),
-            (b"CM", aggregate::Field::Nested(start)) => inside = Some(start),
-            _ => {}
-        }
-        Ok(())
-    })?;
-    let (Some(mass_kg), Some(start)) = (mass, inside) else {
-        return Ok(None);
-    };
-    let centre = aggregate::read(&mut cursor.part(start, cursor.end))?;
-    let is_known = centre.has & 0b111 == 0b111 && !centre.computed && mass_kg > 0.0;
-    Ok(is_known.then(|| Load {
-        mass_kg,
-        cog_m: std::array::from_fn(|i| m_from_mm(centre.position[i].value)),
-    }))
-}
-
-/// `{TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,...}`
-pub fn fdat(cursor: &mut Cursor) -> Read<Fdat> {
-    let bytes = cursor.bytes;
-    let mut found = Fdat {
-        is_external: Some(false),
-        ..Fdat::default()
-    };
-    aggregate::each(cursor, |key, _, field| {
-        let number = match field {
-            aggregate::Field::Number(number) => whole(Some(number.value)),
-            _ => None,
-        };
-        match (key, field) {
-            (b"TOOL_NO", _) => found.tool = number,
-            (b"BASE_NO", _) => found.base = number,
-            (b"IPO_FRAME", aggregate::Field::Enum(name)) => {
-                found.is_external = is_external(&bytes[name.start as usize..name.end as usize]);
-            }
-            (b"IPO_FRAME", _) => found.is_external = None,
-            _ => {}
-        }
-        Ok(())
-    })?;
-    Ok(found)
-}
-
-/// Whether the robot holds the work piece in the mode of a name behind `#`.
-pub fn is_external(name: &[u8]) -> Option<bool> {
-    match name.to_ascii_uppercase().as_slice() {
-        b"BASE" | b"NONE" => Some(false),
-        b"TCP" => Some(true),
-        _ => None,
     }
 }

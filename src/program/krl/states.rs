@@ -1,9 +1,11 @@
 //! Statements that set tools, bases, loads and modes: `$TOOL=`, BAS, FDAT, entries of tables.
 
 use super::aggregate;
-use super::frames::{Choice, State, Table, assigned, moving, part, record};
+use super::data::{Carried, fdat, is_external, load};
+use super::frames::{Choice, State, Table, part, record};
 use super::names::{Index, Stored, whole};
-use super::reader::{Reader, fdat, is_external, load};
+use super::reader::Reader;
+use super::remarks::{carried, frame_assigned, moving};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::number;
@@ -220,8 +222,11 @@ impl Reader {
     /// A load up to a comma or the end of the line.
     fn load_expr(&mut self, cursor: &mut Cursor) -> Read<Expr> {
         if cursor.blanks() == b'{' {
-            let load = load(cursor)?;
-            return Ok(self.load_value(load));
+            return Ok(match load(cursor)? {
+                Carried::Load(load) => self.load_value(Some(load)),
+                Carried::OfTool => self.load_value(None),
+                Carried::Unknown => self.unknown(carried()),
+            });
         }
         let name = cursor.next();
         let at = cursor.brackets()?;
@@ -235,7 +240,7 @@ impl Reader {
         Ok(match choice.filter(|_| is_whole) {
             None => {
                 cursor.skip();
-                self.load_value(None)
+                self.unknown(carried())
             }
             choice => self.element(Table::Load, choice),
         })
@@ -368,7 +373,7 @@ impl Reader {
                 self.write_part(place, variable, part, *cursor);
             }
             Some(_) => {
-                let unknown = self.load_value(None);
+                let unknown = self.unknown(carried());
                 self.set(place, state, unknown);
             }
         }
@@ -427,7 +432,7 @@ impl Reader {
         };
         if let Some(part) = part {
             if table == Table::Load {
-                let how = How::Whole(self.load_value(None));
+                let how = How::Whole(self.unknown(carried()));
                 self.builder.write(Write {
                     place,
                     variable,
@@ -442,7 +447,7 @@ impl Reader {
         let value = match table {
             Table::Load => self.load_expr(cursor)?,
             _ => match self.frame(table, &name, cursor)? {
-                Expr::Unknown(_) => self.unknown(assigned()),
+                Expr::Unknown(_) => self.unknown(frame_assigned()),
                 known => known,
             },
         };

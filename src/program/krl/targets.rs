@@ -1,7 +1,8 @@
-//! Variables that hold positions, and what is wrong with targets whatever the program does.
+//! Variables that hold positions, and which targets the script has in the end.
 
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
+use super::remarks::{accurate, ambiguous, computed, home};
 use super::{GROWTH, LONGEST_LINE, status, status_and_turn, whole};
 use crate::finding::Severity;
 use crate::program::names::{Meaning, Symbol};
@@ -20,109 +21,6 @@ pub enum Owner {
     Datum(u32),
     /// The files do not declare the name.
     Nobody(Symbol),
-}
-
-/// Why a target has to stay: a sentence without its subject.
-pub fn refusal(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Remark {
-    Remark {
-        id,
-        severity: Severity::Error,
-        text: text.into(),
-        hint,
-    }
-}
-
-pub fn partial() -> Remark {
-    refusal(
-        "partial-target",
-        "components are missing, which keep the value of the position before",
-        "write X, Y, Z, A, B and C",
-    )
-}
-
-pub fn expressions() -> Remark {
-    refusal(
-        "target-has-expressions",
-        "parts of this target are expressions, not numbers",
-        "write the target with numbers in the offline system",
-    )
-}
-
-pub fn external(axis: usize, value: f64) -> Remark {
-    let to = if value.is_nan() {
-        "an expression".to_owned()
-    } else {
-        value.to_string()
-    };
-    refusal(
-        "external-axis",
-        format!("external axis E{axis} goes to {to}, and what that moves is not known"),
-        "targets with external axes in use are not compensated",
-    )
-}
-
-pub fn assigned() -> Remark {
-    refusal(
-        "target-assigned-at-run-time",
-        "the running program changes elements of this array, and which only it knows",
-        "correct the value where the program computes it, or keep the target out of the path",
-    )
-}
-
-pub fn passed() -> Remark {
-    refusal(
-        "target-passed-to-routine",
-        "elements of this array are given to a routine that is not in the files, which may use them with any tool and base",
-        "give the file with the routine too, or move to the target where its tool and base are set",
-    )
-}
-
-fn ambiguous() -> Remark {
-    refusal(
-        "target-name-ambiguous",
-        "this name is declared more than once, and a use does not tell which one is meant",
-        "pass only the programs of one robot",
-    )
-}
-
-fn accurate() -> Remark {
-    refusal(
-        "absolutely-accurate",
-        "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets itself",
-        "switch the correction of the controller off, or --force",
-    )
-}
-
-/// A position that only the running program knows.
-pub fn computed() -> Remark {
-    Remark {
-        id: "computed-target",
-        severity: Severity::Warning,
-        text:
-            "the position that this move goes to is known at run time only; the move stays as it is"
-                .into(),
-        hint: "write the position with numbers where it must be exact",
-    }
-}
-
-/// A position that a function makes of positions that may be rewritten.
-pub fn copied() -> Remark {
-    Remark {
-        id: "target-copied",
-        severity: Severity::Error,
-        text: "this move goes to a position that the program computes from targets, which may be corrected for other moves".into(),
-        hint: "write the position with numbers",
-    }
-}
-
-/// A joint target without numbers in the files.
-fn home(name: &str) -> Remark {
-    Remark {
-        id: "joint-target-not-in-files",
-        severity: Severity::Note,
-        text: format!("{name} has no value in the files; as a joint target it stays").into(),
-        hint: "give the $config.dat that declares it, too, to see it checked",
-    }
 }
 
 impl Reader {
@@ -162,7 +60,7 @@ impl Reader {
         }
         let remark = match declared.kind {
             DataKind::Axes => home(self.names.symbols.spelling(declared.name)),
-            DataKind::Number | DataKind::Frame => super::frames::chosen(),
+            DataKind::Number | DataKind::Frame => super::remarks::chosen(),
             _ => computed(),
         };
         self.unknown(remark)

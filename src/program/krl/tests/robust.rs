@@ -171,3 +171,34 @@ fn deep_and_long_control_flow_stays_linear() {
         .collect();
     assert_eq!(read(&calls).targets.len(), 3000);
 }
+
+#[test]
+fn broken_text_is_refused_with_its_place() {
+    let head = "DEF M()\n";
+    for (text, line, column, what) in [
+        ("LIN {X 1,Y 2\nEND", 2, 5, "an aggregate"),
+        ("LIN {X 1,Y 2,Z 1e7,A 0,B 0,C 0}\nEND", 2, 16, "1e7"),
+        ("LIN {X 1,X 2}\nEND", 2, 10, "X"),
+        ("LIN {X 1,S -1}\nEND", 2, 12, "-1"),
+        ("LIN\nEND", 2, 4, "the end of the line"),
+        ("LIN XP1[1\nEND", 2, 8, "a bracket"),
+        ("LIN XP1", 1, 1, "DEF without END"),
+    ] {
+        let files = [("dir/m.src", &*format!("{head}{text}"))];
+        let error = read_with(&files, &Settings::default()).expect_err(text);
+        assert_eq!(error.place(), ("dir/m.src", line, column), "{error}");
+        assert!(error.to_string().contains(what), "{error}");
+    }
+    let error = read_with(
+        &[("a.dat", "DEFDAT A\nDECL E6POS x={X 1}\n")],
+        &Settings::default(),
+    );
+    assert!(error.is_err_and(|e| e.to_string().contains("DEFDAT without ENDDAT")));
+    let error = read_with(&[("a.src", "PROC main()\n")], &Settings::default());
+    assert!(matches!(error, Err(ReadError::NotThisLanguage { .. })));
+    let zero = Source::new("a.src", b"DEF a()\0".to_vec());
+    assert!(matches!(
+        crate::motion::read(&Krl, &[zero], &Settings::default()),
+        Err(ReadError::Binary { .. })
+    ));
+}

@@ -1,0 +1,274 @@
+//! What data lists and declarations give: targets, numbers, FDAT, entries of the controller's tables.
+
+use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
+use super::frames::Table;
+use super::names::{DataKind, Datum, Fdat, Index, Stored, whole};
+use super::reader::Reader;
+use super::remarks;
+use super::tokens::{Cursor, Kind, Read, Token, capitals};
+use crate::geometry::units::m_from_mm;
+use crate::program::script::short;
+use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
+
+impl Reader {
+    /// The names behind a type, each with sizes and a value or without.
+    pub(super) fn declared(
+        &mut self,
+        kind: DataKind,
+        global: bool,
+        mut cursor: Cursor,
+    ) -> Read<()> {
+        let in_data = self.in_data.is_some();
+        let is_table = kind == DataKind::Frame || kind == DataKind::Other;
+        if kind == DataKind::Other && in_data {
+            // data of other types cannot be targets; their names do not matter
+            return Ok(());
+        }
+        loop {
+            let name = cursor.next();
+            if name.kind != Kind::Name {
+                return Ok(());
+            }
+            let system = self.names.modules[self.module as usize].is_system;
+            let datum = Datum {
+                name: self.symbol(&cursor, name),
+                context: self.context(),
+                kind,
+                place: self.place(name),
+                kept: in_data,
+            };
+            let datum = self.names.declare(datum, in_data && (global || system));
+            let sizes = cursor.brackets()?;
+            if cursor.take(b'=') {
+                if is_table && self.table(name, sizes, &mut cursor)? {
+                    return Ok(());
+                }
+                let index = Index::of(sizes, &cursor);
+                if let Some(value) = self.stored(kind, name, &mut cursor)? {
+                    self.names.values.push((datum, index, value));
+                }
+            }
+            if !cursor.take(b',') {
+                return Ok(());
+            }
+        }
+    }
+
+    /// `name[1,2]={...}` in a data list.
+    pub(super) fn initial(&mut self, name: Token, mut cursor: Cursor) -> Read<()> {
+        let at = cursor.brackets()?;
+        if !cursor.take(b'=') || self.table(name, at, &mut cursor)? {
+            return Ok(());
+        }
+        let symbol = self.symbol(&cursor, name);
+        let Some(datum) = self.names.last_of(symbol, self.module) else {
+            return Ok(());
+        };
+        let kind = self.names.data[datum as usize].kind;
+        let index = Index::of(at, &cursor);
+        if let Some(value) = self.stored(kind, name, &mut cursor)? {
+            self.names.values.push((datum, index, value));
+        }
+        Ok(())
+    }
+
+    /// The value behind `=`; `None` where it does not matter.
+    fn stored(&mut self, kind: DataKind, name: Token, cursor: &mut Cursor) -> Read<Option<Stored>> {
+        if kind == DataKind::Other {
+            return Ok(None);
+        }
+        if kind == DataKind::Number {
+            let token = cursor.next();
+            let value = crate::program::number::parse(cursor.text(token));
+            return Ok(Some(whole(value).map_or(Stored::Computed, Stored::Number)));
+        }
+        if cursor.blanks() != b'{' {
+            return Ok(Some(Stored::Computed));
+        }
+        if kind == DataKind::Fdat {
+            return Ok(Some(Stored::Fdat(fdat(cursor)?)));
+        }
+        let start = cursor.at;
+        let aggregate = aggregate::read(cursor)?;
+        let text = &cursor.bytes[name.start as usize..start];
+        let text = text.split(|&b| b == b'=').next().unwrap_or(text);
+        let name = Source::text(text.trim_ascii());
+        let target = self.add(&aggregate, start, Some(name.into()));
+        Ok(Some(Stored::Target(target)))
+    }
+
+    /// A target with the numbers of an aggregate; one that cannot be rewritten has none.
+    pub(super) fn add(
+        &mut self,
+        aggregate: &Aggregate,
+        start: usize,
+        name: Option<Box<str>>,
+    ) -> TargetId {
+        let script = &mut self.builder.script;
+        let first = short(script.numbers.len());
+        let id = script.targets.len();
+        let is_axes = aggregate.is_axes();
+        let is_whole = if is_axes {
+            aggregate.has_axes == WHOLE && aggregate.has == 0
+        } else {
+            aggregate.has & WHOLE == WHOLE
+        };
+        let flaw = if aggregate.computed {
+            Some(remarks::expressions())
+        } else if is_whole {
+            None
+        } else {
+            Some(remarks::partial())
+        };
+        let shape = if is_axes { Shape::Joints } else { Shape::Pose };
+        let mut variant = 0;
+        if flaw.is_none() && is_axes {
+            script.numbers.extend_from_slice(&aggregate.axes);
+        } else if flaw.is_none() {
+            variant = aggregate.has >> 6;
+            script.numbers.extend_from_slice(&aggregate.position[..6]);
+            for (bit, at) in [(STATUS, 6), (TURN, 7)] {
+                if aggregate.has & bit != 0 {
+                    script.numbers.push(aggregate.position[at]);
+                }
+            }
+        }
+        script.targets.push(Target {
+            name,
+            file: self.file,
+            offset: short(start),
+            layout: Layout { shape, variant },
+            numbers: first..short(script.numbers.len()),
+            blocked: flaw.is_some(),
+        });
+        if let Some(flaw) = flaw {
+            let remark = script.remark(flaw);
+            script.refused.push((id, remark));
+        }
+        if let Some((axis, value)) = aggregate.driven() {
+            // the same is rarely said twice
+            script.remarks.push(remarks::external(axis, value));
+            let remark = short(script.remarks.len() - 1);
+            script.refused.push((id, remark));
+        }
+        id
+    }
+
+    /// Values of the controller's tables in data lists; whether it is one of them.
+    fn table(
+        &mut self,
+        name: Token,
+        at: Option<(usize, usize)>,
+        cursor: &mut Cursor,
+    ) -> Read<bool> {
+        let mut buffer = [0; 24];
+        let word = capitals(cursor.text(name), &mut buffer);
+        let table = Table::named(word);
+        if table.is_none() && word != b"MACHINE_FRAME_DAT" {
+            return Ok(false);
+        }
+        let Index::At([element, 0, 0]) = Index::of(at, cursor) else {
+            return Ok(true);
+        };
+        let is_aggregate = cursor.blanks() == b'{';
+        match table {
+            Some(Table::Load) if is_aggregate => {
+                if let Carried::Load(load) = load(cursor)? {
+                    self.declared.loads.entry(element).or_insert(load);
+                }
+            }
+            Some(Table::Load) => {}
+            Some(table) => {
+                let frame = match is_aggregate {
+                    true => aggregate::read(cursor)?.frame(),
+                    false => None,
+                };
+                self.declared.add(table, element, frame, self.file);
+            }
+            None if is_aggregate => {
+                let mut moving = false;
+                aggregate::each(cursor, |key, _, field| {
+                    if let (b"MACH_DEF_INDEX", aggregate::Field::Number(number)) = (key, field) {
+                        moving = number.value > 0.0;
+                    }
+                    Ok(())
+                })?;
+                if moving {
+                    self.declared.moving.insert(element);
+                }
+            }
+            None => {}
+        }
+        Ok(true)
+    }
+}
+
+/// What a load says.
+pub enum Carried {
+    Load(Load),
+    /// That of the tool: its mass is zero or below.
+    OfTool,
+    /// Only the running program knows it.
+    Unknown,
+}
+
+/// `{M 10.0,CM {X 0,Y 0,Z 100,...},J {...}}`
+pub fn load(cursor: &mut Cursor) -> Read<Carried> {
+    let (mut mass, mut inside) = (None, None);
+    aggregate::each(cursor, |key, _, field| {
+        match (key, field) {
+            (b"M", aggregate::Field::Number(number)) => mass = Some(number.value),
+            (b"CM", aggregate::Field::Nested(start)) => inside = Some(start),
+            _ => {}
+        }
+        Ok(())
+    })?;
+    let (mass_kg, start) = match (mass, inside) {
+        (Some(mass_kg), _) if mass_kg <= 0.0 => return Ok(Carried::OfTool),
+        (Some(mass_kg), Some(start)) => (mass_kg, start),
+        _ => return Ok(Carried::Unknown),
+    };
+    let centre = aggregate::read(&mut cursor.part(start, cursor.end))?;
+    if centre.has & 0b111 != 0b111 || centre.computed {
+        return Ok(Carried::Unknown);
+    }
+    Ok(Carried::Load(Load {
+        mass_kg,
+        cog_m: std::array::from_fn(|i| m_from_mm(centre.position[i].value)),
+    }))
+}
+
+/// `{TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,...}`
+pub fn fdat(cursor: &mut Cursor) -> Read<Fdat> {
+    let bytes = cursor.bytes;
+    let mut found = Fdat {
+        is_external: Some(false),
+        ..Fdat::default()
+    };
+    aggregate::each(cursor, |key, _, field| {
+        let number = match field {
+            aggregate::Field::Number(number) => whole(Some(number.value)),
+            _ => None,
+        };
+        match (key, field) {
+            (b"TOOL_NO", _) => found.tool = number,
+            (b"BASE_NO", _) => found.base = number,
+            (b"IPO_FRAME", aggregate::Field::Enum(name)) => {
+                found.is_external = is_external(&bytes[name.start as usize..name.end as usize]);
+            }
+            (b"IPO_FRAME", _) => found.is_external = None,
+            _ => {}
+        }
+        Ok(())
+    })?;
+    Ok(found)
+}
+
+/// Whether the robot holds the work piece in the mode of a name behind `#`.
+pub fn is_external(name: &[u8]) -> Option<bool> {
+    match name.to_ascii_uppercase().as_slice() {
+        b"BASE" | b"NONE" => Some(false),
+        b"TCP" => Some(true),
+        _ => None,
+    }
+}

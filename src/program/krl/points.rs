@@ -1,0 +1,237 @@
+//! Positions as moves and assignments have them: numbers, a name, or a product of frames.
+
+use super::aggregate;
+use super::frames::pose_of;
+use super::names::{DataKind, Index, Stored};
+use super::reader::Reader;
+use super::remarks::{computed, copied};
+use super::tokens::{Cursor, Kind, Read, capitals};
+use crate::geometry::Pose;
+use crate::program::names::Symbol;
+use crate::program::script::{DisplacementId, Expr, Held, NOT_DISPLACED, Span, short};
+use crate::program::{Displacement, Shape, Shift, TargetId};
+
+/// A position as it is written.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    pub target: Expr,
+    pub displacement: DisplacementId,
+    /// Where the robot is: it stays there.
+    pub is_here: bool,
+    /// Numbers of its own or a name alone: another may stand in its place.
+    pub is_plain: bool,
+    /// It is a pose, as far as is known.
+    pub is_pose: bool,
+    pub span: Span,
+}
+
+/// One part of a product of frames.
+#[derive(Clone, Copy)]
+enum Operand {
+    Inline(TargetId),
+    Named(Symbol, Index),
+    Here,
+    /// Where the robot was.
+    Actual,
+    Other,
+}
+
+impl Reader {
+    pub(super) fn shift_of(&self, point: &Point) -> Option<Shift> {
+        match self
+            .builder
+            .script
+            .displacements
+            .get(point.displacement as usize)?
+        {
+            Displacement::None => Some(Shift::in_frame([0.0; 3])),
+            _ => None,
+        }
+    }
+
+    /// A position: numbers, a name, or a product of them.
+    ///
+    /// # Errors
+    /// Where nothing stands there, or it is broken.
+    pub(super) fn point(&mut self, cursor: &mut Cursor) -> Read<Point> {
+        cursor.blanks();
+        let start = short(cursor.at);
+        let mut operands = [Operand::Other; 8];
+        let mut count = 0;
+        let mut mentions = false;
+        loop {
+            let operand = self.operand(cursor, &mut mentions)?;
+            if let Some(slot) = operands.get_mut(count) {
+                *slot = operand;
+            }
+            count += 1;
+            if !cursor.take(b':') {
+                break;
+            }
+        }
+        let text = &cursor.bytes[start as usize..cursor.at];
+        let end = start + short(text.trim_ascii_end().len());
+        let mut point = Point {
+            target: Expr::Absent,
+            displacement: NOT_DISPLACED,
+            is_here: false,
+            is_plain: false,
+            is_pose: false,
+            span: Span { start, end },
+        };
+        match operands.get(..count) {
+            Some([one]) => {
+                point.is_plain = true;
+                self.one(*one, mentions, &mut point);
+            }
+            Some(many) => self.product(many, &mut point),
+            None => point.target = self.computed(mentions),
+        }
+        Ok(point)
+    }
+
+    fn operand(&mut self, cursor: &mut Cursor, mentions: &mut bool) -> Read<Operand> {
+        match cursor.blanks() {
+            b'{' => {
+                let start = cursor.at;
+                let aggregate = aggregate::read(cursor)?;
+                return Ok(Operand::Inline(self.add(&aggregate, start, None)));
+            }
+            0 | b';' => return Err(cursor.next().unexpected("a position")),
+            _ => {}
+        }
+        let before = *cursor;
+        let name = cursor.next();
+        if name.kind == Kind::Name {
+            let mut buffer = [0; 24];
+            match capitals(cursor.text(name), &mut buffer) {
+                b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MES" | b"$POS_ACT_MES" => {
+                    cursor.brackets()?;
+                    return Ok(if cursor.blanks() == b'.' {
+                        cursor.skip();
+                        Operand::Other
+                    } else {
+                        Operand::Here
+                    });
+                }
+                b"$AXIS_INT" | b"$AXIS_RET" | b"$AXIS_BACK" | b"$AXIS_FOR" | b"$POS_INT"
+                | b"$POS_RET" | b"$POS_BACK" | b"$POS_FOR" => {
+                    cursor.brackets()?;
+                    return Ok(Operand::Actual);
+                }
+                _ => {}
+            }
+            let at = cursor.brackets()?;
+            if !matches!(cursor.blanks(), b'.' | b'(' | b'+' | b'-' | b'*' | b'/') {
+                let symbol = self.symbol(cursor, name);
+                return Ok(Operand::Named(symbol, Index::of(at, cursor)));
+            }
+        }
+        *cursor = before;
+        cursor.skip();
+        let inner = before.part(before.at, cursor.at);
+        *mentions |= self.mentions_position(inner);
+        self.calls_in(inner);
+        Ok(Operand::Other)
+    }
+
+    /// A position of one part.
+    fn one(&mut self, operand: Operand, mentions: bool, point: &mut Point) {
+        point.target = match operand {
+            Operand::Inline(target) => {
+                let shape = self.builder.script.targets[target].layout.shape;
+                point.is_pose = shape == Shape::Pose;
+                Expr::Target(target)
+            }
+            Operand::Named(name, at) => {
+                let kind = self.names.kind(name, self.context());
+                point.is_pose = matches!(kind, Some(DataKind::Position | DataKind::Frame));
+                match self.named(name, at) {
+                    Some(found) => found,
+                    None => self.not_in_files(name),
+                }
+            }
+            Operand::Here => {
+                point.is_here = true;
+                self.actual()
+            }
+            Operand::Actual => self.actual(),
+            Operand::Other => self.computed(mentions),
+        };
+        point.is_plain &= matches!(operand, Operand::Inline(_) | Operand::Named(..));
+    }
+
+    fn actual(&mut self) -> Expr {
+        Expr::Value(self.builder.script.value(Held::Actual))
+    }
+
+    /// A position that only the running program knows.
+    pub(super) fn computed(&mut self, mentions: bool) -> Expr {
+        let remark = if mentions { copied() } else { computed() };
+        self.unknown(remark)
+    }
+
+    /// `a : b : c`: the one operand that is a position is the target, the others displace it.
+    fn product(&mut self, operands: &[Operand], point: &mut Point) {
+        let context = self.context();
+        let is_position = |operand: &Operand| match *operand {
+            Operand::Named(name, _) => self.names.kind(name, context) == Some(DataKind::Position),
+            _ => false,
+        };
+        let mut positions = (0..operands.len()).filter(|&at| is_position(&operands[at]));
+        let (Some(at), None) = (positions.next(), positions.next()) else {
+            let mentions = operands.iter().any(is_position);
+            point.target = self.computed(mentions);
+            return;
+        };
+        let displacement = self
+            .shift(operands, at)
+            .map_or(Displacement::Unknown, |shift| {
+                Displacement::By(Box::new(shift))
+            });
+        self.one(operands[at], false, point);
+        point.displacement = self.builder.script.displacement(displacement);
+    }
+
+    /// What the operands beside the target add, where that is a motion of the tool or a translation in the base.
+    fn shift(&self, operands: &[Operand], at: usize) -> Option<Shift> {
+        let product = |operands: &[Operand]| {
+            let mut pose = Pose::identity();
+            for operand in operands {
+                pose = pose * self.constant(*operand)?;
+            }
+            Some(pose)
+        };
+        let before = product(&operands[..at])?;
+        let in_tool = product(&operands[at + 1..])?;
+        let in_frame_m = before.translation;
+        (before.rotation.angle() < 1e-12).then_some(Shift {
+            in_frame_m,
+            in_tool,
+        })
+    }
+
+    /// A frame that no statement changes.
+    fn constant(&self, operand: Operand) -> Option<Pose> {
+        let target = match operand {
+            Operand::Inline(target) => target,
+            Operand::Named(name, at) => match self.names.constant(name, at, self.context())? {
+                Stored::Target(target) => target,
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let script = &self.builder.script;
+        let range = script.targets[target].numbers.clone();
+        let numbers = &script.numbers[range.start as usize..range.end as usize];
+        let is_pose = script.targets[target].layout.shape == Shape::Pose;
+        (is_pose && numbers.len() >= 6).then(|| pose_of(std::array::from_fn(|i| numbers[i].value)))
+    }
+
+    /// What a position is after an assignment.
+    pub(super) fn value_of(&mut self, point: &Point) -> Expr {
+        self.builder
+            .script
+            .displaced(point.target, point.displacement)
+    }
+}

@@ -1,0 +1,170 @@
+//! What speaks against targets and moves, as sentences.
+
+use crate::finding::Severity;
+use crate::program::script::Remark;
+
+/// Why a target has to stay: a sentence without its subject.
+pub fn refusal(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Remark {
+    Remark {
+        id,
+        severity: Severity::Error,
+        text: text.into(),
+        hint,
+    }
+}
+
+pub fn partial() -> Remark {
+    refusal(
+        "partial-target",
+        "components are missing, which keep the value of the position before",
+        "write X, Y, Z, A, B and C",
+    )
+}
+
+pub fn expressions() -> Remark {
+    refusal(
+        "target-has-expressions",
+        "parts of this target are expressions, not numbers",
+        "write the target with numbers in the offline system",
+    )
+}
+
+pub fn external(axis: usize, value: f64) -> Remark {
+    let to = if value.is_nan() {
+        "an expression".to_owned()
+    } else {
+        value.to_string()
+    };
+    refusal(
+        "external-axis",
+        format!("external axis E{axis} goes to {to}, and what that moves is not known"),
+        "targets with external axes in use are not compensated",
+    )
+}
+
+pub fn assigned() -> Remark {
+    refusal(
+        "target-assigned-at-run-time",
+        "the running program changes elements of this array, and which only it knows",
+        "correct the value where the program computes it, or keep the target out of the path",
+    )
+}
+
+pub fn passed() -> Remark {
+    refusal(
+        "target-passed-to-routine",
+        "elements of this array are given to a routine that is not in the files, which may use them with any tool and base",
+        "give the file with the routine too, or move to the target where its tool and base are set",
+    )
+}
+
+pub fn ambiguous() -> Remark {
+    refusal(
+        "target-name-ambiguous",
+        "this name is declared more than once, and a use does not tell which one is meant",
+        "pass only the programs of one robot",
+    )
+}
+
+pub fn accurate() -> Remark {
+    refusal(
+        "absolutely-accurate",
+        "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets itself",
+        "switch the correction of the controller off, or --force",
+    )
+}
+
+/// A position that only the running program knows.
+pub fn computed() -> Remark {
+    Remark {
+        id: "computed-target",
+        severity: Severity::Warning,
+        text:
+            "the position that this move goes to is known at run time only; the move stays as it is"
+                .into(),
+        hint: "write the position with numbers where it must be exact",
+    }
+}
+
+/// A position that a function makes of positions that may be rewritten.
+pub fn copied() -> Remark {
+    Remark {
+        id: "target-copied",
+        severity: Severity::Error,
+        text: "this move goes to a position that the program computes from targets, which may be corrected for other moves".into(),
+        hint: "write the position with numbers",
+    }
+}
+
+/// A joint target without numbers in the files.
+pub fn home(name: &str) -> Remark {
+    Remark {
+        id: "joint-target-not-in-files",
+        severity: Severity::Note,
+        text: format!("{name} has no value in the files; as a joint target it stays").into(),
+        hint: "give the $config.dat that declares it, too, to see it checked",
+    }
+}
+
+/// Only the running program knows the tool or base.
+pub fn chosen() -> Remark {
+    refusal(
+        "frame-chosen-at-run-time",
+        "only the running program knows the tool or base",
+        "set $TOOL and $BASE before the move in the same routine",
+    )
+}
+
+pub fn frame_assigned() -> Remark {
+    refusal(
+        "frame-assigned-at-run-time",
+        "the running program changes the tool or base",
+        "assign it with numbers, or use another entry for each place",
+    )
+}
+
+pub fn moving() -> Remark {
+    refusal(
+        "moving-frame",
+        "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
+        "moves in a moving base are not compensated",
+    )
+}
+
+pub fn turned() -> Remark {
+    Remark {
+        id: "relative-joint-move",
+        severity: Severity::Note,
+        text: "this move turns axes from where the robot is; it is left as it is".into(),
+        hint: "",
+    }
+}
+
+pub fn from_nowhere() -> Remark {
+    Remark {
+        id: "relative-move",
+        severity: Severity::Error,
+        text: "this move goes relative to a position that the text does not tell; it is not compensated".into(),
+        hint: "write the target, or put the move behind one to a known target",
+    }
+}
+
+/// Against arcs with an angle.
+pub fn angle() -> Remark {
+    Remark {
+        id: "circular-angle",
+        severity: Severity::Error,
+        text: "this arc goes on to an angle (CA): where it ends is not where its points are".into(),
+        hint: "write the arc without CA, with the point where it ends",
+    }
+}
+
+/// A load that the text does not tell.
+pub fn carried() -> Remark {
+    Remark {
+        id: "load-chosen-at-run-time",
+        severity: Severity::Warning,
+        text: "only the running program knows the load that is set here; moves are taken with that of the tool".into(),
+        hint: "write the load with numbers, or choose an entry of LOAD_DATA",
+    }
+}
