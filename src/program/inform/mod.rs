@@ -34,7 +34,7 @@
 //! | `external-axis` | error | a pose with a base or station axis that is not at zero |
 //! | `target-not-six-axes` | error | a position in pulses or degrees does not have six axes |
 //! | `target-passed-to-routine` | error | a P variable is given to a job that the files do not have |
-//! | `pulses-per-degree-unknown` | error | positions in pulses, and a profile without `pulses_per_deg`; once a job |
+//! | `pulses-per-degree-unknown` | warning | positions in pulses, and a profile without `pulses_per_deg`: they stay; once a job |
 //! | `rconf-of-post` | warning | RCONF of a post that is known to mix its fields up; it is not used |
 //! | `wrist-not-told` | warning | a job that no other calls starts with a rectangular position, and RCONF does not tell the wrist |
 //! | `target-copied` | warning | another position, tool or frame is computed from this one |
@@ -87,6 +87,7 @@ static ABOUT: About = About {
     leaves: &[
         "RCONF, external axes (BC, EC, BP, EX), speeds, positions that no move goes to",
         "moves to places that the running program computes (local and indexed variables) or reads from the robot: told",
+        "PULSE positions without pulses_per_deg: told",
         "TOOL.CND and UFRAME.CND, which tell tools and user frames",
         "comments, line ends, encoding, header",
     ],
@@ -95,7 +96,6 @@ static ABOUT: About = About {
         "moves while a shift (SFTON) may be on, incremental (IMOV), search (SRCH) and coordinated (SMOV) moves",
         "tools and frames that the running program sets (MFRAME, SETTOOL), tool coordinates",
         "positions of a second robot, with base or station axes that are not at zero, or without six axes",
-        "PULSE positions without pulses_per_deg",
     ],
 };
 
