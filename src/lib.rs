@@ -28,7 +28,7 @@
 //! ```
 
 pub mod check;
-pub mod cli;
+mod cli;
 pub mod compensate;
 pub mod diagnose;
 pub mod finding;
@@ -39,5 +39,8 @@ pub mod model;
 pub mod motion;
 pub mod program;
 pub mod register;
-pub mod report;
+mod report;
+pub mod task;
 pub mod urdf;
+
+pub use cli::run_with;

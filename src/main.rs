@@ -1,5 +1,5 @@
 //! The command line of poseshift.
 
 fn main() -> std::process::ExitCode {
-    poseshift::cli::run()
+    poseshift::run_with(std::env::args_os())
 }

@@ -25,7 +25,7 @@ impl Default for Tolerances {
 }
 
 /// One difference.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Difference {
     /// Program file.
     pub file: String,
@@ -40,7 +40,7 @@ pub struct Difference {
 }
 
 /// What differs from a stored run.
-#[derive(Clone, Debug, PartialEq, Default, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
 pub struct Comparison {
     /// Larger errors, less room, new findings, other targets.
     pub worse: Vec<Difference>,

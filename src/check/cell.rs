@@ -1,7 +1,7 @@
 //! The cell file: what stands around the robot, what it carries, and how near they may come.
 
 use crate::geometry::units::m_from_mm;
-use crate::model::profile::file::Number;
+use crate::model::profile::file::{self, Number};
 use crate::model::profile::shape::with_shape;
 use crate::model::profile::{Fault, ProfileError};
 use crate::model::shape::{Form, Shape};
@@ -209,10 +209,7 @@ impl Cell {
     /// The JSON Schema of the format.
     #[must_use]
     pub fn schema() -> serde_json::Value {
-        let mut schema = schemars::schema_for!(CellFile).to_value();
-        schema["title"] = format!("poseshift {FORMAT}").into();
-        schema["properties"]["poseshift"] = serde_json::json!({"const": FORMAT});
-        schema
+        file::schema::<CellFile>(FORMAT)
     }
 }
 

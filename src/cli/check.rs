@@ -1,21 +1,22 @@
 //! `check`: where the real robot goes with programs as they are, and what it comes near.
 
-use super::compensate::{common_language, explain, language_by_id, programs_in};
-use super::failure::Failure;
 use super::layout;
-use super::page::ReportFile;
-use super::{Answer, Output, files, json_text, print, values};
-use crate::check::cell::Cell;
-use crate::check::mesh::Mesh;
+use super::programs::read_programs;
+use super::telling::ReportFile;
+use super::{Answer, Output, files, print, values};
 use crate::check::trace::trace;
-use crate::check::{self, CheckError, Meshes, Options, Scene, Subject, Turning, baseline};
+use crate::check::{self, CheckError, Options, Scene, Subject, Turning, baseline};
 use crate::geometry::units::{DEG, MM};
 use crate::model::profile::Profile;
-use crate::model::shape::{Form, Shape};
 use crate::motion::Given;
 use crate::program::Source;
 use crate::report;
 use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
+use crate::task::check::{Checked as Run, Header};
+use crate::task::files::write_all;
+use crate::task::meshes::Loader;
+use crate::task::programs::{common_language, explain, language_by_id};
+use crate::task::{Document, Failure, ProfileFile, text};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -86,15 +87,20 @@ enum Orientation {
 impl Check {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         self.refuse_nonsense()?;
-        let (mut profile, profile_sha256) = files::read_profile(&self.profile)?;
-        let mut meshes = Loader::default();
+        let ProfileFile {
+            mut profile,
+            sha256: profile_sha256,
+            name,
+            ..
+        } = files::profile(&self.profile)?;
+        let mut meshes = Loader::new(&|path| std::fs::read(path));
         for shape in &mut profile.shapes {
-            meshes.load(&mut shape.shape, &self.profile)?;
+            meshes.load(&mut shape.shape, &name)?;
         }
         let cell = self
             .cell
             .as_ref()
-            .map(|path| read_cell(path, &mut meshes))
+            .map(|path| meshes.cell(&files::source(path)?))
             .transpose()?;
         let scene = Scene::new(&profile, cell.as_ref(), &meshes.meshes)
             .map_err(|missing| Failure::new(missing.to_string()))?;
@@ -128,21 +134,21 @@ impl Check {
             names(&sources),
             nominal.as_deref().map(names).unwrap_or_default(),
         );
-        let header = report::check::Header {
+        let header = Header {
             inputs: &inputs,
             nominal: &originals,
             language,
             profile_sha256: &profile_sha256,
             scene: &scene,
         };
-        let comparison = self.compare(&report::check::json(&header, &found, None))?;
+        let run = Run::new(&header, &found, None);
+        let comparison = self.compare(&run)?;
         let mut outputs = Vec::new();
         if let (Some(path), true) = (&self.baseline, self.update_baseline) {
-            let text = json_text(&report::check::json(&header, &found, None));
-            outputs.push((path.clone(), text.into_bytes()));
+            outputs.push((path.clone(), run.json().into_bytes()));
         }
         if let Some(path) = &self.junit {
-            let xml = report::check::junit(&header, &found, comparison.as_ref());
+            let xml = report::check::junit(&run, comparison.as_ref());
             outputs.push((path.clone(), xml.into_bytes()));
         }
         let worse = comparison.as_ref().map_or(0, |c| c.worse.len());
@@ -163,8 +169,13 @@ impl Check {
             })
         });
         outputs.extend(self.report.output(page.as_ref()));
-        files::write_all(&outputs)?;
-        print(&self.tell(&header, &found, comparison.as_ref(), &meshes.notes, output))?;
+        write_all(&outputs)?;
+        print(&self.tell(
+            &Run::new(&header, &found, comparison.as_ref()),
+            found.is_refused(),
+            &meshes.notes,
+            output,
+        ))?;
         let worse = worse > 0;
         Ok(if found.is_refused() || worse {
             Answer::No
@@ -230,7 +241,7 @@ impl Check {
     }
 
     /// The comparison with the stored run; none where there is no baseline, or where it is to be written for the first time.
-    fn compare(&self, now: &serde_json::Value) -> Result<Option<baseline::Comparison>, Failure> {
+    fn compare(&self, now: &Run) -> Result<Option<baseline::Comparison>, Failure> {
         let Some(path) = &self.baseline else {
             return Ok(None);
         };
@@ -243,41 +254,34 @@ impl Check {
                 "--update-baseline stores this run",
             ));
         }
-        let before = baseline::read(&files::read_text(path)?)
+        let before = baseline::read(&text(&files::source(path)?)?)
             .map_err(|error| Failure::new(format!("{}: {error}", path.display())))?;
         let tolerances = baseline::Tolerances {
             mm: self.tolerance,
             deg: self.tolerance,
         };
-        Ok(Some(baseline::compare(&before, now, tolerances)))
+        let now = serde_json::to_value(now).expect("numbers under text keys");
+        Ok(Some(baseline::compare(&before, &now, tolerances)))
     }
 
-    fn tell(
-        &self,
-        header: &report::check::Header,
-        found: &check::Check,
-        comparison: Option<&baseline::Comparison>,
-        notes: &[String],
-        output: Output,
-    ) -> String {
+    fn tell(&self, found: &Run, refused: bool, notes: &[String], output: Output) -> String {
         if output.json {
-            return json_text(&report::check::json(header, found, comparison));
+            return found.json();
         }
         let mut text = String::new();
         if output.verbose {
             let lines = notes.iter().map(|note| format!("note: {note}\n"));
             text += &layout::fitted(&lines.collect::<String>());
         }
-        let refused = found.is_refused();
         if !output.quiet || refused {
-            text += &layout::findings(&found.findings, output.verbose);
+            text += &layout::findings(found.findings, output.verbose);
         }
         if output.quiet {
-            if let Some(comparison) = comparison.filter(|c| !c.worse.is_empty()) {
+            if let Some(comparison) = found.baseline.filter(|c| !c.worse.is_empty()) {
                 text += &layout::fitted(&baseline::text(comparison));
             }
         } else {
-            text += &layout::fitted(&report::check::text(header, found, comparison));
+            text += &layout::fitted(&report::check::text(found));
         }
         if let (Some(path), true) = (&self.baseline, self.update_baseline && !output.quiet) {
             text += &format!("stored as {}\n", path.display());
@@ -287,94 +291,4 @@ impl Check {
         }
         text
     }
-}
-
-/// Program files in the order of the arguments; folders give theirs by name.
-fn read_programs(
-    paths: &[PathBuf],
-    asked: Option<&'static dyn crate::program::Language>,
-) -> Result<Vec<Source>, Failure> {
-    let mut sources = Vec::new();
-    for path in paths {
-        let found = if path.is_dir() {
-            programs_in(path, asked)?
-                .into_iter()
-                .map(|(path, _)| path)
-                .collect()
-        } else {
-            vec![path.clone()]
-        };
-        for path in found {
-            sources.push(Source::new(path.display().to_string(), files::read(&path)?));
-        }
-    }
-    if sources.is_empty() {
-        return Err(Failure::with_hint(
-            "no program files in these folders",
-            "`poseshift languages` lists what is recognised",
-        ));
-    }
-    Ok(sources)
-}
-
-/// Reads the meshes that profiles and cells name, each once.
-#[derive(Default)]
-pub(super) struct Loader {
-    pub(super) meshes: Meshes,
-    notes: Vec<String>,
-}
-
-impl Loader {
-    /// Reads the mesh of a shape, if it is one; its name becomes the key of the mesh.
-    pub(super) fn load(&mut self, shape: &mut Shape, named_in: &Path) -> Result<(), Failure> {
-        let Form::Mesh { file, scale } = &mut shape.form else {
-            return Ok(());
-        };
-        let folder = named_in.parent().unwrap_or(Path::new(""));
-        let path = folder.join(&*file);
-        let key = format!("{} {scale:?}", path.display());
-        if !self.meshes.contains_key(&key) {
-            let bytes = std::fs::read(&path).map_err(|error| {
-                Failure::with_hint(
-                    format!(
-                        "{}: cannot read the mesh {}: {error}",
-                        named_in.display(),
-                        path.display()
-                    ),
-                    "mesh files are looked for beside the file that names them",
-                )
-            })?;
-            let beside = |name: &str| std::fs::read(path.parent()?.join(name)).ok();
-            let name = path.display().to_string();
-            let mesh = Mesh::read(&name, &bytes, *scale, &beside)
-                .map_err(|error| Failure::with_hint(format!("{name}: {error}"), error.hint()))?;
-            if mesh.degenerate > 0 {
-                self.notes.push(format!(
-                    "{name}: {} triangles have no area and are left out",
-                    mesh.degenerate
-                ));
-            }
-            if mesh.open_edges > 0 {
-                self.notes.push(format!(
-                    "{name}: the mesh is open ({} edges): its surface is looked at, not what is inside",
-                    mesh.open_edges
-                ));
-            }
-            self.meshes.insert(key.clone(), mesh);
-        }
-        *file = key;
-        Ok(())
-    }
-}
-
-fn read_cell(path: &Path, meshes: &mut Loader) -> Result<Cell, Failure> {
-    let text = files::read_text(path)?;
-    let mut cell = Cell::from_yaml(&text).map_err(|error| Failure::profile(path, &text, &error))?;
-    for body in &mut cell.bodies {
-        meshes.load(&mut body.shape, path)?;
-    }
-    for body in &mut cell.attached {
-        meshes.load(&mut body.shape, path)?;
-    }
-    Ok(cell)
 }

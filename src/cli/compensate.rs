@@ -1,19 +1,25 @@
 //! `compensate`: program files in, program files with fake targets out.
 
-use super::failure::Failure;
-use super::files::same_file;
 use super::layout;
-use super::page::ReportFile;
+use super::programs::programs_in;
+use super::telling::ReportFile;
 use super::way::Drawing;
-use super::{Answer, Output, files, json_text, print, values};
+use super::{Answer, Output, files, print, values};
 use crate::check::CheckError;
 use crate::check::refine::{Refined, refine};
-use crate::compensate::{CompensateError, Compensation, Given, Options, compensate};
+use crate::compensate::Methods;
+use crate::compensate::{Compensation, Given, Options, compensate};
 use crate::geometry::units::MM;
 use crate::geometry::units::m_from_mm;
-use crate::model::profile::{ControllerModel, Profile};
-use crate::program::{LANGUAGES, Language, Marker, Source};
+use crate::model::profile::Profile;
+use crate::program::{Language, Marker, Source};
 use crate::report;
+use crate::task::compensate::{Compensated, Header};
+use crate::task::files::{same_file, sha256, write_all};
+use crate::task::programs::{
+    common_language, explain, language_by_id, refuse_doubtful, refuse_marked,
+};
+use crate::task::{Document, Failure, frame};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -53,6 +59,9 @@ pub struct Compensate {
     /// What to do with joint targets
     #[arg(long, value_enum, default_value = "keep")]
     joint_targets: JointTargets,
+    /// How to search the joints of the real arm
+    #[arg(long, value_enum, default_value = "auto")]
+    method: Search,
     /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
@@ -79,6 +88,15 @@ pub struct Compensate {
     report: ReportFile,
 }
 
+/// How to search the joints of the real arm
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Search {
+    /// Pose shift, and damped Newton where it stalls
+    Auto,
+    /// Pose shift alone; where it stalls the target is refused
+    PoseShift,
+}
+
 /// What to do with joint targets
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum JointTargets {
@@ -96,10 +114,11 @@ struct Job {
 
 impl Compensate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let (profile, profile_sha256) = files::read_profile(&self.profile)?;
-        refuse_doubtful(&profile, &self.profile)?;
+        let file = files::profile(&self.profile)?;
+        refuse_doubtful(&file)?;
+        let (profile, profile_sha256) = (&file.profile, &file.sha256);
         let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
-        let options = self.options(&profile, each)?;
+        let options = self.options(profile, each)?;
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let found = self.find_programs(asked)?;
         let inputs = found.iter().map(|job| job.input.as_path());
@@ -117,31 +136,26 @@ impl Compensate {
         }
         let sources = found
             .iter()
-            .map(|job| {
-                Ok(Source::new(
-                    job.input.display().to_string(),
-                    files::read(&job.input)?,
-                ))
-            })
+            .map(|job| files::source(&job.input))
             .collect::<Result<Vec<_>, Failure>>()?;
-        let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
+        let language = asked.map_or_else(|| common_language(&sources, profile), Ok)?;
         if !self.force {
             refuse_marked(&sources)?;
         }
-        let mut compensation = compensate(language, &sources, &profile, &options)
+        let mut compensation = compensate(language, &sources, profile, &options)
             .map_err(|error| explain(&error, &sources))?;
-        let refined = self.refine(language, &sources, &profile, &options, &mut compensation)?;
+        let refined = self.refine(language, &sources, profile, &options, &mut compensation)?;
         let refused = compensation.is_refused();
         let writes = !refused || self.keep_going;
         let outputs = found.iter().filter(|_| writes);
-        let header = report::compensation::Header {
+        let header = Header {
             inputs: sources.iter().map(|s| s.name.clone()).collect(),
             outputs: outputs
                 .map(|job| job.output.display().to_string())
                 .collect(),
             sources: &sources,
             language,
-            profile_sha256: &profile_sha256,
+            profile_sha256,
         };
         let mut told = tell(&header, &compensation, output);
         if refined.moves > 0 && !output.json && !output.quiet {
@@ -154,20 +168,20 @@ impl Compensate {
         let mut drawing = self
             .report
             .is_wanted()
-            .then(|| Drawing::begin(&header, &compensation, &profile, &self.profile, &options));
+            .then(|| Drawing::begin(&header, &compensation, &file, &options));
         let mut outputs = Vec::new();
         let inserted = refined.moves;
         if writes {
-            let written = render(language, &sources, compensation, &profile_sha256, refined)?;
+            let written = render(language, &sources, compensation, profile_sha256, refined)?;
             if let Some(drawing) = &mut drawing {
                 drawing.tell_inserted(inserted);
-                drawing.add_written(language, &written, &sources, &profile, &options);
+                drawing.add_written(language, &written, &sources, profile, &options);
             }
             let written = written.into_iter().map(|source| source.bytes);
             outputs.extend(found.into_iter().map(|job| job.output).zip(written));
         }
         outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
-        files::write_all(&outputs)?;
+        write_all(&outputs)?;
         if !output.json && !output.quiet {
             told += &self.report.told();
         }
@@ -191,11 +205,11 @@ impl Compensate {
             let name = name.ok_or_else(|| {
                 Failure::new(format!("--wobj {text}: it must be NAME=FRAME.yaml"))
             })?;
-            let frame = files::read_frame(Path::new(file))?;
+            let frame = frame(&files::source(Path::new(file))?)?;
             given.measured_frames.insert(name, frame.to_from_from);
         }
         let work_offset = match &self.work_offset {
-            Some(path) => Some(files::read_frame(path)?.to_from_from),
+            Some(path) => Some(frame(&files::source(path)?)?.to_from_from),
             None => None,
         };
         Ok(Options {
@@ -211,6 +225,10 @@ impl Compensate {
                 .as_deref()
                 .map(values::joints)
                 .transpose()?,
+            methods: match self.method {
+                Search::Auto => Methods::Auto,
+                Search::PoseShift => Methods::PoseShift,
+            },
         })
     }
 
@@ -295,140 +313,6 @@ impl Compensate {
     }
 }
 
-/// A profile whose calibration cannot be meant.
-fn refuse_doubtful(profile: &Profile, path: &Path) -> Result<(), Failure> {
-    let nothing = profile
-        .effects
-        .iter()
-        .all(crate::model::effects::Effect::is_zero);
-    // with its own effects the real arm is taken as the controller's: nothing changes
-    if profile.controller == ControllerModel::Calibrated && profile.own_effects.is_none() && nothing
-    {
-        let message = format!(
-            "{}: the controller is calibrated itself, and the profile has no effects to apply",
-            path.display()
-        );
-        let hint = "a calibrated controller needs the effects that it applies (`controller.effects`; of a UR, `poseshift profile \
-                    import-ur`) and those of the real arm";
-        return Err(Failure::with_hint(message, hint));
-    }
-    Ok(())
-}
-
-fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
-    for source in sources {
-        if let Some(offset) = Marker::find(&source.bytes) {
-            let (line, column) = source.line_column(offset);
-            let hint = "compensate the original instead; --force compensates once more";
-            return Err(Failure::at(
-                source,
-                line,
-                column,
-                None,
-                "this file is already compensated".into(),
-                hint.into(),
-            ));
-        }
-    }
-    Ok(())
-}
-
-pub(super) fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
-    let known = || {
-        LANGUAGES
-            .iter()
-            .map(|l| l.about().id)
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let found = LANGUAGES.iter().find(|language| language.about().id == id);
-    found.copied().ok_or_else(|| {
-        Failure::with_hint(
-            format!("no language is called `{id}`"),
-            format!("languages are: {}", known()),
-        )
-    })
-}
-
-/// The language of all these files, by name and content.
-pub(super) fn common_language(
-    sources: &[Source],
-    profile: &Profile,
-) -> Result<&'static dyn Language, Failure> {
-    let mut common: Option<(&'static dyn Language, &str)> = None;
-    for source in sources {
-        let Some(language) = crate::program::language_of(source) else {
-            let hint = "`poseshift languages` lists what is recognised; --language says what it is";
-            return Err(Failure::with_hint(
-                format!("{}: not a robot program of a known language", source.name),
-                hint,
-            ));
-        };
-        match common {
-            Some((first, name)) if first.about().id != language.about().id => {
-                return Err(Failure::new(format!(
-                    "{name} is {} and {} is {}: programs of one call have one language",
-                    first.about().name,
-                    source.name,
-                    language.about().name
-                )));
-            }
-            _ => common = Some((language, &source.name)),
-        }
-    }
-    let (language, name) = common.expect("there is at least one source");
-    match &profile.language {
-        Some(of_profile)
-            if of_profile != language.about().id
-                && of_profile != "csv"
-                && language.about().id != "csv" =>
-        {
-            Err(Failure::with_hint(
-                format!(
-                    "{name} is {}, and the profile's controller speaks {of_profile}",
-                    language.about().name
-                ),
-                "is it the profile of this robot? --language overrides",
-            ))
-        }
-        _ => Ok(language),
-    }
-}
-
-/// Program files in a folder and below, with their paths relative to it.
-pub(super) fn programs_in(
-    folder: &Path,
-    asked: Option<&'static dyn Language>,
-) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
-    let mut found = Vec::new();
-    for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
-        let entry = entry.map_err(|error| {
-            Failure::new(format!(
-                "cannot read the folder {}: {error}",
-                folder.display()
-            ))
-        })?;
-        let path = entry.path();
-        let known = LANGUAGES
-            .iter()
-            .filter(|l| asked.is_none_or(|a| a.about().id == l.about().id));
-        let mut candidates = known
-            .filter(|l| crate::program::has_extension(**l, path))
-            .peekable();
-        if !entry.file_type().is_file() || candidates.peek().is_none() {
-            continue;
-        }
-        let source = Source::new("", files::read(path)?);
-        if candidates.any(|language| language.recognises(&source)) {
-            let below = path
-                .strip_prefix(folder)
-                .expect("a walk stays below its top");
-            found.push((path.to_owned(), below.to_owned()));
-        }
-    }
-    Ok(found)
-}
-
 /// The files' new bytes: edits and marker, read again to make sure that they say what was meant. Takes the compensation,
 /// so that a long program is not in memory twice.
 fn render(
@@ -455,7 +339,7 @@ fn render(
             let marker = Marker {
                 version: env!("CARGO_PKG_VERSION").into(),
                 profile_sha256: profile_sha256.into(),
-                source_sha256: files::sha256(&source.bytes),
+                source_sha256: sha256(&source.bytes),
             };
             let (at, text) = language.mark(source, &marker);
             edits.replace(at..at, |bytes| bytes.extend(text));
@@ -465,58 +349,18 @@ fn render(
     let same = crate::motion::read(language, &written, &settings)
         .is_ok_and(|after| targets.contains(&after.targets.len()) && after.moves.len() == moves);
     if !same {
-        let message = "internal error: the rewritten program does not read back as the same program; nothing is written";
-        return Err(Failure::new(message));
+        return Err(Failure::internal(
+            "the rewritten program does not read back as the same program",
+        ));
     }
     Ok(written)
 }
 
-pub(super) fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
-    let source_of = |file: &str| sources.iter().find(|source| source.name == file);
-    match error {
-        CompensateError::Read(read) => {
-            let (file, line, column) = read.place();
-            match source_of(file) {
-                Some(source) if line > 0 => {
-                    Failure::at(source, line, column, None, read.message(), String::new())
-                }
-                _ => Failure::new(read.to_string()),
-            }
-        }
-        CompensateError::Placement(unknown) => match source_of(&unknown.missing[0].file) {
-            Some(source) => Failure::at(
-                source,
-                unknown.missing[0].line,
-                unknown.missing[0].column,
-                None,
-                unknown.message(),
-                unknown.hint(),
-            ),
-            None => Failure::with_hint(unknown.to_string(), unknown.hint()),
-        },
-        CompensateError::MeasuredFrame(error) => {
-            Failure::with_hint(format!("--wobj: {error}"), error.hint())
-        }
-        CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
-        CompensateError::NothingToCorrect => Failure::with_hint(
-            error.to_string(),
-            "`poseshift calibrate` identifies effects; with --work-offset the part is moved without any",
-        ),
-        CompensateError::NothingInReach { .. } => Failure::with_hint(
-            error.to_string(),
-            "check the tool and the work frame, too; nothing is written",
-        ),
-    }
-}
-
 /// What is printed when all is done.
-fn tell(
-    header: &report::compensation::Header,
-    compensation: &Compensation,
-    output: Output,
-) -> String {
+fn tell(header: &Header, compensation: &Compensation, output: Output) -> String {
+    let found = Compensated::new(header, compensation);
     if output.json {
-        return json_text(&report::compensation::json(header, compensation));
+        return found.json();
     }
     let written = !header.outputs.is_empty();
     let mut text = String::new();
@@ -524,7 +368,11 @@ fn tell(
         text += &layout::findings(&compensation.findings, output.verbose);
     }
     if !output.quiet {
-        text += &layout::fitted(&report::compensation::text(header, compensation));
+        text += &layout::fitted(&report::compensation::text(
+            &found,
+            header.inputs.len(),
+            header.language,
+        ));
     }
     match header.outputs.as_slice() {
         [] => {

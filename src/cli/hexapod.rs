@@ -1,26 +1,15 @@
 //! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot can measure.
 
-use super::failure::Failure;
-use super::layout::{aligned, print_text, row};
-use super::page::ReportFile;
-use super::registration::sigma_json;
-use super::table::{JOINTS, POSE, Row, Table, cell};
-use super::{Answer, Output, files, print, print_json, values};
-use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::geometry::{Pose, Quaternion, Vector};
-use crate::register::frame_file::{Frame, Sigma};
-use crate::register::hexapod::{
-    BaseFrame, Design, Device, HexapodError, Lengths, NAMES, Reached, Solved, Spread, modes, near,
-    reach, set_base_frame, solve, spread,
-};
-use crate::register::uncertainty::PoseCovariance;
-use crate::report;
-use crate::report::html::frames::{Left, Uncertain, frame_page, pose_text};
-use crate::report::html::page::Page;
-use crate::report::html::reach::{Ballbar, Reached as DrawnPose, page as reach_page};
+use super::telling::{ReportFile, Told, finish};
+use super::{Answer, Output, files, print, values};
+use crate::geometry::Pose;
+use crate::geometry::units::m_from_mm;
+use crate::register::hexapod::Device;
+use crate::report::Report;
+use crate::task::files::write_all;
+use crate::task::hexapod::{base, measurable_poses, poses};
+use crate::task::{Failure, frame};
 use clap::Args;
-use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Turn ballbar lengths into tool poses with uncertainty
@@ -71,14 +60,6 @@ pub struct Hexapod {
     report: ReportFile,
 }
 
-/// One row of lengths, solved.
-struct Setting {
-    id: String,
-    design: Design,
-    found: Vec<(Solved, Spread)>,
-    q_deg: Option<[f64; 6]>,
-}
-
 impl Hexapod {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         if !(self.sigma_mm.is_finite() && self.sigma_mm >= 0.0) {
@@ -98,235 +79,52 @@ impl Hexapod {
         if self.reach {
             return self.list(output);
         }
-        let path = self
-            .lengths
-            .as_ref()
-            .expect("clap asks for LENGTHS where nothing else is asked");
-        let table = Table::read(path)?;
-        let columns = NAMES.map(|name| format!("{name}_mm"));
-        table.require(&columns.each_ref().map(String::as_str))?;
-        table.require(&["design"])?;
-        let mut settings = Vec::new();
-        for (number, row) in table.rows().enumerate() {
-            settings.push(setting(&table, &row, number)?);
-        }
-        let several = settings.iter().filter(|s| s.found.len() > 1).count();
-        let mut outputs = Vec::new();
-        if let Some(out) = &self.output {
-            let text = self.measurements(&settings, path)?;
-            outputs.push((out.clone(), text.into_bytes()));
-        }
-        if self.report.is_wanted() {
-            let page = self.drawn(&settings, path, several);
-            outputs.extend(self.report.output(Some(&page)));
-        }
-        files::write_all(&outputs)?;
-        if output.json {
-            let poses: Vec<Value> = settings
-                .iter()
-                .flat_map(|setting| setting.found.iter().map(|f| self.pose_json(setting, f)))
-                .collect();
-            print_json(
-                &json!({"poseshift": "hexapod/1", "poses": poses, "sigma_mm": self.sigma_mm, "undecided": several}),
-            )?;
-        } else if !output.quiet {
-            print_text(&self.text(&settings, several))?;
-            print(&self.report.told())?;
-        }
+        let path = self.lengths.as_ref();
+        let path = path.expect("clap asks for LENGTHS where nothing else is asked");
+        let found = poses(&files::source(path)?, m_from_mm(self.sigma_mm))?;
+        let measurements = self.output.as_ref().map(|_| {
+            let world_from_base = match &self.frame {
+                Some(path) => frame(&files::source(path)?)?.to_from_from,
+                None => Pose::identity(),
+            };
+            found.measurements(&world_from_base)
+        });
+        self.finish(&found, measurements.transpose()?, output)
+    }
+
+    /// Tells a result; `text` is what is written to the output.
+    fn finish(
+        &self,
+        found: &impl Report,
+        text: Option<String>,
+        output: Output,
+    ) -> Result<Answer, Failure> {
+        let written = self
+            .output
+            .iter()
+            .cloned()
+            .zip(text.map(String::into_bytes));
+        let told = (Told::Main, "");
+        finish(found, written.collect(), Some(&self.report), told, output)?;
         Ok(Answer::Yes)
     }
 
-    fn covariance(&self, solved: &Solved, spread: &Spread) -> PoseCovariance {
-        let square = m_from_mm(self.sigma_mm).powi(2);
-        PoseCovariance {
-            centre_m: solved.pose.translation,
-            matrix: spread.pose.map(|row| row.map(|v| v * square)),
-        }
-    }
-
-    fn sigma(&self, solved: &Solved, spread: &Spread) -> Sigma {
-        Sigma::of(&self.covariance(solved, spread), &solved.pose)
-    }
-
-    /// The page: the tool balls of every pose with their ellipsoids.
-    fn drawn(&self, settings: &[Setting], path: &Path, several: usize) -> Page {
-        let mut ellipsoids = Vec::new();
-        for setting in settings {
-            for (solved, spread) in &setting.found {
-                let covariance = self.covariance(solved, spread);
-                for (k, ball) in solved.tool_points_m.iter().enumerate() {
-                    let ellipsoid = covariance.ellipsoid(*ball);
-                    ellipsoids.push(Uncertain {
-                        name: format!("{} mode {} T{}", setting.id, solved.mode, k + 1),
-                        place_m: *ball,
-                        half_axes_m: ellipsoid.half_axes_m,
-                        axes: std::array::from_fn(|i| ellipsoid.axes.axis(i)),
-                    });
-                }
-            }
-        }
-        let poses: usize = settings.iter().map(|s| s.found.len()).sum();
-        let largest = ellipsoids
-            .iter()
-            .map(|e| e.half_axes_m[0])
-            .fold(0.0, f64::max);
-        let points = ellipsoids.iter().map(|e| Left {
-            id: e.name.clone(),
-            place_m: e.place_m,
-            left_m: [0.0; 3],
-            rejected: None,
-        });
-        frame_page(&report::html::frames::Frame {
-            title: "Ballbar hexapod".into(),
-            lead: vec![format!(
-                "{}, in the frame of the base balls; {} mm a length",
-                path.display(),
-                self.sigma_mm
-            )],
-            answer: format!("{poses} poses of {} rows", settings.len()),
-            facts: vec![
-                (
-                    "largest uncertainty of a ball".into(),
-                    format!("{:.5} mm", mm_from_m(largest)),
-                ),
-                ("rows with more than one mode".into(), several.to_string()),
-            ],
-            points: points.collect(),
-            ellipsoids,
-            findings: Vec::new(),
-        })
-    }
-
-    fn pose_json(&self, setting: &Setting, (solved, spread): &(Solved, Spread)) -> Value {
-        json!({
-            "id": setting.id, "design": setting.design.name(), "mode": solved.mode,
-            "tool_points_mm": solved.tool_points_m.map(|p| p.map(mm_from_m)),
-            "sigma_tool_points": spread.points, "pose": report::pose(&solved.pose),
-            "sigma": sigma_json(&self.sigma(solved, spread)),
-        })
-    }
-
-    fn text(&self, settings: &[Setting], several: usize) -> String {
-        let mut rows = vec![
-            row([
-                "id", "design", "mode", "x", "y", "z", "rx", "ry", "rz", "sigma",
-            ]),
-            row(["", "", "", "mm", "mm", "mm", "deg", "deg", "deg", "mm"]),
-        ];
-        for setting in settings {
-            for (solved, spread) in &setting.found {
-                let [x, y, z, rx, ry, rz] = solved.pose.xyz_rxryrz();
-                let largest = spread
-                    .points
-                    .iter()
-                    .map(|p| p.iter().map(|s| s * s).sum::<f64>().sqrt())
-                    .fold(0.0, f64::max);
-                let mut cells = vec![
-                    setting.id.clone(),
-                    setting.design.name(),
-                    solved.mode.to_string(),
-                ];
-                cells.extend([x, y, z].map(|x| format!("{:.4}", mm_from_m(x))));
-                cells.extend([rx, ry, rz].map(|r| format!("{:.4}", r / DEG)));
-                cells.push(format!("{:.5}", largest * self.sigma_mm));
-                rows.push(cells);
-            }
-        }
-        let mut text = format!(
-            "poses in the frame of the base balls; sigma for {} mm a length\n{}",
-            self.sigma_mm,
-            aligned(&rows)
-        );
-        if several > 0 {
-            text += &format!(
-                "{several} rows have more than one mode: a column mode or a rough pose (x_mm … qz) chooses\n"
-            );
-        }
-        text
-    }
-
-    /// Positions of the three tool balls for each row with joints.
-    fn measurements(&self, settings: &[Setting], path: &Path) -> Result<String, Failure> {
-        let world_from_device = match &self.frame {
-            Some(path) => files::read_frame(path)?.to_from_from,
-            None => Pose::identity(),
-        };
-        let mut text = format!("id,{},point,x_mm,y_mm,z_mm,sigma_mm\n", JOINTS.join(","));
-        for setting in settings {
-            let row = format!("{}: row {}", path.display(), setting.id);
-            let q = setting.q_deg.ok_or_else(|| {
-                Failure::with_hint(
-                    format!("{row}: no joints"),
-                    "measurements need the columns q1_deg…q6_deg",
-                )
-            })?;
-            let [(solved, spread)] = setting.found.as_slice() else {
-                return Err(Failure::with_hint(
-                    format!("{row}: {} assembly modes", setting.found.len()),
-                    "a column mode or a rough pose chooses",
-                ));
-            };
-            for (k, point) in solved.tool_points_m.iter().enumerate() {
-                let p = world_from_device.transform(*point).map(mm_from_m);
-                let square: f64 = spread.points[k].iter().map(|s| s * s).sum();
-                let sigma = self.sigma_mm * (square / 3.0).sqrt();
-                let numbers: Vec<String> = q.iter().map(|v| cell(*v)).collect();
-                let place: Vec<String> = p.iter().map(|v| cell(*v)).collect();
-                text += &format!(
-                    "{}-T{},{},T{},{},{}\n",
-                    setting.id,
-                    k + 1,
-                    numbers.join(","),
-                    k + 1,
-                    place.join(","),
-                    cell(sigma)
-                );
-            }
-        }
-        Ok(text)
-    }
-
     fn set_base(&self, path: &Path, output: Output) -> Result<Answer, Failure> {
-        let points = super::points::Points::read(path)?;
-        let base = three("--base-mm", self.base_mm.as_deref())?;
-        let name = path.display();
-        let taught = <[_; 3]>::try_from(points.positions()).map_err(|points| {
-            Failure::new(format!(
-                "{name}: {} points; the base has three: B1, B2, B3",
-                points.len()
-            ))
-        })?;
-        let found = set_base_frame(taught, base)
-            .map_err(|error| Failure::new(format!("{name}: {error}")))?;
-        let frame = Frame {
-            to_from_from: found.robot_from_base,
-            sigma: None,
-            rmsd_m: Some(found.rms_m),
-            points: Some(3),
-            provenance: BTreeMap::from([
-                ("method".into(), "three taught points".into()),
-                ("to".into(), name.to_string()),
-            ]),
-        };
-        let mut outputs = Vec::new();
-        outputs.extend(
-            self.output
-                .as_ref()
-                .map(|out| (out.clone(), frame.to_yaml().into_bytes())),
-        );
-        if self.report.is_wanted() {
-            let page = base_drawn(&found, taught, &name.to_string());
-            outputs.extend(self.report.output(Some(&page)));
-        }
-        files::write_all(&outputs)?;
+        let base_m = three("--base-mm", self.base_mm.as_deref())?;
+        let found = base(&files::source(path)?, base_m)?;
         if output.json {
-            print_json(&json!({
-                "poseshift": "hexapod/1", "base": report::pose(&found.robot_from_base),
-                "rmsd_mm": mm_from_m(found.rms_m), "residuals_mm": found.left_m.map(|v| v.map(mm_from_m)),
-            }))?;
-        } else if !output.quiet {
-            print(&frame.to_yaml())?;
-            // the frame file is what is printed: it stays one that can be read
+            return self.finish(&found, Some(found.frame_text.clone()), output);
+        }
+        let text = found.frame_text.clone().into_bytes();
+        let written = self.output.iter().map(|path| (path.clone(), text.clone()));
+        // the frame file is what is printed: it stays one that can be read
+        write_all(
+            &written
+                .chain(self.report.output(found.page().as_ref()))
+                .collect::<Vec<_>>(),
+        )?;
+        if !output.quiet {
+            print(&found.frame_text)?;
             anstream::eprint!("{}", self.report.told());
         }
         Ok(Answer::Yes)
@@ -340,171 +138,11 @@ impl Hexapod {
             range_m: m_from_mm(self.range_mm),
         };
         let missing = "clap asks for it with --reach";
-        let (profile, _) = files::read_profile(self.profile.as_ref().expect(missing))?;
-        let frame = files::read_frame(self.frame.as_ref().expect(missing))?;
-        let tool = values::chosen_tool(self.tool.as_deref(), &profile)?;
-        crate::register::hexapod::measurable(&device)
-            .map_err(|error| Failure::new(error.to_string()))?;
-        let all = reach(&device, &frame.to_from_from, &profile, &tool)
-            .map_err(|error| Failure::new(error.to_string()))?;
-        let mut csv = format!("id,design,mode,branch,{}\n", JOINTS.join(","));
-        for (number, reached) in all.iter().enumerate() {
-            for (branch, q) in &reached.postures {
-                let q: Vec<String> = q.iter().map(|v| cell(v / DEG)).collect();
-                csv += &format!(
-                    "{},{},{},{},{}\n",
-                    number + 1,
-                    reached.design.name(),
-                    reached.solved.mode,
-                    branch.number(),
-                    q.join(",")
-                );
-            }
-        }
-        let mut outputs = Vec::new();
-        outputs.extend(
-            self.output
-                .as_ref()
-                .map(|out| (out.clone(), csv.into_bytes())),
-        );
-        if self.report.is_wanted() {
-            let file = self.frame.as_ref().expect(missing).display().to_string();
-            let world = frame.to_from_from;
-            let drawn: Vec<_> = all.iter().map(|one| reach_drawn(one, &world)).collect();
-            let ballbar = Ballbar {
-                length_m: device.leg_m,
-                range_m: device.range_m,
-                balls_m: device.base_balls_m().map(|p| world.transform(p)),
-            };
-            let page = reach_page(&drawn, &ballbar, &profile, &tool, &file);
-            outputs.extend(self.report.output(Some(&page)));
-        }
-        files::write_all(&outputs)?;
-        let count = all.iter().filter(|r| r.measurable).count();
-        if output.json {
-            let rows: Vec<Value> = all
-                .iter()
-                .enumerate()
-                .map(|(number, r)| {
-                    let postures: Vec<Value> = r
-                        .postures
-                        .iter()
-                        .map(|(branch, q)| {
-                            json!({"branch": branch.number(), "joints_deg": q.map(|q| q / DEG)})
-                        })
-                        .collect();
-                    json!({"id": number + 1, "design": r.design.name(), "mode": r.solved.mode,
-                           "pose": report::pose(&r.solved.pose), "postures": postures,
-                           "leg_error_mm": r.leg_error_m.map(mm_from_m), "measurable": r.measurable})
-                })
-                .collect();
-            print_json(&json!({"poseshift": "hexapod/1", "measurable": count, "reach": rows}))?;
-        } else if !output.quiet {
-            let mut rows = vec![row(["id", "design", "mode", "postures", "leg error mm"])];
-            for (number, r) in all.iter().enumerate() {
-                let told = match r.leg_error_m {
-                    None => "out of reach".to_owned(),
-                    Some(e) if r.measurable => format!("{:.4}", mm_from_m(e)),
-                    Some(e) => format!("beyond the ballbar: {:.4}", mm_from_m(e)),
-                };
-                rows.push(vec![
-                    (number + 1).to_string(),
-                    r.design.name(),
-                    r.solved.mode.to_string(),
-                    r.postures.len().to_string(),
-                    told,
-                ]);
-            }
-            let mut text = aligned(&rows);
-            text += &format!("{count} of {} poses are measurable\n", all.len());
-            print_text(&text)?;
-            print(&self.report.told())?;
-        }
-        Ok(Answer::Yes)
+        let profile = files::profile(self.profile.as_ref().expect(missing))?;
+        let frame = files::source(self.frame.as_ref().expect(missing))?;
+        let found = measurable_poses(&profile, self.tool.as_deref(), &frame, &device)?;
+        self.finish(&found, Some(found.csv()), output)
     }
-}
-
-/// A pose of --reach for its page.
-fn reach_drawn(reached: &Reached, world_from_base: &Pose) -> DrawnPose {
-    DrawnPose {
-        design: reached.design.name(),
-        mode: reached.solved.mode,
-        place_m: world_from_base.transform(reached.solved.pose.translation),
-        postures: reached.postures.len(),
-        joints: reached.postures.first().map(|(_, q)| *q),
-        leg_error_m: reached.leg_error_m,
-        measurable: reached.measurable,
-    }
-}
-
-/// The page of --taught: what is left of the three points.
-fn base_drawn(found: &BaseFrame, taught: [Vector; 3], file: &str) -> Page {
-    let points = taught.iter().zip(found.left_m).zip(["B1", "B2", "B3"]);
-    frame_page(&report::html::frames::Frame {
-        title: "Base of the ballbar hexapod".into(),
-        lead: vec![format!(
-            "{file}: the base balls as the robot was taught them"
-        )],
-        answer: format!(
-            "The taught points agree with the exact distances to {:.4} mm (rmsd)",
-            mm_from_m(found.rms_m)
-        ),
-        facts: vec![(
-            "base balls' frame in the robot's".into(),
-            pose_text(&found.robot_from_base),
-        )],
-        points: points
-            .map(|((place_m, left_m), id)| Left {
-                id: id.into(),
-                place_m: *place_m,
-                left_m,
-                rejected: None,
-            })
-            .collect(),
-        ..report::html::frames::Frame::default()
-    })
-}
-
-/// Reads and solves a row.
-fn setting(table: &Table, row: &Row, number: usize) -> Result<Setting, Failure> {
-    let fail = |error: &HexapodError| row.failure(error.to_string());
-    let columns = NAMES.map(|name| format!("{name}_mm"));
-    let mut all = [0.0; 12];
-    for (slot, column) in all.iter_mut().zip(&columns) {
-        *slot = m_from_mm(row.number(column)?);
-    }
-    let lengths = Lengths::from_all(all);
-    let design =
-        Design::parse(row.text("design").unwrap_or_default()).map_err(|error| fail(&error))?;
-    let solved = if table.has("mode") {
-        let mode = row.number("mode")?;
-        let whole = (1..=4_u8).find(|m| f64::from(*m) == mode);
-        let whole = whole.ok_or_else(|| fail(&HexapodError::Mode { found: mode }))?;
-        vec![solve(&lengths, &design, usize::from(whole)).map_err(|error| fail(&error))?]
-    } else if POSE.iter().all(|c| table.has(c)) {
-        let [x, y, z, w, i, j, k] = row.numbers(POSE)?;
-        let rough = Pose::from_parts(
-            [x, y, z].map(m_from_mm),
-            Quaternion([w, i, j, k]).normalized(),
-        );
-        vec![near(&lengths, &design, &rough).map_err(|error| fail(&error))?]
-    } else {
-        modes(&lengths, &design).map_err(|error| fail(&error))?
-    };
-    let q_deg = if JOINTS.iter().all(|c| table.has(c)) {
-        Some(row.numbers(JOINTS)?)
-    } else {
-        None
-    };
-    Ok(Setting {
-        id: row.id(number + 1),
-        design,
-        found: solved
-            .into_iter()
-            .map(|s| (s, spread(&lengths, &design, s.mode)))
-            .collect(),
-        q_deg,
-    })
 }
 
 /// Three lengths in mm.

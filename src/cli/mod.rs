@@ -6,32 +6,30 @@ mod catalogue;
 mod check;
 mod compensate;
 mod diagnose;
-mod driving;
+mod explain;
 mod failure;
 mod files;
 mod handeye;
 mod hexapod;
-mod icp;
-mod import_ur;
 mod kinematics;
 mod layout;
 mod measurements;
-mod page;
 mod plan;
-mod points;
 mod profile;
+mod programs;
 mod progress;
 mod register;
-mod registration;
+mod schema;
 mod shell;
 mod simulate;
-mod table;
+mod telling;
 mod validate;
 mod values;
 mod way;
 
+use crate::task::{Blame, Failure};
 use clap::{Args, Parser, Subcommand};
-use failure::Failure;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Makes an offline-programmed robot path land where the simulation wanted it
@@ -44,7 +42,7 @@ use std::process::ExitCode;
     arg_required_else_help = true
 )]
 #[command(
-    after_help = "Exit status: 0 done; 1 done, and the answer is no (nothing is written); 2 could not do it."
+    after_help = "Exit status: 0 done; 1 done, and the answer is no (nothing is written); 2 could not do it; 3 a fault of poseshift itself."
 )]
 pub struct CommandLine {
     #[command(subcommand)]
@@ -86,6 +84,8 @@ enum Command {
     Robots(catalogue::Robots),
     Effects(catalogue::Effects),
     Languages(catalogue::Languages),
+    Explain(explain::Explain),
+    Schema(schema::Schema),
     Completions(shell::Completions),
     Man(shell::Man),
 }
@@ -99,58 +99,113 @@ enum Answer {
     No,
 }
 
-/// Runs the program with the arguments of this process.
+/// Runs the command line with these arguments, the program's own name first.
+///
+/// Exit status: 0 done; 1 done, and the answer is no; 2 could not do it; 3 a fault of poseshift itself, also a panic.
+///
+/// # Example
+///
+/// ```no_run
+/// fn main() -> std::process::ExitCode {
+///     poseshift::run_with(std::env::args_os())
+/// }
+/// ```
 #[must_use]
-pub fn run() -> ExitCode {
-    let CommandLine { command, output } = CommandLine::parse();
-    let answer = match command {
-        Command::Compensate(command) => command.run(output),
-        Command::Check(command) => command.run(output),
-        Command::Calibrate(command) => command.run(output),
-        Command::Validate(command) => command.run(output),
-        Command::Diagnose(command) => command.run(output),
-        Command::Plan(command) => command.run(output),
-        Command::Simulate(command) => command.run(output),
-        Command::Register(command) => command.run(output),
-        Command::Handeye(command) => command.run(output),
-        Command::Hexapod(command) => command.run(output),
-        Command::Axes(command) => command.run(output),
-        Command::Fk(command) => command.run(output),
-        Command::Ik(command) => command.run(output),
-        Command::Profile(command) => command.run(output),
-        Command::Robots(command) => command.run(output),
-        Command::Effects(command) => command.run(output),
-        Command::Languages(command) => command.run(output),
-        Command::Completions(command) => command.run(),
-        Command::Man(command) => command.run(),
-    };
+pub fn run_with<A>(arguments: impl IntoIterator<Item = A>) -> ExitCode
+where
+    A: Into<OsString> + Clone,
+{
+    let CommandLine { command, output } = CommandLine::parse_from(arguments);
+    ExitCode::from(guarded(|| command.run(output)))
+}
+
+/// The exit status of what a command does; a panic is a fault of poseshift itself.
+fn guarded(command: impl FnOnce() -> Result<Answer, Failure>) -> u8 {
+    let before = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|panic| {
+        let place = panic.location().map(ToString::to_string);
+        let message = panic.payload_as_str().unwrap_or("no message");
+        let place = place.unwrap_or_else(|| "somewhere".into());
+        let failure = Failure::internal(format!("{message} (at {place})"));
+        anstream::eprintln!("{}", failure::render(&failure));
+    }));
+    // a command that panicked is not gone on with
+    let answer = std::panic::catch_unwind(std::panic::AssertUnwindSafe(command));
+    std::panic::set_hook(before);
     match answer {
-        // whoever reads the output may have gone: nothing to tell
-        Ok(Answer::Yes) | Err(Failure::Pipe) => ExitCode::SUCCESS,
-        Ok(Answer::No) => ExitCode::from(1),
-        Err(failure) => {
-            anstream::eprintln!("{}", failure.render());
-            ExitCode::from(2)
+        Ok(Ok(Answer::Yes)) => 0,
+        Ok(Ok(Answer::No)) => 1,
+        Ok(Err(failure)) => {
+            anstream::eprintln!("{}", failure::render(&failure));
+            match failure.blame {
+                Blame::Given => 2,
+                Blame::Program => 3,
+            }
+        }
+        Err(_) => 3,
+    }
+}
+
+impl Command {
+    fn run(self, output: Output) -> Result<Answer, Failure> {
+        match self {
+            Self::Compensate(command) => command.run(output),
+            Self::Check(command) => command.run(output),
+            Self::Calibrate(command) => command.run(output),
+            Self::Validate(command) => command.run(output),
+            Self::Diagnose(command) => command.run(output),
+            Self::Plan(command) => command.run(output),
+            Self::Simulate(command) => command.run(output),
+            Self::Register(command) => command.run(output),
+            Self::Handeye(command) => command.run(output),
+            Self::Hexapod(command) => command.run(output),
+            Self::Axes(command) => command.run(output),
+            Self::Fk(command) => command.run(output),
+            Self::Ik(command) => command.run(output),
+            Self::Profile(command) => command.run(output),
+            Self::Robots(command) => command.run(output),
+            Self::Effects(command) => command.run(output),
+            Self::Languages(command) => command.run(output),
+            Self::Explain(command) => command.run(output),
+            Self::Schema(command) => command.run(),
+            Self::Completions(command) => command.run(),
+            Self::Man(command) => command.run(),
         }
     }
 }
 
-/// Prints text to standard output.
+/// Prints text to standard output. Whoever reads it may have gone: then there is nobody to tell.
 fn print(text: &str) -> Result<(), Failure> {
     use std::io::Write;
     let mut out = anstream::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(Failure::output)
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::new(format!(
+            "cannot write to standard output: {error}"
+        ))),
+        _ => Ok(()),
+    }
 }
 
-/// Prints a JSON document to standard output.
-fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    print(&json_text(value))
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// A JSON document as it is printed.
-fn json_text(value: &impl serde::Serialize) -> String {
-    serde_json::to_string_pretty(value).expect("a report holds only finite numbers and text keys")
-        + "\n"
+    #[test]
+    fn a_fault_of_the_program_is_status_3_and_a_fault_of_what_is_given_2() {
+        assert_eq!(guarded(|| Ok(Answer::Yes)), 0);
+        assert_eq!(guarded(|| Ok(Answer::No)), 1);
+        assert_eq!(guarded(|| Err(Failure::new("no such file"))), 2);
+        assert_eq!(guarded(|| Err(Failure::internal("impossible"))), 3);
+        assert_eq!(guarded(|| panic!("a pose that is none")), 3);
+    }
+
+    #[test]
+    fn a_fault_of_the_program_says_how_to_report_it() {
+        let told = failure::render(&Failure::internal("impossible"));
+        let words: Vec<&str> = told.split_whitespace().collect();
+        let told = words.join(" ");
+        assert!(told.contains("internal error"), "{told}");
+        assert!(told.contains("please report it"), "{told}");
+        assert!(!failure::render(&Failure::new("no such file")).contains("report it"));
+    }
 }

@@ -1,7 +1,7 @@
 //! `completions` and `man`: what shells and readers want to know of the command line.
 
-use super::failure::Failure;
 use super::{Answer, CommandLine, print};
+use crate::task::Failure;
 use clap::{Args, CommandFactory};
 
 /// Print a completion script for a shell
@@ -36,7 +36,7 @@ impl Man {
         let mut page = |command: clap::Command| {
             clap_mangen::Man::new(command)
                 .render(&mut text)
-                .map_err(Failure::output)
+                .map_err(|error| Failure::internal(error.to_string()))
         };
         page(command.clone())?;
         for sub in command.get_subcommands() {

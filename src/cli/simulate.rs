@@ -1,17 +1,13 @@
 //! `simulate`: measurements of the robot that a profile describes.
 
-use super::failure::Failure;
-use super::table::{JOINTS, Table, cell};
-use super::{Answer, Output, files, print, print_json, values};
-use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::identify::measurements::{
-    DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Observed, POSITION_COLUMNS,
-    QUATERNION_COLUMNS,
-};
-use crate::identify::simulate::{Command, Device, Session, simulate};
-use crate::model::Conditions;
+use super::telling::{Told, finish, print_table};
+use super::{Answer, Output, files, values};
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::identify::simulate::{Device, Session};
+use crate::task::Failure;
+use crate::task::files::refuse_over;
+use crate::task::simulate::simulate;
 use clap::{Args, ValueEnum};
-use serde_json::json;
 use std::path::PathBuf;
 
 /// What the imagined device gives
@@ -69,18 +65,6 @@ pub struct Simulate {
     interval_s: Option<f64>,
 }
 
-fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
-    let parsed: Option<Vec<f64>> = text
-        .split(',')
-        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
-        .collect();
-    parsed.and_then(|n| n.try_into().ok()).ok_or_else(|| {
-        Failure::new(format!(
-            "{option} {text}: expected {N} numbers with commas between"
-        ))
-    })
-}
-
 impl Simulate {
     fn session(&self) -> Result<Session, Failure> {
         let sizes = [
@@ -99,7 +83,7 @@ impl Simulate {
         let from = self
             .from
             .iter()
-            .map(|t| Ok(numbers::<3>("--from", t)?.map(m_from_mm)));
+            .map(|t| Ok(values::numbers::<3>("--from", t)?.map(m_from_mm)));
         let from: Vec<[f64; 3]> = from.collect::<Result<_, Failure>>()?;
         if (self.kind == Kind::Distance) == from.is_empty() {
             return Err(Failure::new("--kind distance and --from belong together"));
@@ -117,7 +101,7 @@ impl Simulate {
             temperature_c: self
                 .temperature_c
                 .as_deref()
-                .map(|t| numbers("--temperature-c", t))
+                .map(|t| values::numbers("--temperature-c", t))
                 .transpose()?,
             interval_s: self.interval_s,
             seed: self.seed,
@@ -126,124 +110,21 @@ impl Simulate {
 
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let session = self.session()?;
-        files::refuse_over(
+        refuse_over(
             [self.profile.as_path(), self.joints.as_path()],
             self.output.as_deref(),
         )?;
-        let (profile, _) = files::read_profile(&self.profile)?;
-        let tool = values::chosen_tool(self.tool.as_deref(), &profile)?;
-        let table = Table::read(&self.joints)?;
-        table.require(&JOINTS)?;
-        let directions = DIRECTION_COLUMNS.iter().all(|c| table.has(c));
-        let forces = FORCE_COLUMNS.iter().all(|c| table.has(c));
-        let mut commands = Vec::new();
-        for row in table.rows() {
-            let mut conditions = Conditions::default();
-            if directions {
-                conditions.direction = row.numbers(DIRECTION_COLUMNS)?;
-            }
-            if forces {
-                conditions.force_n = row.numbers(FORCE_COLUMNS)?;
-            }
-            commands.push(Command {
-                q: row.numbers(JOINTS)?.map(|q| q * DEG),
-                conditions: (directions || forces).then_some(conditions),
-            });
-        }
-        let mut points: Vec<(Option<String>, [f64; 3])> = profile
-            .points
-            .iter()
-            .map(|(name, p)| (Some(name.clone()), *p))
-            .collect();
-        if points.is_empty() {
-            points.push((None, [0.0; 3]));
-        }
-        let rows = simulate(&profile, &tool, &points, &commands, &session);
-        let text = csv(&rows, forces, profile.tools.contains_key(&tool.name));
-        if let Some(path) = &self.output {
-            files::write_all(&[(path.clone(), text.into_bytes())])?;
-            if output.json {
-                print_json(
-                    &json!({"poseshift": "simulation/1", "rows": rows.len(), "output": path.display().to_string()}),
-                )?;
-            } else if !output.quiet {
-                print(&format!(
-                    "{} rows written to {}\n",
-                    rows.len(),
-                    path.display()
-                ))?;
-            }
-        } else if output.json {
-            print_json(&json!({"poseshift": "simulation/1", "rows": rows.len(), "csv": text}))?;
-        } else {
-            print(&text)?;
-        }
+        let profile = files::profile(&self.profile)?;
+        let joints = files::source(&self.joints)?;
+        let mut found = simulate(&profile, &joints, self.tool.as_deref(), &session)?;
+        let Some(path) = &self.output else {
+            print_table(&found, output)?;
+            return Ok(Answer::Yes);
+        };
+        let csv = found.csv.take().unwrap_or_default();
+        found.output = Some(path.display().to_string());
+        let written = vec![(path.clone(), csv.into_bytes())];
+        finish(&found, written, None, (Told::All, ""), output)?;
         Ok(Answer::Yes)
     }
-}
-
-/// A file of measurements; every number is read back as it is.
-fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
-    let Some(first) = rows.first() else {
-        return format!("{}\n", JOINTS.join(","));
-    };
-    let mut header: Vec<&str> = vec!["id"];
-    header.extend(JOINTS);
-    match first.observed {
-        Observed::Position(_) => header.extend(POSITION_COLUMNS),
-        Observed::Pose(_) => header.extend(POSITION_COLUMNS.iter().chain(&QUATERNION_COLUMNS)),
-        Observed::Distance { .. } => header.extend(DISTANCE_COLUMNS),
-        Observed::Contact(_) => {}
-    }
-    header.extend(DIRECTION_COLUMNS);
-    header.extend(FORCE_COLUMNS.iter().filter(|_| forces));
-    let optional = [
-        (named_tool, "tool"),
-        (first.point.is_some(), "point"),
-        (first.conditions.temperature_c.is_some(), "temperature_c"),
-        (first.conditions.time_s.is_some(), "time_s"),
-        (first.sigma_m.is_some(), "sigma_mm"),
-    ];
-    header.extend(
-        optional
-            .iter()
-            .filter(|(there, _)| *there)
-            .map(|(_, name)| *name),
-    );
-    let mut out = header.join(",") + "\n";
-    let quoted = |text: &str| {
-        if text.contains([',', '"', '\n']) {
-            format!("\"{}\"", text.replace('"', "\"\""))
-        } else {
-            text.to_owned()
-        }
-    };
-    for row in rows {
-        let mut cells = vec![row.id.clone()];
-        cells.extend(row.q.map(|q| cell(q / DEG)));
-        match row.observed {
-            Observed::Position(p) => cells.extend(p.map(|x| cell(mm_from_m(x)))),
-            Observed::Pose(pose) => {
-                cells.extend(pose.translation.map(|x| cell(mm_from_m(x))));
-                cells.extend(pose.rotation.quaternion().0.map(cell));
-            }
-            Observed::Distance { distance_m, from_m } => {
-                cells.push(cell(mm_from_m(distance_m)));
-                cells.extend(from_m.map(|x| cell(mm_from_m(x))));
-            }
-            // no simulated device touches
-            Observed::Contact(_) => {}
-        }
-        cells.extend(row.conditions.direction.map(cell));
-        if forces {
-            cells.extend(row.conditions.force_n.map(cell));
-        }
-        cells.extend(row.tool.as_deref().filter(|_| named_tool).map(quoted));
-        cells.extend(row.point.as_deref().map(quoted));
-        cells.extend(row.conditions.temperature_c.map(cell));
-        cells.extend(row.conditions.time_s.map(cell));
-        cells.extend(row.sigma_m.map(|s| cell(mm_from_m(s))));
-        out += &(cells.join(",") + "\n");
-    }
-    out
 }

@@ -1,17 +1,13 @@
 //! Values on the command line.
 
-use super::failure::Failure;
-use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::{Pose, Vector};
 use crate::model::profile::{Mounted, Profile};
+use crate::task::Failure;
 
 /// Six numbers `x,y,z,rx,ry,rz` in mm and degrees.
 pub fn pose(text: &str) -> Option<Pose> {
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
-        .collect::<Option<_>>()?;
-    let [x, y, z, rx, ry, rz]: [f64; 6] = numbers.try_into().ok()?;
+    let [x, y, z, rx, ry, rz] = list::<6>(text)?;
     Some(Pose::from_xyz_rxryrz([
         m_from_mm(x),
         m_from_mm(y),
@@ -85,31 +81,22 @@ pub fn frame(text: &str) -> Result<(Option<String>, Pose), Failure> {
     Ok((name, pose))
 }
 
-/// The tool that a command with `--tool NAME` means: that one, else the profile's only one, else the flange.
-pub fn chosen_tool(name: Option<&str>, profile: &Profile) -> Result<Mounted, Failure> {
-    let names: Vec<_> = profile.tools.keys().map(String::as_str).collect();
-    match (name, names.as_slice()) {
-        (Some(name), _) => profile.tool(name).ok_or_else(|| {
-            Failure::with_hint(
-                format!("the profile has no tool `{name}`"),
-                format!("its tools: {}", names.join(", ")),
-            )
-        }),
-        (None, []) => Ok(Mounted::flange()),
-        (None, [only]) => Ok(profile.tool(only).expect("a key of the map")),
-        (None, _) => Err(Failure::with_hint(
-            "the profile has several tools",
-            format!("choose one with --tool: {}", names.join(", ")),
-        )),
-    }
+/// So many finite numbers with commas between, the value of an option.
+pub fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
+    list(text).ok_or_else(|| {
+        Failure::new(format!(
+            "{option} {text}: expected {N} numbers with commas between"
+        ))
+    })
+}
+
+fn list<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let number = |n: &str| n.trim().parse().ok().filter(|n: &f64| n.is_finite());
+    let numbers: Vec<f64> = text.split(',').map(number).collect::<Option<_>>()?;
+    numbers.try_into().ok()
 }
 
 /// Three numbers `x,y,z` in mm.
-pub fn point(text: &str) -> Option<crate::geometry::Vector> {
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
-        .collect::<Option<_>>()?;
-    let point: [f64; 3] = numbers.try_into().ok()?;
-    Some(point.map(m_from_mm))
+pub fn point(text: &str) -> Option<Vector> {
+    list::<3>(text).map(|point| point.map(m_from_mm))
 }

@@ -1,14 +1,14 @@
 //! The page of `compensate` while it is made: a program is read again, once as it was and once as it is written.
 
-use super::check::Loader;
 use crate::check::trace::{Traced, trace};
 use crate::compensate::{Compensation, Options};
 use crate::model::profile::Profile;
 use crate::program::{Language, Source};
-use crate::report;
 use crate::report::html::page::Page;
 use crate::report::html::programs::{Compensated, SAMPLES, Scenery, add_written, compensate_page};
-use std::path::Path;
+use crate::task::ProfileFile;
+use crate::task::compensate::Header;
+use crate::task::meshes::Loader;
 
 /// The report while it is made: the program as it was, then as it is written.
 pub struct Drawing {
@@ -19,18 +19,18 @@ pub struct Drawing {
 impl Drawing {
     /// The program as it was.
     pub fn begin(
-        header: &report::compensation::Header,
+        header: &Header,
         compensation: &Compensation,
-        profile: &Profile,
-        profile_file: &Path,
+        file: &ProfileFile,
         options: &Options,
     ) -> Self {
+        let profile = &file.profile;
         let original = traced(header.language, header.sources, None, profile, options);
         let mut drawn = profile.clone();
-        let mut meshes = Loader::default();
+        let mut meshes = Loader::new(&|path| std::fs::read(path));
         for shape in &mut drawn.shapes {
             // a body whose file is missing is not drawn
-            let _ = meshes.load(&mut shape.shape, profile_file);
+            let _ = meshes.load(&mut shape.shape, &file.name);
         }
         let scenery = Scenery {
             profile: &drawn,

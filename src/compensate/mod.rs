@@ -31,6 +31,7 @@ use rewrite::Portion;
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
+pub use crate::inverse::Methods;
 use crate::inverse::{Outcome, Unsupported};
 use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
@@ -66,6 +67,8 @@ pub struct Options {
     pub max_derived_error_m: Option<f64>,
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
+    /// Which methods may search the joints of the real arm.
+    pub methods: Methods,
 }
 
 /// Why nothing could be compensated.

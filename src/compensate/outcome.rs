@@ -4,7 +4,7 @@ use super::Job;
 use super::approach::Approach;
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
-use crate::inverse::{Branch, Outcome, Status};
+use crate::inverse::{Branch, Method, Outcome, Status};
 use crate::program::{Edits, Program, Settings, Shape, Target};
 use std::collections::BTreeMap;
 
@@ -87,6 +87,12 @@ pub struct TargetReport {
     pub rounding: Separation,
     /// Evaluations of the real model.
     pub iterations: u32,
+    /// Those of the pose shift.
+    pub shift_evaluations: u32,
+    /// Those of damped Newton.
+    pub newton_evaluations: u32,
+    /// By which method the search ended; `None` where there was none.
+    pub method: Option<Method>,
     /// The branch of the inverse.
     pub branch: Option<Branch>,
     /// How the search ended; `None` where there was none.
@@ -108,6 +114,9 @@ impl TargetReport {
             residual: solved.map_or(none, |(_, outcome)| outcome.residual),
             rounding: none,
             iterations: solved.map_or(0, |(_, outcome)| outcome.iterations),
+            shift_evaluations: solved.map_or(0, |(_, outcome)| outcome.shift_evaluations),
+            newton_evaluations: solved.map_or(0, |(_, outcome)| outcome.newton_evaluations),
+            method: solved.map(|(_, outcome)| outcome.method),
             branch: solved.map(|(approach, _)| approach.branch),
             status: solved.map(|(_, outcome)| outcome.status),
             changed: false,

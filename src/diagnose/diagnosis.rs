@@ -130,6 +130,7 @@ pub struct OutlierRow {
 }
 
 /// Everything found.
+#[derive(Clone, Debug)]
 pub struct Diagnosis {
     /// The answer.
     pub verdict: Verdict,

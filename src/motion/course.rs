@@ -306,7 +306,7 @@ impl Leg<'_> {
             Course::Tool(course) => {
                 let pose = course.pose(s);
                 match &self.equipped.calibrated_controller {
-                    None => self.equipped.arm.solve_branch(&pose, self.branch, near).q,
+                    None => self.equipped.arm.solve_along(&pose, self.branch, near).q,
                     Some(controller) => controller.solve(&pose, self.branch, near).q,
                 }
             }
@@ -321,7 +321,7 @@ impl Leg<'_> {
                 let pose = course.pose(s);
                 self.equipped
                     .arm
-                    .solve_branch(&pose, self.branch, &self.start)
+                    .solve_along(&pose, self.branch, &self.start)
                     .beyond
             }
         }
@@ -360,7 +360,7 @@ impl Leg<'_> {
                     enclosed
                 } else {
                     let middle_pose = course.pose(0.5 * (from + to));
-                    let nominal = arm.solve_branch(&middle_pose, self.branch, middle).q;
+                    let nominal = arm.solve_along(&middle_pose, self.branch, middle).q;
                     std::array::from_fn(|i| beside(enclosed[i], middle[i] - nominal[i]))
                 };
                 (joints, exact)

@@ -9,6 +9,7 @@
 
 use super::before::{ANYWHERE, Before, START, Sets, Stop};
 use super::holding::{Atom, DECLARED, Holding, Holdings, NOTHING, Site};
+use super::readers::read_elsewhere;
 use crate::program::script::{
     Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, NOT_DISPLACED, Part,
     PartValue, RoutineId, Script, Start, Statement, TableId, ValueId, VariableId, Write, Written,
@@ -1258,11 +1259,14 @@ impl<'a> Flow<'a> {
         changed
     }
 
-    /// Notes what routines write that only the operator starts: nothing else sees it.
+    /// Notes what routines write that only the operator starts, and what others read: these do not see it.
     fn note_operators(&mut self, entries: &[u32]) {
         let script = self.script;
-        for &instance in entries {
-            let routine = self.instances[instance as usize].routine;
+        let routine_of = |instance: &u32| self.instances[*instance as usize].routine;
+        let entries: Vec<RoutineId> = entries.iter().map(routine_of).collect();
+        let mut written: Vec<(VariableId, RoutineId)> = Vec::new();
+        let mut sites = Vec::new();
+        for &routine in &entries {
             let of = &script.routines[routine as usize];
             if of.start == Start::Main {
                 continue;
@@ -1272,10 +1276,16 @@ impl<'a> Flow<'a> {
                     && let Written::One(variable) = script.writes[write as usize].variable
                     && script.variables[variable as usize].routine.is_none()
                 {
-                    self.by_operator.push((variable, at));
+                    written.push((variable, routine));
+                    sites.push(at);
                 }
             }
         }
+        let elsewhere = read_elsewhere(script, &entries, &written);
+        let noted = written.into_iter().zip(sites);
+        let noted = noted.filter(|(written, _)| elsewhere.contains(written));
+        self.by_operator
+            .extend(noted.map(|((variable, _), site)| (variable, site)));
     }
 
     /// Text that nothing reaches: its moves start from the declarations.

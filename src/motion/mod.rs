@@ -13,6 +13,7 @@ mod flow;
 pub(crate) mod ground;
 mod holding;
 mod posture;
+mod readers;
 mod resolve;
 pub(crate) mod setting;
 pub(crate) mod walk;
@@ -21,7 +22,7 @@ pub use course::Turning;
 pub(crate) use posture::OUT_OF_REACH;
 pub use setting::{Given, MeasuredFrameError, Missing, PlacementError};
 
-use crate::program::{Before, Language, Program, ReadError, Settings, Source};
+use crate::program::{Language, Program, ReadError, Settings, Source};
 
 /// Reads program files that belong together, and follows them.
 ///
@@ -32,26 +33,6 @@ pub fn read(
     sources: &[Source],
     settings: &Settings,
 ) -> Result<Program, ReadError> {
-    match language.script(sources, settings) {
-        Some(script) => resolve::resolve(language, sources, settings, script?),
-        None => {
-            let mut program = language.read(sources, settings)?;
-            chain(&mut program);
-            Ok(program)
-        }
-    }
-}
-
-/// Each move follows the one before it in its file.
-fn chain(program: &mut Program) {
-    for at in 1..program.moves.len() {
-        let (file, before) = (
-            program.moves[at - 1].file,
-            crate::program::script::short(at - 1),
-        );
-        let motion = &mut program.moves[at];
-        if motion.file == file {
-            motion.before = Before::One(before);
-        }
-    }
+    let script = language.script(sources, settings)?;
+    resolve::resolve(language, sources, settings, script)
 }

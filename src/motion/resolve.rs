@@ -501,11 +501,13 @@ impl Resolver<'_, '_> {
     /// A move to somewhere: nothing is rewritten, and what follows does not know where it comes from.
     fn go_nowhere(&mut self, listed: &Listed) {
         let tool = listed.tools.iter().find_map(|(tool, _)| tool.ok());
+        let tool = tool.unwrap_or_else(|| self.unknown_tool());
         let frame = listed.frames.iter().find_map(|(frame, _)| frame.ok());
+        let frame = frame.unwrap_or_else(|| self.unknown_frame());
         self.push(
             None,
-            (tool.unwrap_or(0), None),
-            (frame.unwrap_or(0), None),
+            (tool, None),
+            (frame, None),
             false,
             Displacement::None,
             listed,

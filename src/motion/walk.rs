@@ -542,7 +542,7 @@ fn follow(
     };
     let arm = &equipped.arm;
     let at = |s: f64, branch: Branch, near: &[f64; 6]| {
-        let solution = arm.solve_branch(&path.pose(s), branch, near);
+        let solution = arm.solve_along(&path.pose(s), branch, near);
         (solution.beyond == 0.0).then_some(solution.q)
     };
     let (mut branch, margins) = arm.posture(start);

@@ -21,3 +21,77 @@ pub(super) fn check_bytes(source: &Source) -> Result<(), ReadError> {
         None => Ok(()),
     }
 }
+
+/// Why a text cannot be read, by offsets; becomes a [`ReadError`] with the source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fault {
+    /// What opens here is not closed.
+    Unclosed { at: u32, what: &'static str },
+    /// Something else stands where one thing belongs.
+    Unexpected {
+        start: u32,
+        end: u32,
+        expected: &'static str,
+    },
+    /// A number no robot can use.
+    BadValue {
+        start: u32,
+        end: u32,
+        meaning: &'static str,
+        limit: &'static str,
+    },
+}
+
+/// Bytes of a wrong part that an error message repeats at most.
+const SHOWN: usize = 40;
+
+impl Fault {
+    /// The error with file, line and column; `whole` is what is read at a time, such as "the line".
+    pub fn in_source(self, source: &Source, whole: &str) -> ReadError {
+        let file = source.name.clone();
+        let shown = |start: u32, end: u32| {
+            let end = (end as usize).min(start as usize + SHOWN);
+            match source.bytes.get(start as usize..end) {
+                Some(text) if !text.is_empty() => Source::text(text),
+                _ => format!("the end of {whole}"),
+            }
+        };
+        let at = match self {
+            Self::Unclosed { at, .. } => at,
+            Self::Unexpected { start, .. } | Self::BadValue { start, .. } => start,
+        };
+        let (line, column) = source.line_column(at as usize);
+        match self {
+            Self::Unclosed { what, .. } => ReadError::Unclosed {
+                file,
+                line,
+                column,
+                what,
+            },
+            Self::Unexpected {
+                start,
+                end,
+                expected,
+            } => ReadError::Unexpected {
+                file,
+                line,
+                column,
+                found: shown(start, end),
+                expected,
+            },
+            Self::BadValue {
+                start,
+                end,
+                meaning,
+                limit,
+            } => ReadError::BadValue {
+                file,
+                line,
+                column,
+                value: shown(start, end),
+                meaning,
+                limit,
+            },
+        }
+    }
+}

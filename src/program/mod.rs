@@ -98,23 +98,11 @@ pub trait Language: Sync {
     /// Whether the content looks like a program of this language (for files whose ending does not tell).
     fn recognises(&self, source: &Source) -> bool;
 
-    /// Reads program files that belong together: data in one may be used in another.
+    /// Translates program files that belong together into statements: data in one may be used in another.
     ///
     /// # Errors
     /// Where the text is not a program of this language or is broken.
-    fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError> {
-        let _ = (sources, settings);
-        unreachable!("a language without `script`")
-    }
-
-    /// Translates program files that belong together into statements.
-    ///
-    /// # Errors
-    /// Where the text is not a program of this language or is broken.
-    fn script(&self, sources: &[Source], settings: &Settings) -> Option<Result<Script, ReadError>> {
-        let _ = (sources, settings);
-        None
-    }
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError>;
 
     /// A tool (`is_tool`) or a work frame of its parts; where it cannot be one a remark says why.
     ///

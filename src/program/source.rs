@@ -66,6 +66,7 @@ impl Source {
             column,
             message,
             hint: hint.into(),
+            accepted: false,
         }
     }
 

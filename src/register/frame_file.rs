@@ -15,7 +15,8 @@
 use super::uncertainty::PoseCovariance;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::model::profile::{Number, PoseFile, ProfileError};
+use crate::model::profile::{Number, PoseFile, ProfileError, file};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::Spanned;
 use std::collections::BTreeMap;
@@ -60,29 +61,45 @@ pub struct FrameFileError {
     pub message: String,
 }
 
-#[derive(Deserialize)]
+/// A pose found by measuring, with its uncertainty.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct File {
+    /// Format and version: `frame/1`.
+    #[schemars(with = "String")]
     poseshift: Spanned<String>,
+    /// Maps FROM into TO.
+    #[schemars(with = "PoseFile")]
     pose: Spanned<PoseFile>,
+    /// Standard uncertainties of FROM's origin and of rotations about the axes of TO.
     #[serde(default)]
     sigma: Option<SigmaFile>,
+    /// Root mean square distance of the points.
     #[serde(default)]
     rmsd_mm: Option<Number>,
+    /// Number of points it was found from.
     #[serde(default)]
     points: Option<usize>,
+    /// Where it comes from.
     #[serde(default)]
     provenance: BTreeMap<String, String>,
 }
 
-#[derive(Deserialize)]
+/// Six standard uncertainties.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SigmaFile {
+    /// Along x.
     x_mm: Number,
+    /// Along y.
     y_mm: Number,
+    /// Along z.
     z_mm: Number,
+    /// About x.
     rx_deg: Number,
+    /// About y.
     ry_deg: Number,
+    /// About z.
     rz_deg: Number,
 }
 
@@ -108,6 +125,12 @@ impl Sigma {
 }
 
 impl Frame {
+    /// The JSON Schema of the format.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        file::schema::<File>(FORMAT)
+    }
+
     /// Reads a frame file's text.
     ///
     /// # Errors

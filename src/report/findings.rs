@@ -38,8 +38,10 @@ fn line(finding: &Finding, with_hint: bool, out: &mut String) {
         column,
         message,
         hint,
+        accepted,
     } = finding;
     let word = match severity {
+        _ if *accepted => "\x1b[1;33maccepted\x1b[0m",
         Severity::Error => "\x1b[1;31merror\x1b[0m",
         Severity::Warning => "\x1b[1;33mwarning\x1b[0m",
         Severity::Note => "\x1b[1;34mnote\x1b[0m",

@@ -1,34 +1,56 @@
-//! What commands tell: texts for people and JSON for programs.
+//! What commands tell people: texts and pages, made of the structures of [`task`](crate::task) whose JSON is for programs.
 
-pub mod approach;
 pub mod check;
 pub mod compensation;
-pub mod diagnosis;
 pub mod findings;
 pub mod html;
-pub mod identification;
-pub mod profile;
+mod junit;
+pub mod layout;
+mod text;
 
-use crate::geometry::Pose;
-use crate::geometry::units::{DEG, mm_from_m};
-use serde_json::{Value, json};
+use crate::finding::Finding;
+use crate::task::Document;
+use html::page::Page;
 
-/// A pose for reports: position, angles and quaternion.
-pub fn pose(pose: &Pose) -> Value {
-    let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
-    let quaternion = pose.rotation.quaternion().0;
-    json!({
-        "x_mm": mm_from_m(x), "y_mm": mm_from_m(y), "z_mm": mm_from_m(z),
-        "rx_deg": rx / DEG, "ry_deg": ry / DEG, "rz_deg": rz / DEG,
-        "quaternion": quaternion,
-    })
+/// How a text is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Style {
+    /// Columns that a line may have.
+    pub width: usize,
+    /// Tell everything, not only the first of many.
+    pub every: bool,
 }
 
-/// Nothing, a name, or a list of names.
-fn one_or_many(names: &[String]) -> Value {
-    match names {
-        [] => Value::Null,
-        [one] => json!(one),
-        many => json!(many),
+/// A result that people read: its text and, where there is something to look at, its page.
+pub trait Report: Document {
+    /// The text.
+    fn text(&self, style: Style) -> String;
+
+    /// The page; `None` of a result that there is nothing to look at of.
+    fn page(&self) -> Option<Page> {
+        None
     }
+
+    /// What a person should look at.
+    fn findings(&self) -> &[Finding] {
+        &[]
+    }
+}
+
+/// Text between the tags of HTML and XML, or in the quotes of an attribute; signs that neither has are left out.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '&' => out += "&amp;",
+            '"' => out += "&quot;",
+            '\'' => out += "&#39;",
+            '\t' | '\n' | '\r' => out.push(letter),
+            c if c.is_control() => {}
+            c => out.push(c),
+        }
+    }
+    out
 }

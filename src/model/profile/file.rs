@@ -248,3 +248,12 @@ fn effects_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
         serde_json::json!({"type": "array", "items": crate::model::effects::entry_schema()});
     schema.try_into().expect("an object is a schema")
 }
+
+/// The JSON Schema of a file format whose first key names it.
+#[must_use]
+pub fn schema<F: JsonSchema>(format: &str) -> serde_json::Value {
+    let mut schema = schemars::schema_for!(F).to_value();
+    schema["title"] = format!("poseshift {format}").into();
+    schema["properties"]["poseshift"] = serde_json::json!({"const": format});
+    schema
+}

@@ -210,10 +210,7 @@ impl Profile {
     /// The JSON Schema of the format.
     #[must_use]
     pub fn schema() -> serde_json::Value {
-        let mut schema = schemars::schema_for!(ProfileFile).to_value();
-        schema["title"] = format!("poseshift {FORMAT}").into();
-        schema["properties"]["poseshift"] = serde_json::json!({"const": FORMAT});
-        schema
+        file::schema::<ProfileFile>(FORMAT)
     }
 
     /// The tool of this name ready to be mounted.

@@ -83,8 +83,8 @@ impl Language for Csv {
         header::recognises(source)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources))
+    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
+        script(sources)
     }
 
     fn frame_of_unframed(&self) -> Option<&'static str> {

@@ -19,29 +19,7 @@
 //! controller goes to a point only where the numbers are selected that it was taught with (else MOTN-018), so that
 //! behind such a move they are the active ones.
 //!
-//! # Findings
-//!
-//! Beside those of [`crate::motion`]:
-//!
-//! | id | severity | meaning |
-//! |---|---|---|
-//! | `target-uninitialised` | error | a move goes to a point that was never taught |
-//! | `target-not-six-axes` | error | group 1 of the point is not that of an arm with six joints |
-//! | `configuration-not-understood` | error | other letters than `N F`, `U D`, `T B`, or not three of them and three turns |
-//! | `target-name-ambiguous` | error | two points have one number |
-//! | `target-not-in-files` | error | a move goes to a point that is not in /POS |
-//! | `external-axis` | error | an axis beside the six of the arm is away from zero |
-//! | `relative-move` | error | INC |
-//! | `stationary-tool` | error | RTCP, or a point RX RY RZ RW RP RR: the robot holds the work piece |
-//! | `moving-frame` | error | COORD: a positioner moves the work piece; or the program follows a conveyor |
-//! | `frame-assigned-at-run-time` | error | `UFRAME[n]=`, `UTOOL[n]=` of the point's frame or tool |
-//! | `frame-chosen-at-run-time` | error | `UF : F` or `UT : F`, and a register selects, or perhaps a macro |
-//! | `computed-target` | warning | a move goes to a position register, or to a position of a pallet |
-//! | `corrected-by-sensor` | warning | Touch Offset, Search, Track |
-//! | `frame-number-differs` | warning | another number is selected than the point was taught with |
-//! | `target-copied` | warning | a point is copied into a register that nothing in the files reads |
-//! | `other-group` | note | moves to points that have no group 1 |
-//! | `frames-rounded` | note | FRAME.DG shows tools and frames with one decimal |
+//! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! A move with `Offset`, `Tool_Offset` or `VOFFSET` goes to a point that only the running program knows: it takes the
 //! correction of its point along, which is told as `displacement-unknown`. Where the robot stands behind a move that `Skip` or
@@ -131,8 +109,8 @@ impl Language for Fanuc {
             && (Sections::of(bytes).is_some() || frames::kind(bytes).is_some())
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(reader::script(sources))
+    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
+        reader::script(sources)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {

@@ -151,6 +151,7 @@ fn frames_rounded(source: &Source) -> Finding {
         column: 0,
         message: "this list shows tools and user frames to 0.1 mm and 0.1 deg".into(),
         hint: "SYSFRAME.VA has them to 0.001".into(),
+        accepted: false,
     }
 }
 

@@ -12,36 +12,7 @@
 //! a place where the robot itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running program
 //! computes stays, and is told.
 //!
-//! # Findings
-//!
-//! | id | severity | meaning |
-//! |---|---|---|
-//! | `target-assigned-at-run-time` | error | an instruction writes some numbers of the P variable |
-//! | `target-name-ambiguous` | error | a name stands twice in a job, or a P variable has different values in the files |
-//! | `target-not-in-files` | error | a move goes to a position that the files do not have |
-//! | `computed-target` | warning | a move goes to what the running program computes, or to `P[index]` |
-//! | `run-time-position` | note | a move goes to where the robot itself was |
-//! | `frame-assigned-at-run-time` | error | MFRAME or SETTOOL may have changed the frame or tool |
-//! | `frame-chosen-at-run-time` | error | positions with other tools or frames are copied into the variable that a move goes to |
-//! | `frame-not-named` | error | a rectangular position without POSTYPE, or without the number of its user frame |
-//! | `tool-coordinates` | error | POSTYPE TOOL or MTOOL |
-//! | `displacement-active` | error | a shift (SFTON) may be on |
-//! | `coordinated-move` | error | SMOVL and its like |
-//! | `incremental-move` | error | IMOV |
-//! | `search-move` | error | SRCH |
-//! | `second-robot` | error | `+MOVL C...` |
-//! | `move-not-supported` | error | other moves: conveyors, external reference points |
-//! | `external-axis` | error | a pose with a base or station axis that is not at zero |
-//! | `target-not-six-axes` | error | a position in pulses or degrees does not have six axes |
-//! | `target-passed-to-routine` | error | a P variable is given to a job that the files do not have |
-//! | `pulses-per-degree-unknown` | warning | positions in pulses, and a profile without `pulses_per_deg`: they stay; once a job |
-//! | `rconf-of-post` | warning | RCONF of a post that is known to mix its fields up; it is not used |
-//! | `wrist-not-told` | warning | a job that no other calls starts with a rectangular position, and RCONF does not tell the wrist |
-//! | `target-copied` | warning | another position, tool or frame is computed from this one |
-//! | `write-not-called` | warning | a job that no other calls writes a P variable, frame or tool |
-//! | `position-count` | warning | NPOS announces another number of C positions |
-//! | `position-variable` | note | moves go to P variables, which jobs that are not given may change |
-//! | `target-unused-here` | note | positions that no move goes to stay as they are; once a file |
+//! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
@@ -126,8 +97,8 @@ impl Language for Inform {
             && (is_job(&source.bytes) || cnd::recognises(&source.bytes))
     }
 
-    fn script(&self, sources: &[Source], settings: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources, settings))
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+        script(sources, settings)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {

@@ -48,12 +48,12 @@ impl Cause {
                 "switch it off with SFTOF before the move, or write the shifted positions",
             ),
             Self::Coordinated => (
-                "coordinated-move",
+                "moving-frame",
                 "the path is relative to a station or another robot (SMOV)",
                 "coordinated moves are not compensated",
             ),
             Self::Incremental => (
-                "incremental-move",
+                "relative-move",
                 "where the move (IMOV) starts only the running program knows",
                 "write the position that it leads to",
             ),

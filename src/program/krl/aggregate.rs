@@ -1,10 +1,14 @@
 //! Aggregates: `{X 1.0,Y 2.0,Z 3.0,A 0,B 90,C 0,S 2,T 35}`, `{E6AXIS: A1 0,...}`, keys in any case and order.
 
-use super::tokens::{Cursor, Fault, Kind, Token, bits_value, capitals, offset};
+use super::tokens::{Cursor, Kind, Token, bits_value, capitals};
+use crate::program::kit::Fault;
+use crate::program::script::short;
 use crate::program::{Number, number};
 
 /// Coordinates and angles beyond this are no robot's.
 pub const LARGEST: f64 = 1e6;
+/// From here on the value of an external axis says that there is none.
+const UNUSED: f64 = 8.9e9;
 /// S and T have fewer bits than this number needs.
 const MOST_STATUS: f64 = 65_535.0;
 
@@ -31,7 +35,7 @@ pub fn each(
 ) -> Result<Option<Token>, Fault> {
     let open = cursor.at;
     let unclosed = Fault::Unclosed {
-        at: offset(open),
+        at: short(open),
         what: "an aggregate",
     };
     cursor.take(b'{');
@@ -51,7 +55,7 @@ pub fn each(
             return Err(unclosed);
         }
         if key.kind != Kind::Name {
-            return Err(Fault::unexpected(key, "a component"));
+            return Err(key.unexpected("a component"));
         }
         cursor.brackets()?;
         let (field, ended) = value(cursor).ok_or(unclosed)?;
@@ -130,7 +134,7 @@ fn value(cursor: &mut Cursor) -> Option<(Field, u8)> {
 
 fn spanned(start: usize, length: usize, value: f64) -> Number {
     Number {
-        start: offset(start),
+        start: short(start),
         length: u16::try_from(length).unwrap_or(u16::MAX),
         value,
     }
@@ -153,6 +157,8 @@ pub struct Aggregate {
     pub axes: [Number; 6],
     /// Which of them stand there, by bit.
     pub has_axes: u8,
+    /// E1 to E6; not a number where it is an expression.
+    pub external: [Option<f64>; 6],
     /// A component is no number.
     pub computed: bool,
 }
@@ -171,9 +177,18 @@ impl Aggregate {
     }
 
     /// X Y Z A B C, where all stand there as numbers.
-    pub fn frame(&self) -> Option<[f64; 6]> {
+    pub fn frame(&self) -> Option<[Number; 6]> {
         let whole = self.has & WHOLE == WHOLE && !self.computed;
-        whole.then(|| std::array::from_fn(|i| self.position[i].value))
+        whole.then(|| std::array::from_fn(|i| self.position[i]))
+    }
+
+    /// The first external axis that is driven, and where to: absent, 0 and 9E+09 are axes that are not used.
+    pub fn driven(&self) -> Option<(usize, f64)> {
+        let mut axes = (1..).zip(self.external);
+        axes.find_map(|(axis, value)| {
+            let value = value.filter(|value| *value != 0.0 && !(*value >= UNUSED))?;
+            Some((axis, value))
+        })
     }
 }
 
@@ -187,6 +202,7 @@ pub fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
         has: 0,
         axes: [NOTHING; 6],
         has_axes: 0,
+        external: [None; 6],
         computed: false,
     };
     each(cursor, |key, token, field| {
@@ -203,18 +219,20 @@ pub fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
                 &mut found.has_axes,
                 usize::from(digit - b'1'),
             ),
-            // external axes stay as they are
-            [b'E', b'1'..=b'6'] => return Ok(()),
+            [b'E', digit @ b'1'..=b'6'] => {
+                found.external[usize::from(digit - b'1')] = Some(match field {
+                    Field::Number(number) => number.value,
+                    _ => f64::NAN,
+                });
+                return Ok(());
+            }
             _ => {
                 found.computed = true;
                 return Ok(());
             }
         };
         if *mask & 1 << at != 0 {
-            return Err(Fault::unexpected(
-                token,
-                "a component that is not yet given",
-            ));
+            return Err(token.unexpected("a component that is not yet given"));
         }
         *mask |= 1 << at;
         match field {
@@ -268,10 +286,23 @@ mod tests {
     fn keys_stand_in_any_case_and_order_with_or_without_a_type() {
         let found = parsed("{E6POS: z 3,Y -.5, x 1.0E-1 ,c 6,B +5,a 4,t 'B10',S 2,E1 q[1,2]}");
         let found = found.expect("an aggregate");
-        assert_eq!(found.frame(), Some([0.1, -0.5, 3.0, 4.0, 5.0, 6.0]));
+        let frame = found.frame().map(|numbers| numbers.map(|n| n.value));
+        assert_eq!(frame, Some([0.1, -0.5, 3.0, 4.0, 5.0, 6.0]));
         assert_eq!(found.has, 0xff);
+        assert!(
+            found
+                .driven()
+                .is_some_and(|(axis, at)| axis == 1 && at.is_nan())
+        );
         assert!((found.position[7].value - 2.0).abs() < 1e-12);
         assert_eq!(found.position[7].length, 5);
+    }
+
+    #[test]
+    fn external_axes_that_are_not_used_are_absent_or_zero_or_9e9() {
+        let driven = |text: &str| parsed(text).expect("an aggregate").driven();
+        assert_eq!(driven("{X 1,E1 0.0,E2 9E+09,E3 9.0E9}"), None);
+        assert_eq!(driven("{X 1,E1 0,E2 -1500.5}"), Some((2, -1500.5)));
     }
 
     #[test]

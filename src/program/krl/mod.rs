@@ -2,72 +2,44 @@
 //!
 //! A position is `{X ..,Y ..,Z ..,A ..,B ..,C ..,S ..,T ..,E1 ..}`, mm and degrees, `R = Rz(A) · Ry(B) · Rx(C)`; S and T tell
 //! the inverse solution (`status`) where the move is a PTP. Axes are `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes
-//! stay as they are. The pose is that of $TOOL in $BASE, and both are variables of the controller: what they are at a move
-//! is worked out over branches, loops and calls (`flow`), from $TOOL and $BASE themselves, BAS, FDAT of inline forms, WITH,
-//! `TOOL_DATA` and `BASE_DATA` (`places`). Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere.
+//! stay as they are, and are not understood where they are in use. The pose is that of $TOOL in $BASE. Both are variables of
+//! the controller, as are $LOAD, $`IPO_MODE`, what `FDAT_ACT` holds, and the entries of `TOOL_DATA`, `BASE_DATA`, `LOAD_DATA`
+//! (`frames`); $TOOL=, BAS, inline forms and WITH write them (`states`). Positions that a statement writes, or that are
+//! parameters, are variables too (`targets`); what of it reaches a move is worked out in [`crate::motion`].
 //!
-//! # Findings
+//! Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere. Of a data list everything keeps its
+//! value from one run to the next. Routines of interrupts and triggers, and submit programs, run at any time.
 //!
-//! | id | severity | meaning |
-//! |---|---|---|
-//! | `target-assigned-at-run-time` | error | the running program changes the target |
-//! | `target-has-expressions` | error | parts of the target are expressions, not numbers |
-//! | `partial-target` | error | components are missing, which keep the value of the position before |
-//! | `target-passed-to-routine` | error | the target is handed to a routine |
-//! | `target-name-ambiguous` | error | a name is declared more than once, and its use does not tell which is meant |
-//! | `target-used-as-frame` | error | the target is a tool or base, too |
-//! | `frame-assigned-at-run-time` | error | the running program changes the tool or base |
-//! | `frame-chosen-at-run-time` | error | ways that meet, an expression or a routine outside the files decide the tool or base |
-//! | `frame-name-ambiguous` | error | `TOOL_DATA` or `BASE_DATA` is declared more than once with different values |
-//! | `moving-frame` | error | the base hangs on another kinematic |
-//! | `external-tcp` | error | the robot holds the work piece (`#TCP`) |
-//! | `absolutely-accurate` | error | S bit 4: the controller corrects the target itself; with `--force` a warning, once a file |
-//! | `computed-target` | error | a move goes to a position that only the running program knows |
-//! | `target-not-in-files` | error | a move goes to a target that the files do not declare |
-//! | `relative-move` | error | a _REL move from a position that the text does not tell |
-//! | `target-copied` | warning | another target is computed from this one |
-//! | `long-line` | warning | new numbers may make the line longer than the controller takes |
-//! | `relative-joint-move` | note | a _REL move of axes |
-//! | `joint-target-not-in-files` | note | a move goes to axes without a value in the files, such as XHOME |
-//! | `target-never-used` | note | no move in the program of this data list goes to the target; it stays |
-//!
-//! For joint targets, which stay unless asked for, the first twelve are warnings.
+//! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
-//! Positions in structures, routines called by interrupts and triggers, and sensor corrections are not followed. A routine
-//! outside the files is taken to change tool or base only where moves use more than one.
+//! Positions in structures and sensor corrections are not followed. A routine outside the files is taken to change tool or
+//! base only where moves use more than one. An arc to an angle (CA) is refused.
 
 mod aggregate;
-mod findings;
-mod flow;
+mod calls;
+mod frames;
 mod insert;
 mod moves;
-mod notes;
-mod pace;
-mod places;
+mod names;
 mod reader;
 mod sniff;
-mod state;
 mod statements;
+mod states;
 mod status;
+mod targets;
 mod tokens;
-mod world;
 
+use super::kit::check_bytes;
+use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
-    About, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role, Settings, Shape,
-    Source, Value,
+    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
+    ReadError, Role, Settings, Shape, Source, Value,
 };
-use crate::finding::Severity;
 use crate::geometry::Rotation;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::program::{Configuration, Inserted, Insertion, Move, Pace};
-use findings::{Cause, Report};
-use moves::Moves;
-use notes::{DataKind, Index, Notes};
 use reader::Reader;
-use tokens::{Place, index};
-use world::World;
 
 /// KUKA KRL.
 #[derive(Debug)]
@@ -126,21 +98,18 @@ impl Language for Krl {
         sniff::recognises(&source.bytes)
     }
 
-    fn read(&self, sources: &[Source], settings: &Settings) -> Result<Program, ReadError> {
-        let mut notes = Notes::default();
-        for (file, source) in sources.iter().enumerate() {
-            check_bytes(source)?;
-            if !sniff::recognises(&source.bytes) {
-                return Err(ReadError::NotThisLanguage {
-                    file: source.name.clone(),
-                    language: ABOUT.name,
-                    missing: "DEF, DEFDAT, a header (&ACCESS) or a move",
-                });
-            }
-            Reader::read(source, index(file), &mut notes)
-                .map_err(|fault| fault.in_source(source))?;
-        }
-        Ok(resolve(sources, notes, settings))
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+        script(sources, settings)
+    }
+
+    fn frame_of(
+        &self,
+        _: bool,
+        name: &str,
+        parts: &[Part],
+        _: &[Source],
+    ) -> Result<Result<NamedFrame, Remark>, ReadError> {
+        Ok(frames::frame_of(name, parts))
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {
@@ -168,7 +137,7 @@ impl Language for Krl {
                 configuration: Configuration::default(),
             };
         }
-        let pose = places::pose_of(std::array::from_fn(|i| numbers[i]));
+        let pose = frames::pose_of(std::array::from_fn(|i| numbers[i]));
         let (status, turn) = bits_of(layout, numbers);
         Decoded {
             value: Value::Pose(pose),
@@ -210,10 +179,6 @@ impl Language for Krl {
         status::write(whole(value), old, out);
     }
 
-    fn pace(&self, source: &Source, motion: &Move) -> Pace {
-        pace::pace(&source.bytes, motion.offset as usize)
-    }
-
     fn insert(
         &self,
         sources: &[Source],
@@ -227,6 +192,29 @@ impl Language for Krl {
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         sniff::mark(source, marker)
     }
+}
+
+/// All files into one script: what they declare, then what they do.
+fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+    let mut reader = Reader::new();
+    for (file, source) in sources.iter().enumerate() {
+        check_bytes(source)?;
+        if !sniff::recognises(&source.bytes) {
+            return Err(ReadError::NotThisLanguage {
+                file: source.name.clone(),
+                language: ABOUT.name,
+                missing: "DEF, DEFDAT, a header (&ACCESS) or a move",
+            });
+        }
+        let read = reader.declarations(source, short(file));
+        read.map_err(|fault| fault.in_source(source, "the line"))?;
+    }
+    reader.settle();
+    for (file, source) in sources.iter().enumerate() {
+        let read = reader.statements(source, short(file));
+        read.map_err(|fault| fault.in_source(source, "the line"))?;
+    }
+    Ok(reader.finish(sources, settings))
 }
 
 /// S and T of a position.
@@ -270,198 +258,6 @@ fn angles(rotation: &Rotation, present: [f64; 3]) -> [f64; 3] {
         first
     } else {
         second
-    }
-}
-
-/// No text has a zero byte, and places are kept in 32 bits.
-fn check_bytes(source: &Source) -> Result<(), ReadError> {
-    let limit = u32::MAX as usize;
-    let (file, size) = (source.name.clone(), source.bytes.len());
-    if size >= limit {
-        return Err(ReadError::TooLarge { file, size, limit });
-    }
-    match memchr::memchr(0, &source.bytes) {
-        Some(offset) => Err(ReadError::Binary {
-            file,
-            byte: 0,
-            offset,
-        }),
-        None => Ok(()),
-    }
-}
-
-/// Puts together what was noted of all files.
-fn resolve(sources: &[Source], notes: Notes, settings: &Settings) -> Program {
-    let mut world = World::new(notes);
-    let flows = flow::flows(&world);
-    let (mut moves, states) = Moves::new(&world, Report::new(sources), flows);
-    moves.list(&states);
-    passed_targets(&world, &mut moves);
-    assigned_targets(&world, &mut moves);
-    unused_targets(&world, &mut moves);
-    moves.flaws();
-    let Moves {
-        mut report, kept, ..
-    } = moves;
-    marked_targets(&world, &mut report, &kept, settings);
-    long_lines(sources, &world, &mut report, &kept);
-    report.program.numbers = std::mem::take(&mut world.notes.numbers);
-    report.finish(&kept)
-}
-
-/// Blocks targets that are handed to routines.
-fn passed_targets(world: &World, moves: &mut Moves) {
-    for passed in &world.notes.passed {
-        let callee = world.notes.symbols.spelling(passed.callee);
-        for datum in world.candidates(passed.name, passed.context) {
-            if !matches!(
-                world.declared(datum).kind,
-                DataKind::Position | DataKind::Frame
-            ) {
-                continue;
-            }
-            let at = if passed.index == Index::Whole {
-                Index::Variable
-            } else {
-                passed.index
-            };
-            let (first, last) = world.range(datum, at);
-            for value in first..last {
-                if let notes::Stored::Target(target) = world.value(value).1 {
-                    // a frame that no move goes to is an offset
-                    let is_position = world.declared(datum).kind == DataKind::Position;
-                    moves.kept[target] |= is_position;
-                    let cause = Cause::Passed;
-                    moves.report.block(target, cause, passed.place, callee);
-                }
-            }
-        }
-    }
-}
-
-/// Blocks targets that statements assign, and reports those that others are computed from.
-fn assigned_targets(world: &World, moves: &mut Moves) {
-    let mut blocked = std::collections::HashSet::new();
-    for assigned in &world.notes.assigned {
-        let spelled = world.notes.symbols.spelling(assigned.name);
-        let key = (assigned.name, assigned.index, assigned.context);
-        if blocked.insert(key) {
-            moves.block_name(
-                assigned.name,
-                assigned.index,
-                assigned.context,
-                Cause::Assigned,
-                assigned.place,
-                spelled,
-            );
-        }
-        for &other in &world.notes.mentions[notes::indices(assigned.mentions)] {
-            let is_position = world.kind(other, assigned.context) == Some(DataKind::Position);
-            let lead = world.lead(other, Index::Variable, assigned.context);
-            if other != assigned.name && is_position && matches!(lead, world::Lead::Values { .. }) {
-                let other = world.notes.symbols.spelling(other);
-                let message = format!(
-                    "{spelled} is computed from {other}, which may be compensated for other moves"
-                );
-                let hint = "look where the new position is used";
-                let (id, severity) = ("target-copied", Severity::Warning);
-                moves
-                    .report
-                    .say(id, severity, assigned.place, message, hint);
-            }
-        }
-    }
-}
-
-/// Decides about targets that no move goes to: those that other files may use are kept, those of a data list whose program
-/// is there are not.
-fn unused_targets(world: &World, moves: &mut Moves) {
-    for (datum, target) in world.named_targets() {
-        if moves.kept[target] {
-            continue;
-        }
-        let declared = world.declared(datum);
-        let module = &world.notes.modules[declared.context.module as usize];
-        if declared.kind != DataKind::Position || module.is_system || world.is_assigned(datum) {
-            continue;
-        }
-        if declared.global || !module.has_source {
-            moves.kept[target] = true;
-            continue;
-        }
-        let found = &world.notes.targets[target];
-        let place = Place {
-            file: found.file,
-            offset: found.offset,
-        };
-        let name = found.name.as_deref().unwrap_or("the target");
-        let message = format!("no move of this program goes to {name}; it stays as it is");
-        moves
-            .report
-            .say("target-never-used", Severity::Note, place, message, "");
-    }
-}
-
-/// Blocks points of absolutely accurate robots; where they are to be rewritten, says so once a file.
-fn marked_targets(world: &World, report: &mut Report, kept: &[bool], settings: &Settings) {
-    let mut said = std::collections::HashSet::new();
-    for (id, target) in world.notes.targets.iter().enumerate() {
-        let (has_status, _) = status_and_turn(target.layout);
-        if !kept[id] || !has_status {
-            continue;
-        }
-        let status = world.notes.numbers[target.numbers.start as usize + 6].value;
-        if whole(status) & status::ABSOLUTELY_ACCURATE == 0 {
-            continue;
-        }
-        let place = Place {
-            file: target.file,
-            offset: target.offset,
-        };
-        if !settings.accept_absolutely_accurate {
-            report.block(id, Cause::AbsolutelyAccurate, place, "");
-        } else if said.insert(target.file) {
-            let message = "S of this target has bit 4 (16): taught on an absolutely accurate robot; it is compensated all \
-                           the same, as all of its kind in this file";
-            let hint =
-                "the correction of the controller must be off, or the robot is corrected twice";
-            let (id, severity) = ("absolutely-accurate", Severity::Warning);
-            report.say(id, severity, place, message.to_owned(), hint);
-        }
-    }
-}
-
-/// Warns where new numbers may make a line too long.
-fn long_lines(sources: &[Source], world: &World, report: &mut Report, kept: &[bool]) {
-    for (id, target) in world.notes.targets.iter().enumerate() {
-        if !kept[id] || target.numbers.is_empty() {
-            continue;
-        }
-        let bytes = &sources[target.file as usize].bytes;
-        let at = target.offset as usize;
-        let limit = LONGEST_LINE - GROWTH * target.numbers.len();
-        let from = at.saturating_sub(LONGEST_LINE);
-        let start =
-            memchr::memrchr2(b'\n', b'\r', &bytes[from..at]).map_or(from, |end| from + end + 1);
-        let rest = &bytes[at..bytes.len().min(at + LONGEST_LINE)];
-        let end = memchr::memchr2(b'\n', b'\r', rest).map_or(at + rest.len(), |end| at + end);
-        if end - start > limit {
-            let place = Place {
-                file: target.file,
-                offset: target.offset,
-            };
-            let message = format!(
-                "this line has {} characters; with new numbers it may exceed the {LONGEST_LINE} that the controller takes",
-                end - start
-            );
-            report.say(
-                "long-line",
-                Severity::Warning,
-                place,
-                message,
-                "split the line",
-            );
-        }
     }
 }
 

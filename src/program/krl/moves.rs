@@ -1,289 +1,398 @@
-//! Moves and the targets they go to.
+//! Moves: where they go, and with what.
 
-use super::findings::{Cause, Report};
-use super::flow::Flows;
-use super::notes::{
-    Action, DataKind, Flaw, Index, Operand, Path, Point, Statement, Stored, indices,
-};
-use super::places::{HERE, Places, pose_of};
-use super::state::{BASE, IPO, Slot, State, States, TOOL};
-use super::tokens::Place;
-use super::world::{Lead, World};
+use super::aggregate;
+use super::frames::{State, pose_of};
+use super::names::{DataKind, Index, Stored};
+use super::reader::Reader;
+use super::targets::{computed, copied};
+use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
-use crate::program::rapid::names::{Context, Symbol};
-use crate::program::{Displacement, Frame, Motion, Move, Shape, Shift, TargetId, Tool};
-use std::collections::HashSet;
+use crate::program::names::Symbol;
+use crate::program::script::{
+    DisplacementId, Expr, Held, Instruction, NOT_DISPLACED, Place, Remark, Span, short,
+};
+use crate::program::{Displacement, Motion, Pace, Shape, Shift, TargetId, number};
 
-/// Moves that are listed at most; beyond, elements of arrays are listed once.
-const MOST_MOVES: usize = 20_000_000;
-
-/// Lists all moves.
-pub struct Moves<'a, 's> {
-    world: &'a World,
-    pub report: Report<'s>,
-    places: Places<'a>,
-    /// Targets that moves go to, or that are handed on.
-    pub kept: Vec<bool>,
-    /// The target that the robot is at.
-    last: Option<(TargetId, usize, usize, Shift)>,
-    /// Arrays that were used with an index that only the running program knows.
-    listed: HashSet<Listed>,
-    called: HashSet<Symbol>,
+/// How the robot goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Path {
+    Joint,
+    Linear,
+    Arc,
 }
 
-/// Module and name of an array, tool and base, and whether the joints are interpolated.
-type Listed = (u32, Symbol, Option<(usize, usize)>, bool);
-
-/// How a move goes to all its targets.
-struct With {
-    path: Path,
-    motion: Motion,
-    state: State,
-    displacement: Displacement,
+/// A motion keyword in capitals, and whether the move is relative.
+pub fn motion(word: &[u8]) -> Option<(Path, bool)> {
+    Some(match word {
+        b"PTP" | b"SPTP" => (Path::Joint, false),
+        b"LIN" | b"SLIN" | b"SPL" => (Path::Linear, false),
+        b"CIRC" | b"SCIRC" => (Path::Arc, false),
+        b"PTP_REL" | b"SPTP_REL" => (Path::Joint, true),
+        b"LIN_REL" | b"SLIN_REL" | b"SPL_REL" => (Path::Linear, true),
+        b"CIRC_REL" | b"SCIRC_REL" => (Path::Arc, true),
+        _ => return None,
+    })
 }
 
-impl<'a, 's> Moves<'a, 's> {
-    pub fn new(world: &'a World, mut report: Report<'s>, flows: Flows) -> (Self, States) {
-        let Flows { settings, at } = flows;
-        let used = world.notes.statements.iter().zip(at.iter());
-        let used = used.filter_map(|(statement, state)| match statement.action {
-            Action::Move { points, .. } => {
-                let mut points = world.notes.points[indices(points)].iter();
-                let context = world.context(statement);
-                let to_pose = points.any(|point| goes_to_pose(world, *point, context));
-                let State(slots) = state?;
-                to_pose.then_some([slots[TOOL], slots[BASE], slots[IPO]])
+/// What a move or a spline block sets for itself.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct With {
+    tool: Option<Expr>,
+    base: Option<Expr>,
+    load: Option<Expr>,
+    mode: Option<Expr>,
+}
+
+/// Where the robot is, for moves relative to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Last {
+    target: Expr,
+    shift: Shift,
+}
+
+/// A position as it is written.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    pub target: Expr,
+    pub displacement: DisplacementId,
+    /// Where the robot is: it stays there.
+    is_here: bool,
+    /// Numbers of its own or a name alone: another may stand in its place.
+    is_plain: bool,
+    /// It is a pose, as far as is known.
+    is_pose: bool,
+    span: Span,
+}
+
+/// What stands behind the positions of a move.
+#[derive(Clone, Copy, Debug, Default)]
+struct Rest {
+    with: With,
+    pace: Pace,
+    /// An arc goes on beyond its end, or stops short.
+    has_angle: bool,
+    end: u32,
+}
+
+/// One part of a product of frames.
+#[derive(Clone, Copy)]
+enum Operand {
+    Inline(TargetId),
+    Named(Symbol, Index),
+    Here,
+    /// Where the robot was.
+    Actual,
+    Other,
+}
+
+impl Reader {
+    /// `LIN target C_DIS WITH ...`, `CIRC via, end, CA 90`
+    pub(super) fn motion(&mut self, first: Token, path: Path, mut cursor: Cursor) -> Read<()> {
+        let mut points = [self.point(&mut cursor)?; 2];
+        let mut count = 1;
+        if path == Path::Arc && cursor.take(b',') {
+            points[1] = self.point(&mut cursor)?;
+            count = 2;
+        }
+        let rest = self.rest(cursor)?;
+        let (place, context) = (self.place(first), rest.with);
+        self.last = None;
+        for (at, point) in points[..count].iter().enumerate() {
+            if point.is_here {
+                continue;
             }
-            _ => None,
-        });
-        let places = Places::new(world, settings, used);
-        report.program.targets.clone_from(&world.notes.targets);
-        let moves = Self {
-            kept: vec![false; world.notes.targets.len()],
-            world,
-            report,
-            places,
-            last: None,
-            listed: HashSet::new(),
-            called: HashSet::new(),
-        };
-        (moves, at)
+            let is_via = path == Path::Arc && at == 0 && count == 2;
+            let motion = match path {
+                Path::Joint => Motion::Joint,
+                Path::Linear => Motion::Linear,
+                Path::Arc if is_via => Motion::ArcVia,
+                Path::Arc => Motion::ArcEnd,
+            };
+            let mut instruction = self.instruction(place, motion, point.target, &rest);
+            instruction.displacement = point.displacement;
+            if point.is_plain && !rest.has_angle {
+                instruction.target_span = point.span;
+            }
+            if rest.has_angle {
+                instruction.guards = self.modal.angle_guards;
+            }
+            self.builder.go(instruction);
+            let plain = context.tool.is_none() && context.base.is_none();
+            if !is_via && plain && !rest.has_angle && point.is_pose {
+                self.last = self.shift_of(point).map(|shift| Last {
+                    target: point.target,
+                    shift,
+                });
+            }
+        }
+        Ok(())
     }
 
-    /// Goes through all statements.
-    pub fn list(&mut self, at: &States) {
-        let world = self.world;
-        let mut routine = u32::MAX;
-        for (statement, state) in world.notes.statements.iter().zip(at.iter()) {
-            if statement.routine != routine || World::is_crossing(statement) {
-                routine = statement.routine;
-                self.last = None;
+    fn shift_of(&self, point: &Point) -> Option<Shift> {
+        match self
+            .builder
+            .script
+            .displacements
+            .get(point.displacement as usize)?
+        {
+            Displacement::None => Some(Shift::in_frame([0.0; 3])),
+            _ => None,
+        }
+    }
+
+    fn instruction(&self, place: Place, motion: Motion, target: Expr, rest: &Rest) -> Instruction {
+        let With {
+            tool,
+            base,
+            load,
+            mode,
+        } = rest.with;
+        let state = |own: Option<Expr>, of: Option<Expr>, state| {
+            own.or(of).unwrap_or(self.modal.expr(state))
+        };
+        let spline = self.spline;
+        let is_joints = matches!(target, Expr::Target(target)
+            if self.builder.script.targets[target].layout.shape == Shape::Joints);
+        let is_external = match mode.or(spline.mode) {
+            Some(Expr::Variable(_)) | None => self.modal.guards,
+            Some(mode) => self.modal.guards_of(mode),
+        };
+        Instruction {
+            end: rest.end,
+            motion,
+            target,
+            tool: state(tool, spline.tool, State::Tool),
+            frame: state(base, spline.base, State::Base),
+            load: state(load, spline.load, State::Load),
+            configured: match motion {
+                Motion::Joint => Expr::Value(self.modal.on),
+                _ => Expr::Absent,
+            },
+            // axes are the same whoever holds the tool
+            guards: if is_joints { 0 } else { is_external },
+            pace: rest.pace,
+            ..Instruction::at(place)
+        }
+    }
+
+    /// What stands behind the positions.
+    fn rest(&mut self, mut cursor: Cursor) -> Read<Rest> {
+        let mut rest = Rest {
+            end: short(cursor.at),
+            ..Rest::default()
+        };
+        rest.pace.zone_m = Some(0.0);
+        let mut before = b' ';
+        loop {
+            let token = cursor.next();
+            if token.kind == Kind::End {
+                return Ok(rest);
             }
-            match (statement.action, state) {
-                (Action::Move { path, points, .. }, Some(state)) => {
-                    let points = indices(points);
-                    for at in points.clone() {
-                        let motion = match path {
-                            Path::Joint => Motion::Joint,
-                            Path::Linear => Motion::Linear,
-                            Path::Arc if at == points.start && points.len() == 2 => Motion::ArcVia,
-                            Path::Arc => Motion::ArcEnd,
-                        };
-                        let with = With {
-                            path,
-                            motion,
-                            state,
-                            displacement: Displacement::None,
-                        };
-                        self.go(statement, world.notes.points[at], with);
+            rest.end = token.end;
+            if token.kind == Kind::Name {
+                let mut buffer = [0; 24];
+                match capitals(cursor.text(token), &mut buffer) {
+                    b"C_DIS" | b"C_VEL" | b"C_ORI" | b"C_PTP" | b"C_SPL" => {
+                        (rest.pace.zone_m, rest.pace.blends) = (None, true);
                     }
+                    b"CA" if before == b',' => rest.has_angle = true,
+                    b"WITH" => {
+                        rest.with = self.with(&mut cursor, &mut rest.pace)?;
+                        rest.end = short(cursor.at);
+                    }
+                    _ => {}
                 }
-                (Action::Relative { path, axes, by }, Some(state)) => {
-                    let by = by.map(|by| world.notes.offsets[by as usize]);
-                    self.relative(statement, path, axes, by, state);
+            }
+            before = match token.kind {
+                Kind::Sign(sign) => sign,
+                _ => b' ',
+            };
+        }
+    }
+
+    /// What stands behind WITH.
+    pub(super) fn with(&mut self, cursor: &mut Cursor, pace: &mut Pace) -> Read<With> {
+        let mut with = With::default();
+        loop {
+            let name = cursor.next();
+            cursor.brackets()?;
+            let mut part = None;
+            while cursor.take(b'.') {
+                part = Some(cursor.next());
+            }
+            if name.kind != Kind::Name || !cursor.take(b'=') {
+                return Ok(with);
+            }
+            let mut buffer = [0; 24];
+            let word = capitals(cursor.text(name), &mut buffer);
+            match (word, part) {
+                (b"$TOOL", None) => with.tool = Some(self.state_value(State::Tool, cursor)?),
+                (b"$BASE", None) => with.base = Some(self.state_value(State::Base, cursor)?),
+                (b"$LOAD", None) => with.load = Some(self.state_value(State::Load, cursor)?),
+                (b"$IPO_MODE", None) => with.mode = Some(self.state_value(State::Ipo, cursor)?),
+                (b"$TOOL", Some(_)) => with.tool = Some(self.chosen()),
+                (b"$BASE", Some(_)) => with.base = Some(self.chosen()),
+                (b"$VEL", _) => pace.speed_m_s = speed(cursor, part)?,
+                _ => skip_value(cursor),
+            }
+            if !cursor.take(b',') {
+                return Ok(with);
+            }
+        }
+    }
+
+    /// A position: numbers, a name, or a product of them.
+    ///
+    /// # Errors
+    /// Where nothing stands there, or it is broken.
+    pub(super) fn point(&mut self, cursor: &mut Cursor) -> Read<Point> {
+        cursor.blanks();
+        let start = short(cursor.at);
+        let mut operands = [Operand::Other; 8];
+        let mut count = 0;
+        let mut mentions = false;
+        loop {
+            let operand = self.operand(cursor, &mut mentions)?;
+            if let Some(slot) = operands.get_mut(count) {
+                *slot = operand;
+            }
+            count += 1;
+            if !cursor.take(b':') {
+                break;
+            }
+        }
+        let text = &cursor.bytes[start as usize..cursor.at];
+        let end = start + short(text.trim_ascii_end().len());
+        let mut point = Point {
+            target: Expr::Absent,
+            displacement: NOT_DISPLACED,
+            is_here: false,
+            is_plain: false,
+            is_pose: false,
+            span: Span { start, end },
+        };
+        match operands.get(..count) {
+            Some([one]) => {
+                point.is_plain = true;
+                self.one(*one, mentions, &mut point);
+            }
+            Some(many) => self.product(many, &mut point),
+            None => point.target = self.computed(mentions),
+        }
+        Ok(point)
+    }
+
+    fn operand(&mut self, cursor: &mut Cursor, mentions: &mut bool) -> Read<Operand> {
+        match cursor.blanks() {
+            b'{' => {
+                let start = cursor.at;
+                let aggregate = aggregate::read(cursor)?;
+                return Ok(Operand::Inline(self.add(&aggregate, start, None)));
+            }
+            0 | b';' => return Err(cursor.next().unexpected("a position")),
+            _ => {}
+        }
+        let before = *cursor;
+        let name = cursor.next();
+        if name.kind == Kind::Name {
+            let mut buffer = [0; 24];
+            match capitals(cursor.text(name), &mut buffer) {
+                b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MES" | b"$POS_ACT_MES" => {
+                    cursor.brackets()?;
+                    return Ok(if cursor.blanks() == b'.' {
+                        cursor.skip();
+                        Operand::Other
+                    } else {
+                        Operand::Here
+                    });
                 }
-                (Action::Call(_), _) => self.last = None,
+                b"$AXIS_INT" | b"$AXIS_RET" | b"$AXIS_BACK" | b"$AXIS_FOR" | b"$POS_INT"
+                | b"$POS_RET" | b"$POS_BACK" | b"$POS_FOR" => {
+                    cursor.brackets()?;
+                    return Ok(Operand::Actual);
+                }
                 _ => {}
             }
-        }
-        for (target, place) in std::mem::take(&mut self.places.frames) {
-            self.report
-                .block(target, Cause::UsedAsFrame, place, "its declaration");
-        }
-    }
-
-    fn go(&mut self, statement: &Statement, point: Point, with: With) {
-        self.last = None;
-        match point {
-            Point::Present => {}
-            Point::Computed => self.computed(statement, "the position"),
-            Point::Inline(target) => self.use_target(statement, target, with),
-            Point::Named(name, index) => self.use_name(statement, name, index, &with),
-            Point::Product(part) => self.product(statement, indices(part), with),
-        }
-    }
-
-    fn computed(&mut self, statement: &Statement, what: &str) {
-        let message = format!(
-            "{what} that this move goes to is known at run time only; it is not compensated"
-        );
-        let (id, severity) = ("computed-target", Severity::Error);
-        let hint = "write the target with numbers";
-        self.report
-            .say(id, severity, statement.place, message, hint);
-    }
-
-    fn use_name(&mut self, statement: &Statement, name: Symbol, index: Index, with: &With) {
-        let world = self.world;
-        let context = world.context(statement);
-        let spelled = world.notes.symbols.spelling(name);
-        match world.lead(name, index, context) {
-            Lead::Values { first, last, .. } => {
-                let is_one = last - first == 1;
-                if !is_one && !self.first_use(name, with, statement) {
-                    return;
-                }
-                for at in first..last {
-                    match world.value(at).1 {
-                        Stored::Target(target) => {
-                            let with = With {
-                                displacement: with.displacement.clone(),
-                                ..*with
-                            };
-                            self.use_target(statement, target, with);
-                        }
-                        _ => self.computed(statement, spelled),
-                    }
-                }
-                if !is_one {
-                    self.last = None;
-                }
-            }
-            Lead::Empty(datum) => self.empty(statement, datum, spelled),
-            Lead::Ambiguous => {
-                self.block_name(
-                    name,
-                    index,
-                    context,
-                    Cause::Ambiguous,
-                    statement.place,
-                    spelled,
-                );
-                self.computed(statement, spelled);
-            }
-            Lead::Unknown if is_home(spelled) => self.home(statement, spelled),
-            Lead::Unknown => {
-                let message =
-                    format!("{spelled} is not declared in the files; this move is not compensated");
-                let hint = "give the .dat file or the $config.dat that declares it, too";
-                let id = "target-not-in-files";
-                self.report
-                    .say(id, Severity::Error, statement.place, message, hint);
+            let at = cursor.brackets()?;
+            if !matches!(cursor.blanks(), b'.' | b'(' | b'+' | b'-' | b'*' | b'/') {
+                let symbol = self.symbol(cursor, name);
+                return Ok(Operand::Named(symbol, Index::of(at, cursor)));
             }
         }
+        *cursor = before;
+        cursor.skip();
+        let inner = before.part(before.at, cursor.at);
+        *mentions |= self.mentions_position(inner);
+        self.calls_in(inner);
+        Ok(Operand::Other)
     }
 
-    fn empty(&mut self, statement: &Statement, datum: u32, spelled: &str) {
-        let declared = self.world.declared(datum);
-        if declared.kind == DataKind::Axes && !self.world.is_assigned(datum) {
-            self.home(statement, spelled);
-        } else {
-            self.computed(statement, spelled);
-        }
-    }
-
-    /// A joint target without numbers in the files.
-    fn home(&mut self, statement: &Statement, spelled: &str) {
-        let message = format!("{spelled} has no value in the files; as a joint target it stays");
-        let hint = "give the $config.dat that declares it, too, to see it checked";
-        let id = "joint-target-not-in-files";
-        self.report
-            .say(id, Severity::Note, statement.place, message, hint);
-    }
-
-    /// Whether an array was not used in this way before.
-    fn first_use(&mut self, name: Symbol, with: &With, statement: &Statement) -> bool {
-        let State(slots) = with.state;
-        let tool = self.places.tool(slots[TOOL], &mut self.report.program);
-        let base = self.places.base(slots[BASE], &mut self.report.program);
-        let both = tool.ok().zip(base.ok());
-        let key = (
-            self.world.notes.routines[statement.routine as usize].module,
-            name,
-            both,
-            with.motion == Motion::Joint,
-        );
-        with.displacement == Displacement::None
-            && self.report.program.moves.len() < MOST_MOVES
-            && self.listed.insert(key)
-            || with.displacement != Displacement::None && self.called.insert(name)
-    }
-
-    /// Blocks every target that a name may lead to, and keeps it.
-    pub fn block_name(
-        &mut self,
-        name: Symbol,
-        index: Index,
-        context: Context,
-        cause: Cause,
-        because: Place,
-        what: &str,
-    ) -> bool {
-        let world = self.world;
-        let mut any = false;
-        for datum in world.candidates(name, context) {
-            let whole = if index == Index::Whole {
-                Index::Variable
-            } else {
-                index
-            };
-            let (first, last) = world.range(datum, whole);
-            for at in first..last {
-                if let Stored::Target(target) = world.value(at).1 {
-                    self.report.block(target, cause, because, what);
-                    any = true;
-                    if matches!(cause, Cause::Ambiguous) {
-                        self.kept[target] = true;
-                    }
+    /// A position of one part.
+    fn one(&mut self, operand: Operand, mentions: bool, point: &mut Point) {
+        point.target = match operand {
+            Operand::Inline(target) => {
+                let shape = self.builder.script.targets[target].layout.shape;
+                point.is_pose = shape == Shape::Pose;
+                Expr::Target(target)
+            }
+            Operand::Named(name, at) => {
+                let kind = self.names.kind(name, self.context());
+                point.is_pose = matches!(kind, Some(DataKind::Position | DataKind::Frame));
+                match self.named(name, at) {
+                    Some(found) => found,
+                    None => self.not_in_files(name),
                 }
             }
-        }
-        any
+            Operand::Here => {
+                point.is_here = true;
+                self.actual()
+            }
+            Operand::Actual => self.actual(),
+            Operand::Other => self.computed(mentions),
+        };
+        point.is_plain &= matches!(operand, Operand::Inline(_) | Operand::Named(..));
+    }
+
+    fn actual(&mut self) -> Expr {
+        Expr::Value(self.builder.script.value(Held::Actual))
+    }
+
+    /// A position that only the running program knows.
+    pub(super) fn computed(&mut self, mentions: bool) -> Expr {
+        let remark = if mentions { copied() } else { computed() };
+        self.unknown(remark)
     }
 
     /// `a : b : c`: the one operand that is a position is the target, the others displace it.
-    fn product(&mut self, statement: &Statement, part: std::ops::Range<usize>, mut with: With) {
-        let world = self.world;
-        let context = world.context(statement);
-        let operands = &world.notes.operands[part];
+    fn product(&mut self, operands: &[Operand], point: &mut Point) {
+        let context = self.context();
         let is_position = |operand: &Operand| match *operand {
-            Operand::Named(name, _) => world.kind(name, context) == Some(DataKind::Position),
+            Operand::Named(name, _) => self.names.kind(name, context) == Some(DataKind::Position),
             _ => false,
         };
         let mut positions = (0..operands.len()).filter(|&at| is_position(&operands[at]));
         let (Some(at), None) = (positions.next(), positions.next()) else {
-            self.computed(statement, "the product of frames");
+            let mentions = operands.iter().any(is_position);
+            point.target = self.computed(mentions);
             return;
         };
-        with.displacement = self
-            .shift(operands, at, context)
+        let displacement = self
+            .shift(operands, at)
             .map_or(Displacement::Unknown, |shift| {
                 Displacement::By(Box::new(shift))
             });
-        if let Operand::Named(name, index) = operands[at] {
-            self.use_name(statement, name, index, &with);
-            self.last = None;
-        }
+        self.one(operands[at], false, point);
+        point.displacement = self.builder.script.displacement(displacement);
     }
 
     /// What the operands beside the target add, where that is a motion of the tool or a translation in the base.
-    fn shift(&self, operands: &[Operand], at: usize, context: Context) -> Option<Shift> {
+    fn shift(&self, operands: &[Operand], at: usize) -> Option<Shift> {
         let product = |operands: &[Operand]| {
             let mut pose = Pose::identity();
             for operand in operands {
-                pose = pose * self.constant(*operand, context)?;
+                pose = pose * self.constant(*operand)?;
             }
             Some(pose)
         };
@@ -297,219 +406,169 @@ impl<'a, 's> Moves<'a, 's> {
     }
 
     /// A frame that no statement changes.
-    fn constant(&self, operand: Operand, context: Context) -> Option<Pose> {
-        let world = self.world;
+    fn constant(&self, operand: Operand) -> Option<Pose> {
         let target = match operand {
             Operand::Inline(target) => target,
-            Operand::Named(name, index) => {
-                let datum = world.datum(name, context)?.ok()?;
-                match world.one(datum, index)? {
-                    Stored::Target(target) if !world.is_assigned(datum) => target,
-                    _ => return None,
-                }
-            }
-            Operand::Other => return None,
+            Operand::Named(name, at) => match self.names.constant(name, at, self.context())? {
+                Stored::Target(target) => target,
+                _ => return None,
+            },
+            _ => return None,
         };
-        let range = world.notes.targets[target].numbers.clone();
-        let numbers = &world.notes.numbers[range.start as usize..range.end as usize];
-        let is_pose = world.notes.targets[target].layout.shape == Shape::Pose;
+        let script = &self.builder.script;
+        let range = script.targets[target].numbers.clone();
+        let numbers = &script.numbers[range.start as usize..range.end as usize];
+        let is_pose = script.targets[target].layout.shape == Shape::Pose;
         (is_pose && numbers.len() >= 6).then(|| pose_of(std::array::from_fn(|i| numbers[i].value)))
     }
 
-    fn use_target(&mut self, statement: &Statement, target: TargetId, with: With) {
-        self.kept[target] = true;
-        let is_joints = self.world.notes.targets[target].layout.shape == Shape::Joints;
-        let State(slots) = with.state;
-        let program = &mut self.report.program;
-        let tool = self.places.tool(slots[TOOL], program);
-        let base = self.places.base(slots[BASE], program);
-        let mode = self.places.mode(slots[IPO]);
-        let mut ids = [0; 2];
-        let mut is_blocked = false;
-        for (id, used) in ids.iter_mut().zip([tool, base]) {
-            match used {
-                Ok(found) => *id = found,
-                // axes stay as they are, whatever the tool
-                Err(_) if is_joints => is_blocked = true,
-                Err((cause, place, what)) => {
-                    is_blocked = true;
-                    self.block(target, cause, place, &what, statement);
-                }
-            }
-        }
-        if let (Err((cause, place, what)), false) = (mode, is_joints) {
-            is_blocked = true;
-            self.block(target, cause, place, &what, statement);
-        }
-        if is_blocked && !is_joints {
-            return;
-        }
-        if is_blocked {
-            // a joint target without a known tool cannot be corrected, only kept
-            ids = self.nothing_known(&slots);
-        }
-        let [tool, frame] = ids;
-        if with.displacement == Displacement::None && !is_joints {
-            self.last = Some((target, tool, frame, Shift::in_frame([0.0; 3])));
-        }
-        self.push(statement, target, tool, frame, with);
+    /// What a position is after an assignment.
+    pub(super) fn value_of(&mut self, point: &Point) -> Expr {
+        self.builder
+            .script
+            .displaced(point.target, point.displacement)
     }
 
-    fn push(
-        &mut self,
-        statement: &Statement,
-        target: TargetId,
-        tool: usize,
-        frame: usize,
-        with: With,
-    ) {
-        self.report.program.moves.push(Move {
-            file: statement.place.file,
-            offset: statement.place.offset,
-            motion: with.motion,
-            target: Some(target),
-            tool,
-            frame,
-            displacement: with.displacement,
-            configured: with.path == Path::Joint,
-            near: None,
-            pace: crate::program::Pace::default(),
-            ..Move::default()
-        });
-    }
-
-    /// Tool and frame that are asked for by the names of the controller's variables.
-    fn nothing_known(&mut self, slots: &[Slot; 4]) -> [usize; 2] {
-        let program = &mut self.report.program;
-        let tool = self.places.tool(slots[TOOL], program).unwrap_or_else(|_| {
-            let mut tools = program.tools.iter();
-            let known =
-                tools.position(|tool| tool.name == "$TOOL" && tool.flange_from_tool.is_none());
-            known.unwrap_or_else(|| {
-                program.tools.push(Tool {
-                    name: "$TOOL".into(),
-                    flange_from_tool: None,
-                    load: None,
-                });
-                program.tools.len() - 1
-            })
-        });
-        let frame = self.places.base(slots[BASE], program).unwrap_or_else(|_| {
-            let mut frames = program.frames.iter();
-            let known =
-                frames.position(|frame| frame.name == "$BASE" && frame.world_from_frame.is_none());
-            known.unwrap_or_else(|| {
-                program.frames.push(Frame {
-                    name: "$BASE".into(),
-                    world_from_frame: None,
-                });
-                program.frames.len() - 1
-            })
-        });
-        [tool, frame]
-    }
-
-    fn block(
-        &mut self,
-        target: TargetId,
-        cause: Cause,
-        place: Place,
-        what: &str,
-        statement: &Statement,
-    ) {
-        // no place of its own: the move itself
-        let (place, what) = if place == HERE {
-            (statement.place, "")
-        } else {
-            (place, what)
-        };
-        self.report.block(target, cause, place, what);
-    }
-
-    /// A move by so much from where the robot is.
-    fn relative(
-        &mut self,
-        statement: &Statement,
-        path: Path,
-        axes: bool,
-        by: Option<([f64; 3], bool)>,
-        State(slots): State,
-    ) {
+    /// `LIN_REL {Z 100} #BASE`
+    pub(super) fn relative(&mut self, first: Token, path: Path, mut cursor: Cursor) -> Read<()> {
         let last = self.last.take();
-        let place = statement.place;
-        if axes {
-            let message =
-                "this move turns axes from where the robot is; it is left as it is".to_owned();
-            let id = "relative-joint-move";
-            self.report.say(id, Severity::Note, place, message, "");
-            return;
-        }
-        let program = &mut self.report.program;
-        let tool = self.places.tool(slots[TOOL], program).ok();
-        let frame = self.places.base(slots[BASE], program).ok();
-        if let (Some((target, last_tool, last_frame, mut shift)), Some((by, in_tool))) = (last, by)
-            && (tool, frame) == (Some(last_tool), Some(last_frame))
-        {
-            let [x, y, z] = by.map(m_from_mm);
-            if in_tool {
-                shift.in_tool = shift.in_tool * Pose::from_translation(x, y, z);
+        let (mut axes, mut by) = (false, None);
+        if cursor.blanks() == b'{' {
+            let found = aggregate::read(&mut cursor)?;
+            axes = found.is_axes();
+            let mut ahead = cursor;
+            let in_tool = if ahead.take(b'#') {
+                let word = ahead.next();
+                let mut buffer = [0; 24];
+                match capitals(ahead.text(word), &mut buffer) {
+                    b"TOOL" => Some(true),
+                    b"BASE" => Some(false),
+                    _ => None,
+                }
             } else {
-                let [a, b, c] = shift.in_frame_m;
-                shift.in_frame_m = [a + x, b + y, c + z];
+                Some(false)
+            };
+            // turns are added to the angles, which is no motion of its own
+            if let (Some(in_tool), false, 0) = (in_tool, found.computed, found.has & !0b111)
+                && !axes
+            {
+                let part = |i: usize| match found.has & 1 << i {
+                    0 => 0.0,
+                    _ => m_from_mm(found.position[i].value),
+                };
+                by = Some((std::array::from_fn(part), in_tool));
             }
-            let motion = match path {
-                Path::Joint => Motion::Joint,
-                _ => Motion::Linear,
-            };
-            let with = With {
-                path,
-                motion,
-                state: State(slots),
-                displacement: Displacement::By(Box::new(shift)),
-            };
-            self.push(statement, target, last_tool, last_frame, with);
-            self.last = Some((target, last_tool, last_frame, shift));
-            return;
+        } else {
+            cursor.skip();
         }
-        let message = "this move goes relative to a position that the text does not tell; it is not compensated";
-        let hint = "write the target, or put the move behind one to a known target";
-        let id = "relative-move";
-        self.report
-            .say(id, Severity::Error, place, message.to_owned(), hint);
-    }
-
-    /// Says what is wrong with targets that stand in the text.
-    pub fn flaws(&mut self) {
-        for &(target, flaw) in &self.world.notes.flaws {
-            let found = &self.world.notes.targets[target];
-            let place = Place {
-                file: found.file,
-                offset: found.offset,
-            };
-            let cause = match flaw {
-                Flaw::Partial => Cause::Partial,
-                Flaw::Computed => Cause::Computed,
-            };
-            self.report.block(target, cause, place, "");
+        let rest = self.rest(cursor)?;
+        let place = self.place(first);
+        let motions: &[Motion] = match path {
+            Path::Joint => &[Motion::Joint],
+            Path::Linear => &[Motion::Linear],
+            Path::Arc => &[Motion::ArcVia, Motion::ArcEnd],
+        };
+        let own = rest.with.tool.is_some() || rest.with.base.is_some();
+        if let ([motion], Some(mut last), Some((by, in_tool)), false) = (motions, last, by, own) {
+            let [x, y, z]: [f64; 3] = by;
+            if in_tool {
+                last.shift.in_tool = last.shift.in_tool * Pose::from_translation(x, y, z);
+            } else {
+                let [a, b, c] = last.shift.in_frame_m;
+                last.shift.in_frame_m = [a + x, b + y, c + z];
+            }
+            let displacement = Displacement::By(Box::new(last.shift));
+            let mut instruction = self.instruction(place, *motion, last.target, &rest);
+            instruction.displacement = self.builder.script.displacement(displacement);
+            self.builder.go(instruction);
+            self.last = Some(last);
+            return Ok(());
         }
+        let target = self.unknown(if axes && path != Path::Arc {
+            turned()
+        } else {
+            from_nowhere()
+        });
+        for motion in motions {
+            let instruction = self.instruction(place, *motion, target, &rest);
+            self.builder.go(instruction);
+        }
+        Ok(())
     }
 }
 
-/// Names that every controller has for a joint target in its $config.dat.
-fn is_home(name: &str) -> bool {
-    let name = name.to_ascii_lowercase();
-    let rest = name.strip_prefix("xhome").or(name.strip_prefix("home"));
-    rest.is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit()))
+fn turned() -> Remark {
+    Remark {
+        id: "relative-joint-move",
+        severity: Severity::Note,
+        text: "this move turns axes from where the robot is; it is left as it is".into(),
+        hint: "",
+    }
 }
 
-fn goes_to_pose(world: &World, point: Point, context: Context) -> bool {
-    match point {
-        Point::Inline(target) => world.notes.targets[target].layout.shape == Shape::Pose,
-        Point::Named(name, _) => matches!(
-            world.kind(name, context),
-            Some(DataKind::Position | DataKind::Frame)
-        ),
-        Point::Product(_) => true,
-        Point::Present | Point::Computed => false,
+fn from_nowhere() -> Remark {
+    Remark {
+        id: "relative-move",
+        severity: Severity::Error,
+        text: "this move goes relative to a position that the text does not tell; it is not compensated".into(),
+        hint: "write the target, or put the move behind one to a known target",
+    }
+}
+
+/// Against arcs with an angle.
+pub fn angle() -> Remark {
+    Remark {
+        id: "circular-angle",
+        severity: Severity::Error,
+        text: "this arc goes on to an angle (CA): where it ends is not where its points are".into(),
+        hint: "write the arc without CA, with the point where it ends",
+    }
+}
+
+/// The speed of `$VEL={CP 0.25}`, `$VEL.CP=0.25`, where it is a number.
+fn speed(cursor: &mut Cursor, part: Option<Token>) -> Read<Option<f64>> {
+    if cursor.blanks() == b'{' {
+        let mut found = None;
+        aggregate::each(cursor, |key, _, field| {
+            if let (b"CP", aggregate::Field::Number(number)) = (key, field) {
+                found = Some(number.value);
+            }
+            Ok(())
+        })?;
+        return Ok(found);
+    }
+    let is_path = part.is_some_and(|part| cursor.text(part).eq_ignore_ascii_case(b"CP"));
+    let mut ahead = *cursor;
+    let token = ahead.next();
+    let found = number::parse(ahead.text(token)).filter(|_| is_path);
+    skip_value(cursor);
+    Ok(found)
+}
+
+/// Skips a value of WITH: up to a comma, or a word behind it such as `C_DIS`.
+pub fn skip_value(cursor: &mut Cursor) {
+    let mut depth = 0_u32;
+    let mut ends = false;
+    loop {
+        let before = cursor.at;
+        let token = cursor.next();
+        match token.kind {
+            Kind::End => return,
+            Kind::Sign(b',') if depth == 0 => {
+                cursor.at = before;
+                return;
+            }
+            Kind::Name | Kind::Number if depth == 0 && ends => {
+                cursor.at = before;
+                return;
+            }
+            Kind::Sign(b'(' | b'[' | b'{') => depth += 1,
+            Kind::Sign(b')' | b']' | b'}') => {
+                depth = depth.saturating_sub(1);
+                ends = depth == 0;
+            }
+            Kind::Sign(_) => ends = false,
+            _ => ends = true,
+        }
     }
 }

@@ -1,63 +1,147 @@
-//! One file into [`Notes`]: modules, routines, data lists.
+//! Files into a [`Script`]: first what all of them declare, then their statements.
 
 use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
-use super::notes::{
-    DataKind, Datum, Entry, Fdat, Flaw, Index, Initial, Ipo, LoadEntry, Module, Notes, Operand,
-    Part, Read, Routine, Stored, Table,
-};
-use super::tokens::{Cursor, Fault, Kind, Place, Token, capitals, content_start, index, lines};
-use crate::program::rapid::names::{Context, Symbol};
-use crate::program::{Layout, Shape, Source, Target, TargetId, number};
+use super::frames::{Declared, Modal, Table};
+use super::moves::Last;
+use super::names::{DataKind, Datum, Fdat, Head, Index, Names, Stored, whole};
+use super::targets::{self, Owner};
+use super::tokens::{Cursor, Kind, Read, Token, capitals, content_start, lines};
+use crate::geometry::units::m_from_mm;
+use crate::program::kit::Fault;
+use crate::program::names::{Context, Symbol};
+use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, VariableId, short};
+use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
+use std::collections::{HashMap, HashSet};
 
-/// Reads one file at a time.
-pub struct Reader<'a, 'n> {
-    pub(super) notes: &'n mut Notes,
+/// Reads files into one script.
+pub struct Reader {
+    pub(super) builder: Builder,
+    pub(super) names: Names,
+    pub(super) modal: Modal,
+    /// Tools, bases and loads of data lists.
+    pub(super) declared: Declared,
     pub(super) file: u32,
-    pub(super) module: u32,
-    /// The routine that is open, and where it starts.
-    pub(super) routine: Option<(u32, u32)>,
+    module: u32,
+    routine: Option<u32>,
     in_data: Option<u32>,
-    bytes: &'a [u8],
+    /// Routines that were begun, in the second reading.
+    begun: u32,
+    pub(super) variables: HashMap<(Owner, Index), VariableId>,
+    pub(super) tables: HashMap<Owner, TableId>,
+    /// All elements of an array.
+    pub(super) arrays: HashMap<Owner, Expr>,
+    /// What a name stands for that is declared more than once.
+    pub(super) ambiguous: HashMap<(u32, Index), Expr>,
+    /// Arrays that were refused, and why.
+    pub(super) refused: HashSet<(u32, &'static str)>,
+    pub(super) missing: HashMap<Symbol, RemarkId>,
+    /// Routines of interrupts and triggers.
+    pub(super) beside: Vec<(Symbol, Context)>,
+    /// The present statement.
+    pub(super) here: Place,
+    /// What the spline that is open sets for its moves.
+    pub(super) spline: super::moves::With,
+    /// Where the robot is, for moves relative to it.
+    pub(super) last: Option<Last>,
 }
 
-impl<'a, 'n> Reader<'a, 'n> {
-    /// Reads a file.
+/// What a line is.
+enum Line<'a> {
+    Nothing,
+    Define {
+        name: Token,
+        global: bool,
+        rest: Cursor<'a>,
+    },
+    End,
+    DataList(Token, Token),
+    EndData,
+    /// Names behind a type.
+    Typed {
+        kind: DataKind,
+        global: bool,
+        rest: Cursor<'a>,
+    },
+    /// A value in a data list.
+    Initial(Token, Cursor<'a>),
+    Statement(Token, Cursor<'a>),
+}
+
+impl Reader {
+    pub fn new() -> Self {
+        let mut builder = Builder::default();
+        Self {
+            modal: Modal::new(&mut builder.script),
+            builder,
+            names: Names::default(),
+            declared: Declared::default(),
+            file: 0,
+            module: 0,
+            routine: None,
+            in_data: None,
+            begun: 0,
+            variables: HashMap::new(),
+            tables: HashMap::new(),
+            arrays: HashMap::new(),
+            ambiguous: HashMap::new(),
+            refused: HashSet::new(),
+            missing: HashMap::new(),
+            beside: Vec::new(),
+            here: Place { file: 0, offset: 0 },
+            spline: super::moves::With::default(),
+            last: None,
+        }
+    }
+
+    /// Reads what a file declares, and which names its statements write.
     ///
     /// # Errors
     /// Where it is broken.
-    pub fn read(source: &'a Source, file: u32, notes: &'n mut Notes) -> Read<()> {
-        let key = module_key(&source.name);
-        let known = notes.modules.iter().rposition(|module| module.key == key);
-        let module = known.unwrap_or_else(|| {
-            notes.modules.push(Module {
-                is_system: is_system(&key),
-                key,
-                has_source: false,
-            });
-            notes.modules.len() - 1
-        });
-        let mut reader = Reader {
-            notes,
-            file,
-            module: index(module),
-            routine: None,
-            in_data: None,
-            bytes: &source.bytes,
-        };
-        let start = content_start(&source.bytes);
-        for (start, end) in lines(&source.bytes, start) {
-            reader.line(start, end)?;
+    pub fn declarations(&mut self, source: &Source, file: u32) -> Read<()> {
+        self.begin(source, file);
+        let is_submit = source.name.to_ascii_lowercase().ends_with(".sub");
+        let mut open = None;
+        for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {
+            match self.line(&source.bytes, start, end) {
+                Line::Nothing => {}
+                Line::Define { name, global, rest } => {
+                    let first = short(start);
+                    open = Some(first);
+                    self.define(name, global, rest);
+                    if is_submit && self.first_of_file(file) {
+                        // it runs beside the robot's program
+                        self.builder.script.routines[self.names.heads.len() - 1].start =
+                            Start::Concurrent;
+                    }
+                }
+                Line::End => {
+                    self.routine = None;
+                    open = None;
+                }
+                Line::DataList(first, name) => {
+                    self.in_data = Some(first.start);
+                    if source.bytes.get(name.start as usize) == Some(&b'$') {
+                        self.names.modules[self.module as usize].is_system = true;
+                    }
+                }
+                Line::EndData => self.in_data = None,
+                Line::Typed { kind, global, rest } => self.declared(kind, global, rest)?,
+                Line::Initial(name, rest) => self.initial(name, rest)?,
+                Line::Statement(first, rest) => {
+                    if self.routine.is_none() {
+                        self.add_routine(b"", short(start), false);
+                    }
+                    self.note(first, rest);
+                }
+            }
         }
-        if let Some((_, at)) = reader.routine
-            && !reader.implicit()
-        {
+        if let Some(at) = open {
             return Err(Fault::Unclosed {
                 at,
                 what: "a routine (DEF without END)",
             });
         }
-        reader.close();
-        if let Some(at) = reader.in_data {
+        if let Some(at) = self.in_data {
             return Err(Fault::Unclosed {
                 at,
                 what: "a data list (DEFDAT without ENDDAT)",
@@ -66,126 +150,145 @@ impl<'a, 'n> Reader<'a, 'n> {
         Ok(())
     }
 
-    fn line(&mut self, start: usize, end: usize) -> Read<()> {
+    fn first_of_file(&self, file: u32) -> bool {
+        let mut of_file = self.builder.script.routines.iter();
+        of_file.rposition(|routine| routine.place.file != file)
+            == self.names.heads.len().checked_sub(2)
+    }
+
+    /// Once the declarations of all files are read.
+    pub fn settle(&mut self) {
+        self.names.settle();
+        self.mark_concurrent();
+    }
+
+    /// Reads the statements of a file whose declarations are known.
+    ///
+    /// # Errors
+    /// Where it is broken.
+    pub fn statements(&mut self, source: &Source, file: u32) -> Read<()> {
+        self.begin(source, file);
+        for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {
+            match self.line(&source.bytes, start, end) {
+                Line::Define { .. } => self.next_routine(),
+                Line::End => {
+                    self.builder.close();
+                    self.routine = None;
+                }
+                Line::DataList(first, _) => self.in_data = Some(first.start),
+                Line::EndData => self.in_data = None,
+                Line::Statement(first, rest) => {
+                    if self.routine.is_none() {
+                        self.next_routine();
+                    }
+                    self.statement(first, rest)?;
+                }
+                Line::Nothing | Line::Typed { .. } | Line::Initial(..) => {}
+            }
+        }
+        self.builder.close();
+        Ok(())
+    }
+
+    fn begin(&mut self, source: &Source, file: u32) {
+        self.file = file;
+        self.module = self.names.module(&source.name);
+        (self.routine, self.in_data) = (None, None);
+    }
+
+    fn next_routine(&mut self) {
+        self.builder.open(self.begun);
+        self.routine = Some(self.begun);
+        self.begun += 1;
+        self.spline = super::moves::With::default();
+        self.last = None;
+    }
+
+    fn line<'a>(&self, bytes: &'a [u8], start: usize, end: usize) -> Line<'a> {
         let mut cursor = Cursor {
-            bytes: self.bytes,
+            bytes,
             at: start,
             end,
         };
         match cursor.blanks() {
-            0 | b';' | b'&' => return Ok(()),
+            0 | b';' | b'&' => return Line::Nothing,
             _ => {}
         }
         let first = cursor.next();
         if first.kind != Kind::Name {
-            return Ok(());
+            return Line::Nothing;
         }
         let mut buffer = [0; 24];
         let word = capitals(cursor.text(first), &mut buffer);
         match word {
-            b"GLOBAL" | b"DECL" | b"PUBLIC" | b"CONST" => return self.declaration(first, cursor),
-            b"DEF" => self.define(&mut cursor, first, false),
-            b"DEFFCT" => {
-                let mut rest = cursor;
-                rest.next();
-                self.define(&mut rest, first, false);
+            b"GLOBAL" | b"DECL" | b"PUBLIC" | b"CONST" | b"DEF" | b"DEFFCT" => {
+                declaration(first, cursor)
             }
-            b"END" | b"ENDFCT" => self.close(),
-            b"DEFDAT" => {
-                self.in_data = Some(first.start);
-                let name = cursor.next();
-                if cursor.text(name).first() == Some(&b'$') {
-                    self.notes.modules[self.module as usize].is_system = true;
-                }
-            }
-            b"ENDDAT" => self.in_data = None,
-            b"EXT" | b"EXTFCT" | b"ENUM" | b"STRUC" | b"SIGNAL" | b"IMPORT" => {}
+            b"END" | b"ENDFCT" => Line::End,
+            b"DEFDAT" => Line::DataList(first, cursor.next()),
+            b"ENDDAT" => Line::EndData,
+            b"EXT" | b"EXTFCT" | b"ENUM" | b"STRUC" | b"SIGNAL" | b"IMPORT" => Line::Nothing,
             b"INT" | b"REAL" | b"BOOL" | b"CHAR" | b"POS" | b"E3POS" | b"E6POS" | b"FRAME"
             | b"AXIS" | b"E3AXIS" | b"E6AXIS" | b"FDAT"
                 if cursor.peek().kind == Kind::Name =>
             {
-                let kind = DataKind::named(word);
-                return self.declared(kind, false, cursor);
+                Line::Typed {
+                    kind: DataKind::named(word),
+                    global: false,
+                    rest: cursor,
+                }
             }
-            _ if self.in_data.is_some() => return self.initial(first, cursor),
-            _ => return self.statement(first, word, cursor),
+            _ if self.in_data.is_some() => Line::Initial(first, cursor),
+            _ => Line::Statement(first, cursor),
         }
-        Ok(())
     }
 
     /// `DEF name(a:IN, b:OUT)`
-    fn define(&mut self, cursor: &mut Cursor, first: Token, global: bool) {
-        self.close();
-        let name = cursor.next();
-        if name.kind != Kind::Name {
-            return;
-        }
-        self.open(name, first.start, global);
+    fn define(&mut self, name: Token, global: bool, mut cursor: Cursor) {
+        self.add_routine(cursor.text(name), name.start, global);
         let context = self.context();
-        while !matches!(cursor.peek().kind, Kind::End) {
+        let mut parameters = Vec::new();
+        while cursor.peek().kind != Kind::End {
             let token = cursor.next();
-            if token.kind == Kind::Name {
-                let name = self.symbol(cursor, token);
-                self.notes.data.push(Datum {
-                    name,
-                    context,
-                    global: false,
-                    kind: DataKind::Other,
-                    place: self.place(token),
-                });
-                // `:IN`
-                if cursor.take(b':') {
-                    cursor.next();
-                }
+            if token.kind != Kind::Name {
+                continue;
             }
-        }
-    }
-
-    fn open(&mut self, name: Token, start: u32, global: bool) {
-        let first = index(self.notes.statements.len());
-        let name = self
-            .notes
-            .symbols
-            .intern(&self.bytes[name.start as usize..name.end as usize]);
-        self.notes.modules[self.module as usize].has_source = true;
-        self.routine = Some((index(self.notes.routines.len()), start));
-        self.notes.routines.push(Routine {
-            name,
-            module: self.module,
-            global,
-            statements: (first, first),
-        });
-    }
-
-    /// The routine that is open; statements outside of all make one of their own, without a name.
-    pub(super) fn routine(&mut self) -> u32 {
-        if self.routine.is_none() {
-            let nameless = Token {
-                kind: Kind::Name,
-                start: 0,
-                end: 0,
+            let datum = Datum {
+                name: self.names.symbols.intern(cursor.text(token)),
+                context,
+                kind: DataKind::Other,
+                place: self.place(token),
+                kept: false,
             };
-            self.open(nameless, 0, false);
+            let datum = self.names.declare(datum, false);
+            let mut by_reference = true;
+            if cursor.take(b':') {
+                let manner = cursor.next();
+                by_reference = !cursor.text(manner).eq_ignore_ascii_case(b"IN");
+            }
+            parameters.push((datum, by_reference));
         }
-        self.routine.expect("just opened").0
+        let head = self.names.heads.last_mut().expect("it was just added");
+        head.parameters = parameters;
     }
 
-    fn implicit(&self) -> bool {
-        let none = self.notes.symbols.find(b"");
-        self.routine
-            .is_some_and(|(routine, _)| Some(self.notes.routines[routine as usize].name) == none)
-    }
-
-    fn close(&mut self) {
-        if let Some((routine, _)) = self.routine.take() {
-            self.notes.routines[routine as usize].statements.1 = index(self.notes.statements.len());
-        }
+    fn add_routine(&mut self, name: &[u8], offset: u32, global: bool) {
+        let file = self.file;
+        let spelled = Source::text(name);
+        let place = Place { file, offset };
+        self.routine = Some(self.builder.declare(spelled, place, Start::Called));
+        let head = Head {
+            module: self.module,
+            parameters: Vec::new(),
+        };
+        let name = self.names.symbols.intern(name);
+        self.names.add_routine(name, head, global);
     }
 
     pub(super) fn context(&self) -> Context {
         Context {
             module: self.module,
-            routine: self.routine.map(|(routine, _)| routine),
+            routine: self.routine,
         }
     }
 
@@ -197,44 +300,11 @@ impl<'a, 'n> Reader<'a, 'n> {
     }
 
     pub(super) fn symbol(&mut self, cursor: &Cursor, token: Token) -> Symbol {
-        self.notes.symbols.intern(cursor.text(token))
-    }
-
-    /// `[GLOBAL] [DECL] [GLOBAL] [CONST] type names`, or `GLOBAL DEF`, `GLOBAL INTERRUPT DECL`.
-    fn declaration(&mut self, first: Token, mut cursor: Cursor<'a>) -> Read<()> {
-        let mut token = first;
-        let mut global = false;
-        loop {
-            let mut buffer = [0; 24];
-            match capitals(cursor.text(token), &mut buffer) {
-                b"GLOBAL" => global = true,
-                b"DECL" | b"PUBLIC" | b"CONST" => {}
-                b"DEF" => {
-                    self.define(&mut cursor, first, global);
-                    return Ok(());
-                }
-                b"DEFFCT" => {
-                    cursor.next();
-                    self.define(&mut cursor, first, global);
-                    return Ok(());
-                }
-                b"INTERRUPT" | b"SIGNAL" | b"ENUM" | b"STRUC" | b"EXT" | b"EXTFCT" => {
-                    return Ok(());
-                }
-                word => {
-                    let kind = DataKind::named(word);
-                    return self.declared(kind, global, cursor);
-                }
-            }
-            token = cursor.next();
-            if token.kind != Kind::Name {
-                return Ok(());
-            }
-        }
+        self.names.symbols.intern(cursor.text(token))
     }
 
     /// The names behind a type, each with sizes and a value or without.
-    fn declared(&mut self, kind: DataKind, global: bool, mut cursor: Cursor<'a>) -> Read<()> {
+    fn declared(&mut self, kind: DataKind, global: bool, mut cursor: Cursor) -> Read<()> {
         let in_data = self.in_data.is_some();
         let is_table = kind == DataKind::Frame || kind == DataKind::Other;
         if kind == DataKind::Other && in_data {
@@ -246,30 +316,23 @@ impl<'a, 'n> Reader<'a, 'n> {
             if name.kind != Kind::Name {
                 return Ok(());
             }
-            let symbol = self.symbol(&cursor, name);
-            let context = self.context();
-            let system = self.notes.modules[self.module as usize].is_system;
-            self.notes.data.push(Datum {
-                name: symbol,
-                context,
-                global: in_data && (global || system),
+            let system = self.names.modules[self.module as usize].is_system;
+            let datum = Datum {
+                name: self.symbol(&cursor, name),
+                context: self.context(),
                 kind,
                 place: self.place(name),
-            });
+                kept: in_data,
+            };
+            let datum = self.names.declare(datum, in_data && (global || system));
             let sizes = cursor.brackets()?;
             if cursor.take(b'=') {
                 if is_table && self.table(name, sizes, &mut cursor)? {
                     return Ok(());
                 }
-                let index = self.element(sizes, &cursor);
-                let value = self.stored(kind, name, &mut cursor)?;
-                if let Some(value) = value {
-                    self.notes.initials.push(Initial {
-                        name: symbol,
-                        index,
-                        context,
-                        value,
-                    });
+                let index = Index::of(sizes, &cursor);
+                if let Some(value) = self.stored(kind, name, &mut cursor)? {
+                    self.names.values.push((datum, index, value));
                 }
             }
             if !cursor.take(b',') {
@@ -279,43 +342,32 @@ impl<'a, 'n> Reader<'a, 'n> {
     }
 
     /// `name[1,2]={...}` in a data list.
-    fn initial(&mut self, name: Token, mut cursor: Cursor<'a>) -> Read<()> {
+    fn initial(&mut self, name: Token, mut cursor: Cursor) -> Read<()> {
         let at = cursor.brackets()?;
-        if !cursor.take(b'=') || cursor.blanks() != b'{' || self.table(name, at, &mut cursor)? {
+        if !cursor.take(b'=') || self.table(name, at, &mut cursor)? {
             return Ok(());
         }
         let symbol = self.symbol(&cursor, name);
-        let kind = self.last_kind(symbol);
-        let index = self.element(at, &cursor);
+        let Some(datum) = self.names.last_of(symbol, self.module) else {
+            return Ok(());
+        };
+        let kind = self.names.data[datum as usize].kind;
+        let index = Index::of(at, &cursor);
         if let Some(value) = self.stored(kind, name, &mut cursor)? {
-            let context = self.context();
-            self.notes.initials.push(Initial {
-                name: symbol,
-                index,
-                context,
-                value,
-            });
+            self.names.values.push((datum, index, value));
         }
         Ok(())
     }
 
-    /// The kind of an array whose elements follow its declaration.
-    fn last_kind(&self, name: Symbol) -> DataKind {
-        let module = self.module;
-        let mut near = self.notes.data.iter().rev().take(4096);
-        near.find(|datum| datum.name == name && datum.context.module == module)
-            .map_or(DataKind::Other, |datum| datum.kind)
-    }
-
     /// The value behind `=`; `None` where it does not matter.
-    fn stored(
-        &mut self,
-        kind: DataKind,
-        name: Token,
-        cursor: &mut Cursor<'a>,
-    ) -> Read<Option<Stored>> {
+    fn stored(&mut self, kind: DataKind, name: Token, cursor: &mut Cursor) -> Read<Option<Stored>> {
         if kind == DataKind::Other {
             return Ok(None);
+        }
+        if kind == DataKind::Number {
+            let token = cursor.next();
+            let value = crate::program::number::parse(cursor.text(token));
+            return Ok(Some(whole(value).map_or(Stored::Computed, Stored::Number)));
         }
         if cursor.blanks() != b'{' {
             return Ok(Some(Stored::Computed));
@@ -325,101 +377,102 @@ impl<'a, 'n> Reader<'a, 'n> {
         }
         let start = cursor.at;
         let aggregate = aggregate::read(cursor)?;
-        let text = &self.bytes[name.start as usize..start];
+        let text = &cursor.bytes[name.start as usize..start];
         let text = text.split(|&b| b == b'=').next().unwrap_or(text);
         let name = Source::text(text.trim_ascii());
         let target = self.add(&aggregate, start, Some(name.into()));
         Ok(Some(Stored::Target(target)))
     }
 
-    /// A target with the numbers of an aggregate; one that cannot be rewritten is blocked and has none.
+    /// A target with the numbers of an aggregate; one that cannot be rewritten has none.
     pub(super) fn add(
         &mut self,
         aggregate: &Aggregate,
         start: usize,
         name: Option<Box<str>>,
     ) -> TargetId {
-        let notes = &mut *self.notes;
-        let first = index(notes.numbers.len());
-        let id = notes.targets.len();
+        let script = &mut self.builder.script;
+        let first = short(script.numbers.len());
+        let id = script.targets.len();
         let is_axes = aggregate.is_axes();
-        let whole = if is_axes {
+        let is_whole = if is_axes {
             aggregate.has_axes == WHOLE && aggregate.has == 0
         } else {
             aggregate.has & WHOLE == WHOLE
         };
         let flaw = if aggregate.computed {
-            Some(Flaw::Computed)
-        } else if whole {
+            Some(targets::expressions())
+        } else if is_whole {
             None
         } else {
-            Some(Flaw::Partial)
+            Some(targets::partial())
         };
         let shape = if is_axes { Shape::Joints } else { Shape::Pose };
         let mut variant = 0;
-        if let Some(flaw) = flaw {
-            notes.flaws.push((id, flaw));
-        } else if is_axes {
-            notes.numbers.extend_from_slice(&aggregate.axes);
-        } else {
+        if flaw.is_none() && is_axes {
+            script.numbers.extend_from_slice(&aggregate.axes);
+        } else if flaw.is_none() {
             variant = aggregate.has >> 6;
-            notes.numbers.extend_from_slice(&aggregate.position[..6]);
+            script.numbers.extend_from_slice(&aggregate.position[..6]);
             for (bit, at) in [(STATUS, 6), (TURN, 7)] {
                 if aggregate.has & bit != 0 {
-                    notes.numbers.push(aggregate.position[at]);
+                    script.numbers.push(aggregate.position[at]);
                 }
             }
         }
-        notes.targets.push(Target {
+        script.targets.push(Target {
             name,
             file: self.file,
-            offset: index(start),
+            offset: short(start),
             layout: Layout { shape, variant },
-            numbers: first..index(notes.numbers.len()),
+            numbers: first..short(script.numbers.len()),
             blocked: flaw.is_some(),
         });
+        if let Some(flaw) = flaw {
+            let remark = script.remark(flaw);
+            script.refused.push((id, remark));
+        }
+        if let Some((axis, value)) = aggregate.driven() {
+            // the same is rarely said twice
+            script.remarks.push(targets::external(axis, value));
+            let remark = short(script.remarks.len() - 1);
+            script.refused.push((id, remark));
+        }
         id
     }
 
-    /// Values of the controller's tables; whether it is one of them.
-    pub(super) fn table(
+    /// Values of the controller's tables in data lists; whether it is one of them.
+    fn table(
         &mut self,
         name: Token,
         at: Option<(usize, usize)>,
-        cursor: &mut Cursor<'a>,
+        cursor: &mut Cursor,
     ) -> Read<bool> {
         let mut buffer = [0; 24];
         let word = capitals(cursor.text(name), &mut buffer);
-        let table = match word {
-            b"TOOL_DATA" => Some(Table::Tool),
-            b"BASE_DATA" => Some(Table::Base),
-            b"LOAD_DATA" | b"MACHINE_FRAME_DAT" => None,
-            _ => return Ok(false),
-        };
-        let element = match self.element(at, cursor) {
-            Index::At([element, 0, 0]) => Some(element),
-            _ => None,
+        let table = Table::named(word);
+        if table.is_none() && word != b"MACHINE_FRAME_DAT" {
+            return Ok(false);
+        }
+        let Index::At([element, 0, 0]) = Index::of(at, cursor) else {
+            return Ok(true);
         };
         let is_aggregate = cursor.blanks() == b'{';
-        if let Some(table) = table {
-            let value = if is_aggregate {
-                aggregate::read(cursor)?.frame()
-            } else {
-                None
-            };
-            let assigned = self.in_data.is_none();
-            let place = self.place(name);
-            self.notes.entries.push(Entry {
-                table,
-                index: element,
-                place,
-                assigned,
-                value,
-            });
-        } else if let (true, Some(element)) = (is_aggregate, element) {
-            if word == b"LOAD_DATA" {
-                self.load(element, cursor)?;
-            } else {
+        match table {
+            Some(Table::Load) if is_aggregate => {
+                if let Some(load) = load(cursor)? {
+                    self.declared.loads.entry(element).or_insert(load);
+                }
+            }
+            Some(Table::Load) => {}
+            Some(table) => {
+                let frame = match is_aggregate {
+                    true => aggregate::read(cursor)?.frame(),
+                    false => None,
+                };
+                self.declared.add(table, element, frame, self.file);
+            }
+            None if is_aggregate => {
                 let mut moving = false;
                 aggregate::each(cursor, |key, _, field| {
                     if let (b"MACH_DEF_INDEX", aggregate::Field::Number(number)) = (key, field) {
@@ -428,102 +481,96 @@ impl<'a, 'n> Reader<'a, 'n> {
                     Ok(())
                 })?;
                 if moving {
-                    self.notes.moving_bases.push(element);
+                    self.declared.moving.insert(element);
                 }
             }
+            None => {}
         }
         Ok(true)
     }
+}
 
-    /// `LOAD_DATA[1]={M 10.0,CM {X 0,Y 0,Z 100,...},J {...}}`
-    fn load(&mut self, element: u32, cursor: &mut Cursor<'a>) -> Read<()> {
-        let (mut mass, mut inside) = (None, None);
-        aggregate::each(cursor, |key, _, field| {
-            match (key, field) {
-                (b"M", aggregate::Field::Number(number)) => mass = Some(number.value),
-                (b"CM", aggregate::Field::Nested(start)) => inside = Some(start),
-                _ => {}
+/// `[GLOBAL] [DECL] [GLOBAL] [CONST] type names`, or `[GLOBAL] DEF`, `GLOBAL INTERRUPT DECL`.
+fn declaration(first: Token, mut cursor: Cursor) -> Line {
+    let mut token = first;
+    let mut global = false;
+    loop {
+        let mut buffer = [0; 24];
+        match capitals(cursor.text(token), &mut buffer) {
+            b"GLOBAL" => global = true,
+            b"DECL" | b"PUBLIC" | b"CONST" => {}
+            word @ (b"DEF" | b"DEFFCT") => {
+                if word == b"DEFFCT" {
+                    cursor.next();
+                }
+                let name = cursor.next();
+                if name.kind != Kind::Name {
+                    return Line::Nothing;
+                }
+                return Line::Define {
+                    name,
+                    global,
+                    rest: cursor,
+                };
             }
-            Ok(())
-        })?;
-        if let (Some(mass_kg), Some(start)) = (mass, inside) {
-            let mut inner = *cursor;
-            inner.at = start;
-            let centre = aggregate::read(&mut inner)?;
-            if centre.has & 0b111 == 0b111 && !centre.computed && mass_kg > 0.0 {
-                self.notes.loads.push(LoadEntry {
-                    index: element,
-                    mass_kg,
-                    cog_mm: std::array::from_fn(|i| centre.position[i].value),
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// The element between brackets.
-    pub(super) fn element(&self, at: Option<(usize, usize)>, cursor: &Cursor) -> Index {
-        let Some((start, end)) = at else {
-            return Index::Whole;
-        };
-        let mut place = [0; 3];
-        let mut parts = cursor.bytes[start..end].split(|&b| b == b',');
-        for slot in &mut place {
-            let Some(part) = parts.next() else { break };
-            let text = part.trim_ascii();
-            let value = number::parse(text).filter(|v| v.fract() == 0.0 && (0.0..1e9).contains(v));
-            let Some(value) = value else {
-                return Index::Variable;
-            };
-            // 0 to 1e9 is checked
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            {
-                *slot = value as u32;
+            b"INTERRUPT" => return Line::Statement(token, cursor),
+            b"SIGNAL" | b"ENUM" | b"STRUC" | b"EXT" | b"EXTFCT" => return Line::Nothing,
+            word => {
+                return Line::Typed {
+                    kind: DataKind::named(word),
+                    global,
+                    rest: cursor,
+                };
             }
         }
-        if parts.next().is_some() {
-            return Index::Variable;
+        token = cursor.next();
+        if token.kind != Kind::Name {
+            return Line::Nothing;
         }
-        Index::At(place)
-    }
-
-    /// A list of operands.
-    pub(super) fn push_operands(&mut self, operands: &[Operand]) -> Part {
-        let first = index(self.notes.operands.len());
-        self.notes.operands.extend_from_slice(operands);
-        (first, index(self.notes.operands.len()))
     }
 }
 
+/// `{M 10.0,CM {X 0,Y 0,Z 100,...},J {...}}`; `None` where it does not tell a load.
+pub fn load(cursor: &mut Cursor) -> Read<Option<Load>> {
+    let (mut mass, mut inside) = (None, None);
+    aggregate::each(cursor, |key, _, field| {
+        match (key, field) {
+            (b"M", aggregate::Field::Number(number)) => mass = Some(number.value),
+            (b"CM", aggregate::Field::Nested(start)) => inside = Some(start),
+            _ => {}
+        }
+        Ok(())
+    })?;
+    let (Some(mass_kg), Some(start)) = (mass, inside) else {
+        return Ok(None);
+    };
+    let centre = aggregate::read(&mut cursor.part(start, cursor.end))?;
+    let is_known = centre.has & 0b111 == 0b111 && !centre.computed && mass_kg > 0.0;
+    Ok(is_known.then(|| Load {
+        mass_kg,
+        cog_m: std::array::from_fn(|i| m_from_mm(centre.position[i].value)),
+    }))
+}
+
 /// `{TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,...}`
-///
-/// # Errors
-/// Where it is broken.
 pub fn fdat(cursor: &mut Cursor) -> Read<Fdat> {
     let bytes = cursor.bytes;
     let mut found = Fdat {
-        tool: None,
-        base: None,
-        ipo: Ipo::Base,
+        is_external: Some(false),
+        ..Fdat::default()
     };
     aggregate::each(cursor, |key, _, field| {
-        let whole = match field {
-            aggregate::Field::Number(number)
-                if number.value.fract() == 0.0 && (0.0..1e6).contains(&number.value) =>
-            {
-                // 0 to 1e6 is checked
-                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-                Some(number.value as u32)
-            }
+        let number = match field {
+            aggregate::Field::Number(number) => whole(Some(number.value)),
             _ => None,
         };
         match (key, field) {
-            (b"TOOL_NO", _) => found.tool = whole,
-            (b"BASE_NO", _) => found.base = whole,
+            (b"TOOL_NO", _) => found.tool = number,
+            (b"BASE_NO", _) => found.base = number,
             (b"IPO_FRAME", aggregate::Field::Enum(name)) => {
-                found.ipo = ipo(&bytes[name.start as usize..name.end as usize]);
+                found.is_external = is_external(&bytes[name.start as usize..name.end as usize]);
             }
-            (b"IPO_FRAME", _) => found.ipo = Ipo::Computed,
+            (b"IPO_FRAME", _) => found.is_external = None,
             _ => {}
         }
         Ok(())
@@ -531,28 +578,11 @@ pub fn fdat(cursor: &mut Cursor) -> Read<Fdat> {
     Ok(found)
 }
 
-/// The mode of a name behind `#`.
-pub fn ipo(name: &[u8]) -> Ipo {
+/// Whether the robot holds the work piece in the mode of a name behind `#`.
+pub fn is_external(name: &[u8]) -> Option<bool> {
     match name.to_ascii_uppercase().as_slice() {
-        b"BASE" | b"NONE" => Ipo::Base,
-        b"TCP" => Ipo::Tcp,
-        _ => Ipo::Computed,
+        b"BASE" | b"NONE" => Some(false),
+        b"TCP" => Some(true),
+        _ => None,
     }
-}
-
-/// What the files of one module have in common: folder and name without ending, in lower case.
-fn module_key(name: &str) -> String {
-    let lower = name.to_ascii_lowercase();
-    let name_start = lower.rfind(['/', '\\']).map_or(0, |at| at + 1);
-    match lower[name_start..].rfind('.') {
-        Some(dot) if dot > 0 => lower[..name_start + dot].to_owned(),
-        _ => lower,
-    }
-}
-
-/// Whether a data list is one of the controller's own.
-fn is_system(key: &str) -> bool {
-    let mut parts = key.rsplit(['/', '\\']);
-    parts.next().is_some_and(|name| name.starts_with('$'))
-        || parts.any(|folder| matches!(folder, "mada" | "steu"))
 }

@@ -1,6 +1,6 @@
 //! Whether bytes look like KRL, and where the marker goes.
 
-use super::notes::DataKind;
+use super::names::DataKind;
 use super::statements::is_motion;
 use super::tokens::{Cursor, Kind, capitals, content_start, lines};
 use crate::program::{Marker, Source};
@@ -58,7 +58,8 @@ pub fn recognises(bytes: &[u8]) -> bool {
             b"DECL" if next.kind == Kind::Name && behind.kind == Kind::Name => {
                 let mut buffer = [0; 24];
                 let word = capitals(cursor.text(next), &mut buffer);
-                if DataKind::named(word) != DataKind::Other {
+                let kind = DataKind::named(word);
+                if kind.is_place() || kind == DataKind::Fdat {
                     return true;
                 }
                 hints = true;

@@ -1,39 +1,112 @@
-//! Statements of a routine into [`Notes`].
+//! Statements of a routine, one a line.
 
-use super::aggregate;
-use super::notes::{
-    Action, Assigned, Bas, Flow, Given, Index, NO_WITH, Operand, Part, Passed, Path, Point, Read,
-    Statement, Variable, With,
-};
-use super::reader::{Reader, fdat, ipo};
-use super::tokens::{Cursor, Fault, Kind, Place, Token, capitals, index};
-
-/// A motion keyword.
-fn motion(word: &[u8]) -> Option<(Path, bool)> {
-    Some(match word {
-        b"PTP" | b"SPTP" => (Path::Joint, false),
-        b"LIN" | b"SLIN" | b"SPL" => (Path::Linear, false),
-        b"CIRC" | b"SCIRC" => (Path::Arc, false),
-        b"PTP_REL" | b"SPTP_REL" => (Path::Joint, true),
-        b"LIN_REL" | b"SLIN_REL" | b"SPL_REL" => (Path::Linear, true),
-        b"CIRC_REL" | b"SCIRC_REL" => (Path::Arc, true),
-        _ => return None,
-    })
-}
+use super::frames::{State, Table};
+use super::moves::{With, motion};
+use super::names::{DataKind, Index, whole};
+use super::reader::Reader;
+use super::targets::{Owner, assigned, computed};
+use super::tokens::{Cursor, Kind, Read, Token, capitals};
+use crate::program::names::Symbol;
+use crate::program::script::{Expr, How, Write, Written};
+use crate::program::{Pace, number};
 
 /// Whether a word in capitals starts a move.
 pub fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
 }
 
-impl<'a> Reader<'a, '_> {
-    /// One line of a routine; `word` is its first token in capitals.
-    pub(super) fn statement(
-        &mut self,
-        first: Token,
-        word: &[u8],
-        mut cursor: Cursor<'a>,
-    ) -> Read<()> {
+impl Reader {
+    /// Notes which names a statement may write, before any is read.
+    pub(super) fn note(&mut self, first: Token, mut cursor: Cursor) {
+        let mut buffer = [0; 24];
+        let word = capitals(cursor.text(first), &mut buffer);
+        let next = cursor.blanks();
+        if is_motion(word) && !matches!(next, b'=' | b':' | b'.') {
+            return;
+        }
+        match word {
+            b"GOTO" | b"ELSE" | b"ENDIF" | b"LOOP" | b"ENDLOOP" | b"EXIT" | b"HALT" => return,
+            b"BAS" => {
+                while !matches!(cursor.blanks(), 0 | b';' | b',') {
+                    cursor.next();
+                }
+                cursor.take(b',');
+                let name = cursor.next();
+                if name.kind == Kind::Name {
+                    let name = self.symbol(&cursor, name);
+                    self.names.choosing.insert(name);
+                }
+                return;
+            }
+            b"INTERRUPT" | b"TRIGGER" => self.concurrent(cursor),
+            b"FOR" => {
+                let name = cursor.next();
+                let name = self.symbol(&cursor, name);
+                self.names.touched.insert(name);
+            }
+            _ => {
+                let Ok(at) = cursor.brackets() else { return };
+                let mut ahead = cursor;
+                while ahead.take(b'.') {
+                    ahead.next();
+                    if ahead.brackets().is_err() {
+                        return;
+                    }
+                }
+                if ahead.take(b'=') {
+                    let name = self.symbol(&cursor, first);
+                    self.touch(name, Index::of(at, &cursor));
+                }
+            }
+        }
+        self.note_arguments(cursor);
+    }
+
+    fn touch(&mut self, name: Symbol, at: Index) {
+        self.names.touched.insert(name);
+        if let Index::At(_) = at {
+            self.names.elements.insert((name, at));
+        }
+    }
+
+    /// Names between brackets may be written by the routine that they are handed to; those in brackets behind a table choose
+    /// its entry.
+    fn note_arguments(&mut self, mut cursor: Cursor) {
+        let mut fresh = false;
+        loop {
+            let token = cursor.next();
+            match token.kind {
+                Kind::End => return,
+                Kind::Name if fresh => {
+                    let mut after = cursor;
+                    let at = after.brackets().unwrap_or(None);
+                    if matches!(after.blanks(), b',' | b')') {
+                        let name = self.symbol(&cursor, token);
+                        self.touch(name, Index::of(at, &cursor));
+                        cursor = after;
+                    }
+                    fresh = false;
+                }
+                Kind::Name if cursor.bytes.get(cursor.at) == Some(&b'[') => {
+                    let mut buffer = [0; 24];
+                    if Table::named(capitals(cursor.text(token), &mut buffer)).is_some() {
+                        cursor.take(b'[');
+                        let name = cursor.next();
+                        let name = self.symbol(&cursor, name);
+                        self.names.choosing.insert(name);
+                    }
+                }
+                Kind::Sign(b'(' | b',') => fresh = true,
+                _ => fresh = false,
+            }
+        }
+    }
+
+    /// One line of a routine.
+    pub(super) fn statement(&mut self, first: Token, mut cursor: Cursor) -> Read<()> {
+        self.here = self.place(first);
+        let mut buffer = [0; 24];
+        let word = capitals(cursor.text(first), &mut buffer);
         if let Some((path, relative)) = motion(word) {
             let next = cursor.peek();
             // a variable or label may have such a name
@@ -45,40 +118,21 @@ impl<'a> Reader<'a, '_> {
                 };
             }
         }
-        let flow = match word {
-            b"IF" => Some(Flow::If),
-            b"ELSE" => Some(Flow::Else),
-            b"ENDIF" => Some(Flow::EndIf),
-            b"SWITCH" => Some(Flow::Switch),
-            b"CASE" => Some(Flow::Case),
-            b"DEFAULT" => Some(Flow::Default),
-            b"ENDSWITCH" => Some(Flow::EndSwitch),
-            b"LOOP" | b"WHILE" | b"FOR" | b"REPEAT" => Some(Flow::Repeat),
-            b"ENDLOOP" => Some(Flow::EndEndless),
-            b"ENDWHILE" | b"ENDFOR" => Some(Flow::EndCounted),
-            b"UNTIL" => Some(Flow::Until),
-            b"EXIT" => Some(Flow::Exit),
-            b"RETURN" => Some(Flow::Return),
-            b"GOTO" => {
-                let label = cursor.next();
-                Some(Flow::Goto(self.symbol(&cursor, label)))
-            }
-            _ => None,
-        };
-        if let Some(flow) = flow
-            && !cursor.peek().is(b'=')
-        {
-            self.push(first, Action::Flow(flow));
+        if !cursor.peek().is(b'=') && self.flow(word, cursor) {
+            self.last = None;
             return Ok(());
         }
         match word {
             b"SPLINE" | b"PTP_SPLINE" => {
-                let with = self.with(cursor)?;
-                self.push(first, Action::Spline(with));
+                self.spline = With::default();
+                let with = cursor.next();
+                if cursor.text(with).eq_ignore_ascii_case(b"WITH") {
+                    self.spline = self.with(&mut cursor, &mut Pace::default())?;
+                }
                 return Ok(());
             }
             b"ENDSPLINE" => {
-                self.push(first, Action::EndSpline);
+                self.spline = With::default();
                 return Ok(());
             }
             b"BAS" if cursor.peek().is(b'(') => {
@@ -86,352 +140,101 @@ impl<'a> Reader<'a, '_> {
                 return Ok(());
             }
             b"WAIT" | b"HALT" | b"INTERRUPT" | b"TRIGGER" | b"BRAKE" | b"RESUME" | b"CONTINUE"
-            | b"ANIN" | b"ANOUT" | b"PULSE" => return Ok(()),
+            | b"ANIN" | b"ANOUT" | b"PULSE" => {
+                if word == b"WAIT" {
+                    self.calls_in(cursor);
+                }
+                return Ok(());
+            }
             _ => {}
         }
+        let behind_name = cursor;
         let at = cursor.brackets()?;
-        let mut component = false;
+        let mut part = None;
         while cursor.take(b'.') {
-            cursor.next();
+            part = Some(cursor.next());
             cursor.brackets()?;
-            component = true;
         }
         let next = cursor.next();
         match next.kind {
-            Kind::Sign(b'=') => self.assignment(first, word, at, component, cursor),
+            Kind::Sign(b'=') => self.assignment(first, word, at, part, cursor),
             Kind::Sign(b':') if cursor.peek().kind == Kind::End => {
                 let label = self.symbol(&cursor, first);
-                self.push(first, Action::Flow(Flow::Label(label)));
+                self.builder.label(u64::from(label.0));
+                self.last = None;
                 Ok(())
             }
             Kind::Sign(b'(') => {
-                self.call(first, cursor);
+                self.call(first, behind_name);
                 Ok(())
             }
             _ => Ok(()),
         }
     }
 
-    fn set(&mut self, first: Token, variable: Variable, given: Given) {
-        self.notes.given.push(given);
-        let given = index(self.notes.given.len() - 1);
-        self.push(first, Action::Set(variable, given));
-    }
-
-    fn push(&mut self, first: Token, action: Action) {
-        let routine = self.routine();
-        let place = self.place(first);
-        self.notes.statements.push(Statement {
-            place,
-            routine,
-            action,
-        });
-    }
-
-    /// `LIN target C_DIS WITH ...`, `CIRC via, end, CA 90`
-    fn motion(&mut self, first: Token, path: Path, mut cursor: Cursor<'a>) -> Read<()> {
-        let mut points = [Point::Computed; 2];
-        points[0] = self.point(&mut cursor)?;
-        let mut count = 1;
-        if path == Path::Arc && cursor.take(b',') {
-            points[1] = self.point(&mut cursor)?;
-            count = 2;
-        }
-        let start = index(self.notes.points.len());
-        self.notes.points.extend_from_slice(&points[..count]);
-        let part = (start, index(self.notes.points.len()));
-        let with = self.with(cursor)?;
-        self.push(
-            first,
-            Action::Move {
-                path,
-                points: part,
-                with,
-            },
-        );
-        Ok(())
-    }
-
-    fn point(&mut self, cursor: &mut Cursor<'a>) -> Read<Point> {
-        let mut operands = [Operand::Other; 8];
-        let mut count = 0;
-        let mut present = false;
-        loop {
-            let operand = match cursor.blanks() {
-                b'{' => {
-                    let start = cursor.at;
-                    let aggregate = aggregate::read(cursor)?;
-                    Operand::Inline(self.add(&aggregate, start, None))
-                }
-                0 | b';' => {
-                    return Err(Fault::unexpected(cursor.next(), "a position"));
-                }
-                _ => {
-                    let name = cursor.next();
-                    let mut buffer = [0; 24];
-                    if name.kind == Kind::Name {
-                        present |= is_present(capitals(cursor.text(name), &mut buffer));
-                        let at = cursor.brackets()?;
-                        if matches!(cursor.blanks(), b'.' | b'(') {
-                            cursor.skip();
-                            Operand::Other
-                        } else {
-                            let symbol = self.symbol(cursor, name);
-                            Operand::Named(symbol, self.element(at, cursor))
-                        }
-                    } else {
-                        cursor.skip();
-                        Operand::Other
-                    }
-                }
-            };
-            if let Some(slot) = operands.get_mut(count) {
-                *slot = operand;
+    /// Branches, loops and jumps; whether it is one.
+    fn flow(&mut self, word: &[u8], mut cursor: Cursor) -> bool {
+        match word {
+            b"IF" => {
+                self.calls_in(cursor);
+                self.builder.begin_if();
             }
-            count += 1;
-            if !cursor.take(b':') {
-                break;
+            b"ELSE" => self.builder.next_branch(true),
+            b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),
+            b"SWITCH" => {
+                self.calls_in(cursor);
+                self.builder.begin_choice();
             }
-        }
-        if count > operands.len() {
-            return Ok(Point::Computed);
-        }
-        Ok(match (count, operands[0]) {
-            (1, _) if present => Point::Present,
-            (1, Operand::Inline(target)) => Point::Inline(target),
-            (1, Operand::Named(name, index)) => Point::Named(name, index),
-            (1, Operand::Other) => Point::Computed,
-            _ => Point::Product(self.push_operands(&operands[..count])),
-        })
-    }
-
-    /// `LIN_REL {Z 100} #BASE`
-    fn relative(&mut self, first: Token, path: Path, mut cursor: Cursor<'a>) -> Read<()> {
-        let (mut axes, mut by) = (false, None);
-        if cursor.blanks() == b'{' {
-            let found = aggregate::read(&mut cursor)?;
-            axes = found.is_axes();
-            let next = cursor.next();
-            let word = cursor.next();
-            let mut buffer = [0; 24];
-            let frame = match (next.is(b'#'), capitals(cursor.text(word), &mut buffer)) {
-                (true, b"TOOL") => Some(true),
-                (true, b"BASE") | (false, _) => Some(false),
-                _ => None,
-            };
-            // turns are added to the angles, which is no motion of its own
-            if let (Some(in_tool), false, 0) = (frame, found.computed, found.has & !0b111)
-                && !axes
-            {
-                let part = |i: usize| {
-                    if found.has & 1 << i == 0 {
-                        0.0
-                    } else {
-                        found.position[i].value
-                    }
-                };
-                by = Some((std::array::from_fn(part), in_tool));
+            b"CASE" => self.builder.next_branch(false),
+            b"DEFAULT" => self.builder.next_branch(true),
+            b"LOOP" | b"REPEAT" => self.builder.begin_loop(false),
+            b"WHILE" => {
+                self.builder.begin_loop(true);
+                self.calls_in(cursor);
             }
-        }
-        let action = if path == Path::Arc {
-            Action::Relative {
-                path,
-                axes: false,
-                by: None,
-            }
-        } else {
-            let by = by.map(|by| {
-                self.notes.offsets.push(by);
-                index(self.notes.offsets.len() - 1)
-            });
-            Action::Relative { path, axes, by }
-        };
-        self.push(first, action);
-        Ok(())
-    }
-
-    /// What stands behind WITH.
-    fn with(&mut self, mut cursor: Cursor<'a>) -> Read<u32> {
-        let mut buffer = [0; 24];
-        loop {
-            let token = cursor.next();
-            match token.kind {
-                Kind::End => return Ok(NO_WITH),
-                Kind::Name if capitals(cursor.text(token), &mut buffer) == b"WITH" => break,
-                _ => {}
-            }
-        }
-        let mut with = With::default();
-        loop {
-            let name = cursor.next();
-            cursor.brackets()?;
-            while cursor.take(b'.') {
-                cursor.next();
-            }
-            if name.kind != Kind::Name || !cursor.take(b'=') {
-                break;
-            }
-            let mut buffer = [0; 24];
-            match capitals(cursor.text(name), &mut buffer) {
-                b"$TOOL" => with.tool = Some(self.given(Variable::Tool, &mut cursor)?),
-                b"$BASE" => with.base = Some(self.given(Variable::Base, &mut cursor)?),
-                b"$IPO_MODE" => with.ipo = Some(self.given(Variable::Ipo, &mut cursor)?),
-                _ => cursor.skip(),
-            }
-            if !cursor.take(b',') {
-                break;
-            }
-        }
-        if with.tool.is_none() && with.base.is_none() && with.ipo.is_none() {
-            return Ok(NO_WITH);
-        }
-        self.notes.withs.push(with);
-        Ok(index(self.notes.withs.len() - 1))
-    }
-
-    /// The value given to a variable of the controller, up to a comma or the end of the line.
-    fn given(&mut self, variable: Variable, cursor: &mut Cursor<'a>) -> Read<Given> {
-        let given = self.simple(variable, cursor)?;
-        match cursor.blanks() {
-            0 | b',' | b';' => Ok(given),
-            // C_DIS behind the last WITH
-            _ if cursor.peek().kind == Kind::Name => Ok(given),
-            _ => {
-                cursor.skip();
-                Ok(Given::Computed)
-            }
-        }
-    }
-
-    fn simple(&mut self, variable: Variable, cursor: &mut Cursor<'a>) -> Read<Given> {
-        if cursor.blanks() == b'{' {
-            if variable == Variable::Fdat {
-                return Ok(Given::Fdat(fdat(cursor)?));
-            }
-            let found = aggregate::read(cursor)?;
-            return Ok(found.frame().map_or(Given::Computed, Given::Literal));
-        }
-        if cursor.take(b'#') {
-            let name = cursor.next();
-            return Ok(if variable == Variable::Ipo {
-                Given::Ipo(ipo(cursor.text(name)))
-            } else {
-                Given::Computed
-            });
-        }
-        let name = cursor.next();
-        if name.kind != Kind::Name {
-            return Ok(Given::Computed);
-        }
-        let at = cursor.brackets()?;
-        let mut buffer = [0; 24];
-        let word = capitals(cursor.text(name), &mut buffer);
-        let element = self.element(at, cursor);
-        let table = matches!(
-            (variable, word),
-            (Variable::Tool, b"TOOL_DATA") | (Variable::Base, b"BASE_DATA")
-        );
-        if table {
-            return Ok(match element {
-                Index::At([element, 0, 0]) => Given::Entry(element),
-                _ => Given::Computed,
-            });
-        }
-        if matches!(word, b"STOOL" | b"STOOL2" | b"SBASE" | b"SIPO_MODE") && cursor.take(b'(') {
-            return Ok(self.of_fdat(variable, cursor));
-        }
-        if matches!(cursor.blanks(), b'.' | b'(') {
-            cursor.skip();
-            let moving = (variable, word) == (Variable::Base, b"EK");
-            return Ok(if moving {
-                Given::Moving
-            } else {
-                Given::Computed
-            });
-        }
-        Ok(match (variable, word) {
-            (Variable::Tool | Variable::Base, b"$NULLFRAME") | (Variable::Base, b"$WORLD") => {
-                Given::Zero
-            }
-            (Variable::Ipo, _) => Given::Computed,
-            (Variable::Fdat, _) => Given::OfFdat(self.symbol(cursor, name), element),
-            _ => Given::Named(self.symbol(cursor, name), element),
-        })
-    }
-
-    /// `FP1)`, `FP1.BASE_NO)`, `2)`, `#BASE)` behind the opening bracket.
-    fn of_fdat(&mut self, variable: Variable, cursor: &mut Cursor<'a>) -> Given {
-        let token = cursor.next();
-        let mut given = Given::Computed;
-        match token.kind {
-            Kind::Name => {
-                let symbol = self.symbol(cursor, token);
-                if cursor.take(b'.') {
-                    let mut buffer = [0; 24];
-                    let part = cursor.next();
-                    let part = capitals(cursor.text(part), &mut buffer);
-                    let fits = matches!(
-                        (variable, part),
-                        (Variable::Tool, b"TOOL_NO")
-                            | (Variable::Base, b"BASE_NO")
-                            | (Variable::Ipo, b"IPO_FRAME")
-                    );
-                    if fits {
-                        given = Given::OfFdat(symbol, Index::Whole);
-                    }
-                } else {
-                    given = Given::OfFdat(symbol, Index::Whole);
-                }
-            }
-            Kind::Number => {
-                if let Some(element) = number_of(cursor.text(token)) {
-                    given = Given::Entry(element);
-                }
-            }
-            Kind::Sign(b'#') => {
+            b"FOR" => {
                 let name = cursor.next();
-                given = Given::Ipo(ipo(cursor.text(name)));
+                let name = self.symbol(&cursor, name);
+                self.builder.begin_loop(true);
+                self.count(name, Index::Whole, None);
             }
-            _ => {}
+            b"ENDLOOP" => self.builder.end_loop(true),
+            b"ENDWHILE" | b"ENDFOR" => self.builder.end_loop(false),
+            b"UNTIL" => {
+                self.calls_in(cursor);
+                self.builder.end_loop(false);
+            }
+            b"EXIT" => self.builder.leave_loop(),
+            b"RETURN" => {
+                self.calls_in(cursor);
+                self.builder.back();
+            }
+            b"GOTO" => {
+                let label = cursor.next();
+                let label = self.symbol(&cursor, label);
+                self.builder.go_to(u64::from(label.0));
+            }
+            _ => return false,
         }
-        if cursor.take(b')') {
-            return given;
-        }
-        cursor.skip();
-        cursor.take(b')');
-        Given::Computed
+        true
     }
 
-    /// `BAS(#TOOL,1)`
-    fn bas(&mut self, first: Token, mut cursor: Cursor<'a>) {
-        cursor.take(b'(');
-        if !cursor.take(b'#') {
-            // a command that only the running program knows
-            for variable in [Variable::Tool, Variable::Base] {
-                self.set(first, variable, Given::Computed);
-            }
+    /// A whole number is written; only those matter that choose a tool or base.
+    fn count(&mut self, name: Symbol, at: Index, number: Option<u32>) {
+        if !self.names.choosing.contains(&name) {
             return;
         }
-        let command = cursor.next();
-        let mut buffer = [0; 24];
-        let word = capitals(cursor.text(command), &mut buffer);
-        let mut argument = || {
-            let token = if cursor.take(b',') {
-                cursor.next()
-            } else {
-                return Some(0);
-            };
-            let alone = cursor.peek().is(b')');
-            number_of(cursor.text(token)).filter(|_| alone)
+        let Some(datum) = self.names.datum(name, self.context()) else {
+            return;
         };
-        let bas = match word {
-            b"INITMOV" => Bas::Init,
-            b"FRAMES" | b"PTP_PARAMS" | b"CP_PARAMS" | b"PARAMS" => Bas::Frames,
-            b"TOOL" => Bas::Tool(argument()),
-            b"BASE" => Bas::Base(argument()),
-            _ => return,
+        let value = match number {
+            Some(number) => self.number_value(number),
+            None => self.chosen(),
         };
-        self.push(first, Action::Bas(bas));
+        if at == Index::Whole {
+            let variable = self.variable_of(datum);
+            self.put(self.here, variable, value);
+        }
     }
 
     /// An assignment; the cursor stands behind `=`.
@@ -440,144 +243,118 @@ impl<'a> Reader<'a, '_> {
         first: Token,
         word: &[u8],
         at: Option<(usize, usize)>,
-        component: bool,
-        mut cursor: Cursor<'a>,
+        part: Option<Token>,
+        mut cursor: Cursor,
     ) -> Read<()> {
         if cursor.take(b'=') {
             return Ok(());
         }
-        let variable = match word {
-            b"$TOOL" => Some(Variable::Tool),
-            b"$BASE" => Some(Variable::Base),
-            b"$IPO_MODE" => Some(Variable::Ipo),
-            b"FDAT_ACT" => Some(Variable::Fdat),
-            _ => None,
-        };
-        if let Some(variable) = variable {
-            let given = if component {
-                Given::Computed
-            } else {
-                self.given(variable, &mut cursor)?
-            };
-            self.set(first, variable, given);
-            return Ok(());
+        let place = self.here;
+        let mut buffer = [0; 24];
+        let part = part.map(|part| capitals(cursor.text(part), &mut buffer));
+        if let Some(state) = State::named(word) {
+            self.calls_in(cursor);
+            return self.write_state(place, state, part, &mut cursor);
         }
-        if matches!(word, b"TOOL_DATA" | b"BASE_DATA") {
-            let mut value = cursor;
-            if component {
-                // a part of it
-                value.at = value.end;
-            }
-            self.table(first, at, &mut value)?;
-            return Ok(());
+        if word == b"FDAT_ACT" {
+            return match part {
+                None => self.activate(place, &mut cursor),
+                Some(part) => {
+                    self.activate_part(place, part, &mut cursor);
+                    Ok(())
+                }
+            };
+        }
+        if let Some(table) = Table::named(word) {
+            return self.write_entry(place, table, at, part, &mut cursor);
         }
         if word.first() == Some(&b'$') {
+            self.calls_in(cursor);
             return Ok(());
         }
         let name = self.symbol(&cursor, first);
-        let mentions = if component {
-            (0, 0)
-        } else {
-            self.mentions(cursor)
-        };
-        let assigned = Assigned {
-            name,
-            index: self.element(at, &cursor),
-            context: self.context(),
-            place: self.place(first),
-            mentions,
-        };
-        self.notes.assigned.push(assigned);
+        let at = Index::of(at, &cursor);
+        let datum = self.names.datum(name, self.context());
+        let kind = datum.map(|datum| self.names.data[datum as usize].kind);
+        match kind {
+            Some(DataKind::Number) => {
+                let mut ahead = cursor;
+                let token = ahead.next();
+                let value = whole(number::parse(ahead.text(token)));
+                let alone = ahead.peek().kind == Kind::End;
+                self.calls_in(cursor);
+                self.count(name, at, value.filter(|_| alone));
+            }
+            Some(kind) if kind.is_place() => {
+                let owner = Owner::Datum(datum.expect("it has a kind"));
+                self.write_position(owner, at, part.is_some(), cursor)?;
+            }
+            None if self.looks_like_position(cursor) => {
+                self.write_position(Owner::Nobody(name), at, part.is_some(), cursor)?;
+            }
+            _ => self.calls_in(cursor),
+        }
         Ok(())
     }
 
-    /// The names in the rest of the line that are no components.
-    fn mentions(&mut self, mut cursor: Cursor<'a>) -> Part {
-        let start = index(self.notes.mentions.len());
-        let mut before = b' ';
-        let mut open = 0_u32;
-        loop {
-            let token = cursor.next();
-            match token.kind {
-                Kind::End => break,
-                // in an aggregate it is a number that is taken, not a position
-                Kind::Sign(b'{') => open += 1,
-                Kind::Sign(b'}') => open = open.saturating_sub(1),
-                Kind::Name if open == 0 && before != b'.' && before != b'#' => {
-                    let is_whole = !cursor.peek().is(b'.');
-                    if is_whole {
-                        let name = self.symbol(&cursor, token);
-                        self.notes.mentions.push(name);
-                    }
+    /// Whether a value may be a position, for names that the files do not declare.
+    fn looks_like_position(&self, mut cursor: Cursor) -> bool {
+        if cursor.blanks() == b'{' {
+            return true;
+        }
+        let name = cursor.next();
+        let mut buffer = [0; 24];
+        let word = capitals(cursor.text(name), &mut buffer);
+        word.starts_with(b"$POS_")
+            || word.starts_with(b"$AXIS_")
+            || self.mentions_position(cursor.part(name.start as usize, cursor.end))
+    }
+
+    /// `XP1={...}`, `XP1=XP2:off`, `XP1.Z=...`
+    fn write_position(
+        &mut self,
+        owner: Owner,
+        at: Index,
+        is_part: bool,
+        mut cursor: Cursor,
+    ) -> Read<()> {
+        self.last = None;
+        let how = if is_part {
+            self.calls_in(cursor);
+            How::PartSomehow(self.builder.script.remark(computed()))
+        } else if cursor.peek().kind == Kind::End {
+            return Ok(());
+        } else {
+            let point = self.point(&mut cursor)?;
+            let is_whole = cursor.peek().kind == Kind::End;
+            let value = match point.target {
+                _ if !is_whole => self.computed(true),
+                Expr::Target(target) if self.builder.script.targets[target].numbers.is_empty() => {
+                    // what is not given stays as it was
+                    let how = How::PartSomehow(self.builder.script.remark(computed()));
+                    self.write_element(owner, at, how);
+                    return Ok(());
                 }
-                _ => {}
-            }
-            before = self.byte(token);
-        }
-        (start, index(self.notes.mentions.len()))
+                _ => self.value_of(&point),
+            };
+            How::Whole(value)
+        };
+        self.write_element(owner, at, how);
+        Ok(())
     }
 
-    fn byte(&self, token: Token) -> u8 {
-        match token.kind {
-            Kind::Sign(sign) => sign,
-            _ => b' ',
+    pub(super) fn write_element(&mut self, owner: Owner, at: Index, how: How) {
+        if at == Index::Variable && self.refuse_array(owner, assigned) {
+            return;
         }
+        let variable = match at {
+            Index::Variable => Written::AnyOf(self.table_of(owner)),
+            _ => Written::One(self.variable(owner, at)),
+        };
+        self.builder.write(Write {
+            place: self.here,
+            variable,
+            how,
+        });
     }
-
-    /// `routine(a, b)`; the cursor stands behind the bracket.
-    fn call(&mut self, first: Token, mut cursor: Cursor<'a>) {
-        let callee = self.symbol(&cursor, first);
-        let place: Place = self.place(first);
-        let mut fresh = true;
-        loop {
-            let token = cursor.next();
-            match token.kind {
-                Kind::End => break,
-                Kind::Name if fresh => {
-                    let mut after = cursor;
-                    let at = after.brackets().unwrap_or(None);
-                    let ends = after.peek();
-                    if ends.is(b',') || ends.is(b')') {
-                        let name = self.symbol(&cursor, token);
-                        let passed = Passed {
-                            name,
-                            index: self.element(at, &cursor),
-                            context: self.context(),
-                            place,
-                            callee,
-                        };
-                        self.notes.passed.push(passed);
-                        cursor = after;
-                    }
-                    fresh = false;
-                }
-                Kind::Sign(b'(' | b',' | b':') => fresh = true,
-                _ => fresh = false,
-            }
-        }
-        self.push(first, Action::Call(callee));
-    }
-}
-
-/// Where the robot is or was: a move there goes back to a place that was reached before.
-fn is_present(word: &[u8]) -> bool {
-    matches!(
-        word,
-        b"$AXIS_ACT"
-            | b"$AXIS_INT"
-            | b"$AXIS_RET"
-            | b"$AXIS_BACK"
-            | b"$AXIS_FOR"
-            | b"$POS_ACT"
-            | b"$POS_INT"
-            | b"$POS_RET"
-            | b"$POS_BACK"
-            | b"$POS_FOR"
-            | b"$H_POS"
-    )
-}
-
-/// A whole number of a table.
-fn number_of(text: &[u8]) -> Option<u32> {
-    std::str::from_utf8(text).ok()?.parse().ok()
 }

@@ -1,5 +1,6 @@
 //! What the language reads, by behaviour.
 
+mod flow;
 mod frames;
 mod posts;
 mod robust;
@@ -7,8 +8,9 @@ mod samples;
 mod writing;
 
 use super::*;
+use crate::finding::Severity;
 use crate::geometry::Pose;
-use crate::program::{Displacement, Motion, Shift, Tool};
+use crate::program::{Displacement, Motion, Shift, Target, Tool};
 
 /// X Y Z A B C without S and T.
 const POSE: Layout = Layout {
@@ -26,7 +28,7 @@ fn read_with(files: &[(&str, &str)], settings: &Settings) -> Result<Program, Rea
         .iter()
         .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
         .collect();
-    Krl.read(&sources, settings)
+    crate::motion::read(&Krl, &sources, settings)
 }
 
 fn read_files(files: &[(&str, &str)]) -> Program {
@@ -59,14 +61,22 @@ fn ids(program: &Program) -> Vec<&'static str> {
 /// Findings that are not about targets no move goes to.
 fn told(program: &Program) -> Vec<&'static str> {
     let mut ids = ids(program);
-    ids.retain(|id| *id != "target-never-used");
+    ids.retain(|id| *id != "target-unused-here");
     ids
 }
 
+/// Targets against which something is said.
 fn blocked(program: &Program) -> Vec<&str> {
     let blocked = program.targets.iter().filter(|target| target.blocked);
-    blocked
-        .map(|target| target.name.as_deref().unwrap_or("-"))
+    let name = |target: &'_ Target| target.name.clone().unwrap_or_else(|| "target".into());
+    let said = blocked.filter(|target| {
+        let subject = format!("{}: ", name(target));
+        program
+            .findings
+            .iter()
+            .any(|finding| finding.message.starts_with(&subject))
+    });
+    said.map(|target| target.name.as_deref().unwrap_or("-"))
         .collect()
 }
 
@@ -74,8 +84,8 @@ fn to(program: &Program) -> Vec<&str> {
     let names = program
         .moves
         .iter()
-        .map(|m| program.targets[m.target.unwrap()].name.as_deref());
-    names.map(|name| name.unwrap_or("-")).collect()
+        .map(|m| Some(program.targets[m.target?].name.as_deref().unwrap_or("-")));
+    names.map(|name| name.unwrap_or("?")).collect()
 }
 
 fn values(program: &Program, target: usize) -> Vec<f64> {
@@ -85,7 +95,7 @@ fn values(program: &Program, target: usize) -> Vec<f64> {
 
 #[test]
 fn taught_points_are_data_and_moves_use_them() {
-    let program = path("PTP XHOME\nPTP xp1 C_PTP\nLIN XP2 C_DIS\nCIRC XP3,XP1,CA 90.0 C_ORI");
+    let program = path("PTP XHOME\nPTP xp1 C_PTP\nLIN XP2 C_DIS\nCIRC XP3,XP1 C_ORI");
     assert_eq!(to(&program), ["XHOME", "XP1", "XP2", "XP3", "XP1"]);
     let motions: Vec<_> = program.moves.iter().map(|used| used.motion).collect();
     assert_eq!(
@@ -137,7 +147,7 @@ fn targets_stand_in_moves_with_or_without_a_type() {
 fn spline_blocks_are_moves_along_their_points() {
     let program = path(
         "SPLINE WITH $BASE=BASE_DATA[3]\nSPL XP1\nTIME_BLOCK START\nSLIN XP2 WITH $VEL={CP 0.5}\n\
-         TIME_BLOCK PART=20\nSCIRC XP3,{X 1,Y 2,Z 3,A 0,B 0,C 0},CA 10\nTIME_BLOCK END=10\n\
+         TIME_BLOCK PART=20\nSCIRC XP3,{X 1,Y 2,Z 3,A 0,B 0,C 0}\nTIME_BLOCK END=10\n\
          TRIGGER WHEN PATH=10 DELAY=0 DO $OUT[1]=TRUE\nENDSPLINE C_SPL\n\
          PTP_SPLINE\nSPTP XP1\nENDSPLINE\nLIN XP2",
     );
@@ -183,53 +193,95 @@ fn expressions_are_refused() {
         told(&program),
         [
             "target-has-expressions",
-            "computed-target",
+            "target-copied",
             "computed-target",
             "target-not-in-files",
-            "target-not-in-files"
+            "target-not-in-files",
+            "target-passed-to-routine"
+        ]
+    );
+    let errors = program
+        .findings
+        .iter()
+        .filter(|f| f.severity == Severity::Error);
+    assert_eq!(errors.count(), 5);
+    assert_eq!(to(&program), ["-", "?", "?", "?", "?"]);
+}
+
+#[test]
+fn moves_back_to_where_the_robot_was_are_no_targets() {
+    let program = path("PTP $AXIS_ACT ; BCO\nPTP $POS_RET\nPTP $H_POS\nPTP XHOME1\nLIN XP1");
+    // where the robot is it stays
+    assert_eq!(to(&program), ["?", "?", "?", "XP1"]);
+    assert_eq!(
+        told(&program),
+        [
+            "run-time-position",
+            "joint-target-not-in-files",
+            "joint-target-not-in-files"
         ]
     );
     assert!(
         program
             .findings
             .iter()
-            .all(|f| f.severity == Severity::Error || f.id == "target-never-used")
+            .all(|f| f.severity == Severity::Note)
     );
 }
 
 #[test]
-fn moves_back_to_where_the_robot_was_are_no_targets() {
-    let program = path("PTP $AXIS_ACT ; BCO\nPTP $POS_RET\nPTP $H_POS\nPTP XHOME1\nLIN XP1");
-    assert_eq!(to(&program), ["XP1"]);
-    assert_eq!(told(&program), ["joint-target-not-in-files"]);
-}
-
-#[test]
 fn points_that_the_program_changes_are_refused() {
-    for change in [
-        "XP1.X=XP1.X+10.0",
-        "XP1={X 1,Y 2,Z 3,A 0,B 0,C 0}",
-        "xp1 = $POS_ACT",
-        "XP1=INVERSE($AXIS_ACT,XP2,error)",
+    for (change, moves, expected) in [
+        (
+            "XP1.X=XP1.X+10.0",
+            vec!["XP1", "XP1", "XP1"],
+            "target-assigned-at-run-time",
+        ),
+        ("xp1 = $POS_ACT", vec!["XP1", "?", "?"], "run-time-position"),
+        (
+            "XP1=INVERSE($AXIS_ACT,XP2,error)",
+            vec!["XP1", "?", "?"],
+            "target-copied",
+        ),
+        (
+            "CREAD(handle,state,mode,time,offset,\"%r\",XP1)",
+            vec!["XP1", "?", "?"],
+            "computed-target",
+        ),
+        (
+            "sensor(XP1)",
+            vec!["XP1", "XP1", "XP1"],
+            "target-passed-to-routine",
+        ),
     ] {
         let program = path(&format!("LIN XP1\n{change}\nLIN XP1"));
-        assert_eq!(blocked(&program), ["XP1"], "{change}");
+        assert_eq!(to(&program), moves, "{change}");
+        let blocks = expected.starts_with("target-") && expected != "target-copied";
+        let expected_blocks = if blocks { vec!["XP1"] } else { vec![] };
+        assert_eq!(blocked(&program), expected_blocks, "{change}");
         assert!(
-            told(&program).contains(&"target-assigned-at-run-time"),
-            "{change}"
+            told(&program).contains(&expected),
+            "{change}: {:?}",
+            program.findings
         );
     }
+    // both are targets: the data list keeps what was written last
+    let program = path("LIN XP1\nXP1={X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN XP1");
+    assert_eq!(to(&program), ["-", "XP1", "-"]);
+    assert_eq!(told(&program), [""; 0]);
     // a comparison changes nothing
     let program = path("IF XP1.X==1.0 THEN\nLIN XP1\nENDIF\nWAIT FOR XP1.Z==2.0");
     assert_eq!(blocked(&program), [""; 0]);
 }
 
 #[test]
-fn points_that_another_is_computed_from_are_told() {
+fn points_that_another_is_computed_from_are_displaced() {
     let program = path("DECL E6POS above\nabove=XP1\nabove.Z=above.Z+100\nLIN above\nLIN XP1");
-    assert!(told(&program).contains(&"target-copied"));
-    assert!(told(&program).contains(&"computed-target"));
-    assert_eq!(to(&program), ["XP1"]);
+    assert_eq!(to(&program), ["XP1", "XP1"]);
+    assert_eq!(program.moves[0].displacement, Displacement::Unknown);
+    assert_eq!(program.moves[1].displacement, Displacement::None);
+    let program = path("DECL E6POS above\nabove=XP1:{X 0,Y 0,Z -50,A 0,B 0,C 0}\nLIN above");
+    assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
 }
 
 #[test]
@@ -255,8 +307,8 @@ fn global_points_of_another_list_are_found_and_local_ones_are_not() {
     let points = "DEFDAT POINTS PUBLIC\nDECL GLOBAL E6POS park={X 1,Y 0,Z 0,A 0,B 0,C 0}\nDECL E6POS mine={X 1,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
     let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN park\nLIN mine\nEND\n";
     let program = read_files(&[("points.dat", points), ("m.src", text)]);
-    assert_eq!(to(&program), ["park"]);
-    assert_eq!(ids(&program), ["target-not-in-files"]);
+    assert_eq!(to(&program), ["park", "?"]);
+    assert_eq!(told(&program), ["target-not-in-files"]);
 }
 
 #[test]
@@ -305,9 +357,9 @@ fn products_with_constant_frames_are_displaced_targets() {
 fn products_that_the_text_does_not_tell_are_unknown_displacements_or_errors() {
     let program =
         path("DECL FRAME off\nSLIN XP1 : off : $RECIPE.PiO\nSLIN XP1 : XP2\nSLIN off : here");
-    assert_eq!(to(&program), ["XP1"]);
+    assert_eq!(to(&program), ["XP1", "?", "?"]);
     assert!(program.moves[0].displacement == Displacement::Unknown);
-    assert_eq!(told(&program), ["computed-target"; 2]);
+    assert_eq!(told(&program), ["target-copied", "computed-target"]);
 }
 
 #[test]
@@ -374,8 +426,9 @@ fn data_of_other_kinds_are_no_targets() {
     let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\n$WORKSPACE[1]={X 1,Y 2,Z 3,A 0,B 0,C 0,X1 1,Y1 1,Z1 1,X2 0,Y2 0,Z2 0,MODE #INSIDE}\n\
         ;LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\nEND\n";
     let program = read_files(&[("m.src", text), ("m.dat", data)]);
-    assert_eq!(program.targets.len(), 1);
-    assert_eq!(ids(&program), ["target-never-used"]);
+    assert_eq!(program.targets.len(), 2);
+    assert!(program.targets[1].blocked, "REF_PT");
+    assert_eq!(ids(&program), ["target-unused-here"]);
 }
 
 #[test]
@@ -393,7 +446,7 @@ fn line_ends_and_encodings_of_all_kinds_pass() {
         assert_eq!(program.moves.len(), 1, "{end:?}");
     }
     let latin = b"DEF m()\n;Gr\xf6\xdfe\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND".to_vec();
-    let program = Krl.read(&[Source::new("m.src", latin)], &Settings::default());
+    let program = crate::motion::read(&Krl, &[Source::new("m.src", latin)], &Settings::default());
     assert_eq!(program.expect("a program").moves.len(), 1);
 }
 
@@ -446,7 +499,7 @@ fn broken_text_is_refused_with_its_place() {
     assert!(matches!(error, Err(ReadError::NotThisLanguage { .. })));
     let zero = Source::new("a.src", b"DEF a()\0".to_vec());
     assert!(matches!(
-        Krl.read(&[zero], &Settings::default()),
+        crate::motion::read(&Krl, &[zero], &Settings::default()),
         Err(ReadError::Binary { .. })
     ));
 }

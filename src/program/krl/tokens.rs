@@ -3,14 +3,11 @@
 //! A statement is one line; nothing goes on to the next. Nothing is decoded or copied. Bytes of 0x80 and above count as
 //! letters, so Latin-1 and UTF-8 both pass. A line may end with LF, CR LF or CR.
 
-use crate::program::{ReadError, Source};
+use crate::program::kit::Fault;
+use crate::program::script::short;
 
-/// A place in the sources.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Place {
-    pub file: u32,
-    pub offset: u32,
-}
+/// What reading gives where it fails.
+pub type Read<T> = Result<T, Fault>;
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,106 +39,15 @@ impl Token {
     pub fn is(self, sign: u8) -> bool {
         self.kind == Kind::Sign(sign)
     }
-}
 
-/// Why the text cannot be read, by offsets; becomes a [`ReadError`] with the source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
-    /// What opens here is not closed.
-    Unclosed { at: u32, what: &'static str },
-    /// Something else stands where one thing belongs.
-    Unexpected {
-        start: u32,
-        end: u32,
-        expected: &'static str,
-    },
-    /// A number no robot can use.
-    BadValue {
-        start: u32,
-        end: u32,
-        meaning: &'static str,
-        limit: &'static str,
-    },
-}
-
-/// Bytes of a wrong token that an error message repeats at most.
-const SHOWN: usize = 40;
-
-impl Fault {
-    /// This token where something else belongs.
-    pub fn unexpected(token: Token, expected: &'static str) -> Self {
-        Self::Unexpected {
-            start: token.start,
-            end: token.end,
+    /// It stands where something else belongs.
+    pub fn unexpected(self, expected: &'static str) -> Fault {
+        Fault::Unexpected {
+            start: self.start,
+            end: self.end,
             expected,
         }
     }
-
-    /// The error with file, line and column.
-    pub fn in_source(self, source: &Source) -> ReadError {
-        let file = source.name.clone();
-        let place = |at: u32| source.line_column(at as usize);
-        let shown = |start: u32, end: u32| {
-            let end = (end as usize).min(start as usize + SHOWN);
-            match source.bytes.get(start as usize..end) {
-                Some(text) if !text.is_empty() => Source::text(text),
-                _ => "the end of the line".to_owned(),
-            }
-        };
-        match self {
-            Self::Unclosed { at, what } => {
-                let (line, column) = place(at);
-                ReadError::Unclosed {
-                    file,
-                    line,
-                    column,
-                    what,
-                }
-            }
-            Self::Unexpected {
-                start,
-                end,
-                expected,
-            } => {
-                let (line, column) = place(start);
-                ReadError::Unexpected {
-                    file,
-                    line,
-                    column,
-                    found: shown(start, end),
-                    expected,
-                }
-            }
-            Self::BadValue {
-                start,
-                end,
-                meaning,
-                limit,
-            } => {
-                let (line, column) = place(start);
-                ReadError::BadValue {
-                    file,
-                    line,
-                    column,
-                    value: shown(start, end),
-                    meaning,
-                    limit,
-                }
-            }
-        }
-    }
-}
-
-/// Offset of a byte; [`super::check_bytes`] keeps files below 4 GiB.
-#[allow(clippy::cast_possible_truncation)]
-pub fn offset(at: usize) -> u32 {
-    at as u32
-}
-
-/// Index in a list that has fewer entries than a file of 4 GiB has bytes.
-#[allow(clippy::cast_possible_truncation)]
-pub fn index(at: usize) -> u32 {
-    at as u32
 }
 
 const LETTER: u8 = 1;
@@ -224,8 +130,8 @@ impl<'a> Cursor<'a> {
         if start >= self.end || first == b';' {
             return Token {
                 kind: Kind::End,
-                start: offset(start),
-                end: offset(start),
+                start: short(start),
+                end: short(start),
             };
         }
         let kind = match first {
@@ -247,8 +153,8 @@ impl<'a> Cursor<'a> {
         };
         Token {
             kind,
-            start: offset(start),
-            end: offset(self.at),
+            start: short(start),
+            end: short(self.at),
         }
     }
 
@@ -256,6 +162,15 @@ impl<'a> Cursor<'a> {
     pub fn peek(&self) -> Token {
         let mut copy = *self;
         copy.next()
+    }
+
+    /// The line from a byte to another.
+    pub fn part(&self, at: usize, end: usize) -> Self {
+        Self {
+            bytes: self.bytes,
+            at,
+            end,
+        }
     }
 
     /// Takes the next token where it is this sign.
@@ -329,7 +244,7 @@ impl<'a> Cursor<'a> {
                 Kind::Sign(b']') => depth -= 1,
                 Kind::End => {
                     return Err(Fault::Unclosed {
-                        at: offset(open),
+                        at: short(open),
                         what: "a bracket",
                     });
                 }

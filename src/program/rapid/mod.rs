@@ -4,28 +4,7 @@
 //! scalar first; a jointtarget is `[[six joints], [external axes]]`, degrees. External axes stay as they are. The pose is that
 //! of the tool in `uframe · oframe` of the work object of the move, not of the declaration.
 //!
-//! # Findings
-//!
-//! | id | severity | meaning |
-//! |---|---|---|
-//! | `target-assigned-at-run-time` | error | the running program changes the target: an assignment, a search |
-//! | `target-has-expressions` | error | parts of the target are expressions, not numbers |
-//! | `target-in-array-of-names` | error | the target is used through another name |
-//! | `target-passed-to-routine` | error | the target is handed to a routine |
-//! | `target-name-ambiguous` | error | a name is declared more than once, and its use does not tell which is meant |
-//! | `frame-name-ambiguous` | error | the same for a tool or work object |
-//! | `frame-assigned-at-run-time` | error | the running program changes the tool or work object; at the assignment and at each target |
-//! | `frame-chosen-at-run-time` | error | the tool or work object is a parameter, an element by index, or an expression |
-//! | `held-work-piece` | error | the robot holds the work object |
-//! | `stationary-tool` | error | the tool does not hang on the robot |
-//! | `moving-frame` | error | a conveyor or another mechanical unit moves the work object |
-//! | `displacement-active` | error | `PDispOn`, `PDispSet`, `EOffsOn` or `EOffsSet` may be active |
-//! | `computed-target` | error | a move goes to a position that only the running program knows |
-//! | `target-not-in-files` | error | a move goes to a target that the files do not declare |
-//! | `too-many-uses` | error | elements of arrays are used in more than half a million ways; the rest is not checked |
-//! | `target-copied` | warning | another target is computed from this one |
-//! | `sync-move` | note | the move runs together with one of another robot |
-//! | `grip-load` | note | the robot carries something that is not in the tool's load |
+//! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
@@ -51,9 +30,6 @@ mod translate;
 mod values;
 mod verbs;
 mod world;
-
-// until every language names the shared kit itself
-pub(in crate::program) use super::names;
 
 use super::kit::check_bytes;
 use super::script::{NamedFrame, Part, Remark, Script, short};
@@ -119,8 +95,8 @@ impl Language for Rapid {
         sniff::recognises(&source.bytes)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources))
+    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
+        script(sources)
     }
 
     fn frame_of(

@@ -325,7 +325,7 @@ impl Translator<'_> {
         }
         if parts.corrected {
             let message = "a sensor corrects the path here (\\Corr): the targets are compensated, what the sensor adds is not";
-            self.say("path-corrected", Severity::Warning, message.into(), "");
+            self.say("corrected-by-sensor", Severity::Warning, message.into(), "");
         }
     }
 

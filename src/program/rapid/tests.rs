@@ -538,7 +538,7 @@ fn sensors_that_correct_a_path_are_told_once_a_place() {
     let program = path("MoveL p1,v5,z5,t\\Corr;\nMoveL p2,v5,z5,t\\Corr;\nMoveL p1,v5,z5,t;");
     assert_eq!(
         (ids(&program), blocked(&program)),
-        (vec!["path-corrected"; 2], vec![])
+        (vec!["corrected-by-sensor"; 2], vec![])
     );
 }
 

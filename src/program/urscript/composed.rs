@@ -17,13 +17,17 @@ use std::collections::{HashMap, HashSet};
 /// Variables between a pose and the targets that it is computed from, that are looked into.
 const MOST_BETWEEN: usize = 256;
 
+/// Names of a list that are compared with each further one, so that each is noted once.
+const MOST_COMPARED: usize = 64;
+
 impl Reader<'_> {
     /// What the brackets behind `open` name.
     pub(super) fn look_into(&mut self, literal: &mut Literal, open: Token) {
         let end = self.scanner.at;
         let mut ahead = self.scanner;
         ahead.at = open.end;
-        literal.shifted = shifted(ahead, &mut self.notes);
+        let is_pose = literal.pose && literal.elements == 6;
+        literal.shifted = shifted(ahead, &mut self.notes).filter(|_| is_pose);
         let first = self.notes.composed.len();
         while ahead.at < end
             && let Ok(token) = ahead.next()
@@ -32,11 +36,12 @@ impl Reader<'_> {
             if token.kind != Kind::Word || verbs::is_operator(text) || verbs::is_constant(text) {
                 continue;
             }
-            literal.computed = true;
+            literal.computed = is_pose;
             if !ahead.peek().is(b'(') {
                 let dot = memchr::memchr(b'.', text);
                 let symbol = self.notes.symbol(&text[..dot.unwrap_or(text.len())]);
-                if !self.notes.composed[first..].contains(&symbol) {
+                let known = &self.notes.composed[first..];
+                if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
                     self.notes.composed.push(symbol);
                 }
             }
@@ -141,7 +146,10 @@ impl Variables<'_, '_> {
                     let names = notes.names_in(id).iter();
                     open.extend(names.filter_map(|name| self.meaning(*name, function)));
                 }
-                Expr::List(list) => values.extend(&notes.lists[list as usize].elements),
+                Expr::List(list) => {
+                    let names = notes.names_in(notes.lists[list as usize].literal).iter();
+                    open.extend(names.filter_map(|name| self.meaning(*name, function)));
+                }
                 Expr::Trans(a, b) | Expr::Add(a, b) => values.extend([a, b]),
                 Expr::Inverse(a) | Expr::Kinematics { pose: a, .. } => values.push(a),
                 Expr::Call(call) => {

@@ -244,9 +244,7 @@ impl Reader<'_> {
         let mut values = Vec::new();
         let elements = self.elements(open, (!pose).then_some(&mut values))?;
         let mut literal = literals::other(start, self.scanner.at, pose, elements);
-        if pose && elements == 6 {
-            self.look_into(&mut literal, open);
-        }
+        self.look_into(&mut literal, open);
         self.notes.literals.push(literal);
         let literal = short(self.notes.literals.len() - 1);
         if values.iter().all(|value| *value == OTHER) {

@@ -16,23 +16,7 @@
 //! text → tokens → reader (statements, values: syntax) → variables, uses (what names and literals are) → translate
 //! ```
 //!
-//! # Findings
-//!
-//! Beside those of [`crate::motion`]:
-//!
-//! | id | severity | meaning |
-//! |---|---|---|
-//! | `target-has-expressions` | error | parts of the pose are expressions of numbers; a warning of joints, and of poses that only the running program knows |
-//! | `target-not-in-files` | error | a move goes to a variable that the file does not assign |
-//! | `computed-target` | warning | a move goes to what only the running program knows, or a caller outside the file |
-//! | `frame-assigned-at-run-time` | error | a part of the feature or tool is assigned |
-//! | `frame-chosen-at-run-time` | error | the feature or tool is computed, or is itself a target |
-//! | `target-used-as-offset` | error | a target is also the offset of another |
-//! | `streamed-motion` | error | servoj or servoc to a pose |
-//! | `moving-frame` | error | conveyor tracking, path offsets, parts that move: until the program ends them |
-//! | `inverse-start-unknown` | warning | `qnear` is known at run time only; the present joints are taken |
-//! | `target-copied` | warning | a value is computed from a target |
-//! | `motion-without-target` | note | `speedl`, `force_mode` and their like |
+//! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
@@ -113,8 +97,8 @@ impl Language for UrScript {
         sniff::recognises(&source.bytes)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Option<Result<Script, ReadError>> {
-        Some(script(sources))
+    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
+        script(sources)
     }
 
     fn roles(&self, layout: Layout) -> &'static [Role] {

@@ -4,10 +4,10 @@
 //! tables as charts or in space. [`page`] writes it as HTML; what draws it in the browser is one script, built of `web/` at the top of the repository and
 //! kept built in `assets/`. One file for each kind of page: [`programs`], [`measurements`],
 //! [`diagnosis`], [`frames`],
-//! [`axes`], [`reach`].
+//! [`axes`], [`plan`], [`reach`].
 //!
 //! # Safety of what is shown
-//! Names come from files that anybody may have written. The template escapes them; the data are JSON in which no markup can
+//! Names come from files that anybody may have written. They are escaped; the data are JSON in which no markup can
 //! begin or end; the script makes text of them, never markup; and a content security policy lets the page run that one
 //! script and ask for nothing.
 
@@ -18,5 +18,6 @@ pub mod frames;
 pub mod measurements;
 pub mod numbers;
 pub mod page;
+pub mod plan;
 pub mod programs;
 pub mod reach;

@@ -86,12 +86,6 @@ impl Values {
             Self::Names { index, .. } => index.len(),
         }
     }
-
-    /// Whether there are no rows.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
 }
 
 impl Column {

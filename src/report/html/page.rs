@@ -3,12 +3,11 @@
 use super::cell::Cell;
 use super::numbers::{Column, Number, Table};
 use crate::finding::{Finding, Severity};
+use crate::report::escaped;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use minijinja::value::{Serde, Value as Template};
-use minijinja::{Environment, context};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -18,7 +17,6 @@ use std::io::Write as _;
 /// What draws the page.
 const SCRIPT: &str = include_str!("assets/report.js");
 const STYLE: &str = include_str!("assets/report.css");
-const TEMPLATE: &str = include_str!("assets/page.html");
 
 /// Findings that a page holds; of more it tells how many there are.
 pub const MOST_FINDINGS: usize = 5000;
@@ -111,8 +109,6 @@ pub enum Tone {
     Wanted,
     /// Not beyond this.
     Limit,
-    /// Anything else.
-    Third,
 }
 
 /// Columns of a table drawn together, by their indices.
@@ -287,16 +283,6 @@ pub struct Page {
     pub sections: Vec<Section>,
 }
 
-/// What the template shows.
-#[derive(Serialize)]
-struct Head<'a> {
-    title: &'a str,
-    lead: &'a [String],
-    verdict: &'a Verdict,
-    facts: &'a [Fact],
-    summary: Option<&'a Summary>,
-}
-
 impl Page {
     /// A page with nothing on it.
     #[must_use]
@@ -397,36 +383,72 @@ impl Page {
     }
 
     /// The whole file.
-    ///
-    /// # Panics
-    /// Never: the template is part of the program.
     #[must_use]
     pub fn html(&self) -> String {
-        let mut environment = Environment::new();
-        environment
-            .add_template("page.html", TEMPLATE)
-            .expect("the template is part of the program");
-        let page = Head {
-            title: &self.title,
-            lead: &self.lead,
-            verdict: &self.verdict,
-            facts: &self.facts,
-            summary: self.summary.as_ref(),
-        };
         let (kind, data) = stored(embedded(self));
-        let values = context! {
-            page => Serde(page),
-            version => env!("CARGO_PKG_VERSION"),
-            style => Template::from_safe_string(STYLE.into()),
-            script => Template::from_safe_string(SCRIPT.into()),
-            script_hash => Template::from_safe_string(hash(SCRIPT)),
-            kind => Template::from_safe_string(kind.into()),
-            data => Template::from_safe_string(data),
+        let (title, header) = (escaped(&self.title), self.header());
+        let (policy, version) = (hash(SCRIPT), env!("CARGO_PKG_VERSION"));
+        format!(
+            r#"<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src '{policy}'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="referrer" content="no-referrer">
+<title>{title}</title>
+<style>{STYLE}</style>
+</head>
+<body>
+<header>
+<h1>{title}</h1>
+{header}</header>
+<main id="page"><noscript><p>The numbers above are complete; views, charts and long tables need JavaScript, which this file carries itself.</p></noscript></main>
+<footer>poseshift {version}. Everything shown is in this file; it asks nothing of the network. Distances are millimetres, angles degrees.</footer>
+<script type="{kind}" id="data">{data}</script>
+<script>{SCRIPT}</script>
+</body>
+</html>
+"#
+        )
+    }
+
+    /// What is read without a script: files, the answer, the numbers that stand first, the table that stands first.
+    fn header(&self) -> String {
+        let mut out = String::new();
+        for line in &self.lead {
+            out += &format!("<p class=\"lead\">{}</p>\n", escaped(line));
+        }
+        let level = match self.verdict.level {
+            Level::Good => "good",
+            Level::Warning => "warning",
+            Level::Error => "error",
         };
-        environment
-            .get_template("page.html")
-            .and_then(|template| template.render(values))
-            .expect("the template asks for what it is given")
+        let text = escaped(&self.verdict.text);
+        out += &format!("<p class=\"verdict {level}\">{text}</p>\n<ul class=\"facts\">\n");
+        for Fact { label, value } in &self.facts {
+            let (label, value) = (escaped(label), escaped(value));
+            out += &format!("<li><b>{value}</b><span>{label}</span></li>\n");
+        }
+        out += "</ul>\n";
+        if let Some(summary) = &self.summary {
+            let cells = |tag: &str, cells: &[String]| -> String {
+                let cell = |(k, text): (usize, &String)| {
+                    let class = if k > 0 { " class=\"number\"" } else { "" };
+                    let scope = if tag == "th" { " scope=\"col\"" } else { "" };
+                    format!("<{tag}{scope}{class}>{}</{tag}>", escaped(text))
+                };
+                cells.iter().enumerate().map(cell).collect()
+            };
+            let rows = summary.rows.iter().map(|row| cells("td", row));
+            out += &format!(
+                "<div class=\"summary\"><table aria-label=\"Summary\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
+                cells("th", &summary.heads),
+                rows.map(|row| format!("<tr>{row}</tr>\n"))
+                    .collect::<String>()
+            );
+        }
+        out
     }
 }
 
@@ -483,6 +505,7 @@ mod tests {
             column: 1,
             message: "\u{2028}\"quoted\" & <b>bold</b> \u{fc}".into(),
             hint: String::new(),
+            accepted: false,
         }
     }
 

@@ -38,21 +38,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
-        "report",
-        &[
-            "check",
-            "compensate",
-            "diagnose",
-            "finding",
-            "geometry",
-            "identify",
-            "inverse",
-            "model",
-            "program",
-        ],
-    ),
-    (
-        "cli",
+        "task",
         &[
             "check",
             "compensate",
@@ -65,11 +51,43 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "motion",
             "program",
             "register",
-            "report",
             "urdf",
         ],
     ),
-    ("main", &["cli"]),
+    (
+        "report",
+        &[
+            "check",
+            "compensate",
+            "diagnose",
+            "finding",
+            "geometry",
+            "identify",
+            "inverse",
+            "model",
+            "program",
+            "task",
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "check",
+            "compensate",
+            "diagnose",
+            "finding",
+            "geometry",
+            "identify",
+            "model",
+            "motion",
+            "program",
+            "register",
+            "report",
+            "task",
+            "urdf",
+        ],
+    ),
+    ("main", &[]),
     ("lib", &[]),
 ];
 
@@ -128,6 +146,63 @@ fn modules_use_each_other_in_one_direction() {
         }
     }
     assert!(seen > 20, "{seen} uses seen");
+}
+
+/// The code of the files of a folder below `src`, tests in them left out.
+fn code_of(folder: &str) -> Vec<(String, String)> {
+    let top = repository("src").join(folder);
+    files_below(&top)
+        .iter()
+        .filter(|file| file.extension().is_some_and(|e| e == "rs"))
+        .map(|file| {
+            let text = std::fs::read_to_string(top.join(file)).expect("source");
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            let code: Vec<&str> = code
+                .lines()
+                .filter(|line| !line.trim_start().starts_with("//"))
+                .collect();
+            (file.display().to_string(), code.join("\n"))
+        })
+        .collect()
+}
+
+#[test]
+fn a_command_imports_nothing_of_another_command_and_makes_no_json() {
+    let files = code_of("cli");
+    let commands: BTreeSet<&str> = files
+        .iter()
+        .filter(|(_, code)| code.contains("pub fn run(&self"))
+        .filter_map(|(file, _)| file.strip_suffix(".rs"))
+        .collect();
+    assert!(commands.len() > 15, "{commands:?}");
+    for (file, code) in &files {
+        assert!(!code.contains("json!"), "{file} makes JSON");
+        if file == "mod.rs" {
+            continue;
+        }
+        for command in commands
+            .iter()
+            .filter(|command| file != &format!("{command}.rs"))
+        {
+            let import = format!("super::{command}::");
+            assert!(!code.contains(&import), "{file} uses {command}");
+        }
+    }
+}
+
+#[test]
+fn tasks_print_nothing_and_know_no_arguments() {
+    for (file, code) in code_of("task") {
+        for word in [
+            "println!",
+            "eprint",
+            "clap::",
+            "std::env",
+            "std::io::stdout",
+        ] {
+            assert!(!code.contains(word), "{file} uses {word}");
+        }
+    }
 }
 
 #[test]

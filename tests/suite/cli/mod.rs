@@ -7,7 +7,7 @@ mod identify;
 mod jobs_and_tables_of_poses;
 mod outputs;
 mod planning;
-mod reports;
+pub mod reports;
 mod tables;
 mod validating;
 mod widths;

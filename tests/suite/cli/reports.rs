@@ -61,6 +61,32 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         0,
         "axes/1",
     ),
+    (
+        "ik --profile @robots/abb_irb120_thesis.yaml --poses @docs/measuring/robot.csv --all",
+        0,
+        "solutions/1",
+    ),
+    (
+        "register @docs/measuring/nominal.csv @docs/measuring/probed.csv --at 100,0,0 --sigma-mm 0.05 -v",
+        0,
+        "registration/1",
+    ),
+    (
+        "register @docs/measuring/drawing.csv @docs/measuring/scan.csv --icp",
+        0,
+        "registration/1",
+    ),
+    (
+        "hexapod --taught @docs/measuring/taught.csv --base-mm 300.01,299.98,300.02 -o device.yaml",
+        0,
+        "hexapod/1",
+    ),
+    (
+        "hexapod --reach --base-mm 300,300,300 --tool-mm 150,150,150 --frame device.yaml --profile @robots/fanuc_lrmate200ic.yaml",
+        0,
+        "hexapod/1",
+    ),
+    ("explain near-singularity", 0, "findings/1"),
     ("robots", 0, "robots/1"),
     ("effects", 0, "effects/1"),
     ("languages", 0, "languages/1"),

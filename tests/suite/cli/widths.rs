@@ -23,7 +23,7 @@ const MORE: &[&str] = &[
 ];
 
 /// These print data, which are as long as they are.
-const DATA: &[&str] = &["fk ", "profile new ", "hexapod --taught "];
+const DATA: &[&str] = &["fk ", "ik ", "profile new ", "hexapod --taught "];
 
 /// The first line that is too wide, not counting names of files.
 fn too_wide(text: &str, width: usize) -> Option<&str> {

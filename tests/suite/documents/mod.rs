@@ -2,9 +2,9 @@
 //!
 //! `POSESHIFT_BLESS=1 cargo test documents` writes the generated tables anew.
 
-use crate::support::{files_below, poseshift, repository, scratch, text};
+use crate::support::{files_below, is_tracked, poseshift, repository, scratch, text};
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Component, PathBuf};
 
 fn listed(command: &str, key: &str) -> Vec<Value> {
     let output = poseshift()
@@ -57,19 +57,47 @@ fn robots() -> String {
     table
 }
 
+fn findings() -> String {
+    let mut table =
+        String::from("| finding | | meaning | what to do | of |\n|---|---|---|---|---|\n");
+    for row in listed("explain", "findings") {
+        let list = |key: &str| {
+            let items = row[key].as_array().expect("a list").iter();
+            items
+                .map(|item| item.as_str().expect("text"))
+                .collect::<Vec<_>>()
+                .join(" ")
+        };
+        let of = Some(list("languages")).filter(|of| !of.is_empty());
+        table += &format!(
+            "| `{}` | {} | {} | {} | {} |\n",
+            word(&row, "id"),
+            word(&row, "severity"),
+            word(&row, "meaning"),
+            word(&row, "remedy"),
+            of.unwrap_or_else(|| list("commands"))
+        );
+    }
+    table
+}
+
 #[test]
-fn tables_of_the_readme_are_those_of_the_program() {
-    let mut readme = text("README.md");
-    for (name, table) in [("languages", languages()), ("robots", robots())] {
+fn generated_tables_are_those_of_the_program() {
+    for (document, name, table) in [
+        ("README.md", "languages", languages()),
+        ("README.md", "robots", robots()),
+        ("docs/findings.md", "findings", findings()),
+    ] {
+        let mut all = text(document);
         let head = format!("<!-- generated: {name} -->\n");
-        let start = readme.find(&head).expect("a place for the table") + head.len();
-        let end = start + readme[start..].find("<!-- end -->").expect("its end");
+        let start = all.find(&head).expect("a place for the table") + head.len();
+        let end = start + all[start..].find("<!-- end -->").expect("its end");
         if std::env::var_os("POSESHIFT_BLESS").is_some() {
-            readme.replace_range(start..end, &table);
-            std::fs::write(repository("README.md"), &readme).expect("a writable file");
+            all.replace_range(start..end, &table);
+            std::fs::write(repository(document), &all).expect("a writable file");
         } else {
             let help = "POSESHIFT_BLESS=1 cargo test documents writes it anew";
-            assert_eq!(&readme[start..end], table, "{name}: {help}");
+            assert_eq!(&all[start..end], table, "{name}: {help}");
         }
     }
 }
@@ -114,10 +142,16 @@ fn links_between_documents_lead_somewhere() {
             if link.is_empty() || link.contains("://") {
                 continue;
             }
-            let target = repository(".")
-                .join(document.parent().expect("a folder"))
-                .join(link);
-            assert!(target.exists(), "{}: {link}", document.display());
+            let mut target = document.parent().expect("a folder").to_owned();
+            for part in PathBuf::from(link).components() {
+                match part {
+                    Component::ParentDir => assert!(target.pop(), "{link} leads out"),
+                    Component::CurDir => {}
+                    part => target.push(part),
+                }
+            }
+            let target = target.to_str().expect("a plain name");
+            assert!(is_tracked(target), "{}: {link}", document.display());
             links += 1;
         }
     }
@@ -142,9 +176,9 @@ fn commands_of_the_readme_do_what_it_says() {
             let mut command = poseshift();
             command.current_dir(scratch.path());
             for word in arguments {
-                let given = repository(word);
-                if given.exists() {
-                    command.arg(given);
+                // what an earlier command of the reader wrote is not an input
+                if is_tracked(word) {
+                    command.arg(repository(word));
                 } else {
                     command.arg(word);
                 }

@@ -1,5 +1,7 @@
 //! `--report`: the page's numbers, what it may take the place of, and the way it draws.
 
+mod forms;
+mod schema;
 mod trace;
 
 use crate::support::{repository, run, scratch};

@@ -187,7 +187,6 @@ fn a_frame_is_what_the_program_has_just_written() {
         "CALL OTHER ;",
         "IF R[1]=1,PR[3,1]=R[5] ;",
         "PR[R[1]]=PR[4] ;",
-        "PR[3]=PR[4] ;",
         "PR[3,1]=R[5] ;",
         "PR[3,1]=PR[3,1]+1 ;",
     ] {

@@ -26,10 +26,10 @@ fn moves_that_cannot_be_compensated_are_errors() {
     for (instructions, id) in [
         (
             "SMOVL C00000 BC00000 V=1000.0 +MOVJ EC00000",
-            "coordinated-move",
+            "moving-frame",
         ),
         ("MOVL C00000 V=5 SRCH RIN#(1)=ON", "search-move"),
-        ("IMOV P001 V=5.0 RF", "incremental-move"),
+        ("IMOV P001 V=5.0 RF", "relative-move"),
         ("MOVJ C00000 +MOVJ C00001", "second-robot"),
         ("SYMOVL C00000 V=5 CV#(1)", "move-not-supported"),
         ("MOVL V=5", "move-not-supported"),
@@ -151,7 +151,7 @@ fn what_the_running_program_computes_stays_and_is_told_once_a_place() {
 #[test]
 fn the_next_move_knows_that_an_incremental_one_moved_the_robot() {
     let program = cell("MOVL C00000\nIMOV P001 V=5.0 RF\nMOVL C00001");
-    assert_eq!(errors(&program), ["incremental-move"]);
+    assert_eq!(errors(&program), ["relative-move"]);
     assert_eq!(program.moves[1].target, None);
     assert_eq!(program.moves[2].before, Before::One(1));
 }

@@ -54,7 +54,7 @@ fn outputs_of_post_processors_have_the_known_targets_and_frames() {
     for names in POSTS {
         let sources = sources(&folder, names);
         assert!(sources.iter().all(|source| Krl.recognises(source)));
-        let program = Krl.read(&sources, &Settings::default()).expect("a program");
+        let program = crate::motion::read(&Krl, &sources, &Settings::default()).expect("a program");
         // 50 straight moves, 2 joint moves, and 4 arcs of two points
         let counts = (program.targets.len(), program.moves.len());
         assert_eq!(counts, (60, 60), "{names:?}");
@@ -96,7 +96,7 @@ fn status_and_turn_of_known_joints_are_those_of_the_post() {
     let profile = Profile::from_yaml(&text.expect("a profile")).expect("a valid profile");
     let tool = profile.tool("torch").expect("the tool");
     let arm = Arm::of(&profile.geometry(&tool), &profile.mechanism).expect("a known arm");
-    let program = Krl.read(&sources(&folder, POSTS[2]), &Settings::default());
+    let program = crate::motion::read(&Krl, &sources(&folder, POSTS[2]), &Settings::default());
     let program = program.expect("a program");
     let mut compared = 0;
     for (k, used) in program.moves.iter().enumerate() {

@@ -9,7 +9,7 @@ proptest::proptest! {
     fn random_bytes_never_panic(bytes in proptest::collection::vec(0_u8..=255, 0..400)) {
         let source = Source::new("x", bytes);
         let _ = Krl.recognises(&source);
-        let _ = Krl.read(&[source], &Settings::default());
+        let _ = crate::motion::read(&Krl, &[source], &Settings::default());
     }
 
     #[test]
@@ -29,7 +29,7 @@ proptest::proptest! {
         let (at, _) = Krl.mark(&source, &marker);
         assert!(at <= source.bytes.len());
         let sources = [source, data];
-        if let Ok(program) = Krl.read(&sources, &Settings::default()) {
+        if let Ok(program) = crate::motion::read(&Krl, &sources, &Settings::default()) {
             check(&sources, &program);
         }
     }
@@ -56,7 +56,10 @@ fn check(sources: &[Source], program: &Program) {
         assert!(places.windows(2).all(|pair| pair[0].1 <= pair[1].0));
     }
     for used in &program.moves {
-        assert!(used.target.unwrap() < program.targets.len());
+        assert!(
+            used.target
+                .is_none_or(|target| target < program.targets.len())
+        );
         assert!(used.tool < program.tools.len() && used.frame < program.frames.len());
     }
 }
@@ -147,11 +150,8 @@ fn many_uses_of_large_arrays_stay_linear() {
     let text = format!("DEF m()\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{moves}END\n");
     let program = read_files(&[("m.dat", &data), ("m.src", &text)]);
     assert_eq!(program.targets.len(), 3000);
-    assert_eq!(
-        program.findings.len(),
-        6000,
-        "each target once for each cause"
-    );
+    let errors = program.findings.iter().filter(|f| f.id != "too-many-uses");
+    assert_eq!(errors.count(), 6000, "each target once for each cause");
 }
 
 #[test]

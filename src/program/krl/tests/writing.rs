@@ -170,8 +170,9 @@ fn the_marker_is_a_comment_behind_the_line_that_opens_the_file() {
         let mut new = source.bytes.clone();
         new.splice(at..at, inserted.bytes());
         assert!(Marker::find(&new).is_some());
-        let read_again = Krl.read(&[Source::new("m.src", new)], &Settings::default());
-        let read_before = Krl.read(&[source], &Settings::default());
+        let read_again =
+            crate::motion::read(&Krl, &[Source::new("m.src", new)], &Settings::default());
+        let read_before = crate::motion::read(&Krl, &[source], &Settings::default());
         assert_eq!(read_again.is_ok(), read_before.is_ok());
     }
 }

@@ -1,25 +1,38 @@
 //! Tables of a diagnosis: where it misses, what else would explain it, which rows tell nothing.
 
-use crate::diagnose::Diagnosis;
-use crate::diagnose::stand_ins::Impossible;
-use crate::geometry::units::mm_from_m;
-use crate::model::effects::Effect;
-use crate::report::diagnosis::together;
-use crate::report::html::numbers::{Column, Table, fixed, significant};
+use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::Page;
+use crate::report::text::{labelled, together};
+use crate::task::diagnose::{Diagnosis, Effect, ImpossibleGroup};
 
 /// Every list that is not empty.
 pub(super) fn show(page: &mut Page, found: &Diagnosis) {
     let all = [
-        spots, rivals, groups, impossible, untested, outliers, followed,
+        spots,
+        alternatives,
+        groups,
+        impossible,
+        untested,
+        outliers,
+        followed,
     ];
     for list in all {
         list(page, found);
     }
 }
 
-fn labels(found: &Diagnosis, which: &[usize]) -> String {
-    together(which.iter().map(|i| &found.found[*i].effect))
+fn labels(found: &Diagnosis, which: &[String]) -> String {
+    together(labelled(found, which))
+}
+
+/// A share in per cent.
+fn percent(part: Option<f64>) -> Option<Number> {
+    part.map(|part| fixed(100.0 * part, 1))
+}
+
+/// A number that may be none, rounded.
+fn rounded(value: Option<f64>, digits: usize) -> Option<Number> {
+    value.map(|value| significant(value, digits))
 }
 
 fn spots(page: &mut Page, found: &Diagnosis) {
@@ -31,44 +44,35 @@ fn spots(page: &mut Page, found: &Diagnosis) {
         columns: vec![
             Column::texts("column", list.iter().map(|s| s.column.clone())),
             Column::texts("most at", list.iter().map(|s| s.values.clone())),
-            Column::numbers(
-                "rms",
-                "mm",
-                list.iter().map(|s| significant(mm_from_m(s.size_m), 4)),
-            ),
+            Column::numbers("rms", "mm", list.iter().map(|s| significant(s.size_mm, 4))),
             Column::numbers(
                 "largest",
                 "mm",
-                list.iter().map(|s| significant(mm_from_m(s.largest_m), 4)),
+                list.iter().map(|s| significant(s.largest_mm, 4)),
             ),
-            Column::numbers("part", "%", list.iter().map(|s| fixed(100.0 * s.part, 1))),
-            Column::numbers("p", "", list.iter().map(|s| significant(s.p_value, 2))),
+            Column::numbers("part", "%", list.iter().map(|s| percent(s.part))),
+            Column::numbers("p", "", list.iter().map(|s| rounded(s.p_value, 2))),
         ],
     };
     let title = "Where the present model misses";
     page.show("where", title, "Strongest first.", table);
 }
 
-fn rivals(page: &mut Page, found: &Diagnosis) {
-    let list = &found.rivals;
+fn alternatives(page: &mut Page, found: &Diagnosis) {
+    let list = &found.alternatives;
     if list.is_empty() {
         return;
     }
-    let instead_of = |i: usize| found.found[i].effect.label();
     let table = Table {
         columns: vec![
-            Column::texts("effect", list.iter().map(|r| r.effect.label())),
-            Column::texts("instead of", list.iter().map(|r| instead_of(r.instead_of))),
+            Column::texts("effect", list.iter().map(|r| r.effect.label.clone())),
+            Column::texts("instead of", list.iter().map(|r| r.instead_of.clone())),
             Column::numbers(
                 "fall of chi squared",
                 "",
-                list.iter().map(|r| significant(r.gain, 4)),
+                list.iter().map(|r| rounded(r.chi_squared_fall, 4)),
             ),
-            Column::numbers(
-                "behind by",
-                "",
-                list.iter().map(|r| significant(r.behind, 3)),
-            ),
+            Column::numbers("behind by", "", list.iter().map(|r| rounded(r.behind, 3))),
         ],
     };
     let title = "What explains the measurements nearly as well";
@@ -76,28 +80,24 @@ fn rivals(page: &mut Page, found: &Diagnosis) {
 }
 
 fn groups(page: &mut Page, found: &Diagnosis) {
-    let list = &found.stand_ins;
+    let list = &found.alternative_groups;
     if list.is_empty() {
         return;
     }
     let table = Table {
         columns: vec![
-            Column::texts("effects", list.iter().map(|s| together(s.effects.iter()))),
+            Column::texts("effects", list.iter().map(|s| together(&s.effects))),
             Column::texts(
                 "instead of",
                 list.iter().map(|s| labels(found, &s.instead_of)),
             ),
-            Column::numbers("part", "%", list.iter().map(|s| fixed(100.0 * s.part, 1))),
+            Column::numbers("part", "%", list.iter().map(|s| percent(s.part))),
             Column::numbers(
-                "left of a coordinate",
+                "residual of a coordinate",
                 "mm",
-                list.iter().map(|s| significant(mm_from_m(s.left_m), 4)),
+                list.iter().map(|s| rounded(s.left_mm, 4)),
             ),
-            Column::numbers(
-                "behind by",
-                "",
-                list.iter().map(|s| significant(s.behind, 3)),
-            ),
+            Column::numbers("behind by", "", list.iter().map(|s| rounded(s.behind, 3))),
         ],
     };
     page.show(
@@ -110,39 +110,30 @@ fn groups(page: &mut Page, found: &Diagnosis) {
 
 /// A row for each parameter of an effect that would have to be what it cannot be.
 fn impossible(page: &mut Page, found: &Diagnosis) {
-    let each = |i: &'_ Impossible| -> Vec<(Effect, String, f64)> {
+    let each = |i: &'_ ImpossibleGroup| -> Vec<(Effect, String, Option<f64>)> {
         let instead_of = labels(found, &i.instead_of);
         let effects = i.effects.iter();
         effects
             .map(|e| (e.clone(), instead_of.clone(), i.part))
             .collect()
     };
-    let list: Vec<(Effect, String, f64)> = found.impossible.iter().flat_map(each).collect();
+    let list: Vec<_> = found.impossible.iter().flat_map(each).collect();
     if list.is_empty() {
         return;
     }
     // all of them have one parameter
-    let parameter = |e: &Effect| &e.definition().parameters[0];
-    let value = |e: &Effect| e.parameters[0] / parameter(e).unit.in_si();
+    let (value, unit) = (|e: &Effect| e.values[0].1, |e: &Effect| e.values[0].2);
     let table = Table {
         columns: vec![
-            Column::texts("effect", list.iter().map(|(e, ..)| e.label())),
+            Column::texts("effect", list.iter().map(|(e, ..)| e.label.clone())),
             Column::numbers(
                 "it would need",
                 "",
                 list.iter().map(|(e, ..)| significant(value(e), 3)),
             ),
-            Column::texts(
-                "unit",
-                list.iter()
-                    .map(|(e, ..)| parameter(e).unit.symbol().to_owned()),
-            ),
+            Column::texts("unit", list.iter().map(|(e, ..)| unit(e).to_owned())),
             Column::texts("instead of", list.iter().map(|(_, of, _)| of.clone())),
-            Column::numbers(
-                "part",
-                "%",
-                list.iter().map(|(.., part)| fixed(100.0 * part, 1)),
-            ),
+            Column::numbers("part", "%", list.iter().map(|(.., part)| percent(*part))),
         ],
     };
     page.show(
@@ -158,10 +149,9 @@ fn untested(page: &mut Page, found: &Diagnosis) {
     if list.is_empty() {
         return;
     }
-    let id = |c: &crate::diagnose::candidates::CannotTest| c.kind.definition().id.to_owned();
     let table = Table {
         columns: vec![
-            Column::texts("effect", list.iter().map(id)),
+            Column::texts("effect", list.iter().map(|c| c.effect.to_owned())),
             Column::texts("needs", list.iter().map(|c| c.missing.clone())),
         ],
     };
@@ -175,17 +165,17 @@ fn outliers(page: &mut Page, found: &Diagnosis) {
     }
     let table = Table {
         columns: vec![
-            Column::counts("line", list.iter().map(|o| o.line.number)),
+            Column::counts("line", list.iter().map(|o| o.line)),
             Column::texts("id", list.iter().map(|o| o.id.clone())),
             Column::numbers(
                 "residual",
                 "mm",
-                list.iter().map(|o| significant(mm_from_m(o.length_m), 5)),
+                list.iter().map(|o| significant(o.residual_mm, 5)),
             ),
             Column::numbers(
                 "times the noise",
                 "",
-                list.iter().map(|o| significant(o.times, 3)),
+                list.iter().map(|o| rounded(o.times_noise, 3)),
             ),
         ],
     };
@@ -193,19 +183,15 @@ fn outliers(page: &mut Page, found: &Diagnosis) {
 }
 
 fn followed(page: &mut Page, found: &Diagnosis) {
-    let list = &found.followed;
+    let list = &found.leverage;
     if list.is_empty() {
         return;
     }
     let table = Table {
         columns: vec![
-            Column::counts("line", list.iter().map(|f| f.line.number)),
+            Column::counts("line", list.iter().map(|f| f.line)),
             Column::texts("id", list.iter().map(|f| f.id.clone())),
-            Column::numbers(
-                "leverage",
-                "",
-                list.iter().map(|f| significant(f.leverage, 3)),
-            ),
+            Column::numbers("leverage", "", list.iter().map(|f| rounded(f.leverage, 3))),
         ],
     };
     page.show(

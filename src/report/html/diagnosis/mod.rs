@@ -6,14 +6,15 @@ use super::cell::{Along, Cell, Path, Points, Robot};
 use super::numbers::{Column, Number, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::check::Meshes;
-use crate::diagnose::{Diagnosis, Found, NoiseSource, Verdict};
+use crate::diagnose::{Found, NoiseSource, Verdict};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Vector, dot, scale, sub};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::{Miss, misses};
 use crate::model::effects::Kind as EffectKind;
-use crate::report::diagnosis::sentence;
-use crate::report::identification;
+use crate::report::text::fixed as decimals;
+use crate::task::diagnose::{Diagnosis, FoundEffect};
+use crate::task::parts::Statistics;
 
 /// A joint whose turn moves the measured point by less than this, metres a radian, shows nothing of its angle.
 const ARM_M: f64 = 0.05;
@@ -22,7 +23,8 @@ const STEP_RAD: f64 = 1e-6;
 
 /// The page of `diagnose`.
 #[must_use]
-pub fn page(found: &Diagnosis, lines: &[usize], file: &str) -> Page {
+pub fn page(of: &Diagnosis) -> Page {
+    let found = &of.found;
     let (level, answer) = match found.verdict {
         Verdict::Explained => (
             Level::Good,
@@ -38,11 +40,11 @@ pub fn page(found: &Diagnosis, lines: &[usize], file: &str) -> Page {
         ),
     };
     let mut page = Page::new("Diagnosis".into(), level, answer.into());
-    page.lead.push(file.to_owned());
+    page.lead.push(of.name.clone());
     page.lead
         .push(super::programs::robot_name(&found.problem.profile));
-    page.fact("rows", found.problem.rows.len().to_string());
-    page.fact("effects found", found.found.len().to_string());
+    page.fact("rows", of.rows.to_string());
+    page.fact("effects found", of.effects.len().to_string());
     let source = match found.noise_source {
         NoiseSource::Given => "sigma_mm",
         NoiseSource::Repeats => "repeated poses",
@@ -50,52 +52,44 @@ pub fn page(found: &Diagnosis, lines: &[usize], file: &str) -> Page {
     };
     page.fact(
         &format!("noise of a coordinate, by {source}"),
-        format!("{:.4} mm", mm_from_m(found.noise_m)),
+        decimals(of.noise_mm, 4) + " mm",
     );
-    page.fact(
-        "left of a coordinate",
-        format!("{:.4} mm", mm_from_m(found.left_m)),
-    );
-    if let Some((before, after)) = &found.held_out {
+    page.fact("residual of a coordinate", decimals(of.left_mm, 4) + " mm");
+    if let (Some(before), Some(after)) = (&of.held_out.before, &of.held_out.after) {
+        let [before, after] = [before, after].map(|s| decimals(s.mean_mm, 4));
         page.fact(
             "mean error, rows not used",
-            format!("{:.4} \u{2192} {:.4} mm", before.mean, after.mean),
+            format!("{before} \u{2192} {after} mm"),
         );
     }
-    let mut sentences: Vec<String> = found.found.iter().map(|f| sentence(&f.effect)).collect();
-    sentences.extend(found.reasons.iter().cloned());
+    let sentences = of.effects.iter().map(|f| &f.sentence).chain(&of.reasons);
+    let sentences: Vec<String> = sentences.cloned().collect();
     if !sentences.is_empty() {
         page.sections.push(Section::Text(super::page::Text {
             title: "What was found".into(),
             lines: sentences,
         }));
     }
-    show_steps(&mut page, found);
+    show_steps(&mut page, of);
     for (number, one) in found.found.iter().enumerate() {
-        show_effect(&mut page, found, number, one);
+        show_effect(&mut page, of, number, one);
     }
-    show_evidence(&mut page, found);
-    show_residuals(&mut page, found, lines);
-    lists::show(&mut page, found);
-    page.findings(&identification::findings(&found.remarks, file));
+    show_evidence(&mut page, of);
+    show_residuals(&mut page, of);
+    lists::show(&mut page, of);
+    page.findings(&of.findings);
     page
 }
 
 /// A bar a step, with the noise floor.
-fn show_steps(page: &mut Page, found: &Diagnosis) {
-    let mut steps: Vec<(String, f64)> = Vec::new();
-    if let Some((before, after)) = &found.held_out {
-        steps.push(("present model".into(), before.rms));
-        if let Some(s) = found.absorbed_only.filter(|_| found.absorbed) {
-            steps.push(("frames, geometry fitted".into(), s.rms));
-        }
-        for f in &found.found {
-            steps.extend(f.after.map(|s| (format!("+ {}", f.effect.label()), s.rms)));
-        }
-        if found.found.is_empty() {
-            steps.push(("after".into(), after.rms));
-        }
-    } else {
+fn show_steps(page: &mut Page, of: &Diagnosis) {
+    let found = &of.found;
+    let mut steps: Vec<(String, f64)> = of
+        .steps()
+        .into_iter()
+        .map(|(name, s)| (name, s.numbers().rms))
+        .collect();
+    if steps.is_empty() {
         let rms = |lengths: &[f64]| {
             let sum: f64 = lengths.iter().map(|l| l * l).sum();
             mm_from_m((sum / lengths.len().max(1) as f64).sqrt())
@@ -240,7 +234,8 @@ fn as_angle(miss: &Miss, arm: Vector) -> Option<f64> {
 }
 
 /// The residual before and after an effect, against what gave it away.
-fn show_effect(page: &mut Page, found: &Diagnosis, number: usize, one: &Found) {
+fn show_effect(page: &mut Page, of: &Diagnosis, number: usize, one: &Found) {
+    let found = &of.found;
     let problem = &found.problem;
     let Some(without) = found.without.get(number) else {
         return;
@@ -303,7 +298,7 @@ fn show_effect(page: &mut Page, found: &Diagnosis, number: usize, one: &Found) {
     );
     chart.note = format!(
         "{} Without it: everything else fitted again.",
-        sentence(&one.effect)
+        of.effects[number].sentence
     );
     chart
         .series
@@ -314,68 +309,62 @@ fn show_effect(page: &mut Page, found: &Diagnosis, number: usize, one: &Found) {
     page.sections.push(Section::Chart(chart));
 }
 
-fn show_evidence(page: &mut Page, found: &Diagnosis) {
-    if found.found.is_empty() {
+fn show_evidence(page: &mut Page, of: &Diagnosis) {
+    if of.effects.is_empty() {
         return;
     }
     // a row for each parameter
-    let rows: Vec<(&Found, usize, f64)> = found
-        .found
+    type Row<'a> = (&'a FoundEffect, &'static str, f64, f64, &'static str);
+    let rows: Vec<Row> = of
+        .effects
         .iter()
         .flat_map(|f| {
-            f.sought
-                .iter()
-                .zip(&f.sigmas)
-                .map(move |(n, s)| (f, *n, *s))
+            let sought = f.effect.values.iter();
+            sought.filter_map(move |(key, value, unit)| {
+                let sigma = f.sigma.get(*key)?.as_f64().unwrap_or(f64::NAN);
+                Some((f, *key, *value, sigma, *unit))
+            })
         })
         .collect();
-    let parameter = |row: &(&Found, usize, f64)| &row.0.effect.definition().parameters[row.1];
+    let evidence = |row: &Row| row.0.evidence.clone();
     let table = Table {
         columns: vec![
-            Column::texts("effect", rows.iter().map(|r| r.0.effect.label())),
-            Column::texts(
-                "parameter",
-                rows.iter().map(|r| parameter(r).key.to_owned()),
-            ),
-            Column::numbers(
-                "value",
-                "",
-                rows.iter().map(|r| {
-                    significant(r.0.effect.parameters[r.1] / parameter(r).unit.in_si(), 5)
-                }),
-            ),
-            Column::numbers(
-                "sigma",
-                "",
-                rows.iter()
-                    .map(|r| significant(r.2 / parameter(r).unit.in_si(), 2)),
-            ),
-            Column::texts(
-                "unit",
-                rows.iter().map(|r| parameter(r).unit.symbol().to_owned()),
-            ),
+            Column::texts("effect", rows.iter().map(|r| r.0.effect.label.clone())),
+            Column::texts("parameter", rows.iter().map(|r| r.1.to_owned())),
+            Column::numbers("value", "", rows.iter().map(|r| significant(r.2, 5))),
+            Column::numbers("sigma", "", rows.iter().map(|r| significant(r.3, 2))),
+            Column::texts("unit", rows.iter().map(|r| r.4.to_owned())),
             Column::numbers(
                 "fall of chi squared",
                 "",
-                rows.iter().map(|r| significant(r.0.gain, 4)),
+                rows.iter()
+                    .map(|r| evidence(r).chi_squared_fall.map(|x| significant(x, 4))),
             ),
-            Column::numbers("p", "", rows.iter().map(|r| significant(r.0.p_value, 2))),
+            Column::numbers(
+                "p",
+                "",
+                rows.iter()
+                    .map(|r| evidence(r).p_value.map(|x| significant(x, 2))),
+            ),
             Column::texts(
                 "found again",
-                rows.iter()
-                    .map(|r| format!("{} of {}", r.0.found_again.0, r.0.found_again.1)),
+                rows.iter().map(|r| {
+                    let e = evidence(r);
+                    format!("{} of {}", e.found_again, e.found_again_of)
+                }),
             ),
             Column::texts(
                 "by hand",
                 rows.iter()
-                    .map(|r| Some("yes".to_owned()).filter(|_| r.0.accepted)),
+                    .map(|r| Some("yes".to_owned()).filter(|_| evidence(r).accepted_by_hand)),
             ),
         ],
     };
     page.show("evidence", "Evidence", "The fall of chi squared and its probability by chance belong to the effect, not to the single parameter.", table);
 }
 
-fn show_residuals(page: &mut Page, found: &Diagnosis, lines: &[usize]) {
+fn show_residuals(page: &mut Page, of: &Diagnosis) {
+    let (found, lines) = (&of.found, &of.lines);
     let problem = &found.problem;
     let after = misses(problem, &found.estimate);
     let line =

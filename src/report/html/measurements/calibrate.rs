@@ -1,103 +1,64 @@
 //! The page of `calibrate`.
 
 use super::{Judged, Rows, robot_lead, show_rows, summary};
-use crate::geometry::units::mm_from_m;
-use crate::identify::calibration::{Calibration, STRONG_CORRELATION};
-use crate::identify::measurements::Measurements;
-use crate::identify::statistics::{Quality, misses};
-use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
+use crate::identify::calibration::STRONG_CORRELATION;
+use crate::identify::statistics::misses;
+use crate::report::html::numbers::{Column, Table, fixed, significant};
 use crate::report::html::page::{Axis, Chart, Heat, Kind, Level, Page, Section, Series, Tone};
-use crate::report::identification;
-use serde_json::Value;
+use crate::report::text::{fixed as decimals, scientific};
+use crate::task::calibrate::{Calibration, Parameter};
+use crate::task::parts::Quality;
 
 /// Parameters in the square of correlations.
 const MOST_NAMES: usize = 60;
 
-fn texts(list: &[Value], key: &str) -> Vec<Option<String>> {
-    let text = |value: &Value| match &value[key] {
-        Value::Null => None,
-        Value::String(text) => Some(text.clone()),
-        Value::Bool(yes) => Some(if *yes { "yes" } else { "no" }.into()),
-        Value::Array(all) => {
-            let names: Vec<&str> = all.iter().filter_map(Value::as_str).collect();
-            Some(names.join(", "))
-        }
-        other => Some(other.to_string()),
-    };
-    list.iter().map(text).collect()
-}
-
-fn numbers(list: &[Value], key: &str, digits: usize) -> Vec<Option<Number>> {
-    let number = |value: &Value| value[key].as_f64().map(|x| significant(x, digits));
-    list.iter().map(number).collect()
-}
-
 /// The page of `calibrate`.
 #[must_use]
-pub fn calibrate_page(
-    found: &Calibration,
-    fit: &Measurements,
-    files: &str,
-    written: Option<&str>,
-) -> Page {
+pub fn calibrate_page(of: &Calibration) -> Page {
+    let found = &of.found;
     let profile = found.profile();
-    let findings = identification::findings(&found.remarks, files);
-    let warnings = findings
-        .iter()
-        .filter(|f| f.severity > crate::finding::Severity::Note)
-        .count();
-    let level = if warnings > 0 {
-        Level::Warning
-    } else {
-        Level::Good
-    };
-    let main = |q: &Quality| q.main().map_or(f64::NAN, |s| s.mean);
-    let (frames, after) = (main(&found.frames_only_quality), main(&found.after));
+    let main = |q: &Quality| q.main().and_then(|s| s.mean_mm).unwrap_or(f64::NAN);
+    let (frames, after) = (main(&of.frames_only), main(&of.after));
     let mut answer =
         format!("Mean error {frames:.3} mm with the frames alone, {after:.3} mm with everything");
-    if let Some(held) = found.held_out.as_ref().and_then(|(_, full)| full.main()) {
-        answer += &format!("; {:.3} mm on rows held out", held.mean);
+    if let Some(held) = &of.held_out {
+        answer += &format!("; {:.3} mm on rows held out", main(&held.after));
     }
-    let mut page = Page::new("Calibration".into(), level, answer);
-    robot_lead(&mut page, files, &profile);
-    if let Some(written) = written {
+    let mut page = Page::new("Calibration".into(), Level::of(&of.findings), answer);
+    robot_lead(&mut page, &of.name, &profile);
+    if let Some(written) = &of.output {
         page.lead.push(format!("\u{2192} {written}"));
     }
-    let problem = &found.problem;
-    page.fact("rows", problem.rows.len().to_string());
+    page.fact("rows", of.rows.to_string());
+    let determined = of.parameters.iter().filter(|p| p.identifiable).count();
     page.fact(
         "parameters determined",
-        format!(
-            "{} of {}",
-            found.solution.parameters.len(),
-            problem.parameters.len()
-        ),
+        format!("{determined} of {}", of.parameters.len()),
     );
-    page.fact("observability O1", format!("{:.4}", found.observability.o1));
-    page.fact(
-        "condition number",
-        format!("{:.3e}", found.observability.condition_number),
-    );
+    let o = &of.observability;
+    page.fact("observability O1", decimals(o.o1, 4));
+    page.fact("condition number", scientific(o.condition_number));
     page.fact(
         "residuals in standard deviations",
-        format!("{:.2}", found.uncertainty.sigma_factor),
+        format!("{:.2}", of.sigma_factor),
     );
-    page.fact("rows that do not fit", found.outliers.len().to_string());
+    page.fact("rows that do not fit", of.outliers.len().to_string());
     let mut models = vec![
-        ("before".to_owned(), &found.before),
-        ("frames only".to_owned(), &found.frames_only_quality),
-        ("after".to_owned(), &found.after),
+        ("before", &of.before),
+        ("frames only", &of.frames_only),
+        ("after", &of.after),
     ];
-    if let Some((alone, full)) = &found.held_out {
-        models.push(("held out, frames only".into(), alone));
-        models.push(("held out, after".into(), full));
+    if let Some(held) = &of.held_out {
+        models.push(("held out, frames only", &held.frames_only));
+        models.push(("held out, after", &held.after));
     }
     page.summary = Some(summary(&models));
+    let problem = &found.problem;
     let frames = misses(problem, &found.frames_only.estimate);
     let after = misses(problem, &found.solution.estimate);
     let rows = Rows {
         problem,
-        measurements: fit,
+        measurements: &of.fit,
         models: vec![
             Judged {
                 name: "before",
@@ -118,23 +79,33 @@ pub fn calibrate_page(
         centre_m: None,
     };
     show_rows(&mut page, &rows, &profile);
-    show_parameters(&mut page, found);
-    show_correlations(&mut page, found);
-    show_outliers(&mut page, found);
-    page.findings(&findings);
+    show_parameters(&mut page, of);
+    show_correlations(&mut page, of);
+    show_outliers(&mut page, of);
+    page.findings(&of.findings);
     page
 }
 
-fn show_parameters(page: &mut Page, found: &Calibration) {
-    let list = identification::parameters(found);
+fn show_parameters(page: &mut Page, of: &Calibration) {
+    let list = &of.parameters;
+    let key = |p: &Parameter| p.key.clone();
+    let value = |p: &Parameter| significant(p.value, 6);
     let table = Table {
         columns: vec![
-            Column::texts("parameter", texts(&list, "key")),
-            Column::numbers("value", "", numbers(&list, "value", 6)),
-            Column::numbers("sigma", "", numbers(&list, "sigma", 3)),
-            Column::texts("unit", texts(&list, "unit")),
-            Column::texts("determined", texts(&list, "identifiable")),
-            Column::texts("like", texts(&list, "confounded_with")),
+            Column::texts("parameter", list.iter().map(key)),
+            Column::numbers("value", "", list.iter().map(value)),
+            Column::numbers(
+                "sigma",
+                "",
+                list.iter().map(|p| p.sigma.map(|s| significant(s, 3))),
+            ),
+            Column::texts("unit", list.iter().map(|p| p.unit.to_owned())),
+            Column::texts(
+                "determined",
+                list.iter()
+                    .map(|p| if p.identifiable { "yes" } else { "no" }.to_owned()),
+            ),
+            Column::texts("like", list.iter().map(|p| p.confounded_with.join(", "))),
         ],
     };
     page.show(
@@ -143,23 +114,25 @@ fn show_parameters(page: &mut Page, found: &Calibration) {
         "What these data do not determine is left as it was, and it is told what it is like.",
         table,
     );
+    let determined: Vec<&Parameter> = list.iter().filter(|p| p.identifiable).collect();
     let mut units: Vec<&'static str> = Vec::new();
-    for parameter in &found.solution.parameters {
-        if !units.contains(&parameter.unit.symbol()) {
-            units.push(parameter.unit.symbol());
+    for parameter in &determined {
+        if !units.contains(&parameter.unit) {
+            units.push(parameter.unit);
         }
     }
     for unit in units {
-        let known = |value: &&Value| value["unit"] == unit && value["sigma"].is_number();
-        let list: Vec<Value> = list.iter().filter(known).cloned().collect();
-        let twice = list
+        let list: Vec<&Parameter> = determined
             .iter()
-            .map(|value| value["sigma"].as_f64().map(|s| significant(2.0 * s, 3)));
+            .copied()
+            .filter(|p| p.unit == unit)
+            .collect();
+        let twice = |p: &&Parameter| p.sigma.map(|s| significant(2.0 * s, 3));
         let table = Table {
             columns: vec![
-                Column::texts("parameter", texts(&list, "key")),
-                Column::numbers("value", unit, numbers(&list, "value", 6)),
-                Column::numbers("two sigma", unit, twice),
+                Column::texts("parameter", list.iter().copied().map(key)),
+                Column::numbers("value", unit, list.iter().copied().map(value)),
+                Column::numbers("two sigma", unit, list.iter().map(twice)),
             ],
         };
         let name = format!("parameters-{unit}");
@@ -177,7 +150,8 @@ fn show_parameters(page: &mut Page, found: &Calibration) {
     }
 }
 
-fn show_correlations(page: &mut Page, found: &Calibration) {
+fn show_correlations(page: &mut Page, of: &Calibration) {
+    let found = &of.found;
     let parameters = &found.solution.parameters;
     let count = parameters.len().min(MOST_NAMES);
     if count < 2 {
@@ -203,24 +177,24 @@ fn show_correlations(page: &mut Page, found: &Calibration) {
     }));
 }
 
-fn show_outliers(page: &mut Page, found: &Calibration) {
-    let list = &found.outliers;
+fn show_outliers(page: &mut Page, of: &Calibration) {
+    let list = &of.outliers;
     if list.is_empty() {
         return;
     }
     let table = Table {
         columns: vec![
-            Column::counts("line", list.iter().map(|o| o.line.number)),
+            Column::counts("line", list.iter().map(|o| o.line)),
             Column::texts("id", list.iter().map(|o| o.id.clone())),
             Column::numbers(
                 "residual",
                 "mm",
-                list.iter().map(|o| significant(mm_from_m(o.length_m), 5)),
+                list.iter().map(|o| significant(o.residual_mm, 5)),
             ),
             Column::numbers(
                 "times typical",
                 "",
-                list.iter().map(|o| significant(o.times, 3)),
+                list.iter().map(|o| significant(o.times_typical, 3)),
             ),
             Column::numbers("weight", "", list.iter().map(|o| significant(o.weight, 3))),
         ],

@@ -14,8 +14,9 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Vector, norm, scale, sub};
 use crate::identify::measurements::Measurements;
 use crate::identify::problem::Problem;
-use crate::identify::statistics::{Miss, Quality, Spread};
+use crate::identify::statistics::Miss;
 use crate::model::profile::Profile;
+use crate::task::parts::{Quality, Statistics};
 
 /// A model whose errors are so many times those of the best two is not shown before it is asked for: it would hide them.
 const FAR_OFF: f64 = 20.0;
@@ -109,7 +110,7 @@ fn row_table(rows: &Rows, places: &[Vector]) -> (Table, usize) {
     for model in &rows.models {
         let angles = angles(model);
         if angles.iter().any(Option::is_some) {
-            let label = format!("turn, {}", model.name);
+            let label = format!("rotation, {}", model.name);
             columns.push(Column::numbers(
                 &label,
                 "deg",
@@ -268,23 +269,21 @@ const HEADS: [&str; 8] = [
     "largest",
 ];
 
-fn summary_row(name: &str, s: &Spread) -> Vec<String> {
+fn summary_row(name: &str, of: &dyn Statistics) -> Vec<String> {
+    let s = of.numbers();
     let numbers = [s.mean, s.std, s.mean_plus_3std(), s.p95, s.p997, s.max];
     let mut row = vec![name.to_owned(), s.n.to_string()];
     row.extend(numbers.map(|x| format!("{x:.4}")));
     row
 }
 
-fn summary(models: &[(String, &Quality)]) -> Summary {
+fn summary(models: &[(&str, &Quality)]) -> Summary {
     let mut rows = Vec::new();
     for (name, quality) in models {
-        for (what, spread) in [
-            ("position, mm", quality.position),
-            ("orientation, deg", quality.orientation),
-            ("distance, mm", quality.range),
-        ] {
-            rows.extend(spread.map(|s| summary_row(&format!("{name}: {what}"), &s)));
-        }
+        let row = |what: &str, s: &dyn Statistics| summary_row(&format!("{name}: {what}"), s);
+        rows.extend(quality.position.map(|s| row("position, mm", &s)));
+        rows.extend(quality.orientation.map(|s| row("orientation, deg", &s)));
+        rows.extend(quality.range.map(|s| row("distance, mm", &s)));
     }
     Summary {
         heads: HEADS.map(str::to_owned).to_vec(),

@@ -1,16 +1,19 @@
 //! The page of `validate`.
 
 use super::{Judged, Rows, robot_lead, show_rows, summary};
-use crate::identify::statistics::Quality;
-use crate::identify::validation::{Refit, Repeated, RepeatedDistance, Validation};
-use crate::model::profile::Profile;
+use crate::geometry::units::m_from_mm;
+use crate::identify::statistics;
+use crate::identify::validation::Refit;
 use crate::report::html::numbers::{Column, Table, fixed, significant};
 use crate::report::html::page::{Level, Page, Tone};
+use crate::task::parts::{Quality, Statistics};
+use crate::task::validate::{Repeated, RepeatedDistance, Validation};
 
 /// The page of `validate`.
 #[must_use]
-pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page {
-    let mean = |q: &Quality| q.main().map_or(f64::NAN, |s| s.mean);
+pub fn validate_page(of: &Validation) -> Page {
+    let (found, profile) = (&of.found, &of.profile);
+    let mean = |q: &statistics::Quality| q.main().map_or(f64::NAN, |s| s.mean);
     let (controller, real) = (mean(&found.controller.quality), mean(&found.real.quality));
     let level = if real <= controller {
         Level::Good
@@ -21,25 +24,26 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
         "Mean error {real:.3} mm of the real model, {controller:.3} mm of the controller's"
     );
     let mut page = Page::new("Validation".into(), level, answer);
-    robot_lead(&mut page, files, profile);
+    robot_lead(&mut page, &of.name, profile);
     page.lead.extend(found.refit.told().map(Into::into));
-    page.fact("rows", found.problem.rows.len().to_string());
-    if let Some(pairs) = found.real.distance {
+    page.fact("rows", of.rows.to_string());
+    if let Some(pairs) = of.distance.as_ref().and_then(|models| models.real) {
         page.fact("distances between points", pairs.pairs.to_string());
-        page.fact("their error, mean", format!("{:.4} mm", pairs.mean));
+        page.fact("their error, mean", format!("{:.4} mm", pairs.mean_mm));
         page.fact(
             "their error, mean + 3 std",
-            format!("{:.4} mm", pairs.mean_plus_3std()),
+            format!("{:.4} mm", pairs.mean_plus_3std_mm),
         );
-        page.fact("their error, largest", format!("{:.4} mm", pairs.max));
+        page.fact("their error, largest", format!("{:.4} mm", pairs.max_mm));
     }
-    if let Some(rms) = found.normalised_rms {
+    if let Some(rms) = of.normalised_rms {
         page.fact("residuals in standard deviations", format!("{rms:.2}"));
     }
+    let quality = |of: &statistics::Quality| Quality::from(of);
     page.summary = Some(summary(&[
-        ("controller".to_owned(), &found.controller.quality),
-        ("frames only".to_owned(), &found.frames_only.quality),
-        ("real".to_owned(), &found.real.quality),
+        ("controller", &quality(&found.controller.quality)),
+        ("frames only", &quality(&found.frames_only.quality)),
+        ("real", &quality(&found.real.quality)),
     ]));
     // of the frame that the device had then
     let known = profile
@@ -49,7 +53,7 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
     let middle = known.and_then(|quality| {
         let numbers = quality["middle_mm"].as_array()?;
         let number = |k: usize| numbers.get(k)?.as_f64();
-        Some([number(0)?, number(1)?, number(2)?].map(crate::geometry::units::m_from_mm))
+        Some([number(0)?, number(1)?, number(2)?].map(m_from_mm))
     });
     let rows = Rows {
         problem: &found.problem,
@@ -74,39 +78,40 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
         centre_m: middle,
     };
     show_rows(&mut page, &rows, profile);
-    if !found.parts.is_empty() {
-        let parts = &found.parts;
+    if !of.parts.is_empty() {
+        let parts = &of.parts;
+        let spread = |p: &crate::task::validate::Part| p.error.numbers();
         let table = Table {
             columns: vec![
                 Column::texts("part", parts.iter().map(|p| format!("{} {}", p.by, p.name))),
-                Column::counts("n", parts.iter().map(|p| p.spread.n)),
+                Column::counts("n", parts.iter().map(|p| p.error.n)),
                 Column::numbers(
                     "mean",
                     "mm",
-                    parts.iter().map(|p| significant(p.spread.mean, 5)),
+                    parts.iter().map(|p| significant(spread(p).mean, 5)),
                 ),
                 Column::numbers(
                     "std",
                     "mm",
-                    parts.iter().map(|p| significant(p.spread.std, 5)),
+                    parts.iter().map(|p| significant(spread(p).std, 5)),
                 ),
                 Column::numbers(
                     "largest",
                     "mm",
-                    parts.iter().map(|p| significant(p.spread.max, 5)),
+                    parts.iter().map(|p| significant(spread(p).max, 5)),
                 ),
             ],
         };
         page.show("parts", "Real model by parts", "", table);
     }
-    if !found.repeated.is_empty() {
-        let list = &found.repeated;
+    if !of.iso_9283.is_empty() {
+        let list = &of.iso_9283;
         let mm = |of: &dyn Fn(&Repeated) -> f64| -> Vec<_> {
             list.iter().map(|r| significant(of(r), 4)).collect()
         };
         let table = Table {
             columns: vec![
-                Column::counts("line", list.iter().map(|r| r.line.number)),
+                Column::counts("line", list.iter().map(|r| r.line)),
                 Column::counts("count", list.iter().map(|r| r.count)),
                 Column::numbers("AP", "mm", mm(&|r| r.commanded_accuracy_mm)),
                 Column::numbers("AP, real model", "mm", mm(&|r| r.accuracy_mm)),
@@ -115,22 +120,22 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
                     "vAP",
                     "mm",
                     list.iter()
-                        .map(|r| r.variation_mm.map(|v| significant(v, 4))),
+                        .map(|r| r.multidirectional_variation_mm.map(|v| significant(v, 4))),
                 ),
             ],
         };
         let note = "AP: the mean from the commanded pose, and from the real model's";
         page.show("repeated", "Repeated poses, ISO 9283", note, table);
     }
-    if !found.repeated_distances.is_empty() {
-        let list = &found.repeated_distances;
+    if !of.iso_9283_distances.is_empty() {
+        let list = &of.iso_9283_distances;
         let mm = |of: &dyn Fn(&RepeatedDistance) -> f64| -> Vec<_> {
             list.iter().map(|r| significant(of(r), 4)).collect()
         };
         let table = Table {
             columns: vec![
-                Column::counts("line", list.iter().map(|r| r.lines[0].number)),
-                Column::counts("to line", list.iter().map(|r| r.lines[1].number)),
+                Column::counts("line", list.iter().map(|r| r.lines[0])),
+                Column::counts("to line", list.iter().map(|r| r.lines[1])),
                 Column::counts("count", list.iter().map(|r| r.count)),
                 Column::numbers(
                     "distance",
@@ -150,5 +155,6 @@ pub fn validate_page(found: &Validation, profile: &Profile, files: &str) -> Page
             table,
         );
     }
+    page.findings(&of.findings);
     page
 }

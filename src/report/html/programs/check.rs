@@ -7,15 +7,15 @@ use crate::check::Check;
 use crate::check::trace::Traced;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::{Motion, Source};
-use crate::report::check;
 use crate::report::html::cell::{Along, Cell, Points, Robot, bodies};
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use crate::task::check::Header;
 
 /// What the page of `check` is made of.
 pub struct Checked<'a> {
     /// As for the JSON.
-    pub header: &'a check::Header<'a>,
+    pub header: &'a Header<'a>,
     /// The files.
     pub sources: &'a [Source],
     /// What was found.

@@ -8,15 +8,15 @@ use crate::check::trace::Traced;
 use crate::compensate::Compensation;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::report::compensation;
 use crate::report::html::cell::{Along, Cell, Path, Points, Robot, bodies};
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::{Page, Section, Tone};
+use crate::task::compensate::Header;
 
 /// What the page of `compensate` is made of.
 pub struct Compensated<'a> {
     /// As for the JSON.
-    pub header: &'a compensation::Header<'a>,
+    pub header: &'a Header<'a>,
     /// The compensation, with every target.
     pub compensation: &'a Compensation,
     /// The original program's way.

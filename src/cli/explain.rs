@@ -1,0 +1,22 @@
+//! `explain`: what a finding means and what to do.
+
+use super::telling::{Told, finish};
+use super::{Answer, Output};
+use crate::task::Failure;
+use crate::task::explain::explain;
+use clap::Args;
+
+/// Explain a finding: what it means and what to do; without an id, every one
+#[derive(Args)]
+pub struct Explain {
+    /// The finding's id, as messages have it in brackets
+    id: Option<String>,
+}
+
+impl Explain {
+    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let found = explain(self.id.as_deref())?;
+        finish(&found, Vec::new(), None, (Told::Main, ""), output)?;
+        Ok(Answer::Yes)
+    }
+}

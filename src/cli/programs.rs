@@ -1,0 +1,66 @@
+//! Program files on the command line: files, and folders of them.
+
+use super::files;
+use crate::program::{LANGUAGES, Language, Source, has_extension};
+use crate::task::Failure;
+use std::path::{Path, PathBuf};
+
+/// Program files in a folder and below, with their paths relative to it.
+pub fn programs_in(
+    folder: &Path,
+    asked: Option<&'static dyn Language>,
+) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
+    let mut found = Vec::new();
+    for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
+        let entry = entry.map_err(|error| {
+            Failure::new(format!(
+                "cannot read the folder {}: {error}",
+                folder.display()
+            ))
+        })?;
+        let path = entry.path();
+        let known = LANGUAGES
+            .iter()
+            .filter(|l| asked.is_none_or(|a| a.about().id == l.about().id));
+        let mut candidates = known.filter(|l| has_extension(**l, path)).peekable();
+        if !entry.file_type().is_file() || candidates.peek().is_none() {
+            continue;
+        }
+        let source = Source::new("", files::read(path)?);
+        if candidates.any(|language| language.recognises(&source)) {
+            let below = path
+                .strip_prefix(folder)
+                .expect("a walk stays below its top");
+            found.push((path.to_owned(), below.to_owned()));
+        }
+    }
+    Ok(found)
+}
+
+/// Program files in the order of the arguments; folders give theirs by name.
+pub fn read_programs(
+    paths: &[PathBuf],
+    asked: Option<&'static dyn Language>,
+) -> Result<Vec<Source>, Failure> {
+    let mut sources = Vec::new();
+    for path in paths {
+        let found = if path.is_dir() {
+            programs_in(path, asked)?
+                .into_iter()
+                .map(|(path, _)| path)
+                .collect()
+        } else {
+            vec![path.clone()]
+        };
+        for path in found {
+            sources.push(files::source(&path)?);
+        }
+    }
+    if sources.is_empty() {
+        return Err(Failure::with_hint(
+            "no program files in these folders",
+            "`poseshift languages` lists what is recognised",
+        ));
+    }
+    Ok(sources)
+}

@@ -1,0 +1,36 @@
+//! `schema`: the JSON Schema of a file or a report.
+
+use super::telling::print_schema;
+use super::{Answer, print};
+use crate::task::{Failure, SCHEMAS};
+use clap::Args;
+
+/// Print the JSON Schema of a file or a report; without a name, the names
+#[derive(Args)]
+pub struct Schema {
+    /// A format: what stands before the `/` of its first key, `poseshift`
+    name: Option<String>,
+}
+
+impl Schema {
+    pub fn run(&self) -> Result<Answer, Failure> {
+        let Some(name) = &self.name else {
+            let lines = SCHEMAS
+                .iter()
+                .map(|format| format!("{:14} {}\n", format.name, format.what));
+            print(&lines.collect::<String>())?;
+            return Ok(Answer::Yes);
+        };
+        let name = name.split('/').next().unwrap_or_default();
+        let format = SCHEMAS.iter().find(|format| format.name == name);
+        let format = format.ok_or_else(|| {
+            let names: Vec<&str> = SCHEMAS.iter().map(|format| format.name).collect();
+            Failure::with_hint(
+                format!("no format is called `{name}`"),
+                format!("formats are: {}", names.join(", ")),
+            )
+        })?;
+        print_schema(&(format.schema)())?;
+        Ok(Answer::Yes)
+    }
+}

@@ -1,0 +1,380 @@
+//! Calls of routines and functions, and what runs beside the program.
+
+use super::names::{DataKind, Index, whole};
+use super::reader::Reader;
+use super::targets::{Owner, computed, passed};
+use super::tokens::{Cursor, Kind, Token, capitals};
+use crate::program::names::Symbol;
+use crate::program::number;
+use crate::program::script::{Argument, Call, Expr, How, Place, Start, short};
+
+/// Calls in one expression; a line of the controller has no room for more.
+const MOST_CALLS: usize = 64;
+
+/// What a routine of the controller or of its packages does with what it is given.
+enum Known {
+    /// It only reads it.
+    Reads,
+    /// It writes the arguments from this one on.
+    Writes(usize),
+}
+
+/// Routines of the controller and its packages that change neither tool nor base.
+///
+/// # Source
+/// KUKA System Software, Operating and Programming Instructions for System Integrators ("Standard functions", "String
+/// functions", "Message programming"); KUKA, CREAD/CWRITE; KUKA.Ethernet KRL, "Functions".
+fn known(word: &[u8]) -> Option<Known> {
+    Some(match word {
+        b"ABS"
+        | b"SQRT"
+        | b"SIN"
+        | b"COS"
+        | b"TAN"
+        | b"ACOS"
+        | b"ATAN2"
+        | b"FORWARD"
+        | b"INVERSE"
+        | b"INV_POS"
+        | b"EK"
+        | b"K_ROOT"
+        | b"K_TYPE"
+        | b"K_OFFS"
+        | b"STOOL"
+        | b"STOOL2"
+        | b"SBASE"
+        | b"SLOAD"
+        | b"SIPO_MODE"
+        | b"VARSTATE"
+        | b"SWRITE"
+        | b"CWRITE"
+        | b"COPEN"
+        | b"CCLOSE"
+        | b"CIOCTL"
+        | b"STRDECLLEN"
+        | b"STRLEN"
+        | b"STRCLEAR"
+        | b"STRADD"
+        | b"STRFIND"
+        | b"STRCOMP"
+        | b"STRCOPY"
+        | b"SET_CD_PARAMS"
+        | b"IR_STOPM"
+        | b"TIMER_LIMIT"
+        | b"CLEAR_KRLMSG"
+        | b"SET_KRLMSG"
+        | b"SET_KRLDLG"
+        | b"EXISTS_KRLMSG"
+        | b"EXISTS_KRLDLG"
+        | b"MSGNOTIFY"
+        | b"MSGQUIT"
+        | b"MSGSTATUS"
+        | b"MSGDIALOG"
+        | b"DELETE_BACKWARD_BUFFER"
+        | b"SYNC_INTERRUPT"
+        | b"EKI_INIT"
+        | b"EKI_OPEN"
+        | b"EKI_CLOSE"
+        | b"EKI_CLEAR"
+        | b"EKI_SEND"
+        | b"EKI_SETREAL"
+        | b"EKI_SETINT"
+        | b"EKI_SETBOOL"
+        | b"EKI_SETFRAME"
+        | b"EKI_SETSTRING" => Known::Reads,
+        // CREAD(handle, state, mode, timeout, offset, format, variables)
+        b"CREAD" => Known::Writes(6),
+        // SREAD(string, state, offset, format, variables)
+        b"SREAD" => Known::Writes(4),
+        // CAST_FROM(buffer, offset, variables)
+        b"CAST_FROM" => Known::Writes(2),
+        b"CAST_TO" => Known::Writes(0),
+        // EKI_GetFrame(channel, element, frame)
+        b"EKI_GETREAL" | b"EKI_GETINT" | b"EKI_GETBOOL" | b"EKI_GETFRAME" | b"EKI_GETSTRING"
+        | b"EKI_GETREALARRAY" | b"EKI_GETINTARRAY" | b"EKI_GETFRAMEARRAY" => Known::Writes(2),
+        _ => return None,
+    })
+}
+
+/// An argument as it is written.
+enum Given {
+    /// A variable.
+    Named(Symbol, Index),
+    /// A position that is written out, or a product.
+    Position(Expr),
+    Number(u32),
+    Other,
+}
+
+impl Reader {
+    /// `routine(a, b)`; the cursor stands in front of the bracket.
+    pub(super) fn call(&mut self, name: Token, mut cursor: Cursor) {
+        self.last = None;
+        self.call_here(name, &mut cursor, true);
+    }
+
+    /// The functions that an expression calls.
+    pub(super) fn calls_in(&mut self, mut cursor: Cursor) {
+        if memchr::memchr(b'(', &cursor.bytes[cursor.at..cursor.end]).is_none() {
+            return;
+        }
+        let mut calls = 0;
+        while calls < MOST_CALLS {
+            let token = cursor.next();
+            match token.kind {
+                Kind::End => return,
+                Kind::Name if cursor.blanks() == b'(' => {
+                    calls += 1;
+                    let mut inner = cursor;
+                    self.call_here(token, &mut inner, false);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn call_here(&mut self, name: Token, cursor: &mut Cursor, is_statement: bool) {
+        let mut buffer = [0; 24];
+        let known = known(capitals(cursor.text(name), &mut buffer));
+        let symbol = self.symbol(cursor, name);
+        let callee = self.names.routine(symbol, self.context());
+        if callee.is_none() && matches!(known, Some(Known::Reads)) {
+            return;
+        }
+        let arguments = self.arguments(cursor);
+        let place = Place {
+            file: self.file,
+            offset: name.start,
+        };
+        match (callee, known) {
+            (None, Some(Known::Writes(from))) => {
+                for given in arguments.into_iter().skip(from) {
+                    if let Given::Named(name, at) = given {
+                        self.write_by_controller(name, at);
+                    }
+                }
+            }
+            (callee, _) => self.emit(place, symbol, callee, arguments, is_statement),
+        }
+    }
+
+    /// What the controller writes into a variable that it is given.
+    fn write_by_controller(&mut self, name: Symbol, at: Index) {
+        let datum = self.names.datum(name, self.context());
+        if let Some(datum) = datum
+            && self.names.data[datum as usize].kind.is_place()
+        {
+            let how = How::Whole(self.unknown(computed()));
+            self.write_element(Owner::Datum(datum), at, how);
+        }
+    }
+
+    fn emit(
+        &mut self,
+        place: Place,
+        name: Symbol,
+        callee: Option<u32>,
+        given: Vec<Given>,
+        is_statement: bool,
+    ) {
+        let mut arguments = Vec::with_capacity(given.len());
+        let mut foreign = callee.is_none();
+        let mut gives = false;
+        for (at, given) in given.into_iter().enumerate() {
+            let parameter = callee.and_then(|callee| {
+                let head = &self.names.heads[callee as usize];
+                head.parameters.get(at).copied()
+            });
+            let (value, kind, whole) = match given {
+                Given::Named(name, at) => {
+                    let kind = self.names.kind(name, self.context());
+                    let is_number =
+                        kind == Some(DataKind::Number) && self.names.choosing.contains(&name);
+                    match kind {
+                        Some(kind) if kind.is_place() || is_number => {
+                            let datum = self.names.datum(name, self.context());
+                            let owner = Owner::Datum(datum.expect("it has a kind"));
+                            // brackets without an index: all of an array
+                            let is_array = at == Index::Variable;
+                            if is_array && callee.is_none() && self.refuse_array(owner, passed) {
+                                continue;
+                            }
+                            let value = self.named(name, at).unwrap_or(Expr::Absent);
+                            (value, Some(kind), is_array)
+                        }
+                        _ => (Expr::Absent, None, false),
+                    }
+                }
+                // nothing else has those numbers
+                Given::Position(_) if callee.is_none() => (Expr::Absent, None, false),
+                Given::Position(value) => (value, Some(DataKind::Position), false),
+                Given::Number(number) => {
+                    let is_chosen = parameter.is_some_and(|(datum, _)| {
+                        let name = self.names.data[datum as usize].name;
+                        self.names.choosing.contains(&name)
+                    });
+                    if is_chosen {
+                        (self.number_value(number), Some(DataKind::Number), false)
+                    } else {
+                        (Expr::Absent, None, false)
+                    }
+                }
+                Given::Other => (Expr::Absent, None, false),
+            };
+            let mut is_number = false;
+            let is_given = parameter.is_some_and(|(datum, _)| {
+                let datum = &self.names.data[datum as usize];
+                is_number = datum.kind == DataKind::Number;
+                datum.kind.is_place() || is_number && self.names.choosing.contains(&datum.name)
+            });
+            if value == Expr::Absent && !is_given {
+                continue;
+            }
+            gives |= value != Expr::Absent;
+            // an array goes whole, and its elements are not followed
+            foreign |= whole;
+            let by_reference = parameter.is_none_or(|(_, by_reference)| by_reference);
+            let back = match value {
+                Expr::Variable(variable) if by_reference => Some(variable),
+                _ => None,
+            };
+            let value = match (value, kind) {
+                // a frame that no move goes to is an offset
+                (_, Some(DataKind::Frame)) if callee.is_none() => Expr::Absent,
+                (Expr::Absent, _) if is_number => self.chosen(),
+                (Expr::Absent, _) => self.unknown(computed()),
+                (value, _) => value,
+            };
+            let parameter = parameter.filter(|_| is_given && !whole);
+            let parameter = parameter.map(|(datum, _)| self.variable_of(datum));
+            arguments.push(Argument {
+                parameter,
+                value,
+                back,
+            });
+        }
+        // a function that is not in the files matters where it is given something only
+        if callee.is_none() && !is_statement && !gives {
+            return;
+        }
+        let script = &mut self.builder.script;
+        let first = short(script.arguments.len());
+        script.arguments.extend(arguments);
+        let arguments = first..short(script.arguments.len());
+        self.builder.call(Call {
+            place,
+            callees: callee.into_iter().collect(),
+            foreign,
+            name: self.names.symbols.spelling(name).into(),
+            arguments,
+        });
+    }
+
+    /// The arguments of a call; the cursor stands in front of the bracket.
+    fn arguments(&mut self, cursor: &mut Cursor) -> Vec<Given> {
+        let mut all = Vec::new();
+        if !cursor.take(b'(') {
+            return all;
+        }
+        loop {
+            if matches!(cursor.blanks(), 0 | b')' | b';') {
+                return all;
+            }
+            all.push(self.argument(cursor));
+            cursor.skip();
+            if !cursor.take(b',') {
+                return all;
+            }
+        }
+    }
+
+    fn argument(&mut self, cursor: &mut Cursor) -> Given {
+        let mut ahead = *cursor;
+        if ahead.blanks() == b'{' {
+            return self.position_argument(cursor);
+        }
+        let token = ahead.next();
+        let alone = |ahead: &mut Cursor| matches!(ahead.blanks(), b',' | b')');
+        match token.kind {
+            Kind::Number if alone(&mut ahead) => {
+                whole(number::parse(ahead.text(token))).map_or(Given::Other, Given::Number)
+            }
+            Kind::Name => {
+                let Ok(at) = ahead.brackets() else {
+                    return Given::Other;
+                };
+                if alone(&mut ahead) {
+                    let name = self.symbol(&ahead, token);
+                    return Given::Named(name, Index::of(at, &ahead));
+                }
+                if ahead.blanks() == b':' {
+                    return self.position_argument(cursor);
+                }
+                Given::Other
+            }
+            _ => Given::Other,
+        }
+    }
+
+    fn position_argument(&mut self, cursor: &mut Cursor) -> Given {
+        match self.point(cursor) {
+            Ok(point) => Given::Position(self.value_of(&point)),
+            Err(_) => Given::Other,
+        }
+    }
+
+    /// Whether an expression names a position with numbers in the files.
+    pub(super) fn mentions_position(&self, mut cursor: Cursor) -> bool {
+        let mut before = b' ';
+        let mut open = 0_u32;
+        loop {
+            let token = cursor.next();
+            match token.kind {
+                Kind::End => return false,
+                // in an aggregate it is a number that is taken, not a position
+                Kind::Sign(b'{') => open += 1,
+                Kind::Sign(b'}') => open = open.saturating_sub(1),
+                Kind::Name if open == 0 && before != b'.' && before != b'#' => {
+                    let is_whole = !cursor.peek().is(b'.');
+                    let folded = cursor.text(token).to_ascii_lowercase();
+                    let name = self.names.symbols.find(&folded).filter(|_| is_whole);
+                    let kind = name.and_then(|name| self.names.kind(name, self.context()));
+                    if kind == Some(DataKind::Position) {
+                        return true;
+                    }
+                }
+                _ => {}
+            }
+            before = match token.kind {
+                Kind::Sign(sign) => sign,
+                _ => b' ',
+            };
+        }
+    }
+
+    /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO routine()`: the routine runs at any time.
+    pub(super) fn concurrent(&mut self, mut cursor: Cursor) {
+        loop {
+            let token = cursor.next();
+            match token.kind {
+                Kind::End => return,
+                Kind::Name if cursor.text(token).eq_ignore_ascii_case(b"DO") => break,
+                _ => {}
+            }
+        }
+        let name = cursor.next();
+        if name.kind == Kind::Name && cursor.blanks() == b'(' {
+            let symbol = self.symbol(&cursor, name);
+            self.beside.push((symbol, self.context()));
+        }
+    }
+
+    /// Marks the routines that run at any time, once all are declared.
+    pub(super) fn mark_concurrent(&mut self) {
+        for (name, context) in std::mem::take(&mut self.beside) {
+            if let Some(routine) = self.names.routine(name, context) {
+                self.builder.script.routines[routine as usize].start = Start::Concurrent;
+            }
+        }
+    }
+}

@@ -1,0 +1,474 @@
+//! Tools, bases, loads and modes: `$TOOL`, `$BASE`, `$LOAD`, `$IPO_MODE`, the tables they are taken from, BAS and FDAT.
+
+use super::names::{Fdat, Index, Stored};
+use super::reader::Reader;
+use super::targets::{Owner, refusal};
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::{Pose, Rotation};
+use crate::program::names::Symbol;
+use crate::program::script::{
+    Expr, Held, NamedFrame, Part, PartValue, Place, Remark, Script, TableId, ValueId, Variable,
+    VariableId, short,
+};
+use crate::program::{Load, Number};
+use std::collections::{HashMap, HashSet};
+
+/// A table of the controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Table {
+    Tool,
+    Base,
+    Load,
+}
+
+impl Table {
+    /// The table of a name in capitals.
+    pub fn named(word: &[u8]) -> Option<Self> {
+        Some(match word {
+            b"TOOL_DATA" => Self::Tool,
+            b"BASE_DATA" => Self::Base,
+            b"LOAD_DATA" => Self::Load,
+            _ => return None,
+        })
+    }
+
+    pub fn name(self) -> &'static str {
+        ["TOOL_DATA", "BASE_DATA", "LOAD_DATA"][self as usize]
+    }
+}
+
+/// What data lists say of one entry.
+#[derive(Clone, Copy, Debug)]
+enum Entry {
+    Frame([Part; 6]),
+    Missing,
+    /// Several data lists say several things.
+    Ambiguous,
+}
+
+/// Tools, bases and loads of data lists.
+#[derive(Debug, Default)]
+pub struct Declared {
+    entries: HashMap<(Table, u32), Entry>,
+    pub loads: HashMap<u32, Load>,
+    /// Bases that hang on another kinematic.
+    pub moving: HashSet<u32>,
+}
+
+impl Declared {
+    pub fn add(&mut self, table: Table, at: u32, frame: Option<[Number; 6]>, file: u32) {
+        let new = frame.map(|numbers| numbers.map(|number| part(number, file)));
+        let entry = self.entries.entry((table, at)).or_insert(Entry::Missing);
+        *entry = match (&*entry, new) {
+            (Entry::Missing, Some(parts)) => Entry::Frame(parts),
+            (Entry::Missing, None) => Entry::Missing,
+            (Entry::Frame(old), Some(new)) if is_same(old, &new) => Entry::Frame(new),
+            _ => Entry::Ambiguous,
+        };
+    }
+}
+
+pub fn part(number: Number, file: u32) -> Part {
+    Part {
+        value: PartValue::Number(number.value),
+        place: Place {
+            file,
+            offset: number.start,
+        },
+        length: number.length,
+    }
+}
+
+/// Whether two frames are one, as far as the controller's numbers of 32 bits tell.
+fn is_same(a: &[Part; 6], b: &[Part; 6]) -> bool {
+    let near = |(a, b): (&Part, &Part)| match (a.value, b.value) {
+        (PartValue::Number(a), PartValue::Number(b)) => (a - b).abs() <= 1e-6 * a.abs().max(1.0),
+        _ => false,
+    };
+    a.iter().zip(b).all(near)
+}
+
+/// A state of the controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    Tool,
+    Base,
+    Load,
+    Ipo,
+    FdatTool,
+    FdatBase,
+    FdatIpo,
+    ActTool,
+    ActBase,
+}
+
+impl State {
+    const NAMES: [&str; 9] = [
+        "$TOOL",
+        "$BASE",
+        "$LOAD",
+        "$IPO_MODE",
+        "FDAT_ACT.TOOL_NO",
+        "FDAT_ACT.BASE_NO",
+        "FDAT_ACT.IPO_FRAME",
+        "$ACT_TOOL",
+        "$ACT_BASE",
+    ];
+
+    /// The state of a name in capitals.
+    pub fn named(word: &[u8]) -> Option<Self> {
+        Some(match word {
+            b"$TOOL" => Self::Tool,
+            b"$BASE" => Self::Base,
+            b"$LOAD" => Self::Load,
+            b"$IPO_MODE" => Self::Ipo,
+            b"$ACT_TOOL" => Self::ActTool,
+            b"$ACT_BASE" => Self::ActBase,
+            _ => return None,
+        })
+    }
+}
+
+/// A number that chooses an entry of a table.
+#[derive(Clone, Copy, Debug)]
+pub enum Choice {
+    Entry(u32),
+    /// The number that a variable holds.
+    By(VariableId),
+}
+
+/// States of the controller in the script, and values that are needed often.
+#[derive(Debug)]
+pub struct Modal {
+    pub states: [VariableId; 9],
+    pub tables: [TableId; 3],
+    entries: HashMap<(Table, u32), VariableId>,
+    /// What $TOOL and $BASE were before the program.
+    pub initial: [ValueId; 2],
+    /// Frames that the files do not declare, and those that are zero, by name.
+    known: HashMap<Box<str>, ValueId>,
+    numbers: HashMap<u32, ValueId>,
+    pub on: ValueId,
+    off: ValueId,
+    external: ValueId,
+    /// Indices in the script's guards: by `$IPO_MODE`, by it and an angle, by a fixed tool, by an unknown mode.
+    pub guards: u32,
+    pub angle_guards: u32,
+    fixed_guards: u32,
+    chosen_guards: u32,
+}
+
+pub fn record(script: &mut Script, name: &str, parts: &[Part]) -> ValueId {
+    let first = short(script.parts.len());
+    script.parts.extend_from_slice(parts);
+    let parts = first..short(script.parts.len());
+    script.value(Held::Record {
+        name: name.into(),
+        parts,
+    })
+}
+
+const NOWHERE: Place = Place { file: 0, offset: 0 };
+
+pub fn parts_of(value: PartValue) -> [Part; 6] {
+    [Part {
+        value,
+        place: NOWHERE,
+        length: 0,
+    }; 6]
+}
+
+impl Modal {
+    pub fn new(script: &mut Script) -> Self {
+        let missing = parts_of(PartValue::Missing);
+        let initial = ["$TOOL", "$BASE"].map(|name| record(script, name, &missing));
+        let [on, off] = [true, false].map(|flag| script.value(Held::Flag(flag)));
+        let tables = [Table::Tool, Table::Base, Table::Load].map(|table| {
+            script.tables.push(crate::program::script::Table {
+                name: table.name().into(),
+                ..Default::default()
+            });
+            short(script.tables.len() - 1)
+        });
+        let chosen = script.remark(chosen());
+        let states = std::array::from_fn(|at| {
+            let declared = match at {
+                0 | 1 => Expr::Value(initial[at]),
+                2 => Expr::Value(off),
+                3 => Expr::Value(on),
+                _ => Expr::Unknown(chosen),
+            };
+            script.variable(Variable {
+                name: State::NAMES[at].into(),
+                place: NOWHERE,
+                declared,
+                kept: false,
+                shared: true,
+                routine: None,
+            })
+        });
+        let external = script.remark(refusal(
+            "external-tcp",
+            "the robot holds the work piece and the tool stands still (#TCP)",
+            "moves with a fixed tool are not compensated",
+        ));
+        let external = script.value(Held::Remark(external));
+        let angle = script.remark(super::moves::angle());
+        let angle = script.value(Held::Remark(angle));
+        let [angle, fixed, chosen] = [
+            Expr::Value(angle),
+            Expr::Value(external),
+            Expr::Unknown(chosen),
+        ]
+        .map(|declared| {
+            script.variable(Variable {
+                name: "the move".into(),
+                place: NOWHERE,
+                declared,
+                kept: false,
+                shared: false,
+                routine: None,
+            })
+        });
+        let mode = states[State::Ipo as usize];
+        let mut guard = |of: &[VariableId]| {
+            script.guards.push(of.into());
+            short(script.guards.len() - 1)
+        };
+        Self {
+            guards: guard(&[mode]),
+            angle_guards: guard(&[mode, angle]),
+            fixed_guards: guard(&[fixed]),
+            chosen_guards: guard(&[chosen]),
+            states,
+            tables,
+            entries: HashMap::new(),
+            initial,
+            known: HashMap::new(),
+            numbers: HashMap::new(),
+            on,
+            off,
+            external,
+        }
+    }
+
+    /// What a state holds.
+    pub fn expr(&self, state: State) -> Expr {
+        Expr::Variable(self.states[state as usize])
+    }
+
+    /// What speaks against a move with a mode of its own.
+    pub fn guards_of(&self, mode: Expr) -> u32 {
+        match mode {
+            Expr::Value(value) if value == self.on => 0,
+            Expr::Value(_) => self.fixed_guards,
+            _ => self.chosen_guards,
+        }
+    }
+}
+
+/// Only the running program knows the tool or base.
+pub fn chosen() -> Remark {
+    refusal(
+        "frame-chosen-at-run-time",
+        "only the running program knows the tool or base",
+        "set $TOOL and $BASE before the move in the same routine",
+    )
+}
+
+pub fn assigned() -> Remark {
+    refusal(
+        "frame-assigned-at-run-time",
+        "the running program changes the tool or base",
+        "assign it with numbers, or use another entry for each place",
+    )
+}
+
+pub fn moving() -> Remark {
+    refusal(
+        "moving-frame",
+        "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
+        "moves in a moving base are not compensated",
+    )
+}
+
+/// `X Y Z A B C` in mm and degrees as a pose.
+pub fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
+    Pose {
+        rotation: Rotation::from_rzryrx([a * DEG, b * DEG, c * DEG]),
+        translation: [x, y, z].map(m_from_mm),
+    }
+}
+
+/// See [`crate::program::Language::frame_of`]: X Y Z A B C, and of a tool of the table its load.
+pub fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark> {
+    let mut numbers = [0.0; 10];
+    let (mut missing, mut given) = (0, 0);
+    for (at, part) in parts.iter().enumerate().take(10) {
+        match part.value {
+            PartValue::Number(value) => {
+                numbers[at] = value;
+                given += u32::from(at < 6);
+            }
+            PartValue::Missing => missing += u32::from(at < 6),
+            _ => return Err(assigned()),
+        }
+    }
+    if missing > 0 && given > 0 {
+        return Err(Remark {
+            text: "the running program changes a part of the tool or base, and the files do not tell the rest".into(),
+            hint: "give the $config.dat that declares it, too",
+            ..assigned()
+        });
+    }
+    let [frame @ .., mass_kg, x, y, z] = numbers;
+    Ok(NamedFrame {
+        name: name.into(),
+        pose: (missing == 0).then(|| pose_of(frame)),
+        load: (parts.len() == 10).then_some(Load {
+            mass_kg,
+            cog_m: [x, y, z],
+        }),
+    })
+}
+
+impl Reader {
+    /// A tool or base that only the running program knows.
+    pub(super) fn chosen(&mut self) -> Expr {
+        self.unknown(chosen())
+    }
+
+    pub(super) fn unknown(&mut self, remark: Remark) -> Expr {
+        Expr::Unknown(self.builder.script.remark(remark))
+    }
+
+    /// An entry of a table.
+    pub(super) fn entry(&mut self, table: Table, at: u32) -> VariableId {
+        if let Some(&known) = self.modal.entries.get(&(table, at)) {
+            return known;
+        }
+        let name = format!("{}[{at}]", table.name());
+        let declared = self.declared.entries.get(&(table, at)).copied();
+        let declared = match declared.unwrap_or(Entry::Missing) {
+            _ if table == Table::Load => self.load_value(self.declared.loads.get(&at).copied()),
+            _ if table == Table::Base && self.declared.moving.contains(&at) => {
+                self.unknown(moving())
+            }
+            Entry::Ambiguous => self.unknown(refusal(
+                "frame-name-ambiguous",
+                "the tool or base is declared more than once with different values",
+                "pass one $config.dat only",
+            )),
+            Entry::Frame(parts) => Expr::Value(self.frame_value(table, &name, at, &parts)),
+            Entry::Missing => {
+                let value = match at {
+                    0 => PartValue::Number(0.0),
+                    _ => PartValue::Missing,
+                };
+                Expr::Value(self.frame_value(table, &name, at, &parts_of(value)))
+            }
+        };
+        let script = &mut self.builder.script;
+        let made = script.variable(Variable {
+            name: name.into(),
+            place: NOWHERE,
+            declared,
+            kept: true,
+            shared: false,
+            routine: None,
+        });
+        let entries = &mut script.tables[self.modal.tables[table as usize] as usize].entries;
+        entries.insert(i64::from(at), made);
+        self.modal.entries.insert((table, at), made);
+        made
+    }
+
+    /// A frame, and behind it the load that belongs to a tool.
+    fn frame_value(&mut self, table: Table, name: &str, at: u32, parts: &[Part; 6]) -> ValueId {
+        let load = self.declared.loads.get(&at);
+        let mut parts = parts.to_vec();
+        if let (Table::Tool, Some(load)) = (table, load) {
+            let [x, y, z] = load.cog_m;
+            parts.extend([load.mass_kg, x, y, z].map(|value| Part {
+                value: PartValue::Number(value),
+                place: NOWHERE,
+                length: 0,
+            }));
+        }
+        record(&mut self.builder.script, name, &parts)
+    }
+
+    pub(super) fn load_value(&mut self, load: Option<Load>) -> Expr {
+        Expr::Value(match load {
+            Some(_) => self.builder.script.value(Held::Load(load)),
+            // the tool's own, if any
+            None => self.modal.off,
+        })
+    }
+
+    /// A number that may choose an entry: that is one, then.
+    pub(super) fn number_value(&mut self, number: u32) -> Expr {
+        if let Some(&known) = self.modal.numbers.get(&number) {
+            return Expr::Value(known);
+        }
+        for table in [Table::Tool, Table::Base, Table::Load] {
+            self.entry(table, number);
+        }
+        let made = self.builder.script.value(Held::Number(i64::from(number)));
+        self.modal.numbers.insert(number, made);
+        Expr::Value(made)
+    }
+
+    /// A frame that has no value of the files' own.
+    pub(super) fn known_frame(&mut self, name: &str, value: PartValue) -> Expr {
+        let script = &mut self.builder.script;
+        let known = self.modal.known.get(name).copied();
+        Expr::Value(known.unwrap_or_else(|| {
+            let made = record(script, name, &parts_of(value));
+            self.modal.known.insert(name.into(), made);
+            made
+        }))
+    }
+
+    /// The number of a choice.
+    pub(super) fn number_of(&mut self, choice: Option<Choice>) -> Expr {
+        match choice {
+            Some(Choice::Entry(number)) => self.number_value(number),
+            Some(Choice::By(variable)) => Expr::Variable(variable),
+            None => self.chosen(),
+        }
+    }
+
+    pub(super) fn mode_value(&mut self, is_external: Option<bool>) -> Expr {
+        match is_external {
+            Some(false) => Expr::Value(self.modal.on),
+            Some(true) => Expr::Value(self.modal.external),
+            None => self.chosen(),
+        }
+    }
+
+    /// What the chosen entry of a table holds.
+    pub(super) fn element(&mut self, table: Table, choice: Option<Choice>) -> Expr {
+        match choice {
+            Some(Choice::Entry(at)) => Expr::Variable(self.entry(table, at)),
+            Some(Choice::By(number)) => Expr::Element {
+                table: self.modal.tables[table as usize],
+                number,
+            },
+            None => self.chosen(),
+        }
+    }
+
+    /// The FDAT of a name, where the files have it and no statement changes it.
+    pub(super) fn fdat_of(&self, name: Symbol, at: Index) -> Option<Fdat> {
+        match self.names.constant(name, at, self.context())? {
+            Stored::Fdat(fdat) => Some(fdat),
+            _ => None,
+        }
+    }
+
+    /// The variable of a parameter or of a whole number.
+    pub(super) fn variable_of(&mut self, datum: u32) -> VariableId {
+        self.variable(Owner::Datum(datum), Index::Whole)
+    }
+}

@@ -1,0 +1,292 @@
+//! Names and what is declared of them.
+
+use super::tokens::Cursor;
+use crate::program::names::{Context, Meaning, Scopes, Symbol, Symbols};
+use crate::program::script::{Place, short};
+use crate::program::{TargetId, number};
+use std::collections::{BTreeSet, HashSet};
+
+/// Which element of an array is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Index {
+    /// The variable itself.
+    Whole,
+    /// This element.
+    At([u32; 3]),
+    /// One that only the running program knows.
+    Variable,
+}
+
+impl Index {
+    /// The element between brackets.
+    pub fn of(at: Option<(usize, usize)>, cursor: &Cursor) -> Self {
+        let Some((start, end)) = at else {
+            return Self::Whole;
+        };
+        let mut place = [0; 3];
+        let mut parts = cursor.bytes[start..end].split(|&b| b == b',');
+        for slot in &mut place {
+            let Some(part) = parts.next() else { break };
+            match whole(number::parse(part.trim_ascii())) {
+                Some(value) => *slot = value,
+                None => return Self::Variable,
+            }
+        }
+        if parts.next().is_some() {
+            return Self::Variable;
+        }
+        Self::At(place)
+    }
+}
+
+/// A whole number of a table.
+pub fn whole(value: Option<f64>) -> Option<u32> {
+    let value = value.filter(|v| v.fract() == 0.0 && (0.0..1e9).contains(v))?;
+    // 0 to 1e9 is checked
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    Some(value as u32)
+}
+
+/// What a variable holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DataKind {
+    /// FRAME: a target where a move goes to it, else an offset or a work frame.
+    Frame,
+    /// POS, E3POS, E6POS.
+    Position,
+    /// AXIS, E3AXIS, E6AXIS.
+    Axes,
+    /// FDAT: numbers of a tool and a base.
+    Fdat,
+    /// INT.
+    Number,
+    /// Anything else.
+    Other,
+}
+
+impl DataKind {
+    /// The kind of a type in capitals.
+    pub fn named(word: &[u8]) -> Self {
+        match word {
+            b"FRAME" => Self::Frame,
+            b"POS" | b"E3POS" | b"E6POS" => Self::Position,
+            b"AXIS" | b"E3AXIS" | b"E6AXIS" => Self::Axes,
+            b"FDAT" => Self::Fdat,
+            b"INT" => Self::Number,
+            _ => Self::Other,
+        }
+    }
+
+    /// Whether it is somewhere to go to.
+    pub fn is_place(self) -> bool {
+        matches!(self, Self::Frame | Self::Position | Self::Axes)
+    }
+}
+
+/// A declared variable.
+#[derive(Clone, Copy, Debug)]
+pub struct Datum {
+    pub name: Symbol,
+    pub context: Context,
+    pub kind: DataKind,
+    pub place: Place,
+    /// It stands in a data list, which the controller keeps.
+    pub kept: bool,
+}
+
+/// The value of a variable.
+#[derive(Clone, Copy, Debug)]
+pub enum Stored {
+    /// A position or axes.
+    Target(TargetId),
+    /// Numbers of a tool and a base.
+    Fdat(Fdat),
+    /// A whole number.
+    Number(u32),
+    /// Not written out.
+    Computed,
+}
+
+/// What FDAT tells; `None` is: it does not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub struct Fdat {
+    pub tool: Option<u32>,
+    pub base: Option<u32>,
+    /// The robot holds the work piece and the tool stands still.
+    pub is_external: Option<bool>,
+}
+
+/// A routine, beside what the script has of it.
+#[derive(Clone, Debug)]
+pub struct Head {
+    pub module: u32,
+    /// Its parameters, and whether it may write what they are given.
+    pub parameters: Vec<(u32, bool)>,
+}
+
+/// A module: the files of one name.
+#[derive(Clone, Debug)]
+pub struct Module {
+    pub key: String,
+    pub has_routine: bool,
+    /// The data list is one of the controller: only what moves use is a target.
+    pub is_system: bool,
+}
+
+/// What is declared in all files.
+#[derive(Debug, Default)]
+pub struct Names {
+    pub symbols: Symbols,
+    pub modules: Vec<Module>,
+    pub heads: Vec<Head>,
+    pub data: Vec<Datum>,
+    scopes: Scopes,
+    routines: Scopes,
+    /// Values by declaration and element, in that order once all are read.
+    pub values: Vec<(u32, Index, Stored)>,
+    /// The last declaration of each symbol.
+    last: Vec<u32>,
+    /// Names that statements write or hand to routines.
+    pub touched: HashSet<Symbol>,
+    /// Elements of arrays likewise.
+    pub elements: BTreeSet<(Symbol, Index)>,
+    /// Names that choose tools, bases and loads.
+    pub choosing: HashSet<Symbol>,
+}
+
+impl Names {
+    /// The module of a file.
+    pub fn module(&mut self, file: &str) -> u32 {
+        let key = module_key(file);
+        let known = self.modules.iter().rposition(|module| module.key == key);
+        short(known.unwrap_or_else(|| {
+            self.modules.push(Module {
+                is_system: is_system(&key),
+                key,
+                has_routine: false,
+            });
+            self.modules.len() - 1
+        }))
+    }
+
+    /// Adds a variable; one of a routine may be a parameter whose type was not told yet.
+    pub fn declare(&mut self, datum: Datum, global: bool) -> u32 {
+        let at = datum.name.0 as usize;
+        if self.last.len() <= at {
+            self.last.resize(at + 1, u32::MAX);
+        }
+        if datum.context.routine.is_some()
+            && let Some(known) = self.data.get_mut(self.last[at] as usize)
+            && known.context == datum.context
+        {
+            known.kind = datum.kind;
+            return self.last[at];
+        }
+        let id = short(self.data.len());
+        self.scopes.add(datum.name, datum.context, !global, id);
+        self.data.push(datum);
+        self.last[at] = id;
+        id
+    }
+
+    /// The last variable of a name, where that is one of a module.
+    pub fn last_of(&self, name: Symbol, module: u32) -> Option<u32> {
+        let last = *self.last.get(name.0 as usize)?;
+        let datum = self.data.get(last as usize)?;
+        (datum.context.module == module).then_some(last)
+    }
+
+    /// Adds a routine, the next of the script; the first of a file is seen everywhere.
+    pub fn add_routine(&mut self, name: Symbol, head: Head, global: bool) {
+        let module = head.module;
+        let known = &mut self.modules[module as usize].has_routine;
+        let first = !std::mem::replace(known, true);
+        let context = Context {
+            module,
+            routine: None,
+        };
+        let id = short(self.heads.len());
+        self.routines.add(name, context, !(first || global), id);
+        self.heads.push(head);
+    }
+
+    /// Puts values in order, once all are read.
+    pub fn settle(&mut self) {
+        self.values.sort_by_key(|&(datum, index, _)| (datum, index));
+    }
+
+    /// The routine of a name.
+    pub fn routine(&self, name: Symbol, context: Context) -> Option<u32> {
+        match self.routines.meaning(name, context) {
+            Meaning::One(routine) => Some(routine),
+            _ => None,
+        }
+    }
+
+    /// What a name means.
+    pub fn meaning(&self, name: Symbol, context: Context) -> Meaning {
+        self.scopes.meaning(name, context)
+    }
+
+    /// The declarations that an ambiguous name may mean.
+    pub fn several(&self, list: u32) -> &[u32] {
+        self.scopes.several(list)
+    }
+
+    /// The one declaration of a name.
+    pub fn datum(&self, name: Symbol, context: Context) -> Option<u32> {
+        match self.meaning(name, context) {
+            Meaning::One(datum) => Some(datum),
+            _ => None,
+        }
+    }
+
+    pub fn kind(&self, name: Symbol, context: Context) -> Option<DataKind> {
+        let datum = self.datum(name, context)?;
+        Some(self.data[datum as usize].kind)
+    }
+
+    /// The values of a declaration, or of one element of it.
+    pub fn values(&self, datum: u32, at: Index) -> &[(u32, Index, Stored)] {
+        let first = self.values.partition_point(|&(d, ..)| d < datum);
+        let rest = &self.values[first..];
+        if at == Index::Variable {
+            let count = rest.iter().take_while(|&&(d, ..)| d == datum).count();
+            return &rest[..count];
+        }
+        let before = |&(d, i, _): &(u32, Index, Stored)| (d, i) < (datum, at);
+        let skip = match rest.first() {
+            Some(first) if before(first) => rest.partition_point(before),
+            _ => 0,
+        };
+        let is = |&&(d, i, _): &&(u32, Index, Stored)| (d, i) == (datum, at);
+        let count = rest[skip..].iter().take_while(is).count();
+        &rest[skip..skip + count]
+    }
+
+    /// The only value of an element, where nothing writes it.
+    pub fn constant(&self, name: Symbol, at: Index, context: Context) -> Option<Stored> {
+        let datum = self.datum(name, context)?;
+        match self.values(datum, at) {
+            [(_, _, value)] if !self.touched.contains(&name) => Some(*value),
+            _ => None,
+        }
+    }
+}
+
+/// What the files of one module have in common: folder and name without ending, in lower case.
+fn module_key(name: &str) -> String {
+    let lower = name.to_ascii_lowercase();
+    let name_start = lower.rfind(['/', '\\']).map_or(0, |at| at + 1);
+    match lower[name_start..].rfind('.') {
+        Some(dot) if dot > 0 => lower[..name_start + dot].to_owned(),
+        _ => lower,
+    }
+}
+
+/// Whether a data list is one of the controller's own.
+fn is_system(key: &str) -> bool {
+    let mut parts = key.rsplit(['/', '\\']);
+    parts.next().is_some_and(|name| name.starts_with('$'))
+        || parts.any(|folder| matches!(folder, "mada" | "steu"))
+}

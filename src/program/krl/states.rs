@@ -1,0 +1,474 @@
+//! Statements that set tools, bases, loads and modes: `$TOOL=`, BAS, FDAT, entries of tables.
+
+use super::aggregate;
+use super::frames::{Choice, State, Table, assigned, moving, part, record};
+use super::names::{Index, Stored, whole};
+use super::reader::{Reader, fdat, is_external, load};
+use super::tokens::{Cursor, Kind, Read, Token, capitals};
+use crate::program::names::Symbol;
+use crate::program::number;
+use crate::program::script::{
+    Expr, How, Part, PartValue, Place, VariableId, Write, Written, short,
+};
+
+impl Reader {
+    /// Sets a state of the controller.
+    pub(super) fn set(&mut self, place: Place, state: State, value: Expr) {
+        if matches!(state, State::Tool | State::Base | State::Ipo) {
+            self.last = None;
+        }
+        let variable = self.modal.states[state as usize];
+        self.put(place, variable, value);
+    }
+
+    pub(super) fn put(&mut self, place: Place, variable: VariableId, value: Expr) {
+        self.builder.write(Write {
+            place,
+            variable: Written::One(variable),
+            how: How::Whole(value),
+        });
+    }
+
+    /// The number of a tool, base or load up to the end of the cursor: `3`, `n`, `FP1.TOOL_NO`.
+    fn choice(&mut self, mut cursor: Cursor, table: Table) -> Option<Choice> {
+        let token = cursor.next();
+        if token.kind == Kind::Number {
+            let alone = cursor.peek().kind == Kind::End;
+            let value = whole(number::parse(cursor.text(token))).filter(|_| alone)?;
+            return Some(Choice::Entry(value));
+        }
+        if token.kind != Kind::Name {
+            return None;
+        }
+        let mut buffer = [0; 24];
+        let word = capitals(cursor.text(token), &mut buffer);
+        if let (Some(state @ (State::ActTool | State::ActBase)), Kind::End) =
+            (State::named(word), cursor.peek().kind)
+        {
+            return Some(Choice::By(self.modal.states[state as usize]));
+        }
+        let is_active = word == b"FDAT_ACT";
+        let name = self.symbol(&cursor, token);
+        let at = Index::of(cursor.brackets().ok()?, &cursor);
+        if cursor.take(b'.') {
+            let mut buffer = [0; 24];
+            let part = cursor.next();
+            let is_tool = match capitals(cursor.text(part), &mut buffer) {
+                b"TOOL_NO" => true,
+                b"BASE_NO" => false,
+                _ => return None,
+            };
+            if is_active {
+                let state = if is_tool {
+                    State::FdatTool
+                } else {
+                    State::FdatBase
+                };
+                return Some(Choice::By(self.modal.states[state as usize]));
+            }
+            let fdat = self.fdat_of(name, at)?;
+            let number = if is_tool { fdat.tool } else { fdat.base };
+            return number.map(Choice::Entry);
+        }
+        if cursor.peek().kind != Kind::End {
+            return None;
+        }
+        if let Some(fdat) = self.fdat_of(name, at) {
+            let number = if table == Table::Base {
+                fdat.base
+            } else {
+                fdat.tool
+            };
+            return number.map(Choice::Entry);
+        }
+        let context = self.context();
+        if let Some(Stored::Number(number)) = self.names.constant(name, at, context) {
+            return Some(Choice::Entry(number));
+        }
+        if !self.names.choosing.contains(&name) || at != Index::Whole {
+            return None;
+        }
+        match self.named(name, at) {
+            Some(Expr::Variable(variable)) => Some(Choice::By(variable)),
+            _ => None,
+        }
+    }
+
+    /// The value given to a state, up to a comma or the end of the line.
+    pub(super) fn state_value(&mut self, state: State, cursor: &mut Cursor) -> Read<Expr> {
+        Ok(match state {
+            State::Tool => self.frame(Table::Tool, "$TOOL", cursor)?,
+            State::Base => self.frame(Table::Base, "$BASE", cursor)?,
+            State::Load => self.load_expr(cursor)?,
+            State::Ipo => {
+                let mode = self.mode(cursor);
+                self.mode_value(mode)
+            }
+            _ => {
+                let choice = self.choice(*cursor, Table::Tool);
+                self.number_of(choice)
+            }
+        })
+    }
+
+    /// `#TCP`, `SIPO_MODE(FP1.IPO_FRAME)`
+    fn mode(&mut self, cursor: &mut Cursor) -> Option<bool> {
+        if cursor.take(b'#') {
+            let name = cursor.next();
+            return is_external(cursor.text(name));
+        }
+        let name = cursor.next();
+        let is_function = cursor.text(name).eq_ignore_ascii_case(b"SIPO_MODE");
+        let inner = inside(cursor).filter(|_| is_function)?;
+        let mut inner = inner;
+        if inner.take(b'#') {
+            let name = inner.next();
+            return is_external(inner.text(name));
+        }
+        let token = inner.next();
+        let name = self.symbol(&inner, token);
+        let at = Index::of(inner.brackets().ok()?, &inner);
+        self.fdat_of(name, at)?.is_external
+    }
+
+    /// A tool or base up to a comma or the end of the line; one that is written out is called `name`.
+    pub(super) fn frame(&mut self, table: Table, name: &str, cursor: &mut Cursor) -> Read<Expr> {
+        let found = self.plain_frame(table, name, cursor)?;
+        match cursor.blanks() {
+            0 | b',' | b';' => Ok(found),
+            // C_DIS behind the last WITH
+            _ if cursor.peek().kind == Kind::Name => Ok(found),
+            _ => {
+                super::moves::skip_value(cursor);
+                Ok(self.chosen())
+            }
+        }
+    }
+
+    fn plain_frame(&mut self, table: Table, called: &str, cursor: &mut Cursor) -> Read<Expr> {
+        if cursor.blanks() == b'{' {
+            let found = aggregate::read(cursor)?;
+            let file = self.file;
+            return Ok(match found.frame() {
+                Some(numbers) => {
+                    let parts = numbers.map(|number| part(number, file));
+                    Expr::Value(record(&mut self.builder.script, called, &parts))
+                }
+                None => self.chosen(),
+            });
+        }
+        let name = cursor.next();
+        if name.kind != Kind::Name {
+            return Ok(self.chosen());
+        }
+        let at = cursor.brackets()?;
+        let mut buffer = [0; 24];
+        let word = capitals(cursor.text(name), &mut buffer);
+        if let (Some(of @ (Table::Tool | Table::Base)), Some((start, end))) =
+            (Table::named(word), at)
+            && !matches!(cursor.blanks(), b'.' | b'(')
+        {
+            let choice = self.choice(cursor.part(start, end), of);
+            return Ok(self.element(of, choice));
+        }
+        if matches!(cursor.blanks(), b'(') {
+            let inner = inside(cursor);
+            return Ok(match (word, inner) {
+                (b"STOOL" | b"STOOL2", Some(inner)) => {
+                    let choice = self.choice(inner, Table::Tool);
+                    self.element(Table::Tool, choice)
+                }
+                (b"SBASE", Some(inner)) => {
+                    let choice = self.choice(inner, Table::Base);
+                    self.element(Table::Base, choice)
+                }
+                (b"EK", _) if table == Table::Base => self.unknown(moving()),
+                _ => self.chosen(),
+            });
+        }
+        if cursor.blanks() == b'.' {
+            cursor.skip();
+            return Ok(self.chosen());
+        }
+        match (table, word) {
+            (_, b"$NULLFRAME") | (Table::Base, b"$WORLD") => {
+                let name = std::str::from_utf8(word).unwrap_or_default();
+                Ok(self.known_frame(name, PartValue::Number(0.0)))
+            }
+            (_, b"$TOOL") => Ok(self.modal.expr(State::Tool)),
+            (_, b"$BASE") => Ok(self.modal.expr(State::Base)),
+            _ => {
+                let symbol = self.symbol(cursor, name);
+                let at = Index::of(at, cursor);
+                Ok(self.frame_named(symbol, at))
+            }
+        }
+    }
+
+    /// A tool or base that is a variable.
+    fn frame_named(&mut self, name: Symbol, at: Index) -> Expr {
+        match self.named(name, at) {
+            Some(Expr::Unknown(_)) => self.chosen(),
+            Some(found) => found,
+            None => {
+                let spelled = self.names.symbols.spelling(name).to_owned();
+                self.known_frame(&spelled, PartValue::Missing)
+            }
+        }
+    }
+
+    /// A load up to a comma or the end of the line.
+    fn load_expr(&mut self, cursor: &mut Cursor) -> Read<Expr> {
+        if cursor.blanks() == b'{' {
+            let load = load(cursor)?;
+            return Ok(self.load_value(load));
+        }
+        let name = cursor.next();
+        let at = cursor.brackets()?;
+        let mut buffer = [0; 24];
+        let choice = match (capitals(cursor.text(name), &mut buffer), at) {
+            (b"LOAD_DATA", Some((start, end))) => self.choice(cursor.part(start, end), Table::Load),
+            (b"SLOAD", None) => inside(cursor).and_then(|inner| self.choice(inner, Table::Load)),
+            _ => None,
+        };
+        let is_whole = !matches!(cursor.blanks(), b'.' | b':');
+        Ok(match choice.filter(|_| is_whole) {
+            None => {
+                cursor.skip();
+                self.load_value(None)
+            }
+            choice => self.element(Table::Load, choice),
+        })
+    }
+
+    /// `BAS(#TOOL,1)`
+    pub(super) fn bas(&mut self, first: Token, mut cursor: Cursor) {
+        let place = self.place(first);
+        cursor.take(b'(');
+        if !cursor.take(b'#') {
+            // a command that only the running program knows
+            for state in [State::Tool, State::Base] {
+                let chosen = self.chosen();
+                self.set(place, state, chosen);
+            }
+            return;
+        }
+        let command = cursor.next();
+        let argument = cursor.take(b',').then(|| {
+            let start = cursor.at;
+            cursor.skip();
+            cursor.part(start, cursor.at)
+        });
+        let choice = |reader: &mut Self, table| match argument {
+            Some(argument) => reader.choice(argument, table),
+            None => Some(Choice::Entry(0)),
+        };
+        let mut buffer = [0; 24];
+        match capitals(cursor.text(command), &mut buffer) {
+            b"INITMOV" => {
+                let [tool, base] = self.modal.initial.map(Expr::Value);
+                self.set(place, State::Tool, tool);
+                self.set(place, State::Base, base);
+                self.set(place, State::Ipo, Expr::Value(self.modal.on));
+            }
+            b"TOOL" => {
+                let choice = choice(self, Table::Tool);
+                self.choose(place, Table::Tool, choice);
+            }
+            b"BASE" => {
+                let choice = choice(self, Table::Base);
+                self.choose(place, Table::Base, choice);
+            }
+            b"FRAMES" | b"PTP_PARAMS" | b"CP_PARAMS" | b"PARAMS" => {
+                let [tool, base] = [State::FdatTool, State::FdatBase]
+                    .map(|state| Choice::By(self.modal.states[state as usize]));
+                self.choose(place, Table::Tool, Some(tool));
+                self.choose(place, Table::Base, Some(base));
+                self.set(place, State::Ipo, self.modal.expr(State::FdatIpo));
+            }
+            _ => {}
+        }
+    }
+
+    /// Sets a tool with its load, or a base, of a table.
+    fn choose(&mut self, place: Place, table: Table, choice: Option<Choice>) {
+        let (state, active, name) = match table {
+            Table::Base => (State::Base, State::ActBase, &b"$act_base"[..]),
+            _ => (State::Tool, State::ActTool, &b"$act_tool"[..]),
+        };
+        let frame = self.element(table, choice);
+        self.set(place, state, frame);
+        if table == Table::Tool {
+            let load = match choice {
+                Some(_) => self.element(Table::Load, choice),
+                None => self.load_value(None),
+            };
+            self.set(place, State::Load, load);
+        }
+        let used = self.names.symbols.find(name);
+        if used.is_some_and(|name| self.names.choosing.contains(&name)) {
+            let number = self.number_of(choice);
+            self.set(place, active, number);
+        }
+    }
+
+    /// `FDAT_ACT=FP1`, `FDAT_ACT={...}`; the cursor stands behind `=`.
+    pub(super) fn activate(&mut self, place: Place, cursor: &mut Cursor) -> Read<()> {
+        let found = if cursor.blanks() == b'{' {
+            Some(fdat(cursor)?)
+        } else {
+            let token = cursor.next();
+            let name = self.symbol(cursor, token);
+            let at = Index::of(cursor.brackets()?, cursor);
+            self.fdat_of(name, at)
+        };
+        let fdat = found.unwrap_or_default();
+        for (state, number) in [(State::FdatTool, fdat.tool), (State::FdatBase, fdat.base)] {
+            let value = self.number_of(number.map(Choice::Entry));
+            self.set(place, state, value);
+        }
+        let mode = self.mode_value(fdat.is_external);
+        self.set(place, State::FdatIpo, mode);
+        Ok(())
+    }
+
+    /// `FDAT_ACT.TOOL_NO=3`; the cursor stands behind `=`.
+    pub(super) fn activate_part(&mut self, place: Place, part: &[u8], cursor: &mut Cursor) {
+        let state = match part {
+            b"TOOL_NO" => State::FdatTool,
+            b"BASE_NO" => State::FdatBase,
+            b"IPO_FRAME" => {
+                let mode = self.mode(cursor);
+                let mode = self.mode_value(mode);
+                return self.set(place, State::FdatIpo, mode);
+            }
+            _ => return,
+        };
+        let choice = self.choice(*cursor, Table::Tool);
+        let value = self.number_of(choice);
+        self.set(place, state, value);
+    }
+
+    /// A write of a state, or of one of its parts; the cursor stands behind `=`.
+    pub(super) fn write_state(
+        &mut self,
+        place: Place,
+        state: State,
+        part: Option<&[u8]>,
+        cursor: &mut Cursor,
+    ) -> Read<()> {
+        let variable = Written::One(self.modal.states[state as usize]);
+        match part {
+            None => {
+                let value = self.state_value(state, cursor)?;
+                self.set(place, state, value);
+            }
+            Some(part) if matches!(state, State::Tool | State::Base) => {
+                self.last = None;
+                self.write_part(place, variable, part, *cursor);
+            }
+            Some(_) => {
+                let unknown = self.load_value(None);
+                self.set(place, state, unknown);
+            }
+        }
+        Ok(())
+    }
+
+    /// `$TOOL.X=...`, `BASE_DATA[1].X=...`
+    fn write_part(&mut self, place: Place, variable: Written, part: &[u8], mut cursor: Cursor) {
+        let at = match part {
+            [letter] => b"XYZABC".iter().position(|known| known == letter),
+            _ => None,
+        };
+        let Some(at) = at else { return };
+        cursor.blanks();
+        let start = cursor.at;
+        let text = &cursor.bytes[start..cursor.end];
+        let text = text.split(|&b| b == b';').next().unwrap_or_default();
+        let text = text.trim_ascii_end();
+        let value = number::parse(text).filter(|value| value.abs() < aggregate::LARGEST);
+        let script = &mut self.builder.script;
+        script.parts.push(Part {
+            value: value.map_or(PartValue::Computed, PartValue::Number),
+            place: Place {
+                offset: short(start),
+                ..place
+            },
+            length: u16::try_from(text.len()).unwrap_or(u16::MAX),
+        });
+        let parts = short(script.parts.len() - 1)..short(script.parts.len());
+        self.builder.write(Write {
+            place,
+            variable,
+            how: How::Parts {
+                first: short(at),
+                parts,
+            },
+        });
+    }
+
+    /// `BASE_DATA[2]={...}`, `TOOL_DATA[n].X=...`; the cursor stands behind `=`.
+    pub(super) fn write_entry(
+        &mut self,
+        place: Place,
+        table: Table,
+        at: Option<(usize, usize)>,
+        part: Option<&[u8]>,
+        cursor: &mut Cursor,
+    ) -> Read<()> {
+        let entry = match Index::of(at, cursor) {
+            Index::At([entry, 0, 0]) => Some(entry),
+            _ => None,
+        };
+        let variable = match entry {
+            Some(entry) => Written::One(self.entry(table, entry)),
+            None => Written::AnyOf(self.modal.tables[table as usize]),
+        };
+        if let Some(part) = part {
+            if table == Table::Load {
+                let how = How::Whole(self.load_value(None));
+                self.builder.write(Write {
+                    place,
+                    variable,
+                    how,
+                });
+            } else {
+                self.write_part(place, variable, part, *cursor);
+            }
+            return Ok(());
+        }
+        let name = format!("{}[{}]", table.name(), entry.unwrap_or_default());
+        let value = match table {
+            Table::Load => self.load_expr(cursor)?,
+            _ => match self.frame(table, &name, cursor)? {
+                Expr::Unknown(_) => self.unknown(assigned()),
+                known => known,
+            },
+        };
+        self.builder.write(Write {
+            place,
+            variable,
+            how: How::Whole(value),
+        });
+        Ok(())
+    }
+}
+
+/// What stands in the brackets in front, which are taken.
+fn inside<'a>(cursor: &mut Cursor<'a>) -> Option<Cursor<'a>> {
+    if !cursor.take(b'(') {
+        return None;
+    }
+    let start = cursor.at;
+    loop {
+        cursor.skip();
+        let end = cursor.at;
+        if cursor.take(b')') {
+            return Some(cursor.part(start, end));
+        }
+        if !cursor.take(b',') && !cursor.take(b':') {
+            return None;
+        }
+    }
+}

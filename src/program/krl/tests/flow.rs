@@ -1,0 +1,234 @@
+//! Moves through calls, branches and what runs beside the program.
+
+use super::*;
+use crate::program::Before;
+
+/// For each move where it goes, and the moves that come before it, by index; `None` is the start or anywhere.
+fn chain(program: &Program) -> Vec<(&str, Vec<Option<u32>>)> {
+    let before = |motion| {
+        let before = program.before(motion).iter();
+        before
+            .map(|before| match before {
+                Before::One(at) => Some(*at),
+                _ => None,
+            })
+            .collect()
+    };
+    let befores = program.moves.iter().map(before);
+    to(program).into_iter().zip(befores).collect()
+}
+
+const MOVE: &str = "DEF rm(p:IN, q:OUT)\nDECL E6POS p,q\nLIN p\nLIN q\nEND\n";
+
+#[test]
+fn positions_are_handed_to_routines_of_the_files() {
+    let text = format!(
+        "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nrm(XP1,XP2)\nBAS(#BASE,3)\nrm({{X 1,Y 2,Z 3,A 0,B 0,C 0}},XP3)\nEND\n{MOVE}"
+    );
+    let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
+    let mut found: Vec<_> = program
+        .moves
+        .iter()
+        .map(|m| {
+            let name = program.targets[m.target.unwrap()].name.as_deref();
+            (name.unwrap_or("-"), program.frames[m.frame].name.as_str())
+        })
+        .collect();
+    found.sort_unstable();
+    let expected = [
+        ("-", "BASE_DATA[3]"),
+        ("XP1", "BASE_DATA[2]"),
+        ("XP2", "BASE_DATA[2]"),
+        ("XP3", "BASE_DATA[3]"),
+    ];
+    assert_eq!(found, expected);
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
+fn elements_are_handed_to_routines_of_the_files() {
+    let data = "DEFDAT M\nDECL E6POS w[2]\nw[1]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nw[2]={X 2,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
+    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nto(w[1])\nFOR i=1 TO 2\nLIN w[i]\nENDFOR\nEND\n\
+        DEF to(p:IN)\nE6POS p\nPTP p\nEND\n";
+    let program = read_files(&[("m.src", text), ("m.dat", data)]);
+    assert_eq!(to(&program), ["w[1]", "w[2]", "w[1]"]);
+    assert_eq!(ids(&program), [""; 0]);
+}
+
+#[test]
+fn what_a_routine_writes_through_a_parameter_comes_back() {
+    let text = "DEF M()\nDECL E6POS near\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nabove(near,XP1)\nLIN near\nLIN XP1\nEND\n\
+        DEF above(out:OUT,p:IN)\nDECL E6POS out,p\nout=p:{X 0,Y 0,Z -50,A 0,B 0,C 0}\nEND\n";
+    let program = read_files(&[("m.src", text), ("m.dat", DATA)]);
+    assert_eq!(to(&program), ["XP1", "XP1"]);
+    assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
+fn routines_begin_where_the_caller_is_and_the_caller_goes_on_where_they_end() {
+    let text = "DEF M()\nPTP XP1\nsub()\nLIN XP1\nEND\nDEF sub()\nLIN XP2\nIF $IN[1] THEN\nLIN XP3\nENDIF\nEND\n";
+    let program = read_files(&[("m.src", text), ("m.dat", DATA)]);
+    let expected = [
+        ("XP1", vec![None]),
+        ("XP1", vec![Some(2), Some(3)]),
+        ("XP2", vec![Some(0)]),
+        ("XP3", vec![Some(2)]),
+    ];
+    assert_eq!(chain(&program), expected);
+}
+
+#[test]
+fn moves_to_positions_nobody_knows_are_moves() {
+    for (text, id, severity) in [
+        ("PTP XHOME2", "joint-target-not-in-files", Severity::Note),
+        ("PTP_REL {A6 -0.001}", "relative-joint-move", Severity::Note),
+        ("PTP $POS_RET", "run-time-position", Severity::Note),
+        ("LIN nowhere", "target-not-in-files", Severity::Error),
+        ("LIN_REL off", "relative-move", Severity::Error),
+    ] {
+        let program = path(&format!("PTP XP1\n{text}\nLIN XP2"));
+        let expected = [
+            ("XP1", vec![None]),
+            ("?", vec![Some(0)]),
+            ("XP2", vec![Some(1)]),
+        ];
+        assert_eq!(chain(&program), expected, "{text}");
+        let found: Vec<_> = program.findings.iter().filter(|f| f.id == id).collect();
+        assert_eq!(found.len(), 1, "{text}: {:?}", program.findings);
+        assert_eq!(found[0].severity, severity, "{text}");
+    }
+    // to where it is the robot does not go
+    let program = path("PTP XP1\nPTP $AXIS_ACT\nLIN XP2");
+    assert_eq!(chain(&program)[1], ("XP2", vec![Some(0)]));
+}
+
+#[test]
+fn run_time_positions_are_kept_in_variables() {
+    let program =
+        path("DECL E6POS here\nhere=$POS_ACT\nLIN XP1\nLIN here\nhere.Z=here.Z+10\nLIN here");
+    assert_eq!(to(&program), ["XP1", "?", "?"]);
+    let mut ids = told(&program);
+    ids.sort_unstable();
+    assert_eq!(ids, ["computed-target", "run-time-position"]);
+    assert!(
+        program
+            .findings
+            .iter()
+            .all(|f| f.severity < Severity::Error)
+    );
+}
+
+#[test]
+fn external_axes_in_use_are_refused_by_name() {
+    let at = |e: &str| format!("LIN {{X 1,Y 2,Z 3,A 0,B 0,C 0,{e}}}");
+    for unused in ["E1 0.0,E2 0", "E1 9E+09,E2 9.0E9"] {
+        assert_eq!(told(&path(&at(unused))), [""; 0], "{unused}");
+    }
+    for (used, shown) in [
+        ("E1 1800.0", "E1 goes to 1800"),
+        ("E1 0,E3 -1500", "E3 goes to -1500"),
+        ("E2 q", "E2 goes to an expression"),
+    ] {
+        let program = path(&at(used));
+        assert_eq!(told(&program), ["external-axis"], "{used}");
+        assert_eq!(blocked(&program), ["-"], "{used}");
+        assert!(program.findings[0].message.contains(shown), "{used}");
+    }
+    // in data, and only where a move goes there
+    let data = DATA.replace("T 35,E1 0.0,", "T 35,E1 12.5,");
+    for (text, count) in [("LIN XP1\nLIN XP1", 1), ("LIN XP2", 0)] {
+        let text = format!("DEF M()\n{text}\nEND\n");
+        let program = read_files(&[("m.src", &text), ("m.dat", &data)]);
+        let found = program.findings.iter().filter(|f| f.id == "external-axis");
+        assert_eq!(found.count(), count, "{text}");
+    }
+}
+
+#[test]
+fn arcs_that_go_on_to_an_angle_are_refused() {
+    let program =
+        path("LIN XP1\nCIRC XP2,XP3,CA 180\nSCIRC XP2,{X 1,Y 2,Z 3,A 0,B 0,C 0}, CA 30.5 C_SPL");
+    assert_eq!(told(&program), ["circular-angle"; 3]);
+    assert_eq!(blocked(&program), ["-", "XP2", "XP3"]);
+    let program = path("LIN XP1\nCIRC XP2,XP3 C_DIS ; CA 180");
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
+fn routines_of_interrupts_run_at_any_time() {
+    for decl in [
+        "GLOBAL INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO stop()",
+        "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO stop()",
+        "TRIGGER WHEN DISTANCE=1 DELAY=0 DO stop() PRIO=-1",
+    ] {
+        let text = format!(
+            "DEF M()\n{decl}\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN XP1\nLIN XP2\nEND\nDEF stop()\nBRAKE\n$BASE=$WORLD\nLIN XP3\nEND\n"
+        );
+        let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
+        assert_eq!(to(&program), ["XP1", "XP1", "XP2", "XP2", "XP3"], "{decl}");
+        let found = program
+            .moves
+            .iter()
+            .map(|m| program.frames[m.frame].name.as_str());
+        let mut found: Vec<_> = found.collect();
+        found.dedup();
+        assert_eq!(found.last(), Some(&"$WORLD"), "{decl}");
+        assert!(found.contains(&"BASE_DATA[1]"), "{decl}");
+        assert_eq!(chain(&program)[4].1, [None], "{decl}");
+    }
+}
+
+#[test]
+fn functions_that_are_not_in_the_files_may_move_to_what_they_are_given() {
+    for text in [
+        "b=place(XP1)",
+        "IF place(XP1) THEN\nENDIF",
+        "WAIT FOR place(XP1)",
+        "$BASE=base(XP1)",
+    ] {
+        let program = path(&format!("{text}\nBAS(#BASE,2)\nLIN XP1"));
+        assert_eq!(blocked(&program), ["XP1"], "{text}");
+        assert!(
+            told(&program).contains(&"target-passed-to-routine"),
+            "{text}"
+        );
+    }
+    for text in [
+        "b=ABS(x)+VARSTATE(\"XP1\")",
+        "q=FORWARD(XHOME,err)",
+        "b=INV_POS(XP1)",
+    ] {
+        let program = path(&format!("{text}\nLIN XP1"));
+        assert_eq!(told(&program), [""; 0], "{text}");
+    }
+}
+
+#[test]
+fn instructions_keep_where_their_parts_stand() {
+    let text = "DEF M()\n  LIN XP1 WITH $VEL={CP 0.25} C_DIS ; way\nCIRC {X 1,Y 2,Z 3,A 0,B 0,C 0} , XP2\nEND\n";
+    let program = read_files(&[("m.src", text), ("m.dat", DATA)]);
+    let shown: Vec<_> = program
+        .instructions
+        .iter()
+        .map(|i| {
+            let target = i.target_span.range().map(|span| &text[span]);
+            (
+                &text[i.place.offset as usize..i.end as usize],
+                target.unwrap_or(""),
+            )
+        })
+        .collect();
+    let arc = "CIRC {X 1,Y 2,Z 3,A 0,B 0,C 0} , XP2";
+    assert_eq!(
+        shown,
+        [
+            ("LIN XP1 WITH $VEL={CP 0.25} C_DIS", "XP1"),
+            (arc, "{X 1,Y 2,Z 3,A 0,B 0,C 0}"),
+            (arc, "XP2")
+        ]
+    );
+    let pace = program.moves[0].pace;
+    assert!(pace.cuts_corner() && pace.speed_m_s == Some(0.25));
+    assert_eq!(program.moves[2].pace.zone_m, Some(0.0));
+}

@@ -1,0 +1,145 @@
+//! The text of `axes`.
+
+use crate::report::Style;
+use crate::report::layout::{aligned, row};
+use crate::task::axes::{Axes, Joint};
+use crate::task::parts::Sigma;
+
+/// What is said of the noise where it is not known.
+const NO_NOISE: &str = "not known: three rows a sweep leave nothing to tell the noise by";
+
+pub(super) fn text(found: &Axes, style: Style) -> String {
+    let mut rows = vec![
+        row([
+            "joint",
+            "radius",
+            "tangential",
+            "",
+            "radial",
+            "",
+            "axial",
+            "",
+            "backlash",
+            "",
+        ]),
+        row([
+            "", "mm", "rms mdeg", "max", "rms mm", "max", "rms mm", "max", "mdeg", "+/-",
+        ]),
+    ];
+    rows.extend(found.joints.iter().map(joint));
+    let mut text = aligned(&rows, style.width);
+    for frame in frames(found) {
+        let Some(pose) = frame.pose else {
+            text += &format!(
+                "{}: needs the sweeps of joints {}\n",
+                frame.key, frame.joints
+            );
+            continue;
+        };
+        let [x, y, z] = pose.xyz_mm();
+        // a zero has no sign
+        let [rx, ry, rz] = pose.rxryrz_deg().map(|r| (r * 1e5).round() / 1e5 + 0.0);
+        text += &format!(
+            "{}\n  {{x_mm:\u{a0}{x:.4}, y_mm:\u{a0}{y:.4}, z_mm:\u{a0}{z:.4}, \
+             rx_deg:\u{a0}{rx:.5}, ry_deg:\u{a0}{ry:.5}, rz_deg:\u{a0}{rz:.5}}}\n  sigma {}\n",
+            frame.key, frame.sigma
+        );
+        text += &match &frame.sag {
+            Some((typical, sag)) => {
+                let whose = if *typical {
+                    "as much as an arm of typical stiffness"
+                } else {
+                    "by the profile's compliance"
+                };
+                let share = if frame.sigma == NO_NOISE {
+                    "sag alone"
+                } else {
+                    "of it sag"
+                };
+                format!("  {share} under gravity, {whose}: {sag}\n")
+            }
+            None => "  sag under gravity is not in it: the profile has no masses\n".into(),
+        };
+        if !frame.oriented {
+            text += "  orientation not measured, the flange's is told\n";
+        }
+    }
+    text
+}
+
+fn joint(of: &Joint) -> Vec<String> {
+    let mdeg = |angle: f64| format!("{:.2}", 1e3 * angle);
+    let mm = |length: f64| format!("{length:.4}");
+    let or_none = |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), mdeg);
+    vec![
+        of.joint.to_string(),
+        format!("{:.2}", of.radius_mm),
+        mdeg(of.tangential_deg),
+        mdeg(of.max_tangential_deg),
+        mm(of.radial_mm),
+        mm(of.max_radial_mm),
+        mm(of.axial_mm),
+        mm(of.max_axial_mm),
+        or_none(of.backlash_deg),
+        or_none(of.backlash_sigma_deg),
+    ]
+}
+
+/// A frame that sweeps give, told.
+pub(in crate::report) struct Frame<'a> {
+    /// Its name and that of the transform.
+    pub key: &'static str,
+    /// The joints whose sweeps give it.
+    pub joints: &'static str,
+    /// Where it is; `None` without those sweeps.
+    pub pose: Option<&'a crate::task::parts::Pose>,
+    /// Its standard deviations, or why they are not known.
+    pub sigma: String,
+    /// Whether the sag in them is that of a typical arm, and how much it is.
+    pub sag: Option<(bool, String)>,
+    /// Whether its orientation was measured.
+    pub oriented: bool,
+}
+
+/// Base and tool.
+pub(in crate::report) fn frames(found: &Axes) -> [Frame<'_>; 2] {
+    let oriented = found.tool_oriented.unwrap_or(true);
+    let of = |sigma: &Sigma, oriented: bool| {
+        let [x, y, z] = sigma.xyz_mm();
+        let [rx, ry, rz] = sigma.rxryrz_deg();
+        let rotation = if oriented && [rx, ry, rz] != [0.0; 3] {
+            format!("; {rx:.5} {ry:.5} {rz:.5} deg")
+        } else {
+            String::new()
+        };
+        format!("{x:.4} {y:.4} {z:.4} mm{rotation}")
+    };
+    let frame = |key, joints, pose, sigma: &Option<Sigma>, sag: &Option<_>, oriented| Frame {
+        key,
+        joints,
+        pose,
+        sigma: sigma.map_or_else(|| NO_NOISE.into(), |sigma| of(&sigma, oriented)),
+        sag: sag
+            .as_ref()
+            .map(|sag: &crate::task::axes::Sag| (sag.from == "typical", of(&sag.sigma, oriented))),
+        oriented,
+    };
+    [
+        frame(
+            "base (world_from_base)",
+            "1 and 2",
+            found.base.as_ref(),
+            &found.base_sigma,
+            &found.base_sag,
+            true,
+        ),
+        frame(
+            "tool (flange_from_tool)",
+            "5 and 6",
+            found.tool.as_ref(),
+            &found.tool_sigma,
+            &found.tool_sag,
+            oriented,
+        ),
+    ]
+}

@@ -1,0 +1,235 @@
+//! The text of `diagnose`.
+
+use super::fixed;
+use crate::diagnose::{NoiseSource, Verdict};
+use crate::report::Style;
+use crate::report::layout::{SPREAD_HEADER, aligned, spread_row};
+use crate::task::diagnose::{Diagnosis, Effect, FoundEffect, Group, ImpossibleGroup};
+use crate::task::parts::Statistics;
+
+/// The first lines of a report: what it is, and how much of the disagreement goes.
+fn summary(d: &Diagnosis) -> String {
+    let mut out = match d.found.verdict {
+        Verdict::Explained => String::new(),
+        Verdict::NothingMissing => {
+            "Nothing is missing: the model agrees with the measurements within the noise.\n"
+                .to_owned()
+        }
+        Verdict::Undetermined => "It cannot be told what is missing:\n".to_owned(),
+    };
+    for reason in &d.reasons {
+        out += &format!("  - {reason}\n");
+    }
+    if d.found.verdict == Verdict::Undetermined && !d.effects.is_empty() {
+        out += "The best that the effects known can do:\n";
+    }
+    for f in &d.effects {
+        out += &format!("{}\n", f.sentence);
+    }
+    let tells = !d.effects.is_empty() || d.found.absorbed;
+    if let (Some(before), Some(after), true) = (d.held_out.before, d.held_out.after, tells) {
+        let (before, after) = (before.numbers(), after.numbers());
+        let gone = 100.0 * (1.0 - after.mean / before.mean.max(1e-12));
+        out += &format!(
+            "{gone:.0} % of the disagreement goes: {:.3} → {:.3} mm on {} poses not used.\n",
+            before.mean, after.mean, after.n
+        );
+    }
+    out
+}
+
+/// A probability in few characters; what is too small for a number is said to be below one.
+fn probability(p: Option<f64>) -> String {
+    let p = p.unwrap_or(f64::NAN);
+    if p < 1e-300 {
+        "< 1e-300".into()
+    } else {
+        format!("{p:.0e}")
+    }
+}
+
+/// Labels of effects with those of one kind together: `joint_harmonic joint 1 order 4, joint 2 order 1`.
+pub(in crate::report) fn together<'a>(effects: impl IntoIterator<Item = &'a Effect>) -> String {
+    let mut words: Vec<String> = Vec::new();
+    let mut last = None;
+    for effect in effects {
+        let place = effect.label.strip_prefix(effect.id()).unwrap_or_default();
+        match words.last_mut() {
+            Some(word) if last == Some(effect.id()) => *word += &format!(", {}", place.trim()),
+            _ => words.push(effect.label.clone()),
+        }
+        last = Some(effect.id());
+    }
+    words.join("; ")
+}
+
+/// The effects found of these labels.
+pub(in crate::report) fn labelled<'a>(
+    found: &'a Diagnosis,
+    labels: &'a [String],
+) -> impl Iterator<Item = &'a Effect> {
+    let of = |label: &String| {
+        let mut effects = found.effects.iter().map(|f| &f.effect);
+        effects.find(|effect| effect.label == *label)
+    };
+    labels.iter().filter_map(of)
+}
+
+/// A group of effects, those that compete with it, and the residual with either, in one sentence.
+fn competes(s: &Group, d: &Diagnosis) -> String {
+    format!(
+        "{} instead of {}: {} % as much, {} mm left instead of {} mm (behind by {})",
+        together(&s.effects),
+        together(labelled(d, &s.instead_of)),
+        fixed(s.part.map(|part| 100.0 * part), 0),
+        fixed(s.left_mm, 4),
+        fixed(d.left_mm, 4),
+        fixed(s.behind, 1)
+    )
+}
+
+/// What would compete with a group of the effects found if it were possible.
+fn impossibly(i: &ImpossibleGroup, d: &Diagnosis) -> String {
+    let values = i.effects.iter().map(|effect| {
+        let numbers = effect
+            .values
+            .iter()
+            .map(|(_, x, unit)| format!("{x:.1e} {unit}"));
+        numbers.collect::<Vec<_>>().join(", ")
+    });
+    format!(
+        "{} would explain {} % as much as {}, but only with {}: nothing springs against its load",
+        together(&i.effects),
+        fixed(i.part.map(|part| 100.0 * part), 0),
+        together(labelled(d, &i.instead_of)),
+        values.collect::<Vec<_>>().join(" and ")
+    )
+}
+
+/// An effect found with its evidence, and its values under it.
+fn values(f: &FoundEffect) -> String {
+    let e = &f.evidence;
+    let mut out = format!(
+        "\n{}: chi-squared -{}, p {}",
+        f.effect.label,
+        fixed(e.chi_squared_fall, 0),
+        probability(e.p_value)
+    );
+    if e.found_again_of > 0 {
+        out += &format!(", again {}/{}", e.found_again, e.found_again_of);
+    }
+    out.push('\n');
+    for (key, sigma) in &f.sigma {
+        let value = f.effect.values.iter().find(|(name, ..)| name == key);
+        out += &format!(
+            "  {key:<16} {:>11.4e} ± {:.1e}\n",
+            value.map_or(f64::NAN, |(_, value, _)| *value),
+            sigma.as_f64().unwrap_or(f64::NAN)
+        );
+    }
+    out
+}
+
+/// The report for people.
+pub(super) fn text(found: &Diagnosis, style: Style) -> String {
+    let mut out = summary(found);
+    let steps = found.steps();
+    if !steps.is_empty() {
+        let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
+        rows.extend(steps.iter().map(|(name, s)| spread_row(name, s)));
+        out += "\nerrors in mm on rows not used for the choice\n";
+        out += &aligned(&rows, style.width);
+    }
+    let source = match found.found.noise_source {
+        NoiseSource::Given => "sigma_mm",
+        NoiseSource::Repeats => "repeated poses",
+        NoiseSource::Left => "what no model explains",
+    };
+    out += &format!(
+        "\nnoise {} mm a coordinate by {source}; left {} mm\n",
+        fixed(found.noise_mm, 4),
+        fixed(found.left_mm, 4)
+    );
+    out.extend(found.effects.iter().map(values));
+    let most = if style.every { usize::MAX } else { 5 };
+    if !found.spots.is_empty() {
+        out += "\nwhere the present model misses, strongest first\n";
+        let mut rows = vec![
+            ["column", "most at", "rms mm", "largest mm", "part", "p"]
+                .map(str::to_owned)
+                .to_vec(),
+        ];
+        for s in found.spots.iter().take(most) {
+            rows.push(vec![
+                s.column.clone(),
+                s.values.clone(),
+                format!("{:.3}", s.size_mm),
+                format!("{:.3}", s.largest_mm),
+                format!("{} %", fixed(s.part.map(|part| 100.0 * part), 0)),
+                probability(s.p_value),
+            ]);
+        }
+        out += &aligned(&rows, style.width);
+    }
+    if !found.alternatives.is_empty() {
+        out += "\nexplain the measurements nearly as well\n";
+        for r in found.alternatives.iter().take(most) {
+            out += &format!(
+                "  {} instead of {} (behind by {})\n",
+                r.effect.label,
+                r.instead_of,
+                fixed(r.behind, 1)
+            );
+        }
+    }
+    if !found.alternative_groups.is_empty() {
+        out += "\ncompete with several of the effects found\n";
+        for s in &found.alternative_groups {
+            out += &format!("  {}\n", competes(s, found));
+        }
+    }
+    for i in &found.impossible {
+        out += &format!("\n{}\n", impossibly(i, found));
+    }
+    let apart = found.telling_poses.iter().map(|t| t.apart_mm);
+    if let Some(most) = apart.reduce(f64::max) {
+        out += &format!(
+            "\n{} poses tell alternatives apart, by up to {most:.3} mm: --poses FILE writes them\n",
+            found.telling_poses.len()
+        );
+    }
+    if !found.cannot_test.is_empty() {
+        out += "\ncould not be tested\n";
+        for c in &found.cannot_test {
+            out += &format!("  {}: needs {}\n", c.effect, c.missing);
+        }
+    }
+    if !found.outliers.is_empty() {
+        out += &format!(
+            "\n{} rows fit no model and hardly count\n",
+            found.outliers.len()
+        );
+        for o in found.outliers.iter().take(most) {
+            out += &format!(
+                "  {}: {:.3} mm, {} times the noise\n",
+                o.file.words(o.line),
+                o.residual_mm,
+                fixed(o.times_noise, 0)
+            );
+        }
+    }
+    if !found.leverage.is_empty() {
+        out += &format!(
+            "\n{} rows decide alone what the model says of them: no evidence for it\n",
+            found.leverage.len()
+        );
+        for f in found.leverage.iter().take(most) {
+            out += &format!(
+                "  {}: leverage {}\n",
+                f.file.words(f.line),
+                fixed(f.leverage, 2)
+            );
+        }
+    }
+    out
+}

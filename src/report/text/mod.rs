@@ -1,0 +1,90 @@
+//! Texts for people, one file a command.
+
+mod axes;
+mod calibrate;
+mod catalogue;
+mod diagnose;
+mod handeye;
+mod hexapod;
+mod plan;
+mod profile;
+mod register;
+mod tables;
+mod validate;
+
+pub(super) use axes::frames;
+pub(super) use diagnose::{labelled, together};
+pub(super) use register::{noise, search};
+
+use super::html::{
+    axes as axes_page, diagnosis, frames as frame_pages, measurements, plan as plan_page, reach,
+};
+use super::{Report, Style};
+use crate::finding::Finding;
+use crate::report::html::page::Page;
+use crate::task;
+
+/// A number that may be none with so many decimals.
+pub(super) fn fixed(value: Option<f64>, decimals: usize) -> String {
+    value.map_or_else(|| "-".into(), |x| format!("{x:.decimals$}"))
+}
+
+/// A number that may be none with three decimals and an exponent.
+pub(super) fn scientific(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".into(), |x| format!("{x:.3e}"))
+}
+
+/// A number with the digits that matter: five decimals, four digits of a small one.
+fn digits(value: f64) -> String {
+    if value.abs() < 1e-2 && value != 0.0 {
+        format!("{value:.3e}")
+    } else {
+        format!("{value:.5}")
+    }
+}
+
+macro_rules! reports {
+    ($($document:ty: $text:path $(, $page:path $(, $findings:ident)?)?;)+) => {$(
+        impl Report for $document {
+            fn text(&self, style: Style) -> String {
+                $text(self, style)
+            }
+            $(
+                fn page(&self) -> Option<Page> {
+                    Some($page(self))
+                }
+                $(
+                    fn findings(&self) -> &[Finding] {
+                        &self.$findings
+                    }
+                )?
+            )?
+        }
+    )+};
+}
+
+// what is told of each result: its text, its page, its findings
+reports! {
+    task::calibrate::Calibration: calibrate::text, measurements::calibrate_page, findings;
+    task::validate::Validation: validate::text, measurements::validate_page, findings;
+    task::diagnose::Diagnosis: diagnose::text, diagnosis::page, findings;
+    task::plan::Plan: plan::text, plan_page::plan_page, findings;
+    task::register::Registration: register::text, frame_pages::registration_page, findings;
+    task::handeye::HandEye: handeye::text, frame_pages::hand_eye_page, findings;
+    task::axes::Axes: axes::text, axes_page::page, findings;
+    task::hexapod::Poses: hexapod::poses, frame_pages::hexapod_page;
+    task::hexapod::Base: hexapod::base, frame_pages::base_page;
+    task::hexapod::Reach: hexapod::reach, reach::page;
+    task::simulate::Simulation: tables::simulation;
+    task::fk::Poses: tables::poses;
+    task::ik::Solutions: tables::solutions;
+    task::profile::NewProfile: profile::new;
+    task::profile::FromUrdf: profile::from_urdf;
+    task::profile::Imported: profile::imported;
+    task::profile::Facts: profile::facts;
+    task::profile::Diff: profile::diff;
+    task::catalogue::Robots: catalogue::robots;
+    task::catalogue::Effects: catalogue::effects;
+    task::catalogue::Languages: catalogue::languages;
+    task::explain::Explanations: catalogue::explanations;
+}

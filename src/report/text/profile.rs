@@ -1,0 +1,138 @@
+//! The texts of `profile`.
+
+use crate::report::Style;
+use crate::task::profile::{Diff, Facts, FromUrdf, Imported, NewProfile};
+use std::collections::BTreeMap;
+
+pub(super) fn new(found: &NewProfile, _: Style) -> String {
+    match (&found.output, found.profile) {
+        (Some(path), _) => {
+            format!("written to {path}; set the serial number, the base and the tools\n")
+        }
+        (None, text) => text.unwrap_or_default().to_owned(),
+    }
+}
+
+pub(super) fn from_urdf(found: &FromUrdf, _: Style) -> String {
+    let Some(path) = &found.output else {
+        return found.profile.clone();
+    };
+    let mut told = format!(
+        "{}: {} to {}, the same as the URDF at 1000 postures\ninverse: {}\n",
+        found.robot, found.base, found.tip, found.inverse
+    );
+    told.extend(found.notes.iter().map(|note| format!("note: {note}\n")));
+    told + &format!("written to {path}\n")
+}
+
+pub(super) fn imported(found: &Imported, _: Style) -> String {
+    let d = &found.deviation;
+    format!(
+        "written to {}: the controller's chain is {:.3} mm (mean), at most {:.3} mm, from the nominal one over {} random \
+         postures\n",
+        found.output, d.mean_mm, d.max_mm, d.postures
+    )
+}
+
+pub(super) fn facts(found: &Facts, _: Style) -> String {
+    let [robot, serial, language] = found.robot.each_ref().map(Option::as_deref);
+    let mut text = format!(
+        "{}, serial {}\ncontroller: {}, {}\ninverse: {}\n\njoints\n",
+        robot.unwrap_or_default(),
+        serial.unwrap_or("not given"),
+        language.unwrap_or("language not given"),
+        found.controller,
+        found.inverse
+    );
+    for (title, key) in [
+        ("", "joint "),
+        ("bodies", "body "),
+        ("tools", "tool "),
+        ("points", "point "),
+        (
+            "effects in the controller's own chain",
+            "controller effect ",
+        ),
+        ("effects", "effect "),
+    ] {
+        let rows = found
+            .ordered
+            .iter()
+            .filter(|(name, _)| name.starts_with(key));
+        let mut rows = rows.peekable();
+        if !title.is_empty() && rows.peek().is_some() {
+            text += &format!("\n{title}\n");
+        }
+        for (name, value) in rows {
+            let short = name.strip_prefix(key).unwrap_or(name);
+            let value = if key == "effect " {
+                with_sigmas(short, value, &found.sigmas)
+            } else {
+                value.clone()
+            };
+            text += &format!("  {short}  {}\n", glued(name, &value));
+        }
+    }
+    if !found.worth.is_empty() {
+        text += "\ncalibration\n";
+        let lines = found.worth.iter().map(|line| with_short_hashes(line));
+        text.extend(lines.map(|line| format!("  {line}\n")));
+    }
+    if found.is_calibrated {
+        let d = &found.deviation;
+        text += &format!(
+            "\nthe real tool is {:.3} mm (mean), at most {:.3} mm, from the controller's over {} random postures\n",
+            d.mean_mm, d.max_mm, d.postures
+        );
+    } else {
+        text += "\nno calibration: compensation changes nothing\n";
+    }
+    text
+}
+
+pub(super) fn diff(found: &Diff, _: Style) -> String {
+    let mut text = String::new();
+    for difference in &found.differences {
+        let key = &difference.key;
+        let line = |sign: char, value: &String| format!("  {sign} {}\n", glued(key, value));
+        text += &format!("{key}\n");
+        text.extend(difference.a.as_ref().map(|value| line('-', value)));
+        text.extend(difference.b.as_ref().map(|value| line('+', value)));
+    }
+    text
+}
+
+/// Values of an effect with their standard deviations where they are told: `a_mm 0.134 ± 0.003`.
+fn with_sigmas(effect: &str, values: &str, sigmas: &BTreeMap<String, f64>) -> String {
+    let words: Vec<&str> = values.split(' ').collect();
+    let pairs = words.chunks(2).map(|pair| {
+        let told = sigmas.get(&format!("{effect} {}", pair[0]));
+        let told = told.map_or_else(String::new, |sigma| format!(" ± {sigma:.2e}"));
+        pair.join(" ") + &told
+    });
+    pairs.collect::<Vec<_>>().join("  ")
+}
+
+/// A line in which hashes show their first digits; `--json` has them whole.
+fn with_short_hashes(line: &str) -> String {
+    let short = |word: &str| {
+        let is_hash = word.len() == 64 && word.bytes().all(|b| b.is_ascii_hexdigit());
+        if is_hash {
+            format!("{}\u{2026}", &word[..16])
+        } else {
+            word.to_owned()
+        }
+    };
+    let words: Vec<String> = line.split(' ').map(short).collect();
+    words.join(" ")
+}
+
+/// A fact that is names and numbers in turn, so that a line breaks before a name only.
+fn glued(name: &str, value: &str) -> String {
+    if !(name.starts_with("joint ") || name.contains("effect ")) {
+        return value.to_owned();
+    }
+    let words: Vec<&str> = value.split(' ').collect();
+    let pairs: Vec<String> = words.chunks(2).map(|pair| pair.join("\u{a0}")).collect();
+    pairs.join(" ")
+}

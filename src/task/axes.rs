@@ -1,0 +1,323 @@
+//! `axes`: base and tool from sweeps of single joints.
+
+use super::Document;
+use super::failure::Failure;
+use super::measurements::identify_failure;
+use super::parts::{Pose, Sigma, findings as remarks};
+use super::profile_file::ProfileFile;
+use super::table::{JOINTS, POSE, Table, unit};
+use crate::finding::{Finding, Severity};
+use crate::geometry::Quaternion;
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::identify::doubt::sweeps::{doubt, point_on_flange};
+use crate::identify::measurements::{DIRECTION_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS};
+use crate::model::profile::{Mounted, Profile};
+use crate::program::Source;
+use crate::register::axes::outliers::{Outlier, without_outliers};
+use crate::register::axes::sag::{Arm, Frame, Sag as ArmSag, sag};
+use crate::register::axes::{AxesError, Axis, Placed, Row, Sweep, axis, base, tool};
+use crate::register::frame_file::Sigma as Six;
+use crate::register::uncertainty::PoseCovariance;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// What the arm's sag under gravity does to a frame.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Sag {
+    /// Its standard uncertainties.
+    #[serde(flatten)]
+    pub sigma: Sigma,
+    /// Whose compliance: that of the `profile`, or a `typical` arm's.
+    pub from: &'static str,
+}
+
+/// The residuals of each row of a sweep.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Rows {
+    /// Angle on the circle minus the commanded one.
+    pub tangential_deg: Vec<f64>,
+    /// Distance from the circle in its plane.
+    pub radial_mm: Vec<f64>,
+    /// Distance from its plane.
+    pub axial_mm: Vec<f64>,
+    /// The commanded angle.
+    pub angle_deg: Vec<f64>,
+}
+
+/// What a sweep says of its joint.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Joint {
+    /// From 1.
+    pub joint: usize,
+    /// Direction of its axis in the world.
+    pub axis: [f64; 3],
+    /// The circle's centre in the world.
+    pub centre_mm: [f64; 3],
+    /// The circle's radius.
+    pub radius_mm: f64,
+    /// Root mean square of the residual along the circle.
+    pub tangential_deg: f64,
+    /// Root mean square of the residual in the circle's plane.
+    pub radial_mm: f64,
+    /// Root mean square of the residual out of the circle's plane.
+    pub axial_mm: f64,
+    /// Full width of the backlash; `null` where one direction was measured.
+    pub backlash_deg: Option<f64>,
+    /// Its standard deviation.
+    pub backlash_sigma_deg: Option<f64>,
+    /// Largest residual along the circle.
+    pub max_tangential_deg: f64,
+    /// Largest residual in the circle's plane.
+    pub max_radial_mm: f64,
+    /// Largest residual out of the circle's plane.
+    pub max_axial_mm: f64,
+    /// Each row.
+    pub rows: Rows,
+    /// Standard deviation of a coordinate; `null` where three rows leave nothing to tell it by.
+    pub noise_mm: Option<f64>,
+}
+
+/// Frames from sweeps of single joints.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Axes {
+    /// `world_from_base`; needs the sweeps of joints 1 and 2.
+    pub base: Option<Pose>,
+    /// Its standard uncertainties, the sag in them; `null` where the noise is not known.
+    pub base_sigma: Option<Sigma>,
+    /// The sag in them; `null` where the profile has no masses.
+    pub base_sag: Option<Sag>,
+    /// `flange_from_tool`; needs the sweeps of joints 5 and 6.
+    pub tool: Option<Pose>,
+    /// Its standard uncertainties, the sag in them; `null` where the noise is not known.
+    pub tool_sigma: Option<Sigma>,
+    /// The sag in them; `null` where the profile has no masses.
+    pub tool_sag: Option<Sag>,
+    /// Whether the tool's orientation was measured.
+    pub tool_oriented: Option<bool>,
+    /// The joints that were swept.
+    pub joints: Vec<Joint>,
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
+    /// How the file is named.
+    #[serde(skip)]
+    pub name: String,
+}
+
+impl Document for Axes {
+    const KIND: &'static str = "axes/1";
+}
+
+/// Finds base and tool frames from single-joint sweeps; `point` names the rows that count.
+///
+/// # Errors
+/// Sweeps that are no circles, in which another joint moves, or of several points.
+pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<Axes, Failure> {
+    let (profile, name) = (&file.profile, &source.name);
+    let fail = |error: AxesError| Failure::new(format!("{name}: {error}"));
+    let mut findings = Vec::new();
+    let mut sweeps = Vec::new();
+    for (sweep, lines) in read(source, point)? {
+        let (kept, outliers) = without_outliers(&sweep, profile).map_err(fail)?;
+        sweeps.push(kept);
+        let told = |outlier: &Outlier| left_out(outlier, sweep.joint, lines[outlier.row], name);
+        findings.extend(outliers.iter().map(told));
+    }
+    let found = sweeps
+        .iter()
+        .map(|sweep| axis(sweep, profile).map_err(fail))
+        .collect::<Result<Vec<_>, _>>()?;
+    let pair = |a: usize, b: usize| -> Option<[&Sweep; 2]> {
+        let of = |joint: usize| sweeps.iter().find(|sweep| sweep.joint == joint);
+        Some([of(a)?, of(b)?])
+    };
+    let placed_base = pair(0, 1).map(|[first, second]| base(first, second, profile));
+    let placed_tool = pair(4, 5).map(|[fifth, sixth]| tool(fifth, sixth, profile));
+    let placed_base = placed_base.transpose().map_err(fail)?;
+    let placed_tool = placed_tool.transpose().map_err(fail)?;
+    let pose = |placed: &Option<Placed>| placed.as_ref().map(|placed| placed.pose);
+    let (base_pose, tool_pose) = (pose(&placed_base), pose(&placed_tool));
+    let doubts = doubt(
+        profile,
+        &sweeps,
+        &found,
+        base_pose.as_ref(),
+        tool_pose.as_ref(),
+    )
+    .map_err(|error| identify_failure(name, &error))?;
+    findings.extend(remarks(&doubts, name));
+    let mounted = only_tool(profile);
+    let world_from_base = base_pose.unwrap_or(profile.world_from_base);
+    let arm = Arm {
+        world_from_base,
+        mounted: &mounted,
+        point_m: tool_pose.map_or_else(
+            || point_on_flange(profile, &sweeps, &world_from_base),
+            |tool| tool.translation,
+        ),
+    };
+    let sag_of = |frame, pair: Option<[&Sweep; 2]>, placed: &Option<Placed>| {
+        let (Some(pair), Some(placed)) = (pair, placed) else {
+            return Ok(None);
+        };
+        sag(frame, pair, placed, profile, &arm).map_err(fail)
+    };
+    let base_sag = sag_of(Frame::Base, pair(0, 1), &placed_base)?;
+    let tool_sag = sag_of(Frame::Tool, pair(5, 4), &placed_tool)?;
+    Ok(Axes {
+        base: base_pose.as_ref().map(Into::into),
+        base_sigma: sigma(placed_base.as_ref(), base_sag.as_ref()),
+        base_sag: base_sag.as_ref().map(Into::into),
+        tool: tool_pose.as_ref().map(Into::into),
+        tool_sigma: sigma(placed_tool.as_ref(), tool_sag.as_ref()),
+        tool_sag: tool_sag.as_ref().map(Into::into),
+        tool_oriented: placed_tool.map(|placed| placed.oriented),
+        joints: found
+            .iter()
+            .zip(&sweeps)
+            .map(|(axis, sweep)| joint(axis, sweep))
+            .collect(),
+        findings,
+        name: name.clone(),
+    })
+}
+
+fn left_out(outlier: &Outlier, joint: usize, line: usize, name: &str) -> Finding {
+    let message = format!(
+        "left out: {:.3} mm from where the other rows of joint {}'s sweep have it; they are off by {:.4} mm (rms)",
+        mm_from_m(outlier.off_m),
+        joint + 1,
+        mm_from_m(outlier.others_m)
+    );
+    Finding {
+        line,
+        column: 1,
+        ..Finding::of_file("outlier", Severity::Warning, name, message).hint("measure it again")
+    }
+}
+
+/// The profile's only tool, else the flange.
+fn only_tool(profile: &Profile) -> Mounted {
+    let mut tools = profile.tools.keys();
+    let only = tools.next().filter(|_| tools.next().is_none());
+    only.and_then(|name| profile.tool(name))
+        .unwrap_or_else(Mounted::flange)
+}
+
+/// The sweeps by joint, and the lines of their rows.
+fn read(source: &Source, only: Option<&str>) -> Result<Vec<(Sweep, Vec<usize>)>, Failure> {
+    let table = Table::read(source)?;
+    table.require(&JOINTS)?;
+    table.require(&POSITION_COLUMNS)?;
+    table.require(&["sweep"])?;
+    let has_poses = POSE.iter().all(|c| table.has(c));
+    let mut points = BTreeSet::new();
+    let mut sweeps: Vec<(Sweep, Vec<usize>)> = Vec::new();
+    for row in table.rows() {
+        let point = row.text("point").unwrap_or_default();
+        if only.is_some_and(|name| name != point) {
+            continue;
+        }
+        points.insert(point.to_owned());
+        let number = row.number("sweep")?;
+        let joint = (0..6).find(|j| (j + 1) as f64 == number).ok_or_else(|| {
+            row.failure(format!("sweep {number} is not a whole number from 1 to 6"))
+        })?;
+        let rotation = if has_poses {
+            let q = unit(&row, Quaternion(row.numbers(QUATERNION_COLUMNS)?))?;
+            Some(q.rotation())
+        } else {
+            None
+        };
+        let direction = if table.has(DIRECTION_COLUMNS[joint]) {
+            row.number(DIRECTION_COLUMNS[joint])?
+        } else {
+            0.0
+        };
+        let measured = Row {
+            q: row.joints()?,
+            point_m: row.numbers(POSITION_COLUMNS)?.map(m_from_mm),
+            rotation,
+            direction,
+        };
+        let known = sweeps.iter_mut().find(|(sweep, _)| sweep.joint == joint);
+        if let Some((sweep, lines)) = known {
+            sweep.rows.push(measured);
+            lines.push(row.line);
+        } else {
+            let rows = vec![measured];
+            sweeps.push((Sweep { joint, rows }, vec![row.line]));
+        }
+    }
+    if points.len() > 1 {
+        let names: Vec<_> = points.into_iter().collect();
+        let message = format!(
+            "{}: several measured points: {}",
+            source.name,
+            names.join(", ")
+        );
+        return Err(Failure::with_hint(message, "choose one with --point"));
+    }
+    if sweeps.is_empty() {
+        return Err(Failure::new(format!("{}: no rows", source.name)));
+    }
+    sweeps.sort_by_key(|(sweep, _)| sweep.joint);
+    Ok(sweeps)
+}
+
+fn as_sigma(covariance: &PoseCovariance) -> Sigma {
+    (&Six {
+        position_m: covariance.sigma_at_m(covariance.centre_m),
+        rotation_rad: covariance.rotation_sigma_rad(),
+    })
+        .into()
+}
+
+/// Noise and sag together; `None` where the noise is not known.
+fn sigma(placed: Option<&Placed>, sag: Option<&ArmSag>) -> Option<Sigma> {
+    let noise = placed?.covariance?;
+    let whole = sag.map_or(noise, |sag| noise.and(&sag.covariance));
+    Some(as_sigma(&whole))
+}
+
+impl From<&ArmSag> for Sag {
+    fn from(sag: &ArmSag) -> Self {
+        Self {
+            sigma: as_sigma(&sag.covariance),
+            from: if sag.typical { "typical" } else { "profile" },
+        }
+    }
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().map(|v| v.abs()).fold(0.0, f64::max)
+}
+
+fn joint(axis: &Axis, sweep: &Sweep) -> Joint {
+    let mm = |values: &[f64]| values.iter().map(|v| mm_from_m(*v)).collect();
+    Joint {
+        joint: axis.joint + 1,
+        axis: axis.line.direction,
+        centre_mm: axis.line.point_m.map(mm_from_m),
+        radius_mm: mm_from_m(axis.radius_m),
+        tangential_deg: rms(&axis.tangential_rad) / DEG,
+        radial_mm: mm_from_m(rms(&axis.radial_m)),
+        axial_mm: mm_from_m(rms(&axis.axial_m)),
+        backlash_deg: axis.backlash_rad.map(|b| b.0 / DEG),
+        backlash_sigma_deg: axis.backlash_rad.map(|b| b.1 / DEG),
+        max_tangential_deg: largest(&axis.tangential_rad) / DEG,
+        max_radial_mm: mm_from_m(largest(&axis.radial_m)),
+        max_axial_mm: mm_from_m(largest(&axis.axial_m)),
+        rows: Rows {
+            tangential_deg: axis.tangential_rad.iter().map(|t| t / DEG).collect(),
+            radial_mm: mm(&axis.radial_m),
+            axial_mm: mm(&axis.axial_m),
+            angle_deg: sweep.rows.iter().map(|r| r.q[axis.joint] / DEG).collect(),
+        },
+        noise_mm: axis.noise_m.map(mm_from_m),
+    }
+}

@@ -1,0 +1,363 @@
+//! `calibrate`: measurements to a profile.
+
+use super::failure::Failure;
+use super::measurements::{Rows, identify_failure};
+use super::parts::{File, Observability, Pose, Quality, findings};
+use super::profile_file::ProfileFile;
+use super::{Document, PROGRAM};
+use crate::finding::Finding;
+use crate::geometry::add;
+use crate::geometry::units::mm_from_m;
+use crate::identify::calibration::{
+    Calibration as Found, Options as Identification, STRONG_CORRELATION, calibrate as identify,
+};
+use crate::identify::measurements::{Measurements, Purpose};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// A parameter of the model, in the unit of files.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Parameter {
+    /// The standard deviation it would have; `null` where these data say nothing of it.
+    pub sigma_if_identified: Option<f64>,
+    /// Effect, place and name.
+    pub key: String,
+    /// Its value.
+    pub value: f64,
+    /// The unit of the numbers.
+    pub unit: &'static str,
+    /// Its standard deviation; `null` where it is left as it was.
+    pub sigma: Option<f64>,
+    /// Whether these data determine it.
+    pub identifiable: bool,
+    /// Parameters that these data cannot tell it from.
+    pub confounded_with: Vec<String>,
+    /// Whether the data tell hardly more of it than its prior.
+    pub is_prior: bool,
+}
+
+/// Two parameters that move together.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Correlation {
+    /// The one.
+    pub a: String,
+    /// The other.
+    pub b: String,
+    /// From −1 to 1.
+    pub correlation: f64,
+}
+
+/// A row that the model misses by far more than the others.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Outlier {
+    /// Line, from 1.
+    pub line: usize,
+    /// Its id.
+    pub id: String,
+    /// Measured minus expected.
+    pub residual_mm: f64,
+    /// How many times the typical residual it is.
+    pub times_typical: f64,
+    /// From how many on a row is an outlier.
+    pub limit: f64,
+    /// The weight it had, 0 to 1.
+    pub weight: f64,
+    /// The same in a sentence.
+    pub reason: String,
+    /// Its file.
+    #[serde(flatten)]
+    pub file: File,
+}
+
+/// A sphere or a plane that was touched.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Feature {
+    /// Its name.
+    pub feature: String,
+    /// What it is.
+    pub contact: &'static str,
+    /// Its centre, or a point on it, in the world.
+    pub centre_mm: [f64; 3],
+    /// Its radius.
+    pub radius_mm: Option<f64>,
+    /// Its outward normal.
+    pub normal: Option<[f64; 3]>,
+}
+
+/// Errors of rows that were not used.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct HeldOut {
+    /// With base, tool and points alone.
+    pub frames_only: Quality,
+    /// With everything.
+    pub after: Quality,
+}
+
+/// What a calibration found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Calibration {
+    /// Every parameter, identified or not.
+    pub parameters: Vec<Parameter>,
+    /// How well the configurations show the parameters.
+    pub observability: Observability,
+    /// Parameters that move together.
+    pub correlations: Vec<Correlation>,
+    /// Rows that do not fit the others.
+    pub outliers: Vec<Outlier>,
+    /// Errors of the profile as it was.
+    pub before: Quality,
+    /// Errors with base, tool and points fitted.
+    pub frames_only: Quality,
+    /// Errors with everything.
+    pub after: Quality,
+    /// Rows used.
+    pub rows: usize,
+    /// Measured numbers in them.
+    pub numbers: usize,
+    /// Numbers less parameters.
+    pub degrees_of_freedom: usize,
+    /// Residuals in stated standard deviations.
+    pub sigma_factor: f64,
+    /// The factor that the sigmas of the parameters have been multiplied by.
+    pub applied_factor: f64,
+    /// Whether the standard deviations of the rows are assumed.
+    pub sigma_assumed: bool,
+    /// Root mean square error that these sigmas let expect over the joint limits.
+    pub expected_error_mm: Option<f64>,
+    /// `world_from_base`.
+    pub base: Pose,
+    /// Whether the measured base replaces the profile's.
+    pub base_replaced: bool,
+    /// Passes of the solver.
+    pub passes: usize,
+    /// Why it stopped.
+    pub stopped: String,
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
+    /// What was touched.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub features: Vec<Feature>,
+    /// Errors of rows for `validate`, which were not used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_out: Option<HeldOut>,
+    /// SHA-256 of the profile.
+    pub profile_sha256: String,
+    /// SHA-256 of each file of measurements.
+    pub measurements_sha256: Vec<String>,
+    /// The profile written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+    /// The rows and models behind the numbers, which the page draws.
+    #[serde(skip)]
+    pub found: Found,
+    /// The rows used.
+    #[serde(skip)]
+    pub fit: Measurements,
+    /// How the files of measurements are named.
+    #[serde(skip)]
+    pub name: String,
+}
+
+impl Document for Calibration {
+    const KIND: &'static str = "calibration/1";
+}
+
+/// Identifies a robot's effects from measurements.
+///
+/// # Errors
+/// Measurements that do not determine anything, contradict the robot or themselves.
+pub fn calibrate(
+    profile: &ProfileFile,
+    measurements: Rows,
+    options: &Identification,
+) -> Result<Calibration, Failure> {
+    let Rows { all, name, sha256 } = measurements;
+    let found = identify(&profile.profile, &all, options)
+        .map_err(|error| identify_failure(&name, &error))?;
+    let fit = all.filtered(|_, row| row.purpose != Some(Purpose::Validate));
+    let u = &found.uncertainty;
+    Ok(Calibration {
+        parameters: parameters(&found),
+        observability: (&found.observability).into(),
+        correlations: correlations(&found),
+        outliers: outliers(&found),
+        before: (&found.before).into(),
+        frames_only: (&found.frames_only_quality).into(),
+        after: (&found.after).into(),
+        rows: found.problem.rows.len(),
+        numbers: found.problem.numbers(),
+        degrees_of_freedom: u.degrees_of_freedom,
+        sigma_factor: u.sigma_factor,
+        applied_factor: u.applied_factor,
+        sigma_assumed: found.problem.sigma_assumed,
+        expected_error_mm: found.expected_m.map(mm_from_m),
+        base: (&found.solution.estimate.world_from_base).into(),
+        base_replaced: found.base_replaced,
+        passes: found.solution.passes,
+        stopped: found.stop().describe(),
+        findings: findings(&found.remarks, &name),
+        features: features(&found),
+        held_out: found.held_out.as_ref().map(|(frames, full)| HeldOut {
+            frames_only: frames.into(),
+            after: full.into(),
+        }),
+        profile_sha256: profile.sha256.clone(),
+        measurements_sha256: sha256,
+        output: None,
+        found,
+        fit,
+        name,
+    })
+}
+
+impl Calibration {
+    /// The profile with what was found, its statistics and where it comes from; `date` as the user writes it.
+    ///
+    /// # Errors
+    /// The profile's text is laid out so that the place of the calibration cannot be told.
+    pub fn profile_text(
+        &self,
+        profile: &ProfileFile,
+        date: Option<&str>,
+    ) -> Result<String, Failure> {
+        let mut calibrated = self.found.profile();
+        calibrated.quality = Some(self.quality());
+        calibrated.provenance = Some(self.provenance(date));
+        profile.rewritten(&calibrated)
+    }
+
+    /// The block `quality` of a profile: statistics, and the covariance in the units of files.
+    fn quality(&self) -> Value {
+        let u = &self.found.uncertainty;
+        let parameters = &self.found.solution.parameters;
+        let unit = |i: usize| parameters[i].scale / parameters[i].unit.in_si();
+        let keys: Vec<Value> = parameters
+            .iter()
+            .zip(&u.sigma)
+            .map(|(p, sigma)| json!({"key": p.key, "unit": p.unit.symbol(), "sigma": sigma / p.unit.in_si()}))
+            .collect();
+        let row = |i: usize| -> Vec<f64> {
+            (0..=i)
+                .map(|j| u.covariance[(i, j)] * unit(i) * unit(j))
+                .collect()
+        };
+        let rows = &self.found.problem.rows;
+        let seen: Vec<[f64; 3]> = rows.iter().filter_map(|r| r.observed.point_m()).collect();
+        let sum = seen.iter().fold([0.0; 3], |sum, p| add(sum, *p));
+        json!({
+            "middle_mm": sum.map(|x| mm_from_m(x / seen.len().max(1) as f64)),
+            "before": self.before,
+            "frames_only": self.frames_only,
+            "after": self.after,
+            "observability": self.observability,
+            "sigma_factor": u.sigma_factor,
+            "degrees_of_freedom": u.degrees_of_freedom,
+            "parameters": keys,
+            "covariance_lower_triangle": (0..parameters.len()).map(row).collect::<Vec<_>>(),
+            "strong_correlations": self.correlations,
+        })
+    }
+
+    fn provenance(&self, date: Option<&str>) -> Value {
+        let problem = &self.found.problem;
+        let temperatures: Vec<f64> = problem
+            .rows
+            .iter()
+            .filter_map(|r| r.conditions.temperature_c)
+            .collect();
+        let tools = problem
+            .tools
+            .iter()
+            .map(|t| json!({"tool": t.name, "mass_kg": t.load.map_or(0.0, |(mass, _)| mass)}));
+        let mut map = json!({
+            "program": PROGRAM,
+            "profile_sha256": self.profile_sha256,
+            "measurements_sha256": self.measurements_sha256,
+            "rows": self.rows,
+            "stopped": self.stopped,
+            "tools": tools.collect::<Vec<_>>(),
+        });
+        if !temperatures.is_empty() {
+            map["temperature_c"] =
+                json!(temperatures.iter().sum::<f64>() / temperatures.len() as f64);
+        }
+        if let Some(date) = date {
+            map["date"] = json!(date);
+        }
+        map
+    }
+}
+
+fn parameters(found: &Found) -> Vec<Parameter> {
+    let names = &found.problem.parameters;
+    let dropped = &found.solution.identifiable.dropped;
+    found
+        .parameters()
+        .enumerate()
+        .map(|(i, (parameter, value, sigma))| {
+            let unit = parameter.unit.in_si();
+            let dropped = dropped.iter().find(|d| d.parameter == i);
+            let with = dropped.into_iter().flat_map(|d| &d.confounded_with);
+            let prior = parameter.prior.zip(sigma);
+            Parameter {
+                sigma_if_identified: dropped
+                    .and_then(|d| d.weak)
+                    .map(|w| w * parameter.scale / unit),
+                key: parameter.key.clone(),
+                value: value / unit,
+                unit: parameter.unit.symbol(),
+                sigma: sigma.map(|s| s / unit),
+                identifiable: sigma.is_some(),
+                confounded_with: with.map(|other| names[*other].key.clone()).collect(),
+                is_prior: prior.is_some_and(|((_, own), sigma)| sigma > 0.7 * own),
+            }
+        })
+        .collect()
+}
+
+fn correlations(found: &Found) -> Vec<Correlation> {
+    let names = &found.solution.parameters;
+    let strong = found.uncertainty.strong_correlations(STRONG_CORRELATION);
+    strong
+        .into_iter()
+        .map(|(i, j, correlation)| Correlation {
+            a: names[i].key.clone(),
+            b: names[j].key.clone(),
+            correlation,
+        })
+        .collect()
+}
+
+fn outliers(found: &Found) -> Vec<Outlier> {
+    let one = |o: &crate::identify::calibration::Outlier| {
+        let residual_mm = mm_from_m(o.length_m);
+        Outlier {
+            line: o.line.number,
+            id: o.id.clone(),
+            residual_mm,
+            times_typical: o.times,
+            limit: o.limit,
+            weight: o.weight,
+            reason: format!(
+                "residual {residual_mm:.3} mm is {:.1} times the typical one; the limit is {:.1}",
+                o.times, o.limit
+            ),
+            file: (&o.line).into(),
+        }
+    };
+    found.outliers.iter().map(one).collect()
+}
+
+fn features(found: &Found) -> Vec<Feature> {
+    found
+        .features()
+        .map(|(feature, place)| Feature {
+            feature: feature.name.clone(),
+            contact: feature.kind.id(),
+            centre_mm: place.centre_m.map(mm_from_m),
+            radius_mm: place.radius_m.map(mm_from_m),
+            normal: place.normal,
+        })
+        .collect()
+}

@@ -1,0 +1,310 @@
+//! The report of `check`: where the real robot goes on every move, and what it comes near.
+
+use super::Document;
+use super::parts::{Names, finite};
+use crate::check::baseline::Comparison;
+use crate::check::collision::Clearance as Near;
+use crate::check::{Check, MoveReport, Scene};
+use crate::finding::Finding;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::program::{Language, Motion};
+use schemars::JsonSchema;
+use serde::{Serialize, Serializer};
+
+/// What the report says beside the check itself.
+pub struct Header<'a> {
+    /// Program files, as the user named them.
+    pub inputs: &'a [String],
+    /// The original's files, where there are any.
+    pub nominal: &'a [String],
+    /// The language.
+    pub language: &'a dyn Language,
+    /// Hash of the profile file.
+    pub profile_sha256: &'a str,
+    /// The bodies.
+    pub scene: &'a Scene,
+}
+
+/// Rounded to a millionth: what is below is arithmetic, and files stay comparable.
+fn tidy(number: f64) -> Option<f64> {
+    finite((number * 1e6).round() / 1e6)
+}
+
+fn tidy_mm(length_m: f64) -> Option<f64> {
+    tidy(mm_from_m(length_m))
+}
+
+fn tidy_deg(angle_rad: f64) -> Option<f64> {
+    tidy(angle_rad / DEG)
+}
+
+/// How near two bodies come on a move: the pair, or only that nothing is nearer than looked for.
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+pub struct Clearance {
+    /// The one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub a: Option<String>,
+    /// The other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub b: Option<String>,
+    /// What is required of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub required_mm: Option<f64>,
+    /// The least that was sampled.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sampled_mm: Option<f64>,
+    /// Where on the move that is, 0 to 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<f64>,
+    /// The controller's joint angles there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joints_deg: Option<[Option<f64>; 6]>,
+    /// The nearest point of the other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point_mm: Option<[Option<f64>; 3]>,
+    /// Whether nothing between the samples is nearer than told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub certified: Option<bool>,
+    /// Nothing is nearer than this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_least_mm: Option<f64>,
+}
+
+/// What the real robot does on a move.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Move {
+    /// Its file.
+    pub file: String,
+    /// Its line, from 1.
+    pub line: usize,
+    /// `joint`, `linear`, `arc-via` or `arc`.
+    pub kind: &'static str,
+    /// Name of its target.
+    pub name: Option<String>,
+    /// The commanded pose: x, y, z in mm, angles of `Rx · Ry · Rz` in degrees.
+    pub target: [Option<f64>; 6],
+    /// Whether its target is given in joints.
+    pub joint_target: bool,
+    /// The controller's joint angles at its end.
+    pub joints_deg: [Option<f64>; 6],
+    /// Whether the robot cuts the corner at its end.
+    pub cuts_corner: bool,
+    /// The size of that corner.
+    pub zone_mm: Option<f64>,
+    /// Distance of the real tool from where it is wanted, at the end.
+    pub target_error_mm: Option<f64>,
+    /// Their angle.
+    pub target_error_deg: Option<f64>,
+    /// Standard deviation of the prediction.
+    pub uncertainty_mm: Option<f64>,
+    /// Bound of that distance along the path.
+    pub max_path_error_mm: Option<f64>,
+    /// Bound of that angle along the path.
+    pub max_path_error_deg: Option<f64>,
+    /// The largest distance that was sampled.
+    pub sampled_path_error_mm: Option<f64>,
+    /// Where on the path that is, 0 to 1.
+    pub path_error_at: Option<f64>,
+    /// Whether the bound holds between the samples.
+    pub path_certified: Option<bool>,
+    /// Bound of the clearance of the real arm.
+    pub clearance_mm: Option<f64>,
+    /// Where and of what.
+    pub clearance: Option<Clearance>,
+    /// Bound of the clearance of the nominal arm.
+    pub nominal_clearance_mm: Option<f64>,
+    /// How far a joint is from its limits.
+    pub joint_margin_deg: Option<f64>,
+    /// Which, from 1.
+    pub joint_margin_joint: Option<usize>,
+    /// How far the wrist is from its singularity.
+    pub wrist_deg: Option<f64>,
+    /// How far the elbow is from its singularity.
+    pub elbow_deg: Option<f64>,
+    /// How far the wrist is from axis 1.
+    pub shoulder_mm: Option<f64>,
+    /// How long the move takes.
+    pub duration_s: Option<f64>,
+    /// The speed of the fastest joint.
+    pub max_joint_speed_deg_s: Option<f64>,
+}
+
+fn kind(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Joint => "joint",
+        Motion::Linear => "linear",
+        Motion::ArcVia => "arc-via",
+        Motion::ArcEnd => "arc",
+    }
+}
+
+/// The moves, one after another: there may be a million.
+pub struct Moves<'a> {
+    header: &'a Header<'a>,
+    check: &'a Check,
+}
+
+impl Moves<'_> {
+    /// Each move in the order of the program.
+    pub fn iter(&self) -> impl Iterator<Item = Move> {
+        self.check.moves.iter().map(|report| self.entry(report))
+    }
+
+    fn entry(&self, report: &MoveReport) -> Move {
+        let path = report.path.as_ref();
+        let limits = report.limits.as_ref();
+        let [x, y, z, rx, ry, rz] = report.commanded.xyz_rxryrz();
+        let ([x, y, z], [rx, ry, rz]) = ([x, y, z].map(tidy_mm), [rx, ry, rz].map(tidy_deg));
+        Move {
+            file: self.header.inputs[report.file].clone(),
+            line: report.line,
+            kind: kind(report.kind),
+            name: report.target.as_ref().map(ToString::to_string),
+            target: [x, y, z, rx, ry, rz],
+            joint_target: report.in_joints,
+            joints_deg: report.joints.map(tidy_deg),
+            cuts_corner: report.cuts_corner,
+            zone_mm: report.zone_m.and_then(tidy_mm),
+            target_error_mm: tidy_mm(report.target_error.distance_m),
+            target_error_deg: tidy_deg(report.target_error.angle_rad),
+            uncertainty_mm: report.uncertainty_m.and_then(tidy_mm),
+            max_path_error_mm: path.and_then(|p| tidy_mm(p.bound.distance_m)),
+            max_path_error_deg: path.and_then(|p| tidy_deg(p.bound.angle_rad)),
+            sampled_path_error_mm: path.and_then(|p| tidy_mm(p.sampled.distance_m)),
+            path_error_at: path.and_then(|p| tidy(p.at)),
+            path_certified: path.map(|p| p.certified),
+            clearance_mm: report.clearance.and_then(|c| tidy_mm(c.clearance_m)),
+            clearance: report.clearance.as_ref().map(|c| self.clearance(c)),
+            nominal_clearance_mm: report
+                .nominal_clearance
+                .and_then(|c| tidy_mm(c.clearance_m)),
+            joint_margin_deg: limits.and_then(|l| tidy_deg(l.margin_rad)),
+            joint_margin_joint: limits.map(|l| l.joint + 1),
+            wrist_deg: limits.and_then(|l| tidy_deg(l.margins.wrist_rad)),
+            elbow_deg: limits.and_then(|l| tidy_deg(l.margins.elbow_rad)),
+            shoulder_mm: limits.and_then(|l| tidy_mm(l.margins.shoulder_m)),
+            duration_s: limits.and_then(|l| l.duration_s).and_then(tidy),
+            max_joint_speed_deg_s: limits.and_then(|l| {
+                let fastest = l.rate_rad.iter().fold(0.0, |a: f64, b| a.max(*b));
+                tidy_deg(fastest / l.duration_s?)
+            }),
+        }
+    }
+
+    fn clearance(&self, found: &Near) -> Clearance {
+        let Some((a, b)) = self.header.scene.pair_names(found) else {
+            return Clearance {
+                at_least_mm: tidy_mm(found.clearance_m),
+                ..Clearance::default()
+            };
+        };
+        Clearance {
+            a: Some(a.to_string()),
+            b: Some(b.to_string()),
+            required_mm: tidy_mm(found.required_m),
+            sampled_mm: tidy_mm(found.sampled_m),
+            at: tidy(found.at),
+            joints_deg: Some(found.joints.map(tidy_deg)),
+            point_mm: Some(found.points[1].map(tidy_mm)),
+            certified: Some(found.certified),
+            at_least_mm: None,
+        }
+    }
+}
+
+impl Serialize for Moves<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter())
+    }
+}
+
+/// All moves together.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Summary {
+    /// How many there are.
+    pub moves: usize,
+    /// How many could not be followed.
+    pub unknown: usize,
+    /// Largest error at a target.
+    pub max_target_error_mm: Option<f64>,
+    /// Largest angle at a target.
+    pub max_target_error_deg: Option<f64>,
+    /// Largest bound of the error along a path.
+    pub max_path_error_mm: Option<f64>,
+    /// Largest bound of the angle along a path.
+    pub max_path_error_deg: Option<f64>,
+    /// Least bound of a clearance.
+    pub min_clearance_mm: Option<f64>,
+    /// Moves on which the real arm touches something.
+    pub collisions: usize,
+    /// Moves on which the nominal arm does.
+    pub nominal_collisions: usize,
+    /// Moves on which the real arm comes too near.
+    pub too_near: usize,
+    /// Moves that are known by samples only.
+    pub uncertified: usize,
+    /// Moves with a corner that the robot cuts.
+    pub with_zone: usize,
+}
+
+/// Where the real robot goes with programs.
+#[derive(Serialize, JsonSchema)]
+pub struct Checked<'a> {
+    /// The programs.
+    pub input: Names,
+    /// What they were made from.
+    pub nominal: Names,
+    /// Their language.
+    pub language: &'static str,
+    /// SHA-256 of the profile.
+    pub profile_sha256: &'a str,
+    /// Every move.
+    #[schemars(with = "Vec<Move>")]
+    pub moves: Moves<'a>,
+    /// All of them together.
+    pub summary: Summary,
+    /// What a person should look at.
+    pub findings: &'a [Finding],
+    /// What differs from a stored run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<&'a Comparison>,
+}
+
+impl Document for Checked<'_> {
+    const KIND: &'static str = "check/1";
+}
+
+impl<'a> Checked<'a> {
+    /// The report of a check.
+    #[must_use]
+    pub fn new(
+        header: &'a Header<'a>,
+        check: &'a Check,
+        comparison: Option<&'a Comparison>,
+    ) -> Self {
+        let s = &check.summary;
+        Self {
+            input: header.inputs.into(),
+            nominal: header.nominal.into(),
+            language: header.language.about().id,
+            profile_sha256: header.profile_sha256,
+            moves: Moves { header, check },
+            summary: Summary {
+                moves: s.moves,
+                unknown: s.unknown,
+                max_target_error_mm: tidy_mm(s.max_target_error.distance_m),
+                max_target_error_deg: tidy_deg(s.max_target_error.angle_rad),
+                max_path_error_mm: tidy_mm(s.max_path_error.distance_m),
+                max_path_error_deg: tidy_deg(s.max_path_error.angle_rad),
+                min_clearance_mm: s.min_clearance_m.and_then(tidy_mm),
+                collisions: s.collisions,
+                nominal_collisions: s.nominal_collisions,
+                too_near: s.too_near,
+                uncertified: s.uncertified,
+                with_zone: s.with_zone,
+            },
+            findings: &check.findings,
+            baseline: comparison,
+        }
+    }
+}

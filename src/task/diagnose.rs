@@ -1,0 +1,541 @@
+//! `diagnose`: where model and measurement disagree, and which effect is missing.
+
+use super::failure::Failure;
+use super::measurements::{Rows, identify_failure};
+use super::parts::{File, SpreadMm, findings, finite};
+use super::profile_file::ProfileFile;
+use super::sentences::sentence;
+use super::{Document, PROGRAM};
+use crate::diagnose::stand_ins::{Impossible, StandIn};
+use crate::diagnose::{
+    self as engine, Diagnosis as Found, NoiseSource, Options, Rival, Verdict, diagnose as search,
+};
+use crate::finding::Finding;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::model::effects::Effect as ModelEffect;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+/// An effect with its place and its parameters in the units of files.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Effect {
+    /// Its id `effect`, and its place: `joint`, `link`, `on`, `order`, `row`, `tool`.
+    #[serde(flatten)]
+    pub head: Map<String, Value>,
+    /// Its values by the keys of files.
+    pub parameters: Map<String, Value>,
+    /// Its name and place for people.
+    #[serde(skip)]
+    pub label: String,
+    /// Key, value and unit of each parameter.
+    #[serde(skip)]
+    pub values: Vec<(&'static str, f64, &'static str)>,
+}
+
+impl Effect {
+    /// Its id.
+    #[must_use]
+    pub fn id(&self) -> &str {
+        self.head
+            .get("effect")
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+    }
+}
+
+impl From<&ModelEffect> for Effect {
+    fn from(effect: &ModelEffect) -> Self {
+        let definition = effect.definition();
+        let (mut head, mut parameters) = (Map::new(), Map::new());
+        for (key, value) in effect.to_entry() {
+            if definition.parameters.iter().any(|p| p.key == key) {
+                parameters.insert(key.into(), value);
+            } else {
+                head.insert(key.into(), value);
+            }
+        }
+        let known = definition.parameters.iter().zip(effect.parameters);
+        Self {
+            head,
+            parameters,
+            label: effect.label(),
+            values: known
+                .map(|(p, x)| (p.key, x / p.unit.in_si(), p.unit.symbol()))
+                .collect(),
+        }
+    }
+}
+
+/// Why an effect is believed.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Evidence {
+    /// Fall of chi squared when it is added to the others.
+    pub chi_squared_fall: Option<f64>,
+    /// Probability of that by chance, times the number of tests made.
+    pub p_value: Option<f64>,
+    /// Fall of the information criterion.
+    pub bic_fall: Option<f64>,
+    /// In how many of the parts of the measurements it was found without them.
+    pub found_again: usize,
+    /// How many parts there are.
+    pub found_again_of: usize,
+    /// Whether a person asked for it.
+    pub accepted_by_hand: bool,
+}
+
+/// An effect that was found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct FoundEffect {
+    /// The effect.
+    #[serde(flatten)]
+    pub effect: Effect,
+    /// Standard deviations by the keys of files.
+    pub sigma: Map<String, Value>,
+    /// Why it is believed.
+    pub evidence: Evidence,
+    /// Errors on rows not used for its choice, with the effects before it.
+    pub before: Option<SpreadMm>,
+    /// With it.
+    pub after: Option<SpreadMm>,
+    /// Whether it is of the session and not of the robot.
+    pub of_data: bool,
+    /// It in a sentence.
+    pub sentence: String,
+}
+
+/// Where the disagreement lies.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Spot {
+    /// By which column.
+    pub column: String,
+    /// At which values most.
+    pub values: String,
+    /// Root mean square.
+    pub size_mm: f64,
+    /// Largest.
+    pub largest_mm: f64,
+    /// Its part of the whole, 0 to 1.
+    pub part: Option<f64>,
+    /// Probability by chance.
+    pub p_value: Option<f64>,
+}
+
+/// An effect that explains the data nearly as well as one found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Alternative {
+    /// The effect.
+    #[serde(flatten)]
+    pub effect: Effect,
+    /// The effect found that it would stand for.
+    pub instead_of: String,
+    /// Fall of chi squared.
+    pub chi_squared_fall: Option<f64>,
+    /// By how much the effect found is better, in twice a log likelihood.
+    pub behind: Option<f64>,
+}
+
+/// Effects that would compete with some of those found, with values that cannot be.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ImpossibleGroup {
+    /// The effects.
+    pub effects: Vec<Effect>,
+    /// The effects found that they would stand for.
+    pub instead_of: Vec<String>,
+    /// Fall of chi squared, as a part of that of the group.
+    pub part: Option<f64>,
+}
+
+/// Effects that together explain the data nearly as well as some of those found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Group {
+    /// The effects.
+    pub effects: Vec<Effect>,
+    /// The effects found that they would stand for.
+    pub instead_of: Vec<String>,
+    /// Fall of chi squared.
+    pub chi_squared_fall: Option<f64>,
+    /// As a part of that of the group.
+    pub part: Option<f64>,
+    /// By how much the group is better, in twice a log likelihood.
+    pub behind: Option<f64>,
+    /// The residual of a coordinate with them.
+    pub left_mm: Option<f64>,
+}
+
+/// A function outside the registry that explains more.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Unregistered {
+    /// Its name.
+    pub function: String,
+    /// Fall of chi squared.
+    pub chi_squared_fall: Option<f64>,
+}
+
+/// A configuration that would tell alternatives apart.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct TellingPose {
+    /// The controller's joint angles.
+    pub joints_deg: [f64; 6],
+    /// How far apart the alternatives are there.
+    pub apart_mm: f64,
+    /// The alternatives.
+    pub tells: [String; 2],
+}
+
+/// An effect that cannot be tested.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Untested {
+    /// The effect.
+    pub effect: &'static str,
+    /// The column that is missing.
+    pub missing: String,
+}
+
+/// Errors on rows that were not used for the choice.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct HeldOut {
+    /// The present model.
+    pub before: Option<SpreadMm>,
+    /// With what was fitted along the way.
+    pub absorbed: Option<SpreadMm>,
+    /// With everything found.
+    pub after: Option<SpreadMm>,
+}
+
+/// A row that fits no model.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct OutlierRow {
+    /// Line, from 1.
+    pub line: usize,
+    /// Its id.
+    pub id: String,
+    /// Its residual.
+    pub residual_mm: f64,
+    /// In multiples of the noise.
+    pub times_noise: Option<f64>,
+    /// Its file.
+    #[serde(flatten)]
+    pub file: File,
+}
+
+/// A row that decides parameters alone.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct LeverageRow {
+    /// Line, from 1.
+    pub line: usize,
+    /// Its id.
+    pub id: String,
+    /// 1 is alone.
+    pub leverage: Option<f64>,
+    /// Its file.
+    #[serde(flatten)]
+    pub file: File,
+}
+
+/// What a diagnosis found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Diagnosis {
+    /// `explained`, `nothing_missing` or `undetermined`.
+    pub verdict: &'static str,
+    /// Why, one sentence each.
+    pub reasons: Vec<String>,
+    /// Rows looked at.
+    pub rows: usize,
+    /// Effects in the order found; the first ones explain most.
+    pub effects: Vec<FoundEffect>,
+    /// Where the disagreement lies, strongest first.
+    #[serde(rename = "where")]
+    pub spots: Vec<Spot>,
+    /// Effects that explain the data nearly as well.
+    pub alternatives: Vec<Alternative>,
+    /// What would compete if its values were possible.
+    pub impossible: Vec<ImpossibleGroup>,
+    /// Effects of one kind that compete with several of those found.
+    pub alternative_groups: Vec<Group>,
+    /// Functions outside the registry that explain more.
+    pub unregistered: Vec<Unregistered>,
+    /// Configurations that would tell alternatives apart.
+    pub telling_poses: Vec<TellingPose>,
+    /// Effects that cannot be tested.
+    pub cannot_test: Vec<Untested>,
+    /// What was fitted along the way and is no finding.
+    pub absorbed: Vec<&'static str>,
+    /// Errors on rows not used.
+    pub held_out: HeldOut,
+    /// Noise of a coordinate.
+    pub noise_mm: Option<f64>,
+    /// Where that comes from: `sigma_mm`, `repeats` or `residuals`.
+    pub noise_source: &'static str,
+    /// The residual of a coordinate.
+    pub left_mm: Option<f64>,
+    /// Rows that fit no model.
+    pub outliers: Vec<OutlierRow>,
+    /// Rows that decide parameters alone.
+    pub leverage: Vec<LeverageRow>,
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
+    /// SHA-256 of the profile.
+    pub profile_sha256: String,
+    /// SHA-256 of each file of measurements.
+    pub measurements_sha256: Vec<String>,
+    /// The profile written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+    /// The configurations written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poses: Option<String>,
+    /// The rows, models and effects behind the numbers, which the page draws.
+    #[serde(skip)]
+    pub found: Found,
+    /// Line of each row.
+    #[serde(skip)]
+    pub lines: Vec<usize>,
+    /// How the files of measurements are named.
+    #[serde(skip)]
+    pub name: String,
+}
+
+impl Document for Diagnosis {
+    const KIND: &'static str = "diagnosis/1";
+}
+
+/// Searches for the effects that a profile lacks; `tell` hears what is being done.
+///
+/// # Errors
+/// Measurements that contradict the robot or themselves, or are too few.
+pub fn diagnose(
+    file: &ProfileFile,
+    measurements: Rows,
+    options: &Options,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Diagnosis, Failure> {
+    let Rows { all, name, sha256 } = measurements;
+    let d = search(&file.profile, &all, options, tell)
+        .map_err(|error| identify_failure(&name, &error))?;
+    let label = |i: usize| d.found[i].effect.label();
+    let labels = |which: &[usize]| which.iter().map(|i| label(*i)).collect::<Vec<_>>();
+    let (before, after) = d.held_out.map_or((None, None), |(b, a)| (Some(b), Some(a)));
+    Ok(Diagnosis {
+        verdict: d.verdict.id(),
+        reasons: d.reasons.clone(),
+        rows: d.problem.rows.len(),
+        effects: d.found.iter().map(Into::into).collect(),
+        spots: d.spots.iter().map(Into::into).collect(),
+        alternatives: d
+            .rivals
+            .iter()
+            .map(|r: &Rival| Alternative {
+                effect: (&r.effect).into(),
+                instead_of: label(r.instead_of),
+                chi_squared_fall: finite(r.gain),
+                behind: finite(r.behind),
+            })
+            .collect(),
+        impossible: d
+            .impossible
+            .iter()
+            .map(|i: &Impossible| ImpossibleGroup {
+                effects: i.effects.iter().map(Into::into).collect(),
+                instead_of: labels(&i.instead_of),
+                part: finite(i.part),
+            })
+            .collect(),
+        alternative_groups: d
+            .stand_ins
+            .iter()
+            .map(|s: &StandIn| Group {
+                effects: s.effects.iter().map(Into::into).collect(),
+                instead_of: labels(&s.instead_of),
+                chi_squared_fall: finite(s.gain),
+                part: finite(s.part),
+                behind: finite(s.behind),
+                left_mm: finite(mm_from_m(s.left_m)),
+            })
+            .collect(),
+        unregistered: d
+            .unknown
+            .iter()
+            .map(|u| Unregistered {
+                function: u.name.to_string(),
+                chi_squared_fall: finite(u.gain),
+            })
+            .collect(),
+        telling_poses: d
+            .telling
+            .iter()
+            .map(|t| TellingPose {
+                joints_deg: t.q.map(|q| q / DEG),
+                apart_mm: mm_from_m(t.apart_m),
+                tells: [t.tells.0.clone(), t.tells.1.clone()],
+            })
+            .collect(),
+        cannot_test: d
+            .cannot_test
+            .iter()
+            .map(|c| Untested {
+                effect: c.kind.definition().id,
+                missing: c.missing.clone(),
+            })
+            .collect(),
+        absorbed: absorbed(&d),
+        held_out: HeldOut {
+            before: before.map(Into::into),
+            absorbed: d.absorbed_only.map(Into::into),
+            after: after.map(Into::into),
+        },
+        noise_mm: finite(mm_from_m(d.noise_m)),
+        noise_source: match d.noise_source {
+            NoiseSource::Given => "sigma_mm",
+            NoiseSource::Repeats => "repeats",
+            NoiseSource::Left => "residuals",
+        },
+        left_mm: finite(mm_from_m(d.left_m)),
+        outliers: d
+            .outliers
+            .iter()
+            .map(|o| OutlierRow {
+                line: o.line.number,
+                id: o.id.clone(),
+                residual_mm: mm_from_m(o.length_m),
+                times_noise: finite(o.times),
+                file: (&o.line).into(),
+            })
+            .collect(),
+        leverage: d
+            .followed
+            .iter()
+            .map(|f| LeverageRow {
+                line: f.line.number,
+                id: f.id.clone(),
+                leverage: finite(f.leverage),
+                file: (&f.line).into(),
+            })
+            .collect(),
+        findings: findings(&d.remarks, &name),
+        profile_sha256: file.sha256.clone(),
+        measurements_sha256: sha256,
+        output: None,
+        poses: None,
+        lines: all.rows.iter().map(|row| row.line.number).collect(),
+        found: d,
+        name,
+    })
+}
+
+impl Diagnosis {
+    /// Whether the answer is sure enough to be written: a verdict, or effects that a person asked for.
+    #[must_use]
+    pub fn is_sure(&self) -> bool {
+        let found = &self.found.found;
+        self.found.verdict != Verdict::Undetermined
+            || !found.is_empty() && found.iter().all(|f| f.accepted)
+    }
+
+    /// Errors on rows not used, step by step from the present model to everything found; none without such rows.
+    #[must_use]
+    pub fn steps(&self) -> Vec<(String, SpreadMm)> {
+        let (Some(before), Some(after)) = (self.held_out.before, self.held_out.after) else {
+            return Vec::new();
+        };
+        let mut steps = vec![("present model".to_owned(), before)];
+        let absorbed = self.held_out.absorbed.filter(|_| self.found.absorbed);
+        steps.extend(absorbed.map(|s| ("frames, geometry fitted".to_owned(), s)));
+        for f in &self.effects {
+            steps.extend(f.after.map(|s| (format!("+ {}", f.effect.label), s)));
+        }
+        if self.effects.is_empty() {
+            steps.push(("after".into(), after));
+        }
+        steps
+    }
+
+    /// The profile with the effects found, and where they come from.
+    ///
+    /// # Errors
+    /// The profile's text is laid out so that the place of the calibration cannot be told.
+    pub fn profile_text(&self, profile: &ProfileFile) -> Result<String, Failure> {
+        let labels = self.found.found.iter().map(|f| f.effect.label());
+        let mut improved = self.found.profile.clone();
+        improved.quality = None;
+        improved.provenance = Some(json!({
+            "program": PROGRAM,
+            "diagnosis": self.verdict,
+            "found": labels.collect::<Vec<_>>(),
+            "profile_sha256": self.profile_sha256,
+            "measurements_sha256": self.measurements_sha256,
+            "rows": self.lines.len(),
+        }));
+        profile.rewritten(&improved)
+    }
+
+    /// The telling configurations as a table of joints; `None` of none.
+    #[must_use]
+    pub fn poses_csv(&self) -> Option<String> {
+        let rows = self.telling_poses.iter().map(|telling| {
+            let cells = telling.joints_deg.map(|q| format!("{q:.4}"));
+            cells.join(",") + "\n"
+        });
+        let header = super::table::JOINTS.join(",") + "\n";
+        (!self.telling_poses.is_empty()).then(|| header + &rows.collect::<String>())
+    }
+}
+
+impl From<&engine::Found> for FoundEffect {
+    fn from(f: &engine::Found) -> Self {
+        let definition = f.effect.definition();
+        let sigma = f.sought.iter().zip(&f.sigmas).map(|(n, s)| {
+            let p = &definition.parameters[*n];
+            (p.key.to_owned(), json!(finite(s / p.unit.in_si())))
+        });
+        let (found_again, found_again_of) = f.found_again;
+        Self {
+            effect: (&f.effect).into(),
+            sigma: sigma.collect(),
+            evidence: Evidence {
+                chi_squared_fall: finite(f.gain),
+                p_value: finite(f.p_value),
+                bic_fall: finite(f.bic),
+                found_again,
+                found_again_of,
+                accepted_by_hand: f.accepted,
+            },
+            before: f.before.map(Into::into),
+            after: f.after.map(Into::into),
+            of_data: definition.of_data(),
+            sentence: sentence(&f.effect),
+        }
+    }
+}
+
+impl From<&engine::whereabouts::Spot> for Spot {
+    fn from(s: &engine::whereabouts::Spot) -> Self {
+        Self {
+            column: s.column.clone(),
+            values: s.values.clone(),
+            size_mm: mm_from_m(s.size_m),
+            largest_mm: mm_from_m(s.largest_m),
+            part: finite(s.part),
+            p_value: finite(s.p_value),
+        }
+    }
+}
+
+/// What was fitted along the way and is no finding.
+fn absorbed(d: &Found) -> Vec<&'static str> {
+    let mut all = Vec::new();
+    if d.elsewhere || d.absorbed {
+        all.push("base_frame");
+    }
+    if d.absorbed {
+        all.extend(["tool_frame", "link_geometry"]);
+        if d.problem
+            .parameters
+            .iter()
+            .any(|p| p.key.starts_with("joint_compliance"))
+        {
+            all.push("joint_compliance");
+        }
+    }
+    all
+}

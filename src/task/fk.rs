@@ -1,0 +1,105 @@
+//! `fk`: joint angles to poses of the tool.
+
+use super::Document;
+use super::failure::Failure;
+use super::parts::Pose;
+use super::profile_file::ProfileFile;
+use super::table::{JOINTS, POSE, Table, cell};
+use crate::identify::measurements::{DIRECTION_COLUMNS, FORCE_COLUMNS};
+use crate::model::Conditions;
+use crate::program::Source;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Which arm is meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Which {
+    /// Nominal kinematics with every effect of the calibration.
+    #[default]
+    Real,
+    /// What the controller computes with.
+    Controller,
+}
+
+/// Whose arm, and with which tool.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Which arm.
+    pub model: Which,
+    /// Tool of the profile; `None` is its only one.
+    pub tool: Option<String>,
+}
+
+/// A pose of the tool in the world.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ToolPose {
+    /// The pose.
+    #[serde(flatten)]
+    pub pose: Pose,
+    /// The row's id, or its number from 1.
+    pub id: String,
+}
+
+/// Poses of the tool.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Poses {
+    /// One a row.
+    pub poses: Vec<ToolPose>,
+}
+
+impl Document for Poses {
+    const KIND: &'static str = "poses/1";
+}
+
+/// The tool's pose for each row of joint angles; directions and forces are used where the table has them.
+///
+/// # Errors
+/// A table without joints; a tool that the profile does not have.
+pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<Poses, Failure> {
+    let tool = profile.tool(options.tool.as_deref())?;
+    let table = Table::read(joints)?;
+    table.require(&JOINTS)?;
+    let is_real = options.model == Which::Real;
+    let model = if is_real {
+        profile.profile.real_model(&tool, &Conditions::default())
+    } else {
+        profile.profile.controller_model(&tool)
+    };
+    let has = |columns: &[&str]| is_real && columns.iter().all(|c| table.has(c));
+    let (directions, forces) = (has(&DIRECTION_COLUMNS), has(&FORCE_COLUMNS));
+    let pose = |(number, row): (usize, super::table::Row)| {
+        let mut conditions = Conditions::default();
+        if directions {
+            conditions.direction = row.numbers(DIRECTION_COLUMNS)?;
+        }
+        if forces {
+            conditions.force_n = row.numbers(FORCE_COLUMNS)?;
+        }
+        Ok(ToolPose {
+            pose: (&model.forward(&row.joints()?, &conditions)).into(),
+            id: row.id(number + 1),
+        })
+    };
+    let poses = table.rows().enumerate().map(pose);
+    Ok(Poses {
+        poses: poses.collect::<Result<_, Failure>>()?,
+    })
+}
+
+impl Poses {
+    /// The table of poses.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut text = format!("id,{}\n", POSE.join(","));
+        for ToolPose { id, pose } in &self.poses {
+            let cells: Vec<_> = pose
+                .xyz_mm()
+                .iter()
+                .chain(&pose.quaternion)
+                .map(|v| cell(*v))
+                .collect();
+            text += &format!("{id},{}\n", cells.join(","));
+        }
+        text
+    }
+}

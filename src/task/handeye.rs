@@ -1,0 +1,335 @@
+//! `handeye`: where a camera is.
+
+use super::Document;
+use super::failure::Failure;
+use super::parts::{Ellipsoid, Pose, Sigma};
+use super::profile_file::ProfileFile;
+use super::register::provenance;
+use super::table::{JOINTS, POSE, Table, pose};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::{Pose as Motion, Vector};
+use crate::model::Conditions;
+use crate::model::profile::Mounted;
+use crate::program::Source;
+use crate::register::frame_file::{Frame, Sigma as Six};
+use crate::register::handeye::{
+    Corners as Refinement, HandEye as Problem, Method, Refined, Setup, WEAK_RAD, refine_by_corners,
+};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Robot poses, and what else is known.
+pub struct Inputs<'a> {
+    /// `base_from_flange`, or joints with `profile`.
+    pub robot: &'a Source,
+    /// `camera_from_board`, row by row.
+    pub board: &'a Source,
+    /// The model that makes poses of joints.
+    pub profile: Option<&'a ProfileFile>,
+    /// The tool whose load the arm carried.
+    pub tool: Option<&'a str>,
+    /// Corners seen by the camera and touched by the robot.
+    pub corners: Option<&'a Source>,
+}
+
+/// What each method finds of the camera; `null` where it finds nothing.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Methods {
+    /// R. Y. Tsai, R. K. Lenz.
+    pub tsai: Option<Pose>,
+    /// F. C. Park, B. J. Martin.
+    pub park: Option<Pose>,
+    /// R. Horaud, F. Dornaika.
+    pub horaud: Option<Pose>,
+    /// K. Daniilidis.
+    pub daniilidis: Option<Pose>,
+    /// All rows fitted together.
+    pub refined: Pose,
+}
+
+impl Methods {
+    /// Each with its name, in the order of the keys.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, Option<&Pose>); 5] {
+        [
+            ("tsai", self.tsai.as_ref()),
+            ("park", self.park.as_ref()),
+            ("horaud", self.horaud.as_ref()),
+            ("daniilidis", self.daniilidis.as_ref()),
+            ("refined", Some(&self.refined)),
+        ]
+    }
+}
+
+/// The residual of a row, in the fit and when it is left out of it.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Row {
+    /// In the fit.
+    pub residual_mm: f64,
+    /// In the fit.
+    pub residual_deg: f64,
+    /// Left out of it.
+    pub left_out_mm: f64,
+    /// Left out of it.
+    pub left_out_deg: f64,
+    /// Where the flange was in the robot's base.
+    pub place_mm: [f64; 3],
+}
+
+/// The refinement by corners that the robot touched.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Corners {
+    /// Whether left-out corners improve.
+    pub accepted: bool,
+    /// Root mean square distance of the corners without it.
+    pub before_mm: f64,
+    /// With it.
+    pub after_mm: f64,
+    /// Of each corner with a refinement by the others.
+    pub left_out_mm: f64,
+    /// What is applied to the camera's pose.
+    pub correction: Pose,
+}
+
+/// Where the camera and the board are.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct HandEye {
+    /// `eye-to-hand` or `eye-in-hand`.
+    pub setup: &'static str,
+    /// `base_from_camera`, or `flange_from_camera` of an eye in hand.
+    pub camera: Pose,
+    /// `flange_from_board`, or `base_from_board` of an eye in hand.
+    pub board: Pose,
+    /// What each method finds of the camera.
+    pub by_method: Methods,
+    /// Root mean square residual.
+    pub residual_mm: f64,
+    /// Root mean square residual.
+    pub residual_deg: f64,
+    /// The same of rows left out of the fit.
+    pub left_out_mm: f64,
+    /// The same of rows left out of the fit.
+    pub left_out_deg: f64,
+    /// Standard uncertainties of the camera.
+    pub sigma: Sigma,
+    /// Standard uncertainties of the board.
+    pub board_sigma: Sigma,
+    /// Standard deviation of one coordinate of a row.
+    pub noise_mm: f64,
+    /// Standard deviation of one rotation coordinate of a row.
+    pub noise_deg: f64,
+    /// Root mean square rotations about the main directions, largest first.
+    pub rotation_spread_deg: [f64; 3],
+    /// Residuals of the rows.
+    pub poses: Vec<Row>,
+    /// The refinement by corners.
+    pub corners: Option<Corners>,
+    /// Error ellipsoids of the camera and of the board.
+    pub ellipsoids: [Ellipsoid; 2],
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
+    /// How the robot's and the board's file are named.
+    #[serde(skip)]
+    pub names: [String; 2],
+    /// The frame file's text.
+    #[serde(skip)]
+    pub frame_text: String,
+}
+
+impl Document for HandEye {
+    const KIND: &'static str = "handeye/1";
+}
+
+/// Finds the camera's pose from robot and board poses (AX = XB).
+///
+/// # Errors
+/// Rows that are too few, do not rotate about two directions, or do not belong together.
+pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
+    let robot = robot_poses(inputs)?;
+    let board = poses(inputs.board)?;
+    let names = [&inputs.robot.name, &inputs.board.name];
+    let named = |error: &dyn std::fmt::Display| {
+        Failure::new(format!("{} and {}: {error}", names[0], names[1]))
+    };
+    let problem = Problem::new(setup, &robot, &board).map_err(|error| named(&error))?;
+    let refined = problem.refined().map_err(|error| named(&error))?;
+    let corners = inputs
+        .corners
+        .map(|source| refine(source, setup, &robot, &refined.camera))
+        .transpose()?;
+    let accepted = corners.as_ref().filter(|c| c.accepted);
+    let camera = accepted.map_or(&refined.camera, |c| &c.camera);
+    let covariance = accepted.map_or(&refined.camera_covariance, |c| &c.covariance);
+    let sigma = Six::of(covariance, camera);
+    let by = |method: Method| problem.by(method).ok().as_ref().map(Into::into);
+    let (left_out_m, left_out_rad) = left_out(&refined);
+    let mut findings = Vec::new();
+    findings.extend(weak_rotation(&problem, names[0]));
+    findings.extend(corners.as_ref().and_then(|c| not_accepted(c, names[0])));
+    let frame = Frame {
+        to_from_from: *camera,
+        sigma: Some(sigma),
+        rmsd_m: Some(refined.distance_m),
+        points: Some(problem.count()),
+        provenance: provenance([
+            ("method", "hand-eye"),
+            ("robot", names[0]),
+            ("board", names[1]),
+        ]),
+    };
+    Ok(HandEye {
+        setup: match setup {
+            Setup::EyeToHand => "eye-to-hand",
+            Setup::EyeInHand => "eye-in-hand",
+        },
+        camera: camera.into(),
+        board: (&refined.board).into(),
+        by_method: Methods {
+            tsai: by(Method::Tsai),
+            park: by(Method::Park),
+            horaud: by(Method::Horaud),
+            daniilidis: by(Method::Daniilidis),
+            refined: (&refined.camera).into(),
+        },
+        residual_mm: mm_from_m(refined.distance_m),
+        residual_deg: refined.rotation_rad / DEG,
+        left_out_mm: mm_from_m(left_out_m),
+        left_out_deg: left_out_rad / DEG,
+        sigma: (&sigma).into(),
+        board_sigma: (&Six::of(&refined.board_covariance, &refined.board)).into(),
+        noise_mm: mm_from_m(refined.sigma_position_m),
+        noise_deg: refined.sigma_rotation_rad / DEG,
+        rotation_spread_deg: problem.spread_rad.map(|s| s / DEG),
+        poses: refined
+            .rows
+            .iter()
+            .zip(&robot)
+            .map(|(row, robot)| Row {
+                residual_mm: mm_from_m(row.distance_m),
+                residual_deg: row.rotation_rad / DEG,
+                left_out_mm: mm_from_m(row.out_distance_m),
+                left_out_deg: row.out_rotation_rad / DEG,
+                place_mm: robot.translation.map(mm_from_m),
+            })
+            .collect(),
+        corners: corners.as_ref().map(|c| Corners {
+            accepted: c.accepted,
+            before_mm: mm_from_m(c.before_m),
+            after_mm: mm_from_m(c.after_m),
+            left_out_mm: mm_from_m(c.left_out_m),
+            correction: (&c.correction).into(),
+        }),
+        ellipsoids: [
+            Ellipsoid::new("camera", covariance, camera.translation),
+            Ellipsoid::new(
+                "board",
+                &refined.board_covariance,
+                refined.board.translation,
+            ),
+        ],
+        findings,
+        names: names.map(Clone::clone),
+        frame_text: frame.to_yaml(),
+    })
+}
+
+fn weak_rotation(problem: &Problem, name: &str) -> Option<Finding> {
+    (problem.spread_rad[1] < WEAK_RAD).then(|| {
+        let message = format!(
+            "the poses rotate by {:.2} deg only about the second direction: above {:.0} deg is well",
+            problem.spread_rad[1] / DEG,
+            WEAK_RAD / DEG
+        );
+        Finding::of_file("weak-rotation", Severity::Warning, name, message)
+            .hint("add poses that tilt the flange the other way")
+    })
+}
+
+fn not_accepted(corners: &Refinement, name: &str) -> Option<Finding> {
+    (!corners.accepted).then(|| {
+        let message = format!(
+            "the refinement by corners is left out: left-out corners are {:.4} mm off with it and {:.4} mm without",
+            mm_from_m(corners.left_out_m),
+            mm_from_m(corners.before_m)
+        );
+        Finding::of_file("corners-not-accepted", Severity::Warning, name, message)
+    })
+}
+
+fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
+    let table = Table::read(inputs.robot)?;
+    let Some(file) = inputs.profile else {
+        if table.has(JOINTS[0]) && !table.has(POSE[3]) {
+            return Err(Failure::with_hint(
+                format!("{}: joints, not poses", inputs.robot.name),
+                "--profile gives the model that makes poses of them",
+            ));
+        }
+        return poses(inputs.robot);
+    };
+    table.require(&JOINTS)?;
+    let mut mounted = Mounted::flange();
+    if inputs.tool.is_some() {
+        mounted.load = file.tool(inputs.tool)?.load;
+    }
+    let model = file.profile.real_model(&mounted, &Conditions::default());
+    let base_from_world = file.profile.world_from_base.inverse();
+    table
+        .rows()
+        .map(|row| Ok(base_from_world * model.forward(&row.joints()?, &Conditions::default())))
+        .collect()
+}
+
+fn poses(source: &Source) -> Result<Vec<Motion>, Failure> {
+    let table = Table::read(source)?;
+    table.require(&POSE)?;
+    table.rows().map(|row| pose(&row)).collect()
+}
+
+fn refine(
+    source: &Source,
+    setup: Setup,
+    robot: &[Motion],
+    camera: &Motion,
+) -> Result<Refinement, Failure> {
+    let table = Table::read(source)?;
+    let (touched_columns, seen_columns) = (["x_mm", "y_mm", "z_mm"], ["cx_mm", "cy_mm", "cz_mm"]);
+    table.require(&touched_columns)?;
+    table.require(&seen_columns)?;
+    if setup == Setup::EyeInHand {
+        table.require(&["row"])?;
+    }
+    let (mut seen, mut touched): (Vec<Vector>, Vec<Vector>) = (Vec::new(), Vec::new());
+    for row in table.rows() {
+        let point = row.numbers(touched_columns)?.map(m_from_mm);
+        touched.push(match setup {
+            Setup::EyeToHand => point,
+            Setup::EyeInHand => {
+                let number = row.number("row")?;
+                let pose = (1..=robot.len())
+                    .find(|n| *n as f64 == number)
+                    .map(|n| robot[n - 1])
+                    .ok_or_else(|| {
+                        row.failure(format!("row {number}: ROBOT has rows 1 to {}", robot.len()))
+                    })?;
+                pose.inverse().transform(point)
+            }
+        });
+        seen.push(row.numbers(seen_columns)?.map(m_from_mm));
+    }
+    refine_by_corners(camera, &seen, &touched)
+        .map_err(|error| Failure::with_hint(format!("{}: {error}", source.name), error.hint()))
+}
+
+/// Root mean square residual of the rows left out of the fit, metres and radians.
+fn left_out(refined: &Refined) -> (f64, f64) {
+    let n = refined.rows.len() as f64;
+    let sum = refined.rows.iter().fold((0.0, 0.0), |(d, r), row| {
+        (
+            d + row.out_distance_m.powi(2),
+            r + row.out_rotation_rad.powi(2),
+        )
+    });
+    ((sum.0 / n).sqrt(), (sum.1 / n).sqrt())
+}

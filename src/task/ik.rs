@@ -1,0 +1,188 @@
+//! `ik`: poses of the tool to joint angles.
+
+use super::Document;
+use super::failure::Failure;
+use super::fk::{Options, Which};
+use super::profile_file::ProfileFile;
+use super::table::{JOINTS, POSE, Row, Table, cell, pose};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::inverse::{Arm, Branch, Inverse, Outcome, Status};
+use crate::model::Conditions;
+use crate::model::profile::{Mounted, Profile};
+use crate::program::Source;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+const NEAR: [&str; 6] = [
+    "near1_deg",
+    "near2_deg",
+    "near3_deg",
+    "near4_deg",
+    "near5_deg",
+    "near6_deg",
+];
+
+/// Joint angles for a pose.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Solution {
+    /// The row's id, or its number from 1.
+    pub id: String,
+    /// The branch: 4 behind axis 1, 2 behind the lower arm, 1 joint 5 negative, added.
+    pub solution: usize,
+    /// Which of the answers on the branch, from 0, where it may hold several: arms with an offset wrist.
+    pub root: Option<u8>,
+    /// The controller's joint angles.
+    pub joints_deg: [f64; 6],
+    /// Distance of the pose attained from the one asked for.
+    pub residual_mm: f64,
+    /// Their angle.
+    pub residual_deg: f64,
+    /// Steps of the search.
+    pub iterations: u32,
+    /// `converged`, or why not.
+    pub status: &'static str,
+}
+
+/// Joint angles for poses.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Solutions {
+    /// One a row, or one a branch of each row.
+    pub solutions: Vec<Solution>,
+    /// Whether every one was reached.
+    #[serde(skip)]
+    pub reached: bool,
+}
+
+impl Document for Solutions {
+    const KIND: &'static str = "solutions/1";
+}
+
+/// Joint angles for each row of poses: on the branch of its columns, or with `all` on every one.
+///
+/// # Errors
+/// A table that names no branch; an arm without an inverse.
+pub fn ik(
+    file: &ProfileFile,
+    poses: &Source,
+    options: &Options,
+    all: bool,
+) -> Result<Solutions, Failure> {
+    let profile = &file.profile;
+    let tool = file.tool(options.tool.as_deref())?;
+    let table = Table::read(poses)?;
+    table.require(&POSE)?;
+    let has_near = NEAR.iter().all(|c| table.has(c));
+    if !all && !has_near && !table.has("branch") {
+        let hint = "branch is a number from 0 to 7: 4 behind axis 1, 2 behind the lower arm, 1 joint 5 negative";
+        return Err(Failure::with_hint(
+            "the table has neither a column branch nor near1_deg…near6_deg; or ask for --all",
+            hint,
+        ));
+    }
+    let inverse = inverse(profile, &tool, options.model)?;
+    let (mut solutions, mut reached) = (Vec::new(), true);
+    for (number, row) in table.rows().enumerate() {
+        let wanted = pose(&row)?;
+        let near = if has_near {
+            row.numbers(NEAR)?.map(|q| q * DEG)
+        } else {
+            middle(profile)
+        };
+        let mut add = |branch, root, near: &[f64; 6]| {
+            let outcome = inverse.solve(&wanted, branch, near);
+            reached &= outcome.status == Status::Converged;
+            solutions.push(solution(row.id(number + 1), branch, root, &outcome));
+        };
+        if all && inverse.arm.has_offset_wrist() {
+            // the real arm's answer is sought from the nominal one
+            for answer in inverse.arm.solve_all(&wanted, &near) {
+                add(answer.branch, Some(answer.root), &answer.q);
+            }
+            continue;
+        }
+        let branches = if all {
+            Branch::ALL.to_vec()
+        } else if table.has("branch") {
+            vec![branch(&row)?]
+        } else {
+            vec![inverse.arm.posture(&near).0]
+        };
+        for branch in branches {
+            add(branch, None, &near);
+        }
+    }
+    Ok(Solutions { solutions, reached })
+}
+
+fn branch(row: &Row) -> Result<Branch, Failure> {
+    let number = row.number("branch")?;
+    Branch::ALL
+        .into_iter()
+        .find(|b| f64::from(b.number()) == number)
+        .ok_or_else(|| row.failure(format!("branch {number} is not a whole number from 0 to 7")))
+}
+
+fn solution(id: String, branch: Branch, root: Option<u8>, outcome: &Outcome) -> Solution {
+    Solution {
+        id,
+        solution: usize::from(branch.number()),
+        root,
+        joints_deg: outcome.q.map(|q| q / DEG),
+        residual_mm: mm_from_m(outcome.residual.distance_m),
+        residual_deg: outcome.residual.angle_rad / DEG,
+        iterations: outcome.iterations,
+        status: outcome.status.id(),
+    }
+}
+
+fn inverse(profile: &Profile, tool: &Mounted, which: Which) -> Result<Inverse, Failure> {
+    let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)
+        .map_err(|error| Failure::new(error.to_string()))?;
+    let conditions = Conditions::default();
+    let real = match which {
+        Which::Real => profile.real_model(tool, &conditions),
+        Which::Controller => profile.controller_model(tool),
+    };
+    Ok(Inverse {
+        arm,
+        real,
+        conditions,
+    })
+}
+
+/// Zero, or the end of a joint's range that is nearest to it.
+fn middle(profile: &Profile) -> [f64; 6] {
+    profile
+        .mechanism
+        .joints
+        .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad))
+}
+
+impl Solutions {
+    /// The table of joints.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut text = format!(
+            "id,solution,{},residual_mm,residual_deg,iterations,status\n",
+            JOINTS.join(",")
+        );
+        for s in &self.solutions {
+            let numbers: Vec<String> = s
+                .joints_deg
+                .into_iter()
+                .chain([s.residual_mm, s.residual_deg])
+                .map(cell)
+                .collect();
+            let root = s.root.map_or_else(String::new, |root| format!("/{root}"));
+            text += &format!(
+                "{},{}{root},{},{},{}\n",
+                s.id,
+                s.solution,
+                numbers.join(","),
+                s.iterations,
+                s.status
+            );
+        }
+        text
+    }
+}

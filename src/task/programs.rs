@@ -1,0 +1,159 @@
+//! Programs of one call: their language, what may not be compensated, and why they cannot be read.
+
+use super::failure::Failure;
+use super::profile_file::ProfileFile;
+use crate::compensate::CompensateError;
+use crate::model::effects::Effect;
+use crate::model::profile::{ControllerModel, Profile};
+use crate::program::{LANGUAGES, Language, Marker, Source, language_of};
+
+/// The language of this id.
+///
+/// # Errors
+/// There is none.
+pub fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
+    let known = || {
+        LANGUAGES
+            .iter()
+            .map(|l| l.about().id)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let found = LANGUAGES.iter().find(|language| language.about().id == id);
+    found.copied().ok_or_else(|| {
+        Failure::with_hint(
+            format!("no language is called `{id}`"),
+            format!("languages are: {}", known()),
+        )
+    })
+}
+
+/// The language of all these files, by name and content.
+///
+/// # Errors
+/// A file of no language, files of several, another language than the profile's controller speaks; no file.
+pub fn common_language(
+    sources: &[Source],
+    profile: &Profile,
+) -> Result<&'static dyn Language, Failure> {
+    let mut common: Option<(&'static dyn Language, &str)> = None;
+    for source in sources {
+        let Some(language) = language_of(source) else {
+            let hint = "`poseshift languages` lists what is recognised; --language says what it is";
+            return Err(Failure::with_hint(
+                format!("{}: not a robot program of a known language", source.name),
+                hint,
+            ));
+        };
+        match common {
+            Some((first, name)) if first.about().id != language.about().id => {
+                return Err(Failure::new(format!(
+                    "{name} is {} and {} is {}: programs of one call have one language",
+                    first.about().name,
+                    source.name,
+                    language.about().name
+                )));
+            }
+            _ => common = Some((language, &source.name)),
+        }
+    }
+    let (language, name) = common.ok_or_else(|| Failure::new("no program files"))?;
+    match &profile.language {
+        Some(of_profile)
+            if of_profile != language.about().id
+                && of_profile != "csv"
+                && language.about().id != "csv" =>
+        {
+            Err(Failure::with_hint(
+                format!(
+                    "{name} is {}, and the profile's controller speaks {of_profile}",
+                    language.about().name
+                ),
+                "is it the profile of this robot? --language overrides",
+            ))
+        }
+        _ => Ok(language),
+    }
+}
+
+/// A profile whose calibration cannot be meant.
+///
+/// # Errors
+/// A calibrated controller without the effects that it applies.
+pub fn refuse_doubtful(file: &ProfileFile) -> Result<(), Failure> {
+    let profile = &file.profile;
+    let nothing = profile.effects.iter().all(Effect::is_zero);
+    // with its own effects the real arm is taken as the controller's: nothing changes
+    if profile.controller == ControllerModel::Calibrated && profile.own_effects.is_none() && nothing
+    {
+        let message = format!(
+            "{}: the controller is calibrated itself, and the profile has no effects to apply",
+            file.name
+        );
+        let hint = "a calibrated controller needs the effects that it applies (`controller.effects`; of a UR, `poseshift profile \
+                    import-ur`) and those of the real arm";
+        return Err(Failure::with_hint(message, hint));
+    }
+    Ok(())
+}
+
+/// Programs that are compensated already.
+///
+/// # Errors
+/// One of them is.
+pub fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
+    for source in sources {
+        if let Some(offset) = Marker::find(&source.bytes) {
+            let (line, column) = source.line_column(offset);
+            let hint = "compensate the original instead; --force compensates once more";
+            return Err(Failure::at(
+                source,
+                line,
+                column,
+                None,
+                "this file is already compensated",
+                hint,
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Why programs cannot be compensated, with the place in their text.
+pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
+    let source_of = |file: &str| sources.iter().find(|source| source.name == file);
+    match error {
+        CompensateError::Read(read) => {
+            let (file, line, column) = read.place();
+            match source_of(file) {
+                Some(source) if line > 0 => {
+                    Failure::at(source, line, column, None, read.message(), "")
+                }
+                _ => Failure::new(read.to_string()),
+            }
+        }
+        CompensateError::Placement(unknown) => match source_of(&unknown.missing[0].file) {
+            Some(source) => Failure::at(
+                source,
+                unknown.missing[0].line,
+                unknown.missing[0].column,
+                None,
+                unknown.message(),
+                unknown.hint(),
+            ),
+            None => Failure::with_hint(unknown.to_string(), unknown.hint()),
+        },
+        CompensateError::MeasuredFrame(error) => {
+            Failure::with_hint(format!("--wobj: {error}"), error.hint())
+        }
+        CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
+        CompensateError::NothingToCorrect => Failure::with_hint(
+            error.to_string(),
+            "`poseshift calibrate` identifies effects; with --work-offset the part is moved without any",
+        ),
+        CompensateError::NothingInReach { .. } => Failure::with_hint(
+            error.to_string(),
+            "check the tool and the work frame, too; nothing is written",
+        ),
+    }
+}

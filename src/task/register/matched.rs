@@ -1,0 +1,357 @@
+//! Points whose partners are known: Kabsch, robustly or with planes.
+
+use super::points::{Feature, Pair, Points, matched};
+use super::{Feature as TouchedFeature, Motion, Options, Registration, Residual, Scale};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::mm_from_m;
+use crate::geometry::{Vector, add, norm, scale};
+use crate::register::RegisterError;
+use crate::register::features::{self, FeatureError, Round, compensated, noise_of};
+use crate::register::frames::{TouchedPlane, points_and_planes};
+use crate::register::kabsch::{Fit, kabsch, noise_m};
+use crate::register::robust::{self, robust};
+use crate::task::Failure;
+
+/// A residual above so many standard deviations of a coordinate is worth a look.
+const SUSPECT: f64 = 4.35;
+/// A scale that differs from 1 by more than this and its uncertainty is a finding.
+const SCALE: f64 = 2e-5;
+/// Linear thermal expansion of steel and of aluminium, 1/K.
+const EXPANSION: [f64; 2] = [11.5e-6, 23.0e-6];
+
+/// A point of both sets.
+struct Touched {
+    id: String,
+    from_m: Vector,
+    to_m: Vector,
+    variance_m2: Option<f64>,
+    weight: Option<f64>,
+}
+
+fn warning(id: &'static str, file: &str, message: impl Into<String>) -> Finding {
+    Finding::of_file(id, Severity::Warning, file, message)
+}
+
+pub(super) fn register(
+    from: &Points,
+    to: &Points,
+    options: &Options,
+) -> Result<Registration, Failure> {
+    let (pairs, dropped) = matched(from, to, options.drop_unmatched)?;
+    let mut findings = Vec::new();
+    if !dropped.is_empty() {
+        let message = format!("left out, for want of a partner: {}", dropped.join(", "));
+        findings.push(warning("unmatched-ids", &to.name, message));
+    }
+    let radius = options.probe_radius_m;
+    let (mut touched, mut planes, mut plane_ids) = (Vec::new(), Vec::new(), Vec::new());
+    let mut features = Vec::new();
+    for pair in &pairs {
+        match pair.from.feature {
+            Feature::Point => touched.push(point(pair, radius, &to.name)?),
+            Feature::Plane => {
+                planes.push(plane(pair, &from.name)?);
+                plane_ids.push(pair.from.id.as_str());
+            }
+            Feature::Sphere | Feature::Hole => {
+                let (centre, feature) = round(pair, radius, &to.name, &mut findings)?;
+                touched.push(centre);
+                features.push(feature);
+            }
+        }
+    }
+    let (motion, scale) = if planes.is_empty() {
+        by_points(&touched, options, &mut findings, &to.name)?
+    } else {
+        (
+            by_planes(&touched, &planes, &plane_ids, options, &to.name)?,
+            None,
+        )
+    };
+    Ok(Registration {
+        features,
+        findings,
+        scale,
+        ..Registration::new(&from.name, &to.name, motion, options)
+    })
+}
+
+fn by_planes(
+    touched: &[Touched],
+    planes: &[TouchedPlane],
+    ids: &[&str],
+    options: &Options,
+    name: &str,
+) -> Result<Motion, Failure> {
+    if options.robust {
+        return Err(Failure::new("--robust takes points only, no planes"));
+    }
+    let points: Vec<_> = touched.iter().map(|t| (t.from_m, t.to_m)).collect();
+    let fit = points_and_planes(&points, planes, options.probe_radius_m, options.sigma_m)
+        .map_err(|error| Failure::new(format!("{name}: {error}")))?;
+    let mut rows: Vec<Residual> = touched
+        .iter()
+        .zip(&fit.points_m)
+        .map(|(t, r)| Residual::new(&t.id, *r).at(t.to_m))
+        .collect();
+    let mut sum: f64 = fit.points_m.iter().map(|r| norm(*r).powi(2)).sum();
+    for ((id, residuals), plane) in ids.iter().zip(&fit.planes_m).zip(planes) {
+        let normal = fit.to_from_from.rotation * plane.normal;
+        for (k, along) in residuals.iter().enumerate() {
+            sum += along * along;
+            rows.push(Residual::new(
+                &format!("{id}/{}", k + 1),
+                scale(*along, normal),
+            ));
+        }
+    }
+    Ok(Motion {
+        method: "points and planes",
+        to_from_from: fit.to_from_from,
+        sigma_m: Some(fit.sigma_m),
+        sigma_given: options.sigma_m.is_some(),
+        covariance: Some(fit.covariance),
+        rmsd_m: Some((sum / rows.len() as f64).sqrt()),
+        points: rows,
+    })
+}
+
+fn by_points(
+    touched: &[Touched],
+    options: &Options,
+    findings: &mut Vec<Finding>,
+    name: &str,
+) -> Result<(Motion, Option<Scale>), Failure> {
+    let from: Vec<Vector> = touched.iter().map(|t| t.from_m).collect();
+    let to: Vec<Vector> = touched.iter().map(|t| t.to_m).collect();
+    let (weights, absolute) = weights(touched, name)?;
+    // weights are 1/σ² in 1/m²: at weight one the deviation is one metre
+    let given = if absolute { Some(1.0) } else { options.sigma_m };
+    let named =
+        |error: &RegisterError| Failure::with_hint(format!("{name}: {error}"), error.hint());
+    let weights = weights.as_deref();
+    let (fit, used, rejected): (Fit, Option<Vec<f64>>, Vec<robust::BadTouch>) = if options.robust {
+        let found = robust(&from, &to, weights, given).map_err(|error| named(&error))?;
+        (found.fit, Some(found.weights), found.rejected)
+    } else {
+        let fit = kabsch(&from, &to, weights).map_err(|error| named(&error))?;
+        (fit, weights.map(<[f64]>::to_vec), Vec::new())
+    };
+    let used = used.as_deref();
+    let residuals = fit.residuals_m(&from, &to);
+    let exact = touched.len() <= 3 && given.is_none();
+    let sigma = given.unwrap_or_else(|| noise_m(&residuals, used));
+    for bad in &rejected {
+        let message = format!(
+            "{} is left out: {:.3} mm from where the others put it, {:.1} standard deviations (limit {})",
+            touched[bad.index].id,
+            mm_from_m(bad.distance_m),
+            bad.sigmas,
+            robust::LIMIT
+        );
+        findings.push(warning("bad-touch", name, message));
+    }
+    if !options.robust {
+        suspect(touched, &from, &to, weights, given, findings, name);
+    }
+    if exact {
+        findings.push(Finding::of_file(
+            "few-points",
+            Severity::Note,
+            name,
+            "three points check each other little: the noise comes from three redundant distances",
+        ));
+    }
+    let scale = Scale {
+        value: fit.scale,
+        sigma: fit.scale_sigma(sigma),
+    };
+    findings.extend(other_scale(&scale, touched.len(), name));
+    let mut rows: Vec<Residual> = touched
+        .iter()
+        .zip(&residuals)
+        .map(|(t, r)| Residual::new(&t.id, *r).at(t.to_m))
+        .collect();
+    for bad in &rejected {
+        rows[bad.index].rejected = Some(format!("{:.1} standard deviations", bad.sigmas));
+    }
+    let motion = Motion {
+        method: if options.robust {
+            "kabsch, robust"
+        } else {
+            "kabsch"
+        },
+        to_from_from: fit.to_from_from,
+        covariance: Some(fit.covariance(&from, used, sigma)),
+        // told for a point of weight one, which is no length where the weights are 1/σ²
+        sigma_m: (!absolute).then_some(sigma),
+        sigma_given: given.is_some(),
+        rmsd_m: Some(fit.rmsd_m(&from, &to, used)),
+        points: rows,
+    };
+    Ok((motion, Some(scale)))
+}
+
+fn other_scale(scale: &Scale, points: usize, name: &str) -> Option<Finding> {
+    let off = scale.value - 1.0;
+    (points > 3 && off.abs() > SCALE && off.abs() > 4.0 * scale.sigma).then(|| {
+        let [steel, aluminium] = EXPANSION.map(|expansion| off / expansion);
+        let message = format!(
+            "TO is {:.6} times as large as FROM (± {:.6}): other units, or a part {steel:+.0} K (steel) or {aluminium:+.0} K (aluminium) from the temperature of its drawing",
+            scale.value, scale.sigma
+        );
+        warning("scale", name, message)
+    })
+}
+
+/// Without --robust: a point that the others contradict is told, not left out.
+fn suspect(
+    touched: &[Touched],
+    from: &[Vector],
+    to: &[Vector],
+    weights: Option<&[f64]>,
+    given: Option<f64>,
+    findings: &mut Vec<Finding>,
+    name: &str,
+) {
+    if touched.len() < robust::FEWEST || touched.len() > 2000 {
+        return;
+    }
+    let Ok(found) = robust(from, to, weights, given) else {
+        return;
+    };
+    for bad in found.rejected.iter().filter(|bad| bad.sigmas > SUSPECT) {
+        let message = format!(
+            "{} is {:.3} mm from where the others put it, {:.1} standard deviations; it is in the fit",
+            touched[bad.index].id,
+            mm_from_m(bad.distance_m),
+            bad.sigmas
+        );
+        findings
+            .push(warning("suspect-touch", name, message).hint("--robust leaves such touches out"));
+    }
+}
+
+/// Weights of points: 1/σ² of `sigma_mm` (absolute), or the column `weight`.
+fn weights(touched: &[Touched], name: &str) -> Result<(Option<Vec<f64>>, bool), Failure> {
+    let sigmas = touched.iter().filter(|t| t.variance_m2.is_some()).count();
+    let relative = touched.iter().filter(|t| t.weight.is_some()).count();
+    if sigmas > 0 && relative > 0 {
+        return Err(Failure::new(format!(
+            "{name}: sigma_mm and weight cannot both be given"
+        )));
+    }
+    if sigmas > 0 {
+        let each = touched.iter().map(|t| t.variance_m2.map(|v| 1.0 / v));
+        let all: Option<Vec<f64>> = each.collect();
+        let all = all.ok_or_else(|| {
+            Failure::new(format!("{name}: sigma_mm is given for some points only"))
+        })?;
+        return Ok((Some(all), true));
+    }
+    if relative > 0 {
+        let each = touched.iter().map(|t| t.weight.unwrap_or(1.0));
+        return Ok((Some(each.collect()), false));
+    }
+    Ok((None, false))
+}
+
+fn point(pair: &Pair, radius: f64, to_name: &str) -> Result<Touched, Failure> {
+    let (from, to) = (pair.from, pair.to[0]);
+    let (mut from_m, mut to_m) = (from.point_m, to.point_m);
+    if radius > 0.0 {
+        match (to.normal, from.normal) {
+            (Some(normal), _) => to_m = compensated(to_m, radius, normal),
+            // the centre of the ball at the nominal point
+            (None, Some(normal)) => from_m = add(from_m, scale(radius, normal)),
+            (None, None) => {
+                let message = format!(
+                    "{to_name}: point {}: --probe-radius-mm needs the outward normal nx,ny,nz of the touched surface in FROM or TO",
+                    from.id
+                );
+                return Err(Failure::with_hint(message, "spheres and holes need none"));
+            }
+        }
+    }
+    let variances = [from.sigma_m, to.sigma_m].map(|s| s.map(|s| s * s));
+    let variance_m2 = match variances {
+        [None, None] => None,
+        [a, b] => Some(a.unwrap_or(0.0) + b.unwrap_or(0.0)),
+    };
+    Ok(Touched {
+        id: from.id.clone(),
+        from_m,
+        to_m,
+        variance_m2,
+        weight: to.weight.or(from.weight),
+    })
+}
+
+fn plane(pair: &Pair, from_name: &str) -> Result<TouchedPlane, Failure> {
+    let normal = pair.from.normal.ok_or_else(|| {
+        Failure::new(format!(
+            "{from_name}: plane {} needs its outward normal nx,ny,nz",
+            pair.from.id
+        ))
+    })?;
+    Ok(TouchedPlane {
+        point_m: pair.from.point_m,
+        normal,
+        touches_m: pair.to.iter().map(|row| row.point_m).collect(),
+    })
+}
+
+fn round(
+    pair: &Pair,
+    probe_radius_m: f64,
+    to_name: &str,
+    findings: &mut Vec<Finding>,
+) -> Result<(Touched, TouchedFeature), Failure> {
+    let touches: Vec<Vector> = pair.to.iter().map(|row| row.point_m).collect();
+    let id = &pair.from.id;
+    let fail = |error: FeatureError| Failure::new(format!("{to_name}: {id}: {error}"));
+    let is_sphere = pair.from.feature == Feature::Sphere;
+    let (fit, parameters): (Round, usize) = if is_sphere {
+        (features::sphere(&touches).map_err(fail)?, 4)
+    } else {
+        (features::circle(&touches).map_err(fail)?, 3)
+    };
+    // the ball stands outside a sphere and inside a hole
+    let radius_m = if is_sphere {
+        fit.radius_m - probe_radius_m
+    } else {
+        fit.radius_m + probe_radius_m
+    };
+    let noise = noise_of(&fit.residuals_m, parameters);
+    if let Some(nominal) = pair.from.radius_m {
+        let off = radius_m - nominal;
+        let limit = noise.map_or(5e-5, |n| (5.0 * n * fit.radius_sigma).max(2e-5));
+        if off.abs() > limit {
+            let message = format!(
+                "{id}: radius {:.4} mm instead of {:.4} mm (limit {:.4} mm)",
+                mm_from_m(radius_m),
+                mm_from_m(nominal),
+                mm_from_m(limit)
+            );
+            findings.push(
+                warning("feature-radius", to_name, message).hint("is the probe's radius right?"),
+            );
+        }
+    }
+    let feature = TouchedFeature {
+        id: id.clone(),
+        feature: if is_sphere { "sphere" } else { "hole" },
+        touches: touches.len(),
+        centre_mm: fit.centre_m.map(mm_from_m),
+        radius_mm: mm_from_m(radius_m),
+        noise_mm: noise.map(mm_from_m),
+    };
+    let touched = Touched {
+        id: id.clone(),
+        from_m: pair.from.point_m,
+        to_m: fit.centre_m,
+        variance_m2: None,
+        weight: pair.from.weight,
+    };
+    Ok((touched, feature))
+}

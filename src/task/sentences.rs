@@ -1,0 +1,102 @@
+//! Effects in sentences that a person understands.
+
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::model::JOINTS;
+use crate::model::effects::{BASE, Effect, Kind};
+
+fn digits(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || (0.01..1000.0).contains(&size) {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+/// An effect in one sentence a person understands.
+#[must_use]
+pub fn sentence(effect: &Effect) -> String {
+    let (p, site) = (&effect.parameters, &effect.site);
+    let joint = format!("J{}", site.index + 1);
+    let deg = |value: f64| digits(value / DEG);
+    let mm = |value: f64| digits(mm_from_m(value));
+    let length = |x: &[f64]| x.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let text = match effect.kind {
+        Kind::BaseFrame => format!(
+            "The base stands {} mm from where the profile has it and is turned by {}°",
+            mm(length(&p[..3])),
+            deg(length(&p[3..]))
+        ),
+        Kind::ToolFrame => format!(
+            "The tool's tip is {} mm from where the profile has it",
+            mm(length(&p[..3]))
+        ),
+        Kind::LinkGeometry => format!("Link {} differs from the profile", site.index + 1),
+        Kind::JointScale => format!("{joint} turns {}° too far in 90°", deg(p[0] * 90.0 * DEG)),
+        Kind::JointCompliance => {
+            format!("{joint} gives way by {}° under 100 N m", deg(100.0 * p[0]))
+        }
+        Kind::JointHarmonic => format!(
+            "{joint} runs fast and slow by {}°, {} times a turn (eccentric gear or encoder)",
+            deg(length(&p[..2])),
+            site.order
+        ),
+        Kind::JointCoupling => format!(
+            "{joint} is taken along by J{}: {}° in 90°",
+            site.on + 1,
+            deg(p[0] * 90.0 * DEG)
+        ),
+        Kind::Backlash if p[0] < 0.0 => {
+            format!("{joint} loses {}° when it turns the other way", deg(-p[0]))
+        }
+        Kind::Backlash => format!(
+            "{joint} runs {}° ahead when it turns the other way",
+            deg(p[0])
+        ),
+        Kind::PayloadError => format!(
+            "The load on the flange is {} kg heavier than the profile says, its centre of gravity {} mm elsewhere",
+            digits(p[0]),
+            mm(length(&p[1..4]))
+        ),
+        Kind::ComplianceKnee => format!(
+            "{joint} is soft near zero load: {}° more up to {} N m",
+            deg(p[0] * p[1]),
+            digits(p[0])
+        ),
+        Kind::LinkCompliance => format!(
+            "Link {} bends: {}° under 100 N m",
+            site.index + 1,
+            deg(100.0 * length(&p[..2]))
+        ),
+        Kind::BaseCompliance => format!(
+            "The pedestal tilts: {}° under 100 N m",
+            deg(100.0 * length(&p[..2]))
+        ),
+        Kind::ThermalGrowth => format!(
+            "The arm grows with temperature: {} mm a metre in 10 K",
+            mm(10.0 * p[0])
+        ),
+        Kind::WarmUpDrift if site.index == BASE => format!(
+            "The base drifts by {} mm while it warms up, in some {:.0} min",
+            mm(length(&p[1..4])),
+            p[4] / 60.0
+        ),
+        Kind::WarmUpDrift => format!(
+            "{joint} drifts by {}° while it warms up, in some {:.0} min",
+            deg(p[0]),
+            p[4] / 60.0
+        ),
+        Kind::FrameShift => format!(
+            "The measuring device or the base moved before row {} by {} mm",
+            site.order,
+            mm(length(&p[..3]))
+        ),
+        Kind::ToolSlip => format!(
+            "The tool or the reflector slipped before row {} by {} mm",
+            site.order,
+            mm(length(&p[..3]))
+        ),
+    };
+    debug_assert!(site.index <= JOINTS);
+    format!("{text} ({}).", effect.definition().id)
+}

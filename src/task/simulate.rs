@@ -1,0 +1,146 @@
+//! `simulate`: measurements of the robot that a profile describes.
+
+use super::Document;
+use super::failure::Failure;
+use super::profile_file::ProfileFile;
+use super::table::{JOINTS, Row, Table, cell};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::measurements::{
+    DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Observed, POSITION_COLUMNS,
+    QUATERNION_COLUMNS,
+};
+use crate::identify::simulate::{Command, Session, simulate as measure};
+use crate::model::Conditions;
+use crate::program::Source;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Measurements that were made.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Simulation {
+    /// How many.
+    pub rows: usize,
+    /// The file written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+    /// The measurements (CSV), where no file is written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub csv: Option<String>,
+}
+
+impl Document for Simulation {
+    const KIND: &'static str = "simulation/1";
+}
+
+/// Measures the real arm of a profile in each row's joint angles, every named point of it.
+///
+/// # Errors
+/// A table without joints; a tool that the profile does not have.
+pub fn simulate(
+    file: &ProfileFile,
+    joints: &Source,
+    tool: Option<&str>,
+    session: &Session,
+) -> Result<Simulation, Failure> {
+    let profile = &file.profile;
+    let tool = file.tool(tool)?;
+    let table = Table::read(joints)?;
+    table.require(&JOINTS)?;
+    let directions = DIRECTION_COLUMNS.iter().all(|c| table.has(c));
+    let forces = FORCE_COLUMNS.iter().all(|c| table.has(c));
+    let command = |row: Row| {
+        let mut conditions = Conditions::default();
+        if directions {
+            conditions.direction = row.numbers(DIRECTION_COLUMNS)?;
+        }
+        if forces {
+            conditions.force_n = row.numbers(FORCE_COLUMNS)?;
+        }
+        Ok(Command {
+            q: row.joints()?,
+            conditions: (directions || forces).then_some(conditions),
+        })
+    };
+    let commands: Vec<Command> = table.rows().map(command).collect::<Result<_, Failure>>()?;
+    let mut points: Vec<(Option<String>, [f64; 3])> = profile
+        .points
+        .iter()
+        .map(|(name, p)| (Some(name.clone()), *p))
+        .collect();
+    if points.is_empty() {
+        points.push((None, [0.0; 3]));
+    }
+    let rows = measure(profile, &tool, &points, &commands, session);
+    let csv = csv(&rows, forces, profile.tools.contains_key(&tool.name));
+    Ok(Simulation {
+        rows: rows.len(),
+        output: None,
+        csv: Some(csv),
+    })
+}
+
+/// A file of measurements; every number is read back as it is.
+fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
+    let Some(first) = rows.first() else {
+        return format!("{}\n", JOINTS.join(","));
+    };
+    let mut header: Vec<&str> = vec!["id"];
+    header.extend(JOINTS);
+    match first.observed {
+        Observed::Position(_) => header.extend(POSITION_COLUMNS),
+        Observed::Pose(_) => header.extend(POSITION_COLUMNS.iter().chain(&QUATERNION_COLUMNS)),
+        Observed::Distance { .. } => header.extend(DISTANCE_COLUMNS),
+        Observed::Contact(_) => {}
+    }
+    header.extend(DIRECTION_COLUMNS);
+    header.extend(FORCE_COLUMNS.iter().filter(|_| forces));
+    let optional = [
+        (named_tool, "tool"),
+        (first.point.is_some(), "point"),
+        (first.conditions.temperature_c.is_some(), "temperature_c"),
+        (first.conditions.time_s.is_some(), "time_s"),
+        (first.sigma_m.is_some(), "sigma_mm"),
+    ];
+    header.extend(
+        optional
+            .iter()
+            .filter(|(there, _)| *there)
+            .map(|(_, name)| *name),
+    );
+    let mut out = header.join(",") + "\n";
+    let quoted = |text: &str| {
+        if text.contains([',', '"', '\n']) {
+            format!("\"{}\"", text.replace('"', "\"\""))
+        } else {
+            text.to_owned()
+        }
+    };
+    for row in rows {
+        let mut cells = vec![row.id.clone()];
+        cells.extend(row.q.map(|q| cell(q / DEG)));
+        match row.observed {
+            Observed::Position(p) => cells.extend(p.map(|x| cell(mm_from_m(x)))),
+            Observed::Pose(pose) => {
+                cells.extend(pose.translation.map(|x| cell(mm_from_m(x))));
+                cells.extend(pose.rotation.quaternion().0.map(cell));
+            }
+            Observed::Distance { distance_m, from_m } => {
+                cells.push(cell(mm_from_m(distance_m)));
+                cells.extend(from_m.map(|x| cell(mm_from_m(x))));
+            }
+            // no simulated device touches
+            Observed::Contact(_) => {}
+        }
+        cells.extend(row.conditions.direction.map(cell));
+        if forces {
+            cells.extend(row.conditions.force_n.map(cell));
+        }
+        cells.extend(row.tool.as_deref().filter(|_| named_tool).map(quoted));
+        cells.extend(row.point.as_deref().map(quoted));
+        cells.extend(row.conditions.temperature_c.map(cell));
+        cells.extend(row.conditions.time_s.map(cell));
+        cells.extend(row.sigma_m.map(|s| cell(mm_from_m(s))));
+        out += &(cells.join(",") + "\n");
+    }
+    out
+}

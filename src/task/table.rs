@@ -1,0 +1,245 @@
+//! CSV tables with a header: columns in any order, errors by line and column.
+
+use super::failure::Failure;
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::{Pose, Quaternion};
+use crate::identify::doubt::csv::not_csv;
+use crate::program::Source;
+
+/// A table read whole.
+pub struct Table<'a> {
+    source: &'a Source,
+    header: Vec<String>,
+    rows: Vec<(usize, csv::StringRecord)>,
+}
+
+/// One row of a table.
+pub struct Row<'a> {
+    table: &'a Table<'a>,
+    /// Line in the file, from 1.
+    pub line: usize,
+    cells: &'a csv::StringRecord,
+}
+
+impl<'a> Table<'a> {
+    /// Reads a table; lines that start with `#` are comments.
+    ///
+    /// # Errors
+    /// Text that is no table, with line and column.
+    pub fn read(source: &'a Source) -> Result<Self, Failure> {
+        if let Some(doubt) = not_csv(&source.bytes) {
+            let (line, column) = (doubt.line, doubt.column);
+            return Err(Failure::at(
+                source,
+                line,
+                column,
+                None,
+                doubt.message,
+                doubt.hint,
+            ));
+        }
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(source.bytes.as_slice());
+        let failure = |error: &csv::Error| {
+            let line = error
+                .position()
+                .map_or(0, |p| usize::try_from(p.line()).unwrap_or(0));
+            let message = match error.kind() {
+                csv::ErrorKind::UnequalLengths {
+                    expected_len, len, ..
+                } => format!("{len} cells; the header has {expected_len}"),
+                csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".into(),
+                _ => error.to_string(),
+            };
+            Failure::at(source, line, 1, None, message, "")
+        };
+        let header = reader
+            .headers()
+            .map_err(|error| failure(&error))?
+            .iter()
+            .map(str::to_owned)
+            .collect();
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| failure(&error))?;
+            let line = record
+                .position()
+                .map_or(0, |p| usize::try_from(p.line()).unwrap_or(0));
+            rows.push((line, record));
+        }
+        Ok(Self {
+            source,
+            header,
+            rows,
+        })
+    }
+
+    /// Whether it has this column.
+    pub fn has(&self, column: &str) -> bool {
+        self.header.iter().any(|name| name == column)
+    }
+
+    /// That it has these columns.
+    ///
+    /// # Errors
+    /// One of them is missing or stands twice.
+    pub fn require(&self, columns: &[&str]) -> Result<(), Failure> {
+        let count = |column: &str| self.header.iter().filter(|name| *name == column).count();
+        let missing: Vec<_> = columns
+            .iter()
+            .filter(|column| count(column) == 0)
+            .copied()
+            .collect();
+        if !missing.is_empty() {
+            let hint = format!("the header has: {}", self.header.join(", "));
+            return Err(Failure::with_hint(
+                format!(
+                    "{}: columns are missing: {}",
+                    self.source.name,
+                    missing.join(", ")
+                ),
+                hint,
+            ));
+        }
+        match columns.iter().find(|column| count(column) > 1) {
+            Some(twice) => Err(Failure::new(format!(
+                "{}: the column {twice} stands twice",
+                self.source.name
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// The rows in the order of the file.
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.rows.iter().map(|(line, cells)| Row {
+            table: self,
+            line: *line,
+            cells,
+        })
+    }
+}
+
+impl Row<'_> {
+    /// A cell's text; `None` where there is no such column.
+    pub fn text(&self, column: &str) -> Option<&str> {
+        let index = self.table.header.iter().position(|name| name == column)?;
+        self.cells.get(index)
+    }
+
+    /// A finite number in a required column.
+    ///
+    /// # Errors
+    /// The cell is none.
+    pub fn number(&self, column: &str) -> Result<f64, Failure> {
+        let text = self.text(column).unwrap_or_default();
+        let number = text.parse().ok().filter(|n: &f64| n.is_finite());
+        number.ok_or_else(|| {
+            let found = if text.is_empty() {
+                "an empty cell".to_owned()
+            } else {
+                format!("`{text}`")
+            };
+            let message = format!("column {column}: {found} is not a finite number");
+            Failure::at(
+                self.table.source,
+                self.line,
+                self.column_of(column),
+                Some(text.len()),
+                message,
+                "",
+            )
+        })
+    }
+
+    /// Finite numbers in required columns.
+    ///
+    /// # Errors
+    /// One of the cells is none.
+    pub fn numbers<const N: usize>(&self, columns: [&str; N]) -> Result<[f64; N], Failure> {
+        let mut out = [0.0; N];
+        for (slot, column) in out.iter_mut().zip(columns) {
+            *slot = self.number(column)?;
+        }
+        Ok(out)
+    }
+
+    /// The six joint angles of the controller, radians.
+    ///
+    /// # Errors
+    /// One of the cells is no finite number.
+    pub fn joints(&self) -> Result<[f64; 6], Failure> {
+        Ok(self.numbers(JOINTS)?.map(|q| q * DEG))
+    }
+
+    /// A failure at this row.
+    pub fn failure(&self, message: String) -> Failure {
+        Failure::at(self.table.source, self.line, 1, None, message, "")
+    }
+
+    /// The `id` column, else the row's number from 1.
+    pub fn id(&self, number: usize) -> String {
+        self.text("id")
+            .map_or_else(|| number.to_string(), str::to_owned)
+    }
+
+    fn column_of(&self, column: &str) -> usize {
+        let index = self
+            .table
+            .header
+            .iter()
+            .position(|name| name == column)
+            .unwrap_or(0);
+        let line = self
+            .table
+            .source
+            .line(self.line.saturating_sub(1))
+            .unwrap_or_default();
+        let commas = line
+            .iter()
+            .enumerate()
+            .filter(|(_, b)| **b == b',')
+            .map(|(at, _)| at + 1);
+        std::iter::once(0).chain(commas).nth(index).unwrap_or(0) + 1
+    }
+}
+
+/// How far a quaternion of a table may be from length 1.
+pub const UNIT_TOLERANCE: f64 = 1e-3;
+/// Joint columns.
+pub const JOINTS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
+/// Pose columns.
+pub const POSE: [&str; 7] = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"];
+
+/// A number for output tables: every digit that a reader needs to get the same number back.
+pub fn cell(value: f64) -> String {
+    format!("{}", if value == 0.0 { 0.0 } else { value })
+}
+
+/// Seven columns of a pose, mm and a quaternion whose length is 1 to [`UNIT_TOLERANCE`].
+///
+/// # Errors
+/// A cell that is no number; another length of the quaternion.
+pub fn pose(row: &Row) -> Result<Pose, Failure> {
+    let [x, y, z, w, i, j, k] = row.numbers(POSE)?;
+    Ok(Pose::from_parts(
+        [x, y, z].map(m_from_mm),
+        unit(row, Quaternion([w, i, j, k]))?,
+    ))
+}
+
+/// A quaternion of a row, normalised.
+///
+/// # Errors
+/// Its length differs from 1 by more than [`UNIT_TOLERANCE`].
+pub fn unit(row: &Row, quaternion: Quaternion) -> Result<Quaternion, Failure> {
+    let norm = quaternion.norm();
+    if (norm - 1.0).abs() > UNIT_TOLERANCE {
+        return Err(row.failure(format!(
+            "the quaternion's length is {norm:.6}; it may differ from 1 by {UNIT_TOLERANCE}"
+        )));
+    }
+    Ok(quaternion.normalized())
+}

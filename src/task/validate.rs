@@ -1,0 +1,329 @@
+//! `validate`: what a profile is worth on measurements it has not seen.
+
+use super::Document;
+use super::failure::Failure;
+use super::measurements::{Rows, identify_failure};
+use super::parts::{File, Pairs, Quality, SpreadDeg, SpreadMm, findings};
+use super::profile_file::ProfileFile;
+use crate::finding::{Finding, Severity};
+use crate::identify::IdentifyError;
+use crate::identify::measurements::{Measurement, Purpose};
+
+use crate::identify::validation::{self, Refit, Validation as Found, validate_telling};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+/// How to validate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Fit base, tool and points first: the device or the tool was set up anew.
+    pub refit_frames: bool,
+    /// Identify the effects again without each of so many parts of the configurations.
+    pub folds: Option<usize>,
+    /// Use rows of every set, not only those for `validate`.
+    pub all_sets: bool,
+}
+
+/// One number a model.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Models<T> {
+    /// What the controller computes with.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<T>,
+    /// The controller's model with base, tool and points fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames_only: Option<T>,
+    /// The calibrated model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub real: Option<T>,
+}
+
+impl<T> Models<T> {
+    /// Each with its name, in the order of the keys.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, &T)> {
+        let all = [
+            ("controller", &self.controller),
+            ("frames only", &self.frames_only),
+            ("real", &self.real),
+        ];
+        all.into_iter()
+            .filter_map(|(name, one)| Some((name, one.as_ref()?)))
+    }
+
+    fn of(found: &Found, of: impl Fn(&validation::Judged) -> Option<T>) -> Option<Self> {
+        let all = Self {
+            controller: of(&found.controller),
+            frames_only: of(&found.frames_only),
+            real: of(&found.real),
+        };
+        let is_empty = all.named().next().is_none();
+        (!is_empty).then_some(all)
+    }
+}
+
+/// Errors of the real model on a part of the rows.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Part {
+    /// What divides: `point`, `tool`, `set`, `region`.
+    pub by: &'static str,
+    /// Which part.
+    pub name: String,
+    /// Its errors.
+    pub error: SpreadMm,
+}
+
+/// Accuracy and repeatability of a pose that was measured several times (ISO 9283, 7.2).
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Repeated {
+    /// Its first line.
+    pub line: usize,
+    /// How often it was measured.
+    pub count: usize,
+    /// The mean from what the real model expects.
+    pub accuracy_mm: f64,
+    /// AP: the mean from the commanded pose.
+    pub commanded_accuracy_mm: f64,
+    /// RP.
+    pub repeatability_mm: f64,
+    /// vAP; `null` from one direction only.
+    pub multidirectional_variation_mm: Option<f64>,
+    /// Its file.
+    #[serde(flatten)]
+    pub file: File,
+}
+
+/// Accuracy and repeatability of the distance of two such poses (ISO 9283, 7.3).
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RepeatedDistance {
+    /// Their first lines.
+    pub lines: [usize; 2],
+    /// How many pairs.
+    pub count: usize,
+    /// Mean distance.
+    pub distance_mm: f64,
+    /// How far it is from what the real model expects.
+    pub accuracy_mm: f64,
+    /// AD: how far it is from the distance of the commanded poses.
+    pub commanded_accuracy_mm: f64,
+    /// RD.
+    pub repeatability_mm: f64,
+    /// Their files, where several are read as one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub files: Option<[String; 2]>,
+}
+
+/// Errors of rows by models that were identified without them.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Folds {
+    /// How many parts.
+    pub count: usize,
+    /// The whole model.
+    pub real: Quality,
+    /// Base, tool and points alone.
+    pub frames_only: Quality,
+}
+
+/// What a validation found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Validation {
+    /// Rows judged.
+    pub rows: usize,
+    /// Whether base, tool and points were fitted to rows first.
+    pub frames_refitted: bool,
+    /// Root mean square of residuals in stated standard deviations.
+    pub normalised_rms: Option<f64>,
+    /// Errors of positions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position: Option<Models<SpreadMm>>,
+    /// Errors of distances between all pairs of points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance: Option<Models<Pairs>>,
+    /// Errors of orientations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Models<SpreadDeg>>,
+    /// Errors of distances from fixed points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<Models<SpreadMm>>,
+    /// Errors of the real model by parts.
+    pub parts: Vec<Part>,
+    /// Repeated poses.
+    pub iso_9283: Vec<Repeated>,
+    /// Distances of repeated poses.
+    pub iso_9283_distances: Vec<RepeatedDistance>,
+    /// Errors by models identified without the rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub folds: Option<Folds>,
+    /// SHA-256 of the profile.
+    pub profile_sha256: String,
+    /// SHA-256 of each file of measurements.
+    pub measurements_sha256: Vec<String>,
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
+    /// The rows and models behind the numbers, which the page draws.
+    #[serde(skip)]
+    pub found: Found,
+    /// The profile judged.
+    #[serde(skip)]
+    pub profile: crate::model::profile::Profile,
+    /// How the files of measurements are named.
+    #[serde(skip)]
+    pub name: String,
+}
+
+impl Document for Validation {
+    const KIND: &'static str = "validation/1";
+}
+
+/// Judges a profile's models by measurements; `tell` hears how many of how many folds are done.
+///
+/// # Errors
+/// Too few rows, or rows that contradict the robot or themselves.
+pub fn validate(
+    file: &ProfileFile,
+    measurements: Rows,
+    options: &Options,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Validation, Failure> {
+    let Rows {
+        mut all,
+        name,
+        sha256,
+    } = measurements;
+    let is_for = |row: &Measurement| row.purpose == Some(Purpose::Validate);
+    let some = all.rows.iter().any(is_for) && !options.all_sets;
+    let refit = match options.refit_frames {
+        false => Refit::No,
+        true if some && !all.rows.iter().all(is_for) => Refit::Others,
+        true => Refit::Judged,
+    };
+    if some && refit != Refit::Others {
+        all = all.filtered(|_, row| is_for(row));
+    }
+    let found = validate_telling(&file.profile, &all, refit, options.folds, tell)
+        .map_err(|error| too_few(&name, &error))?;
+    let mut told: Vec<Finding> = seen_before(file, &found, &sha256, &name)
+        .into_iter()
+        .collect();
+    told.extend(findings(&found.remarks, &name));
+    Ok(Validation {
+        rows: found.problem.rows.len(),
+        frames_refitted: found.refit != Refit::No,
+        normalised_rms: found.normalised_rms,
+        position: Models::of(&found, |j| j.quality.position.map(Into::into)),
+        distance: Models::of(&found, |j| {
+            j.distance
+                .filter(|_| j.quality.position.is_some())
+                .map(Into::into)
+        }),
+        orientation: Models::of(&found, |j| j.quality.orientation.map(Into::into)),
+        range: Models::of(&found, |j| j.quality.range.map(Into::into)),
+        parts: found
+            .parts
+            .iter()
+            .map(|p| Part {
+                by: p.by,
+                name: p.name.clone(),
+                error: p.spread.into(),
+            })
+            .collect(),
+        iso_9283: found.repeated.iter().map(Into::into).collect(),
+        iso_9283_distances: found.repeated_distances.iter().map(Into::into).collect(),
+        folds: found.folds.as_ref().map(|(count, full, alone)| Folds {
+            count: *count,
+            real: full.into(),
+            frames_only: alone.into(),
+        }),
+        profile_sha256: file.sha256.clone(),
+        measurements_sha256: sha256,
+        findings: told,
+        found,
+        profile: file.profile.clone(),
+        name,
+    })
+}
+
+fn too_few(name: &str, error: &IdentifyError) -> Failure {
+    let IdentifyError::TooFew {
+        numbers,
+        rows,
+        parameters,
+    } = error
+    else {
+        return identify_failure(name, error);
+    };
+    Failure::with_hint(
+        format!(
+            "{name}: {rows} rows give {numbers} numbers; base and tool, which the comparison fits, have {parameters} \
+             unknowns: more numbers are needed"
+        ),
+        "validate on more configurations: 20 and more tell something of the workspace",
+    )
+}
+
+/// A warning where the profile was identified with the rows that it is judged by.
+fn seen_before(
+    file: &ProfileFile,
+    found: &Found,
+    hashes: &[String],
+    name: &str,
+) -> Option<Finding> {
+    let provenance = file.profile.provenance.as_ref();
+    let used = provenance.and_then(|it| it.get("measurements_sha256")?.as_array())?;
+    let is_used = |hash: &String| used.iter().any(|u: &Value| u == hash);
+    let rows = &found.measurements.rows;
+    // `calibrate` leaves rows for `validate` out
+    let seen = rows
+        .iter()
+        .filter(|row| row.purpose != Some(Purpose::Validate))
+        .count();
+    (seen > 0 && hashes.iter().any(is_used)).then(|| {
+        let message = format!(
+            "the profile was calibrated with this file: {seen} of {} rows are not news to it, and its error on them is too small",
+            rows.len()
+        );
+        Finding::of_file("seen-before", Severity::Warning, name, message)
+            .hint("mark rows `validate` in the column `set` before calibrating, measure others, or use --folds")
+    })
+}
+
+impl RepeatedDistance {
+    /// The first line of the one or the other, as a cell of a table.
+    #[must_use]
+    pub fn line(&self, which: usize) -> String {
+        let file = self.files.as_ref().map(|files| files[which].clone());
+        File { file }.line(self.lines[which])
+    }
+}
+
+impl From<&validation::Repeated> for Repeated {
+    fn from(r: &validation::Repeated) -> Self {
+        Self {
+            line: r.line.number,
+            count: r.count,
+            accuracy_mm: r.accuracy_mm,
+            commanded_accuracy_mm: r.commanded_accuracy_mm,
+            repeatability_mm: r.repeatability_mm,
+            multidirectional_variation_mm: r.variation_mm,
+            file: (&r.line).into(),
+        }
+    }
+}
+
+impl From<&validation::RepeatedDistance> for RepeatedDistance {
+    fn from(r: &validation::RepeatedDistance) -> Self {
+        let files = match r.lines.each_ref().map(|line| line.file.as_deref()) {
+            [Some(first), Some(second)] => Some([first.to_owned(), second.to_owned()]),
+            _ => None,
+        };
+        Self {
+            lines: r.lines.each_ref().map(|line| line.number),
+            count: r.count,
+            distance_mm: r.distance_mm,
+            accuracy_mm: r.accuracy_mm,
+            commanded_accuracy_mm: r.commanded_accuracy_mm,
+            repeatability_mm: r.repeatability_mm,
+            files,
+        }
+    }
+}
