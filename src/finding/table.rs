@@ -157,7 +157,7 @@ pub const TABLE: &[Kind] = &[
     row("poor-fit", Warning, "the model misses the rows by more than few arms are from their drawing", "is it this robot, this tool, this order of rows, every column in its unit?", &["calibrate", "validate", "diagnose", "axes"], &[]),
     row("position-count", Warning, "NPOS announces another number of C positions", "write the header anew on the controller", &["compensate", "check"], &["inform"]),
     row("position-variable", Note, "moves go to P variables, which jobs that are not given may change", "give all jobs that write into them", &["compensate", "check"], &["inform"]),
-    row("pulses-per-degree-unknown", Error, "positions in pulses, and a profile without `pulses_per_deg`; once a job", "write controller.pulses_per_deg into the profile", &["compensate", "check"], &["inform"]),
+    row("pulses-per-degree-unknown", Warning, "positions in pulses, and a profile without `pulses_per_deg`: they stay; once a job", "write controller.pulses_per_deg into the profile", &["compensate", "check"], &["inform"]),
     row("rconf-of-post", Warning, "RCONF of a post that is known to mix its fields up; it is not used", "see that the controller stands so, or teach the joints", &["compensate", "check"], &["inform"]),
     row("relative-joint-move", Note, "a relative move of axes", "it stays as it is", &["compensate", "check"], &["krl"]),
     row("relative-move", Error, "a relative move from a position that the text does not tell", "move to a target with its own numbers", &["compensate", "check"], &["krl", "fanuc", "inform"]).was(&["incremental-move"]),
