@@ -20,7 +20,7 @@ fn profile(effects: &[&str]) -> Profile {
 }
 
 pub(super) fn try_with(
-    options: Options,
+    options: &Options,
     effects: &[&str],
     files: &[(&str, &str)],
 ) -> Result<Compensation, CompensateError> {
@@ -29,7 +29,7 @@ pub(super) fn try_with(
         .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
         .collect();
     let language = program::language_of(&sources[0]).expect("a language");
-    compensate(language, &sources, &profile(effects), &options)
+    compensate(language, &sources, &profile(effects), options)
 }
 
 pub(super) fn given() -> Options {
@@ -43,7 +43,7 @@ pub(super) fn given() -> Options {
 }
 
 pub(super) fn done(effects: &[&str], files: &[(&str, &str)]) -> Compensation {
-    try_with(given(), effects, files).expect("read")
+    try_with(&given(), effects, files).expect("read")
 }
 
 pub(super) fn errors(done: &Compensation) -> Vec<&'static str> {
@@ -239,13 +239,13 @@ fn a_profile_that_corrects_nothing_marks_nothing() {
     // row q
     let body = format!("MoveJ [[430,0,400],{P},v100,fine,tool0;");
     let files = [("t.mod", &*rapid("", &body))];
-    let refused = try_with(given(), &[], &files);
+    let refused = try_with(&given(), &[], &files);
     assert!(matches!(refused, Err(CompensateError::NothingToCorrect)));
     let moved = Options {
         work_offset: Some(Pose::from_translation(0.001, 0.0, 0.0)),
         ..given()
     };
-    let moved = try_with(moved, &[], &files).expect("the part is moved");
+    let moved = try_with(&moved, &[], &files).expect("the part is moved");
     assert_eq!(moved.summary.compensated, 1, "{:?}", moved.findings);
 }
 
@@ -304,7 +304,7 @@ fn all_unknown_tools_and_frames_are_named_with_the_options_that_give_them() {
         "MoveJ [[430,0,400],{P},v100,fine,tGun\\WObj:=wLeft;\nMoveJ [[430,0,410],{P},v100,fine,tGrip\\WObj:=wRight;"
     );
     let refused = try_with(
-        Options::default(),
+        &Options::default(),
         &[PLAIN],
         &[("t.mod", &rapid("", &body))],
     );
@@ -330,7 +330,7 @@ fn the_joints_before_the_first_move_tell_its_direction() {
             start_joints: Some([0.0, q2, 0.1, 0.0, 1.2, 0.0]),
             ..given()
         };
-        let done = try_with(options, &[BACKLASH], &[("t.mod", &rapid("", &body))]).expect("read");
+        let done = try_with(&options, &[BACKLASH], &[("t.mod", &rapid("", &body))]).expect("read");
         done.targets[0].q.expect("solved")[1]
     };
     // the width of the backlash
