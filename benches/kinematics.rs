@@ -1,12 +1,13 @@
-//! Forward models and inverses of the thesis's IRB 120, a target.
+//! Forward models and inverses of the thesis's IRB 120, a target; answers of a CRX-10iA; what is refused.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use poseshift::geometry::Pose;
 use poseshift::inverse::{Arm, Branch, Inverse, Targets, solve_batch};
 use poseshift::model::profile::Profile;
-use poseshift::model::{Conditions, forward_batch};
+use poseshift::model::{Conditions, Geometry, JointSense, Link, Mechanism, forward_batch};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::hint::black_box;
 
 const COUNT: usize = 4096;
@@ -106,5 +107,98 @@ fn kinematics(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, kinematics);
+/// FANUC's CRX-10iA (tests/data/inverse_general/arms.csv): axis 6 passes axis 4 by 150 mm.
+fn crx() -> Arm {
+    let row = |alpha_rad, a_m, theta_rad, d_m| Link {
+        alpha_rad,
+        a_m,
+        beta_rad: 0.0,
+        theta_rad,
+        d_m,
+    };
+    let geometry = Geometry {
+        world_from_base: Pose::identity(),
+        links: [
+            row(0.0, 0.0, PI, 0.995),
+            row(FRAC_PI_2, 0.0, FRAC_PI_2, 0.0),
+            row(PI, 0.54, PI, 0.0),
+            row(FRAC_PI_2, 0.0, PI, -0.54),
+            row(FRAC_PI_2, 0.0, PI, 0.15),
+            row(FRAC_PI_2, 0.0, 0.0, -0.16),
+        ],
+        link6_from_flange: Pose::identity(),
+        flange_from_tool: Pose::identity(),
+        flange_from_nominal_tool: Pose::identity(),
+        bodies: Vec::new(),
+        load: None,
+        gravity_m_s2: [0.0, 0.0, -9.81],
+        tool_name: String::new(),
+    };
+    let joint = JointSense {
+        sign: 1.0,
+        offset_rad: 0.0,
+        min_rad: -PI,
+        max_rad: PI,
+    };
+    let mechanism = Mechanism {
+        joints: [joint; 6],
+        coupling: Vec::new(),
+    };
+    Arm::of(&geometry, &mechanism).expect("an offset wrist")
+}
+
+fn offset_wrist(criterion: &mut Criterion) {
+    let arm = crx();
+    let mut random = StdRng::seed_from_u64(2);
+    let mut joints = || std::array::from_fn(|_| random.random_range(-PI..PI));
+    let postures: Vec<[f64; 6]> = (0..COUNT).map(|_| joints()).collect();
+    let beside: Vec<[f64; 6]> = postures.iter().map(|q| q.map(|q| q + 0.01)).collect();
+    let wanted: Vec<Pose> = postures.iter().map(|q| arm.forward(q)).collect();
+    let mut group = criterion.benchmark_group("4096 targets, CRX-10iA");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    group.bench_function("nominal inverse, all answers", |b| {
+        b.iter(|| {
+            for (wanted, near) in wanted.iter().zip(&beside) {
+                black_box(arm.solve_all(wanted, near));
+            }
+        });
+    });
+    group.bench_function("nominal inverse, on the track", |b| {
+        b.iter(|| {
+            for (wanted, near) in wanted.iter().zip(&beside) {
+                black_box(arm.solve_near(wanted, near));
+            }
+        });
+    });
+    group.finish();
+}
+
+fn refused(criterion: &mut Criterion) {
+    let work = work();
+    let mut group = criterion.benchmark_group("4096 targets, refused");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    let far = |pose: &Pose| Pose {
+        translation: pose.translation.map(|x| x + x.signum()),
+        ..*pose
+    };
+    let nowhere = |pose: &Pose| Pose {
+        translation: [f64::NAN; 3],
+        ..*pose
+    };
+    let cases: [(&str, &dyn Fn(&Pose) -> Pose); 2] =
+        [("out of reach", &far), ("not a number", &nowhere)];
+    for (name, change) in cases {
+        let poses: Vec<Pose> = work.wanted.iter().map(change).collect();
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                for ((wanted, branch), near) in poses.iter().zip(&work.branches).zip(&work.joints) {
+                    black_box(work.inverse.solve(wanted, *branch, near));
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, kinematics, offset_wrist, refused);
 criterion_main!(benches);

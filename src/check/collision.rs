@@ -72,10 +72,10 @@ struct Rates {
 }
 
 impl Mover<'_> {
-    fn rates(&self, leg: &Leg, piece: &Piece) -> Rates {
+    fn rates(&self, piece: &Piece) -> Rates {
         let mechanism = self.model.mechanism();
         let commanded = mechanism.commanded(&piece.joints);
-        let deflection: Deflection<Jet> = self.jet.deflection(&piece.joints, &leg.conditions);
+        let deflection: Deflection<Jet> = self.jet.deflection(&piece.joints, &piece.conditions);
         let mut rates = Rates {
             turn: [0.0; 6],
             gain: [0.0; 6],
@@ -167,6 +167,7 @@ struct Search<'a> {
     mover: &'a Mover<'a>,
     leg: &'a Leg<'a>,
     horizon_m: f64,
+    pieces: &'a [Piece],
     rates: Vec<Rates>,
     best: Clearance,
     /// Least margin of a sample: clearance less what is required.
@@ -190,7 +191,8 @@ pub(crate) fn clearance(
         mover,
         leg,
         horizon_m,
-        rates: pieces.iter().map(|piece| mover.rates(leg, piece)).collect(),
+        pieces,
+        rates: pieces.iter().map(|piece| mover.rates(piece)).collect(),
         best: Clearance {
             clearance_m: horizon_m,
             sampled_m: f64::INFINITY,
@@ -211,9 +213,7 @@ pub(crate) fn clearance(
         })
         .collect();
     let mut open = BinaryHeap::new();
-    let mut near = leg.start;
     for (index, piece) in pieces.iter().enumerate() {
-        let end = leg.joints(piece.to, &near);
         search.best.certified &= piece.certified;
         let (from, to) = (piece.from, piece.to);
         let node = Node {
@@ -222,7 +222,7 @@ pub(crate) fn clearance(
             to,
             piece: u32::try_from(index).unwrap_or(u32::MAX),
             items: all.clone(),
-            joints: near,
+            joints: piece.start,
         };
         // rates without bound: all that is known is samples
         let rates = &search.rates[index];
@@ -232,7 +232,6 @@ pub(crate) fn clearance(
         } else {
             search.sample_all(&node, &all);
         }
-        near = end;
     }
     let mut looked = 0;
     while let Some(node) = open.pop() {
@@ -278,8 +277,9 @@ pub(crate) fn clearance(
 }
 
 impl Search<'_> {
-    fn frames(&self, joints: &[f64; 6]) -> Frames {
-        self.mover.model.link_frames(joints, &self.leg.conditions)
+    fn frames(&self, joints: &[f64; 6], node: &Node) -> Frames {
+        let conditions = &self.pieces[node.piece as usize].conditions;
+        self.mover.model.link_frames(joints, conditions)
     }
 
     /// The first body's pose seen from the second's frame.
@@ -318,7 +318,7 @@ impl Search<'_> {
         for k in 0..=4 {
             let s = node.from + (node.to - node.from) * f64::from(k) / 4.0;
             near = self.leg.joints(s, &near);
-            let frames = self.frames(&near);
+            let frames = self.frames(&near, node);
             for item in all {
                 let pair = &self.scene.watched[item.pair as usize];
                 let relative = self.relative(&frames, pair);
@@ -358,7 +358,7 @@ impl Search<'_> {
         let middle = self.leg.joints(at, &node.joints);
         let end = self.leg.joints(node.to, &middle);
         let begin = self.leg.joints(node.from, &node.joints);
-        let frames = [begin, middle, end].map(|joints| self.frames(&joints));
+        let frames = [begin, middle, end].map(|joints| self.frames(&joints, node));
         let rates = self.rates[node.piece as usize];
         let (mut bound, mut settled, mut items) = (f64::INFINITY, f64::INFINITY, Vec::new());
         for item in &node.items {

@@ -8,7 +8,7 @@
 //! norm is `2√2 sin(φ/2)` at an angle φ.
 
 use crate::geometry::{Jet, Pose, Scalar, Separation, norm, sub};
-use crate::model::Model;
+use crate::model::{Conditions, Model};
 use crate::motion::course::{Leg, Piece};
 
 /// Halving ends where the bound is within this of the largest sample, metres and radians, …
@@ -93,9 +93,10 @@ struct Sample {
     turned: f64,
 }
 
-struct Open {
+struct Open<'a> {
     a: Sample,
     b: Sample,
+    conditions: &'a Conditions,
     /// How often it may still be halved.
     depth: u32,
 }
@@ -112,9 +113,9 @@ pub(crate) fn path_error(
     models: &Models<f64>,
     jets: &Models<Jet>,
 ) -> PathError {
-    let sample = |s: f64, near: &[f64; 6]| {
+    let sample = |s: f64, near: &[f64; 6], conditions: &Conditions| {
         let joints = leg.joints(s, near);
-        let real = models.real.forward(&joints, &leg.conditions);
+        let real = models.real.forward(&joints, conditions);
         let wanted = wanted.at(s, &joints);
         let (a, b) = (&real.rotation.0, &wanted.rotation.0);
         let turned = (0..9)
@@ -139,26 +140,40 @@ pub(crate) fn path_error(
         *low = (low.0.max(sample.distance_m), low.1.max(sample.turned));
     };
     let mut open = Vec::new();
-    let mut last = sample(0.0, &leg.start);
-    seen(&last, &mut low);
     let mut all_certain = true;
+    let mut last: Option<(Sample, &Conditions)> = None;
     for piece in pieces {
-        let end = sample(piece.to, &last.joints);
+        let before = last.filter(|(sample, conditions)| {
+            sample.s == piece.from && **conditions == piece.conditions
+        });
+        let begin = before.map_or_else(
+            || sample(piece.from, &piece.start, &piece.conditions),
+            |(sample, _)| sample,
+        );
+        let end = sample(piece.to, &begin.joints, &piece.conditions);
+        seen(&begin, &mut low);
         seen(&end, &mut low);
         all_certain &= piece.certified;
         open.push(Open {
-            a: last,
+            a: begin,
             b: end,
+            conditions: &piece.conditions,
             depth: if piece.is_bounded() { DEEPEST } else { SAMPLED },
         });
-        last = end;
+        last = Some((end, &piece.conditions));
     }
     let mut high = (0.0_f64, 0.0_f64);
-    while let Some(Open { a, b, depth }) = open.pop() {
-        let middle = sample(0.5 * (a.s + b.s), &a.joints);
+    while let Some(Open {
+        a,
+        b,
+        conditions,
+        depth,
+    }) = open.pop()
+    {
+        let middle = sample(0.5 * (a.s + b.s), &a.joints, conditions);
         seen(&middle, &mut low);
         let enclosed = leg.enclose(a.s, b.s, &middle.joints);
-        let real = jets.real.forward(&enclosed.joints, &leg.conditions);
+        let real = jets.real.forward(&enclosed.joints, conditions);
         let wish = wanted.over(a.s, b.s, &enclosed.joints);
         let mut bends = [0.0; 2];
         for i in 0..3 {
@@ -189,6 +204,7 @@ pub(crate) fn path_error(
                 open.push(Open {
                     a,
                     b,
+                    conditions,
                     depth: depth - 1,
                 });
             }

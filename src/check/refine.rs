@@ -15,9 +15,7 @@ use crate::inverse::{Inverse, Status};
 use crate::model::Conditions;
 use crate::motion::course::{Course, Leg, ToolCourse};
 use crate::program::number::{Fraction, Style};
-use crate::program::{
-    Between, Displacement, Edits, Insertion, Posture, Replacements, Role, Settings, Value,
-};
+use crate::program::{Between, Displacement, Insertion, Posture, Role, Settings, Value};
 use rayon::prelude::*;
 
 /// A move is cut into at most so many parts.
@@ -26,17 +24,6 @@ const MOST_HALVINGS: u32 = 7;
 const ROOM: f64 = 0.96;
 /// Decimals of a millimetre that new targets have at least.
 const DECIMALS: usize = 3;
-
-/// What was put into a program.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Refined {
-    /// New targets.
-    pub targets: usize,
-    /// New moves.
-    pub moves: usize,
-    /// Targets that no move may go to any more: points of arcs, which have other points now.
-    pub freed: usize,
-}
 
 /// A pose on the way, as the controller is told it.
 #[derive(Clone, Copy)]
@@ -58,7 +45,7 @@ pub fn refine(
     limit_m: f64,
     decimals: Option<usize>,
     compensation: &mut Compensation,
-) -> Result<Refined, CheckError> {
+) -> Result<(), CheckError> {
     let walk = Walk::of(subject.language, subject.sources, subject.profile, options)?;
     let job = Job {
         subject,
@@ -76,52 +63,39 @@ pub fn refine(
         .into_par_iter()
         .filter_map(|index| job.refine_move(index))
         .collect();
-    let mut refined = Refined::default();
-    let mut findings = Vec::new();
-    let mut spans: Vec<Replacements> = vec![Vec::new(); subject.sources.len()];
-    for (file, spans) in spans.iter_mut().enumerate() {
-        let (mut insertions, mut counts) = (Vec::new(), Vec::new());
-        for change in changes.iter().filter(|change| change.file == file) {
+    let refusals: Vec<Option<Finding>> = changes
+        .iter()
+        .map(|change| match &change.what {
+            What::Insert(insertion) => {
+                let why = "the text of this move cannot be repeated";
+                Some(job.failed(insertion.motion, change.whole_m, why))
+            }
+            What::Said(_) => None,
+        })
+        .collect();
+    for file in 0..subject.sources.len() {
+        let (mut insertions, mut refused) = (Vec::new(), Vec::new());
+        let of_file = changes.iter().zip(&refusals);
+        for (change, refusal) in of_file.filter(|(change, _)| change.file == file) {
             match &change.what {
-                What::Told(finding) => findings.push(finding.clone()),
-                What::Insert(insertion, count) => {
+                What::Said(finding) => compensation.findings.push(finding.clone()),
+                What::Insert(insertion) => {
                     insertions.push(insertion.clone());
-                    counts.push((*count, change.whole_m));
+                    refused.extend(refusal.clone());
                 }
             }
         }
         if insertions.is_empty() {
             continue;
         }
-        let program = &walk.program;
-        let inserted = subject
-            .language
-            .insert(subject.sources, program, file, &insertions);
-        for ((insertion, done), (count, whole_m)) in
-            insertions.iter().zip(inserted.moves).zip(counts)
-        {
-            if let Some(text) = done {
-                refined.targets += count.targets;
-                refined.moves += count.moves;
-                refined.freed += count.freed;
-                spans.extend(text);
-            } else {
-                let why = "the text of this move cannot be repeated";
-                findings.push(job.failed(insertion.motion, whole_m, why));
-            }
-        }
-        spans.extend(inserted.rest);
+        let (language, sources) = (subject.language, subject.sources);
+        let done = compensation.insert(language, sources, &walk.program, file, &insertions);
+        let failed = done.iter().zip(refused).filter(|(done, _)| !**done);
+        compensation
+            .findings
+            .extend(failed.map(|(_, refusal)| refusal));
     }
-    for (edits, spans) in compensation.edits.iter_mut().zip(spans) {
-        let mut some = Edits::default();
-        for (span, text) in spans {
-            edits.take_back(&span);
-            some.replace(span, |out| out.extend(text));
-        }
-        edits.append(&some);
-    }
-    compensation.findings.extend(findings);
-    Ok(refined)
+    Ok(())
 }
 
 /// What a move needs.
@@ -133,10 +107,10 @@ struct Change {
 }
 
 enum What {
-    /// Moves before it, and what they count for.
-    Insert(Insertion, Refined),
+    /// Moves before it.
+    Insert(Insertion),
     /// Nothing can be done.
-    Told(Finding),
+    Said(Finding),
 }
 
 struct Job<'a> {
@@ -183,11 +157,6 @@ impl Job<'_> {
         if whole <= self.limit_m {
             return None;
         }
-        let each = if via.is_some() { 2 } else { 1 };
-        // the point of an arc that had a name is a target of its own now
-        let named = via
-            .and_then(|via| program.target_of(self.walk.motion(via))?.name.as_ref())
-            .is_some();
         let change = |what| {
             Some(Change {
                 file: motion.file as usize,
@@ -195,7 +164,7 @@ impl Job<'_> {
                 what,
             })
         };
-        let failed = |why| change(What::Told(self.failed(index, whole, why)));
+        let failed = |why| change(What::Said(self.failed(index, whole, why)));
         // a joint target that stays as it is: no target between helps at the end itself
         let beside = |point: &Point| {
             let nominal = leg.joints(point.s, &leg.start);
@@ -211,7 +180,7 @@ impl Job<'_> {
             );
             let hint = "--joint-targets correct shifts joint targets, too";
             let note = Severity::Note;
-            return change(What::Told(self.subject.finding(
+            return change(What::Said(self.subject.finding(
                 self.walk.motion(index),
                 "path-from-kept-target",
                 note,
@@ -238,18 +207,12 @@ impl Job<'_> {
         let Some(between) = between else {
             return failed("an arc's part cannot be reached");
         };
-        let moves = points.len() * each;
-        let freed = usize::from(named);
-        let count = Refined {
-            targets: moves + freed,
-            moves,
-            freed,
-        };
         let insertion = Insertion {
             motion: self.walk.index(index),
             between,
+            own: None,
         };
-        change(What::Insert(insertion, count))
+        change(What::Insert(insertion))
     }
 
     /// No targets can be inserted where they are needed.

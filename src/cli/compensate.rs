@@ -1,23 +1,18 @@
 //! `compensate`: program files in, program files with fake targets out.
 
 use super::layout;
-use super::programs::programs_in;
+use super::programs::{programs_in, read_context};
 use super::telling::ReportFile;
 use super::way::Drawing;
 use super::{Answer, Output, files, print, values};
-use crate::check::CheckError;
-use crate::check::refine::{Refined, refine};
-use crate::compensate::{Compensation, Given, Options, compensate};
-use crate::geometry::units::MM;
+use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
 use crate::geometry::units::m_from_mm;
 use crate::model::profile::Profile;
-use crate::program::{Language, Marker, Source};
+use crate::program::{Language, Source};
 use crate::report;
-use crate::task::compensate::{Compensated, Header};
-use crate::task::files::{same_file, sha256, write_all};
-use crate::task::programs::{
-    common_language, explain, language_by_id, refuse_doubtful, refuse_marked,
-};
+use crate::task::compensate::{Compensated, DespiteErrors, Header, Request, prepare};
+use crate::task::files::{same_file, write_all};
+use crate::task::programs::{acceptance, language_by_id};
 use crate::task::{Document, Failure, frame};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -44,8 +39,27 @@ pub struct Compensate {
     #[arg(long)]
     in_place: bool,
     /// Write even when targets cannot be compensated; these stay as they are, and the status is 1
-    #[arg(long)]
+    #[arg(long, conflicts_with = "write_good")]
     keep_going: bool,
+    /// Write the programs that share neither targets nor calls with one that is refused; the status is 1
+    #[arg(long)]
+    write_good: bool,
+    /// Files and folders that are read for their declarations and calls only
+    #[arg(long, value_name = "PATH")]
+    with: Vec<PathBuf>,
+    /// Of the programs only those of this name, with or without its ending; the others are read as with --with
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Take an error, by its id, everywhere or at one place; the marker records it (not for reach, numbers that are not
+    /// finite, unknown tools and frames)
+    #[arg(long, value_name = "ID[:FILE[:LINE]]")]
+    accept: Vec<String>,
+    /// Write a target out at each of its moves where one set of numbers does not serve all
+    #[arg(long, conflicts_with = "max_path_error")]
+    split_targets: bool,
+    /// A target at the wrist's singularity that the real arm does not reach on the meant side
+    #[arg(long, value_enum, default_value = "refuse")]
+    at_singularity: Singularity,
     /// Compensate files that already are, and targets that the controller corrects itself (KRL: S with bit 4)
     #[arg(long)]
     force: bool,
@@ -58,6 +72,9 @@ pub struct Compensate {
     /// What to do with joint targets
     #[arg(long, value_enum, default_value = "keep")]
     joint_targets: JointTargets,
+    /// How to search the joints of the real arm
+    #[arg(long, value_enum, default_value = "auto")]
+    method: Search,
     /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
@@ -84,6 +101,15 @@ pub struct Compensate {
     report: ReportFile,
 }
 
+/// How to search the joints of the real arm
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Search {
+    /// Pose shift, and damped Newton where it stalls
+    Auto,
+    /// Pose shift alone; where it stalls the target is refused
+    PoseShift,
+}
+
 /// What to do with joint targets
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum JointTargets {
@@ -93,87 +119,116 @@ enum JointTargets {
     Correct,
 }
 
-/// A program file and where its compensated version goes.
+/// What becomes of a target at the wrist's singularity
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Singularity {
+    /// An error, which says what the others would give
+    Refuse,
+    /// Joint 5 goes through zero: the tool lands, in another configuration
+    Flip,
+    /// Joint 4 stays: the tip lands, the orientation nearly
+    Nearest,
+}
+
+/// A program file and where its compensated version goes; nowhere where it is read for its declarations only.
 struct Job {
     input: PathBuf,
-    output: PathBuf,
+    output: Option<PathBuf>,
 }
 
 impl Compensate {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         let file = files::profile(&self.profile)?;
-        refuse_doubtful(&file)?;
-        let (profile, profile_sha256) = (&file.profile, &file.sha256);
         let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
-        let options = self.options(profile, each)?;
-        let asked = self.language.as_deref().map(language_by_id).transpose()?;
-        let found = self.find_programs(asked)?;
-        let inputs = found.iter().map(|job| job.input.as_path());
-        let read = [&self.profile].into_iter().chain(&self.work_offset);
-        let placed = self.wobjs.iter().filter_map(|text| text.split_once('='));
-        let placed = placed.map(|(_, file)| Path::new(file.trim()));
-        let read = read.map(PathBuf::as_path).chain(placed);
-        let outputs = || found.iter().map(|job| job.output.as_path());
-        // in place, every program is its own output
-        if self.in_place {
-            self.report.refuse_over(inputs, [])?;
-            self.report.refuse_over(read, outputs())?;
-        } else {
-            self.report.refuse_over(inputs.chain(read), outputs())?;
-        }
-        let sources = found
+        let options = self.options(&file.profile, each)?;
+        let language = self.language.as_deref().map(language_by_id).transpose()?;
+        let jobs = self.find_programs(language)?;
+        self.refuse_over_inputs(&jobs)?;
+        let mut sources = jobs
             .iter()
-            .map(|job| files::source(&job.input))
+            .map(Job::read)
             .collect::<Result<Vec<_>, Failure>>()?;
-        let language = asked.map_or_else(|| common_language(&sources, profile), Ok)?;
-        if !self.force {
-            refuse_marked(&sources)?;
-        }
-        let mut compensation = compensate(language, &sources, profile, &options)
-            .map_err(|error| explain(&error, &sources))?;
-        let refined = self.refine(language, &sources, profile, &options, &mut compensation)?;
-        let refused = compensation.is_refused();
-        let writes = !refused || self.keep_going;
-        let outputs = found.iter().filter(|_| writes);
-        let header = Header {
-            inputs: sources.iter().map(|s| s.name.clone()).collect(),
-            outputs: outputs
-                .map(|job| job.output.display().to_string())
-                .collect(),
+        sources.extend(read_context(&self.with, language, &sources)?);
+        let request = Request {
             sources: &sources,
             language,
-            profile_sha256,
+            profile: &file,
+            options,
+            force: self.force,
+            max_path_error_mm: self.max_path_error,
+            despite_errors: match (self.keep_going, self.write_good) {
+                (true, _) => DespiteErrors::All,
+                (_, true) => DespiteErrors::Good,
+                _ => DespiteErrors::Nothing,
+            },
         };
-        let mut told = tell(&header, &compensation, output);
-        if refined.moves > 0 && !output.json && !output.quiet {
-            told += &format!(
-                "{} moves inserted, so that the path is within {} mm\n",
-                refined.moves,
+        let prepared = prepare(&request)?;
+        let refused = prepared.is_refused();
+        let will_write = prepared.will_write();
+        let places = |at: usize| jobs.get(at).and_then(|job| job.output.clone());
+        let outputs = (0..sources.len())
+            .filter(|at| will_write[*at])
+            .filter_map(places);
+        let header = Header {
+            inputs: sources.iter().map(|s| s.name.clone()).collect(),
+            outputs: outputs.map(|path| path.display().to_string()).collect(),
+            written: will_write,
+            sources: &sources,
+            language: prepared.language,
+            profile_sha256: &file.sha256,
+        };
+        let mut said = tell(&header, &prepared.compensation, output);
+        let inserted = prepared.compensation.added.moves;
+        if inserted > 0 && !output.json && !output.quiet {
+            said += &format!(
+                "{inserted} moves inserted, so that the path is within {} mm\n",
                 self.max_path_error.unwrap_or_default()
             );
         }
         let mut drawing = self
             .report
             .is_wanted()
-            .then(|| Drawing::begin(&header, &compensation, &file, &options));
+            .then(|| Drawing::begin(&header, &prepared.compensation, &file, &request.options));
         let mut outputs = Vec::new();
-        let inserted = refined.moves;
-        if writes {
-            let written = render(language, &sources, compensation, profile_sha256, refined)?;
+        if header.written.contains(&true) {
+            let language = prepared.language;
+            let written = prepared.written()?;
             if let Some(drawing) = &mut drawing {
                 drawing.tell_inserted(inserted);
-                drawing.add_written(language, &written, &sources, profile, &options);
+                let after = &written.sources;
+                drawing.add_written(language, after, &sources, &file.profile, &request.options);
             }
-            let written = written.into_iter().map(|source| source.bytes);
-            outputs.extend(found.into_iter().map(|job| job.output).zip(written));
+            for (at, source) in written.sources.into_iter().enumerate() {
+                if written.is_written[at] {
+                    outputs.extend(places(at).map(|path| (path, source.bytes)));
+                }
+            }
         }
         outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
         write_all(&outputs)?;
         if !output.json && !output.quiet {
-            told += &self.report.told();
+            said += &self.report.told();
         }
-        print(&told)?;
+        print(&said)?;
         Ok(if refused { Answer::No } else { Answer::Yes })
+    }
+
+    /// That nothing which is read is written over, but by --in-place.
+    fn refuse_over_inputs(&self, jobs: &[Job]) -> Result<(), Failure> {
+        let inputs = jobs.iter().map(|job| job.input.as_path());
+        let read = [&self.profile].into_iter().chain(&self.work_offset);
+        let placed = self.wobjs.iter().filter_map(|text| text.split_once('='));
+        let placed = placed.map(|(_, file)| Path::new(file.trim()));
+        let context = self.with.iter().filter(|path| path.is_file());
+        let read = read.chain(context).map(PathBuf::as_path).chain(placed);
+        let outputs = || jobs.iter().filter_map(|job| job.output.as_deref());
+        // in place, every program is its own output
+        if self.in_place {
+            self.report.refuse_over(inputs, [])?;
+            self.report.refuse_over(read, outputs())
+        } else {
+            self.report.refuse_over(inputs.chain(read), outputs())
+        }
     }
 
     /// `each`: each target is reported on.
@@ -205,54 +260,28 @@ impl Compensate {
             correct_joint_targets: self.joint_targets == JointTargets::Correct,
             decimals: self.decimals.map(usize::from),
             summary_only: !each,
-            accept_absolutely_accurate: self.force,
             max_derived_error_m: Some(m_from_mm(self.max_derived_error)),
             start_joints: self
                 .start_joints
                 .as_deref()
                 .map(values::joints)
                 .transpose()?,
-        })
-    }
-
-    /// Inserts targets where the path asks for them.
-    fn refine(
-        &self,
-        language: &'static dyn Language,
-        sources: &[Source],
-        profile: &Profile,
-        options: &Options,
-        compensation: &mut Compensation,
-    ) -> Result<Refined, Failure> {
-        let Some(limit) = self.max_path_error else {
-            return Ok(Refined::default());
-        };
-        if !(limit >= 0.001 && limit.is_finite()) {
-            let message = format!("--max-path-error is {limit}; it must be at least 0.001 mm");
-            return Err(Failure::new(message));
-        }
-        let scene = crate::check::Scene::default();
-        let subject = crate::check::Subject {
-            language,
-            sources,
-            nominal: None,
-            profile,
-            scene: &scene,
-        };
-        let checked = crate::check::Options {
-            given: options.given.clone(),
-            ..crate::check::Options::default()
-        };
-        refine(
-            &subject,
-            &checked,
-            limit * MM,
-            options.decimals,
-            compensation,
-        )
-        .map_err(|error| match error {
-            CheckError::Program(error) | CheckError::Nominal(error) => explain(&error, sources),
-            CheckError::NoCounterpart { .. } => Failure::new(error.to_string()),
+            split_targets: self.split_targets,
+            at_singularity: match self.at_singularity {
+                Singularity::Refuse => AtSingularity::Refuse,
+                Singularity::Flip => AtSingularity::Flip,
+                Singularity::Nearest => AtSingularity::Nearest,
+            },
+            accepted: self
+                .accept
+                .iter()
+                .map(|text| acceptance(text))
+                .collect::<Result<_, _>>()?,
+            methods: match self.method {
+                Search::Auto => Methods::Auto,
+                Search::PoseShift => Methods::PoseShift,
+            },
+            ..Options::default()
         })
     }
 
@@ -275,9 +304,17 @@ impl Compensate {
                 "`poseshift languages` lists what is recognised",
             ));
         }
+        let meant = self.meant(&inputs)?;
         let several = inputs.len() > 1 || self.programs.iter().any(|p| p.is_dir());
         let mut jobs = Vec::with_capacity(inputs.len());
-        for (input, name) in inputs {
+        for ((input, name), is_meant) in inputs.into_iter().zip(meant) {
+            if !is_meant {
+                jobs.push(Job {
+                    input,
+                    output: None,
+                });
+                continue;
+            }
             let output = match &self.output {
                 None => input.clone(),
                 Some(out) if several || out.is_dir() => out.join(name),
@@ -290,53 +327,49 @@ impl Compensate {
                     hint,
                 ));
             }
-            jobs.push(Job { input, output });
+            jobs.push(Job {
+                input,
+                output: Some(output),
+            });
         }
         Ok(jobs)
     }
+
+    /// Which of the files --only means: all where it is not given.
+    fn meant(&self, inputs: &[(PathBuf, PathBuf)]) -> Result<Vec<bool>, Failure> {
+        let is = |path: &Path, name: &String| {
+            let same = |part: Option<&std::ffi::OsStr>| {
+                part.is_some_and(|part| part.to_string_lossy().eq_ignore_ascii_case(name))
+            };
+            same(path.file_name()) || same(path.file_stem())
+        };
+        for name in &self.only {
+            if !inputs.iter().any(|(path, _)| is(path, name)) {
+                let names: Vec<_> = inputs
+                    .iter()
+                    .map(|(_, name)| name.display().to_string())
+                    .collect();
+                return Err(Failure::with_hint(
+                    format!("--only {name}: no program is called so"),
+                    format!("they are: {}", names.join(", ")),
+                ));
+            }
+        }
+        let meant = |(path, _): &(PathBuf, PathBuf)| {
+            self.only.is_empty() || self.only.iter().any(|name| is(path, name))
+        };
+        Ok(inputs.iter().map(meant).collect())
+    }
 }
 
-/// The files' new bytes: edits and marker, read again to make sure that they say what was meant. Takes the compensation,
-/// so that a long program is not in memory twice.
-fn render(
-    language: &dyn Language,
-    sources: &[Source],
-    compensation: Compensation,
-    profile_sha256: &str,
-    refined: Refined,
-) -> Result<Vec<Source>, Failure> {
-    let Compensation {
-        program,
-        settings,
-        edits,
-        compensated,
-        ..
-    } = compensation;
-    let most = program.targets.len() + refined.targets;
-    let targets = most - refined.freed..=most;
-    let moves = program.moves.len() + refined.moves;
-    drop(program);
-    let mut written = Vec::with_capacity(sources.len());
-    for ((source, mut edits), compensated) in sources.iter().zip(edits).zip(compensated) {
-        if compensated {
-            let marker = Marker {
-                version: env!("CARGO_PKG_VERSION").into(),
-                profile_sha256: profile_sha256.into(),
-                source_sha256: sha256(&source.bytes),
-            };
-            let (at, text) = language.mark(source, &marker);
-            edits.replace(at..at, |bytes| bytes.extend(text));
-        }
-        written.push(Source::new(source.name.clone(), edits.apply(&source.bytes)));
+impl Job {
+    fn read(&self) -> Result<Source, Failure> {
+        let source = files::source(&self.input)?;
+        Ok(match self.output {
+            Some(_) => source,
+            None => Source::context(source.name, source.bytes),
+        })
     }
-    let same = crate::motion::read(language, &written, &settings)
-        .is_ok_and(|after| targets.contains(&after.targets.len()) && after.moves.len() == moves);
-    if !same {
-        return Err(Failure::internal(
-            "the rewritten program does not read back as the same program",
-        ));
-    }
-    Ok(written)
 }
 
 /// What is printed when all is done.
@@ -351,11 +384,7 @@ fn tell(header: &Header, compensation: &Compensation, output: Output) -> String 
         text += &layout::findings(&compensation.findings, output.verbose);
     }
     if !output.quiet {
-        text += &layout::fitted(&report::compensation::text(
-            &found,
-            header.inputs.len(),
-            header.language,
-        ));
+        text += &layout::fitted(&report::compensation::text(&found, header.language));
     }
     match header.outputs.as_slice() {
         [] => {

@@ -49,7 +49,7 @@ pub struct Ik {
     /// Tool of the profile (default: its only one)
     #[arg(long, value_name = "NAME")]
     tool: Option<String>,
-    /// Every solution, one a branch
+    /// Every solution: one a branch, or as many as there are with an offset wrist (`branch/number`)
     #[arg(long)]
     all: bool,
 }

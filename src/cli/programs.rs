@@ -3,6 +3,7 @@
 use super::files;
 use crate::program::{LANGUAGES, Language, Source, has_extension};
 use crate::task::Failure;
+use crate::task::files::same_file;
 use std::path::{Path, PathBuf};
 
 /// Program files in a folder and below, with their paths relative to it.
@@ -63,4 +64,24 @@ pub fn read_programs(
         ));
     }
     Ok(sources)
+}
+
+/// Files that are read for what they declare only, those left out that are programs of the run.
+pub fn read_context(
+    paths: &[PathBuf],
+    asked: Option<&'static dyn Language>,
+    programs: &[Source],
+) -> Result<Vec<Source>, Failure> {
+    if paths.is_empty() {
+        return Ok(Vec::new());
+    }
+    let is_program = |source: &Source| {
+        let mut others = programs.iter().map(|program| Path::new(&program.name));
+        others.any(|other| same_file(other, Path::new(&source.name)))
+    };
+    let found = read_programs(paths, asked)?.into_iter();
+    Ok(found
+        .filter(|source| !is_program(source))
+        .map(|source| Source::context(source.name, source.bytes))
+        .collect())
 }

@@ -112,7 +112,9 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
     add_derived(job, derived, &mut approaches);
     add_unused(job, &used, &mut approaches, findings);
     approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
-    drop_same(job, &mut approaches);
+    if !job.options.split_targets {
+        drop_same(job, &mut approaches);
+    }
     approaches
 }
 

@@ -17,20 +17,27 @@
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
 
+mod added;
 mod approach;
+mod context;
 mod displaced;
 mod outcome;
+mod refused;
 mod rewrite;
 mod shared;
+mod singular;
 mod solve;
+mod written;
 
 use approach::Approach;
 use outcome::Tally;
-pub use outcome::{Compensation, Summary, TargetReport};
-use rewrite::Portion;
+pub use outcome::{Added, Compensation, Summary, TargetReport};
+use rewrite::{Portion, Split};
+pub use written::{Differs, Written};
 
-use crate::finding::{Finding, Severity};
+use crate::finding::{Acceptance, Finding, Severity, accept};
 use crate::geometry::Pose;
+pub use crate::inverse::Methods;
 use crate::inverse::{Outcome, Unsupported};
 use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
@@ -64,8 +71,30 @@ pub struct Options {
     /// How far points that the running program derives from a target may land off their wanted pose, metres; 0.05 mm where
     /// it is not given.
     pub max_derived_error_m: Option<f64>,
+    /// Write a target out at each of its moves where one set of numbers does not serve all.
+    pub split_targets: bool,
+    /// What becomes of a target at the wrist's singularity that the real arm does not reach on the meant side.
+    pub at_singularity: AtSingularity,
+    /// Errors that the user takes.
+    pub accepted: Vec<Acceptance>,
+    /// A tool or frame that is not known is an error of the programs that use it, and does not stop the others.
+    pub each_for_itself: bool,
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
+    /// Which methods may search the joints of the real arm.
+    pub methods: Methods,
+}
+
+/// What becomes of a target at the wrist's singularity that the real arm does not reach on the meant side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AtSingularity {
+    /// It is an error, which says what the others would give.
+    #[default]
+    Refuse,
+    /// Joint 5 goes through zero: the tool lands, the configuration is another.
+    Flip,
+    /// Joint 4 stays where the nominal arm has it: the tip lands, the orientation nearly.
+    Nearest,
 }
 
 /// Why nothing could be compensated.
@@ -130,7 +159,20 @@ pub fn compensate(
         let hint = "a program that calls others is compensated together with them";
         findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
     }
+    context::leave(&mut program, sources, &mut findings);
     setting::check_measured(&program, &options.given)?;
+    if options.each_for_itself {
+        let joints = options.correct_joint_targets;
+        setting::block_unplaced(
+            language,
+            &mut program,
+            sources,
+            profile,
+            &options.given,
+            &mut findings,
+            |program, motion| approach::needs(program, joints, motion),
+        );
+    }
     let joints = options.correct_joint_targets;
     let mut ground = Ground::new::<CompensateError>(
         language,
@@ -154,28 +196,104 @@ pub fn compensate(
     if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
         return Err(CompensateError::NothingToCorrect);
     }
-    let outcomes = solve::solve(&job, &arrivals, &pace, &mut approaches, &mut findings);
+    let mut outcomes = solve::solve(&job, &arrivals, &pace, &mut approaches, &mut findings);
+    singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
     drop(arrivals);
     let Rewritten {
         reports: mut targets,
         edits,
         tally,
         fakes,
+        mut splits,
+        mut configurations,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
     displaced::check(&job, &approaches, &fakes, &mut findings);
     drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
-    outcome::sort(&job, &mut findings);
     let (compensated, summary) = tally.finish();
-    Ok(Compensation {
+    splits.sort_unstable_by_key(|split| split.insertion.motion);
+    configurations.sort_unstable_by_key(|(index, _)| *index);
+    let mut compensation = Compensation {
         program,
         settings,
         targets,
         findings,
         edits,
         compensated,
+        refused: Vec::new(),
+        added: Added::default(),
+        configurations,
+        decided: Vec::new(),
         summary,
-    })
+    };
+    compensation.split(language, sources, splits);
+    compensation.judge(sources, &options.accepted);
+    Ok(compensation)
+}
+
+impl Compensation {
+    /// Gives moves that share a target targets of their own.
+    fn split(&mut self, language: &dyn Language, sources: &[Source], splits: Vec<Split>) {
+        if splits.is_empty() {
+            return;
+        }
+        let program = std::mem::take(&mut self.program);
+        for file in 0..sources.len() {
+            let (insertions, refusals): (Vec<_>, Vec<_>) = splits
+                .iter()
+                .filter(|split| program.moves[split.insertion.motion].file as usize == file)
+                .map(|split| (split.insertion.clone(), &split.refusal))
+                .unzip();
+            if insertions.is_empty() {
+                continue;
+            }
+            let done = self.insert(language, sources, &program, file, &insertions);
+            let failed = done.iter().zip(refusals).filter(|(done, _)| !**done);
+            self.findings
+                .extend(failed.map(|(_, refusal)| refusal.clone()));
+        }
+        self.program = program;
+    }
+
+    /// Looks at all findings: brings them into the order of the files, takes what the user accepts, tells which files are
+    /// refused. Who adds findings later calls it again.
+    pub fn judge(&mut self, sources: &[Source], accepted: &[Acceptance]) {
+        let of_context = |finding: &Finding| {
+            let mut of = sources.iter().filter(|source| source.name == finding.file);
+            of.next().is_some_and(|source| source.is_context)
+        };
+        if sources.iter().any(|source| source.is_context) {
+            self.findings.retain(|finding| !of_context(finding));
+        }
+        let (idle, taken) = accept(&mut self.findings, accepted);
+        let known = |text: &String| {
+            self.findings
+                .iter()
+                .any(|f| f.id == "acceptance-unused" && f.message == *text)
+        };
+        let idle: Vec<String> = idle
+            .iter()
+            .filter(|acceptance| {
+                !self
+                    .decided
+                    .contains(&format!("accepted {}", acceptance.id()))
+            })
+            .map(|acceptance| format!("--accept {acceptance} takes no error: there is none"))
+            .filter(|text| !known(text))
+            .collect();
+        if let Some(source) = sources.first() {
+            self.findings.extend(idle.into_iter().map(|text| {
+                Finding::of_file("acceptance-unused", Severity::Warning, &source.name, text)
+                    .hint("leave it out")
+            }));
+        }
+        self.decided
+            .extend(taken.iter().map(|id| format!("accepted {id}")));
+        self.decided.sort_unstable();
+        self.decided.dedup();
+        outcome::sort(sources, &mut self.findings);
+        self.refused = refused::files(&self.program, sources, &self.findings);
+    }
 }
 
 /// Where not one of several targets is within reach, the profile is that of another robot.
@@ -213,6 +331,10 @@ struct Rewritten {
     tally: Tally,
     /// Fake targets that points are derived from.
     fakes: BTreeMap<usize, Pose>,
+    /// Moves that are to get a target of their own.
+    splits: Vec<Split>,
+    /// Configuration data that change: index in the program's numbers, and the value.
+    configurations: Vec<(u32, f64)>,
 }
 
 /// Puts the fake targets into edits, on all processors.
@@ -234,8 +356,9 @@ fn rewrite_all(
     if approaches.is_empty() {
         groups.clear();
     }
+    let bases = displaced::bases(job);
     let rewrite = |groups: &[std::ops::Range<usize>]| {
-        let mut portion = Portion::default();
+        let mut portion = Portion::new(&bases);
         let mut group = Vec::with_capacity(1);
         for range in groups {
             group.clear();
@@ -249,12 +372,13 @@ fn rewrite_all(
     } else {
         job.ground.program.targets.len()
     };
-    let bases = displaced::bases(job);
     let mut all = Rewritten {
         reports: vec![TargetReport::new(None); reported],
         edits: room_for_edits(job),
         tally: Tally::new(job),
         fakes: BTreeMap::new(),
+        splits: Vec::new(),
+        configurations: Vec::new(),
     };
     let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
     // a few chunks for each thread at a time: what they return is not in memory twice for a long program
@@ -274,6 +398,8 @@ fn rewrite_all(
                 all.edits[*source as usize].append(changes);
             }
             findings.extend(portion.findings);
+            all.splits.extend(portion.splits);
+            all.configurations.extend(portion.configurations);
         }
     }
     all

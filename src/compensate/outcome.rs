@@ -4,8 +4,8 @@ use super::Job;
 use super::approach::Approach;
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
-use crate::inverse::{Branch, Outcome, Status};
-use crate::program::{Edits, Program, Settings, Shape, Target};
+use crate::inverse::{Branch, Method, Outcome, Status};
+use crate::program::{Edits, Program, Settings, Shape, Source, Target};
 use std::collections::BTreeMap;
 
 /// A program with fake targets, not yet written.
@@ -23,6 +23,14 @@ pub struct Compensation {
     pub edits: Vec<Edits>,
     /// Whether each source has targets that now are compensated, changed or not.
     pub compensated: Vec<bool>,
+    /// Whether each source has an error, or shares targets or calls with one that has.
+    pub refused: Vec<bool>,
+    /// Targets and moves that were put between those of the program.
+    pub added: Added,
+    /// Configuration data that were written: index in the program's numbers, and the value.
+    pub configurations: Vec<(u32, f64)>,
+    /// What was decided against a default, for the marker.
+    pub decided: Vec<String>,
     /// The numbers of the whole.
     pub summary: Summary,
 }
@@ -35,6 +43,17 @@ impl Compensation {
             .iter()
             .any(|finding| finding.severity == Severity::Error)
     }
+}
+
+/// Targets and moves that were put between those of a program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Added {
+    /// Moves.
+    pub moves: usize,
+    /// The numbers of each target, in the order of [`crate::program::Language::roles`]; 0 for configuration data.
+    pub targets: Vec<Vec<f64>>,
+    /// Targets of the program whose moves have others now: some languages know no target that nothing goes to.
+    pub freed: Vec<usize>,
 }
 
 /// The numbers of a whole program.
@@ -87,6 +106,12 @@ pub struct TargetReport {
     pub rounding: Separation,
     /// Evaluations of the real model.
     pub iterations: u32,
+    /// Those of the pose shift.
+    pub shift_evaluations: u32,
+    /// Those of damped Newton.
+    pub newton_evaluations: u32,
+    /// By which method the search ended; `None` where there was none.
+    pub method: Option<Method>,
     /// The branch of the inverse.
     pub branch: Option<Branch>,
     /// How the search ended; `None` where there was none.
@@ -108,6 +133,9 @@ impl TargetReport {
             residual: solved.map_or(none, |(_, outcome)| outcome.residual),
             rounding: none,
             iterations: solved.map_or(0, |(_, outcome)| outcome.iterations),
+            shift_evaluations: solved.map_or(0, |(_, outcome)| outcome.shift_evaluations),
+            newton_evaluations: solved.map_or(0, |(_, outcome)| outcome.newton_evaluations),
+            method: solved.map(|(_, outcome)| outcome.method),
             branch: solved.map(|(approach, _)| approach.branch),
             status: solved.map(|(_, outcome)| outcome.status),
             changed: false,
@@ -130,12 +158,13 @@ pub(super) struct Tally {
 impl Tally {
     /// Nothing is changed yet.
     pub fn new(job: &Job) -> Self {
-        let targets = &job.ground.program.targets;
+        let is_own = |target: &&Target| !job.ground.sources[target.file as usize].is_context;
+        let targets = || job.ground.program.targets.iter().filter(is_own);
         let is_joints = |target: &&Target| target.layout.shape == Shape::Joints;
         Self {
             summary: Summary {
-                targets: targets.len(),
-                joint_targets: targets.iter().filter(is_joints).count(),
+                targets: targets().count(),
+                joint_targets: targets().filter(is_joints).count(),
                 ..Summary::default()
             },
             shifts_m: 0.0,
@@ -193,8 +222,8 @@ pub(super) fn name_places(job: &Job, reports: &mut [TargetReport]) {
 }
 
 /// Brings findings into the order of the files.
-pub(super) fn sort(job: &Job, findings: &mut Vec<Finding>) {
-    let names = job.ground.sources.iter().enumerate();
+pub(super) fn sort(sources: &[Source], findings: &mut Vec<Finding>) {
+    let names = sources.iter().enumerate();
     let order: BTreeMap<&str, usize> = names.map(|(i, s)| (s.name.as_str(), i)).collect();
     findings.sort_by_cached_key(|f| (order.get(f.file.as_str()).copied(), f.line, f.column, f.id));
     findings.dedup();

@@ -2,15 +2,17 @@
 
 use super::Job;
 use super::approach::Approach;
-use super::outcome::TargetReport;
+use super::outcome::{TargetReport, small};
 use super::shared::{self, Fake};
+use super::singular;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::inverse::{Arm, Outcome, Status};
+use crate::motion::walk::NOWHERE;
 use crate::program::number::{self, Fraction, Style};
-use crate::program::{Edits, Number, Posture, Role, Shape, Target, Value};
-use std::collections::BTreeMap;
+use crate::program::{Edits, Insertion, Number, Posture, Role, Shape, Target, Value};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// A shift below this is none: the target's text stays as it is.
@@ -28,13 +30,25 @@ const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
 const NEAR_AXIS_1_M: f64 = 5.0 * MM;
 
 /// What became of some of the targets.
-#[derive(Default)]
-pub(super) struct Portion {
+pub(super) struct Portion<'a> {
+    /// Targets that points are derived from.
+    bases: &'a BTreeSet<usize>,
     /// Target by index, and its report.
     pub reports: Vec<(usize, TargetReport)>,
     /// Changes to sources by index.
     pub edits: BTreeMap<u32, Edits>,
     pub findings: Vec<Finding>,
+    /// Moves that are to get a target of their own.
+    pub splits: Vec<Split>,
+    /// Configuration data that change: index in the program's numbers, and the value.
+    pub configurations: Vec<(u32, f64)>,
+}
+
+/// A move that is to get a target of its own, and what is said where its text cannot have one.
+#[derive(Clone, Debug)]
+pub(super) struct Split {
+    pub insertion: Insertion,
+    pub refusal: Finding,
 }
 
 /// How each source writes magnitudes below one.
@@ -55,7 +69,19 @@ pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
         .collect()
 }
 
-impl Portion {
+impl<'a> Portion<'a> {
+    /// Nothing yet.
+    pub fn new(bases: &'a BTreeSet<usize>) -> Self {
+        Self {
+            bases,
+            reports: Vec::new(),
+            edits: BTreeMap::new(),
+            findings: Vec::new(),
+            splits: Vec::new(),
+            configurations: Vec::new(),
+        }
+    }
+
     /// Writes the new text of one target, where it converged from wherever the robot comes, and reports on it.
     pub fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
         let (approach, outcome) = &group[0];
@@ -70,12 +96,84 @@ impl Portion {
             match shared::common(job, group) {
                 Ok(fake) => self.add_converged(job, group, &fake, fractions, &mut report),
                 Err(finding) => {
-                    report.status = None;
-                    self.findings.push(finding);
+                    if !self.split(job, group, fractions, &finding, &mut report) {
+                        report.status = None;
+                        self.findings.push(finding);
+                    }
                 }
             }
         }
         self.reports.push((approach.target as usize, report));
+    }
+
+    /// Gives each of the moves a target of its own; false where one of them cannot be served alone.
+    fn split(
+        &mut self,
+        job: &Job,
+        group: &[(Approach, Outcome)],
+        fractions: &[Fraction],
+        refusal: &Finding,
+        report: &mut TargetReport,
+    ) -> bool {
+        let target = group[0].0.target as usize;
+        let moves = &job.ground.program.moves;
+        let is_bare = |(approach, _): &(Approach, Outcome)| approach.motion != NOWHERE;
+        if !job.options.split_targets || self.bases.contains(&target) || !group.iter().all(is_bare)
+        {
+            return false;
+        }
+        let mut each: BTreeMap<u32, Vec<(Approach, Outcome)>> = BTreeMap::new();
+        for one in group {
+            let instruction = moves[one.0.motion as usize].instruction;
+            each.entry(instruction).or_default().push(*one);
+        }
+        let numbers = job
+            .ground
+            .program
+            .numbers_of(&job.ground.program.targets[target]);
+        let mut splits = Vec::with_capacity(each.len());
+        for alone in each.values() {
+            let Ok(fake) = shared::common(job, alone) else {
+                return false;
+            };
+            let approach = &alone[0].0;
+            let Some(written) = self.written(job, approach, &fake, fractions) else {
+                return false;
+            };
+            let meant = Fake::meant(job, approach, &written.numbers);
+            let landed = worst(
+                alone
+                    .iter()
+                    .map(|(a, o)| shared::landing(job, a, o, &meant)),
+            );
+            if landed.distance_m > ROUNDING_LIMIT.distance_m
+                || landed.angle_rad > ROUNDING_LIMIT.angle_rad
+            {
+                return false;
+            }
+            let before = worst(alone.iter().map(|(approach, _)| uncorrected(job, approach)));
+            report.before = largest(report.before, before);
+            report.rounding = largest(report.rounding, landed);
+            let target = &job.ground.program.targets[target];
+            let mut texts: Vec<Vec<u8>> = numbers
+                .iter()
+                .map(|number| text(job, target, number).trim_ascii().to_vec())
+                .collect();
+            for (index, _, digits) in &written.texts {
+                texts[*index] = written.digits[digits.clone()].trim_ascii().to_vec();
+            }
+            splits.push(Split {
+                insertion: Insertion {
+                    motion: approach.motion as usize,
+                    between: Vec::new(),
+                    own: Some(texts),
+                },
+                refusal: refusal.clone(),
+            });
+        }
+        report.changed = true;
+        self.splits.extend(splits);
+        true
     }
 
     fn add_converged(
@@ -114,19 +212,22 @@ impl Portion {
             report.fake = None;
         } else {
             report.changed = written.changed;
+            self.configurations.extend(written.configurations);
             self.findings.extend(written.finding);
             let edits = self
                 .edits
                 .entry(job.ground.program.targets[approach.target as usize].file)
                 .or_default();
-            for (span, text) in &written.texts {
+            for (_, span, text) in &written.texts {
                 edits.replace(span.clone(), |out| {
                     out.extend_from_slice(&written.digits[text.clone()]);
                 });
             }
         }
         let left = report.rounding;
-        if left.distance_m > ROUNDING_LIMIT.distance_m || left.angle_rad > ROUNDING_LIMIT.angle_rad
+        // what the search itself could not reach is told by itself
+        if left.distance_m > report.residual.distance_m + ROUNDING_LIMIT.distance_m
+            || left.angle_rad > report.residual.angle_rad + ROUNDING_LIMIT.angle_rad
         {
             self.findings
                 .push(rounding_finding(job, approach, left, shift));
@@ -202,7 +303,12 @@ impl Portion {
                 let start = number.start as usize;
                 let from = written.digits.len();
                 written.digits.extend_from_slice(&digits);
+                if roles[index] == Role::Configuration {
+                    let number = target.numbers.start + small(index);
+                    written.configurations.push((number, new[index]));
+                }
                 written.texts.push((
+                    index,
                     start..start + usize::from(number.length),
                     from..written.digits.len(),
                 ));
@@ -218,17 +324,23 @@ struct Written {
     numbers: Vec<f64>,
     changed: bool,
     digits: Vec<u8>,
-    /// Bytes of the file, and in `digits` what replaces them.
-    texts: Vec<(Range<usize>, Range<usize>)>,
+    /// Index of the number, bytes of the file, and in `digits` what replaces them.
+    texts: Vec<(usize, Range<usize>, Range<usize>)>,
+    /// Index in the program's numbers, and the value.
+    configurations: Vec<(u32, f64)>,
     finding: Option<Finding>,
 }
 
 /// The largest distance and the largest angle.
 fn worst(all: impl Iterator<Item = Separation>) -> Separation {
-    all.fold(Separation::default(), |a, b| Separation {
+    all.fold(Separation::default(), largest)
+}
+
+fn largest(a: Separation, b: Separation) -> Separation {
+    Separation {
         distance_m: a.distance_m.max(b.distance_m),
         angle_rad: a.angle_rad.max(b.angle_rad),
-    })
+    }
 }
 
 /// How far from the wanted pose the real tool lands with the target as it is.
@@ -437,9 +549,17 @@ fn failure(job: &Job, approach: &Approach, outcome: &Outcome) -> Finding {
             format!("no joints found for {name}: {missing}; {near}"),
         ),
     };
-    let hint = "move the target, or --keep-going to leave it as it is";
-    job.ground
-        .at_target(id, Severity::Error, approach.target as usize, message, hint)
+    let mut hint = "move the target, or --keep-going to leave it as it is".to_owned();
+    if let Some(offers) = singular::offers(job, approach) {
+        hint = format!("{hint}; or {offers}");
+    }
+    job.ground.at_target(
+        id,
+        Severity::Error,
+        approach.target as usize,
+        message,
+        &hint,
+    )
 }
 
 fn singularity(job: &Job, approach: &Approach, outcome: &Outcome) -> Option<Finding> {

@@ -4,7 +4,7 @@ use super::Job;
 use super::approach::{Approach, SAME_RAD};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch};
+use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
 use crate::motion::walk::{self, Arrival, Arrivals, Pace};
@@ -85,7 +85,8 @@ fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut 
             let wanted: Vec<_> = chunk.iter().map(|at| of(at).wanted(job)).collect();
             let branches: Vec<_> = chunk.iter().map(|at| of(at).branch).collect();
             let near: Vec<_> = chunk.iter().map(|at| of(at).nominal_q).collect();
-            solve_batch(
+            solve_batch_by(
+                job.options.methods,
                 &inverse,
                 Targets {
                     wanted: &wanted,

@@ -1,7 +1,9 @@
 //! What is done, but should be looked at, and the [table](TABLE) of all that there is to find.
 
+mod accept;
 mod table;
 
+pub use accept::{Acceptance, AcceptanceError, accept};
 pub use table::{Kind, TABLE, kind};
 
 use schemars::JsonSchema;

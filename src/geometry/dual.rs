@@ -1,10 +1,7 @@
 //! Dual numbers: a value with `N` exact partial derivatives.
 
-use super::{Scalar, settle};
+use super::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
-
-/// Rounds after which the slopes of what [`Scalar::settled`] finds have settled, too: a tenth each.
-const SLOPES: usize = 20;
 
 /// A value and its partial derivatives with respect to `N` variables (forward-mode differentiation).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,19 +133,6 @@ impl<const N: usize> Scalar for Dual<N> {
     #[inline(always)]
     fn every_below(self, limit: f64) -> bool {
         self.value < limit
-    }
-    fn settled(mut each: impl FnMut(Self) -> Self) -> (Self, Self) {
-        let constant = |value: f64| Self::constant(value);
-        let (at, left) = settle::secant(|x: f64| each(constant(x)).value);
-        // the slopes follow where `each` contracts
-        let mut settled = constant(at);
-        for _ in 0..SLOPES {
-            settled = Self {
-                value: at,
-                ..each(settled)
-            };
-        }
-        (settled, constant(left))
     }
     #[inline(always)]
     fn round(self) -> Self {

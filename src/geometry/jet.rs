@@ -406,11 +406,6 @@ impl Scalar for Jet {
         self.value.high() < limit
     }
 
-    /// Nothing is known of it without the width of the interval: see [`Jet::implicit`].
-    fn settled(_: impl FnMut(Self) -> Self) -> (Self, Self) {
-        (Self::unknown(), Self::constant(0.0))
-    }
-
     fn round(self) -> Self {
         let [low, high] = [self.value.low(), self.value.high()].map(Scalar::round);
         if low == high {
@@ -468,8 +463,46 @@ mod tests {
         assert!(checked > 3000, "{checked}");
     }
 
+    /// The root of Kepler's equation x = c + e sin x, with an eccentricity of 0.3.
+    fn kepler(c: f64) -> f64 {
+        let mut x = c;
+        for _ in 0..20 {
+            x -= (x - 0.3 * x.sin() - c) / (1.0 - 0.3 * x.cos());
+        }
+        x
+    }
+
+    #[test]
+    fn an_enclosure_holds_every_solution_its_slope_and_its_bend() {
+        for k in -20..20 {
+            let low = 0.1 * f64::from(k);
+            let k = Jet::constant;
+            let middle = kepler(low + 0.005);
+            let around = |s: Jet, x: Jet| s + k(0.3) * (k(middle) + x).sin_cos().0 - k(middle);
+            let s = Jet::variable(low, low + 0.01);
+            let beside = Jet::implicit(0.005, 1e-11, |x| around(s, x), |x| around(s.at_rest(), x));
+            let jet = beside + k(middle);
+            assert!(jet.slope.radius < 0.1, "{jet:?}");
+            for j in 0..=10 {
+                let x = kepler(low + 0.001 * f64::from(j));
+                let slope = (1.0 - 0.3 * x.cos()).recip();
+                let bend = -0.3 * x.sin() * slope.powi(3);
+                for (ball, number) in [(jet.value, x), (jet.slope, slope), (jet.bend, bend)] {
+                    assert!(
+                        number >= ball.low() - 1e-11 && number <= ball.high() + 1e-11,
+                        "{jet:?} {x}"
+                    );
+                }
+            }
+        }
+    }
+
     #[test]
     fn what_has_no_bound_says_so() {
+        let s = Jet::variable(0.0, 1.0);
+        let steep = |s: Jet, x: Jet| s + Jet::constant(3.0) * x;
+        let x = Jet::implicit(0.5, 1e-11, |x| steep(s, x), |x| steep(s.at_rest(), x));
+        assert!(!x.value.radius.is_finite());
         let through_zero = Jet::variable(-1.0, 1.0);
         assert!(!(Jet::constant(1.0) / through_zero).value.radius.is_finite());
         assert!(!through_zero.atan2(through_zero).value.radius.is_finite());

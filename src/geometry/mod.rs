@@ -7,9 +7,9 @@ mod dual;
 mod jet;
 mod lanes;
 mod pose;
+mod roots;
 mod rotation;
 mod scalar;
-mod settle;
 mod turn;
 pub mod units;
 
@@ -17,6 +17,7 @@ pub use dual::Dual;
 pub use jet::{Ball, Jet};
 pub use lanes::Lanes;
 pub use pose::{Pose, Separation};
+pub(crate) use roots::roots;
 pub use rotation::{Quaternion, Rotation, wrap};
 pub use scalar::Scalar;
 pub use turn::Turn;

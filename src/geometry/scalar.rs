@@ -1,6 +1,5 @@
 //! The numbers that every equation is written over.
 
-use super::settle;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -41,13 +40,6 @@ pub trait Scalar:
     fn choose_less(self, limit: Self, then: Self, otherwise: Self) -> Self;
     /// Whether the value is below `limit` in every lane.
     fn every_below(self, limit: f64) -> bool;
-
-    /// The angle x, radians, that `each` gives back but for whole turns, searched from zero; and how far `each(x)` is from x.
-    #[inline(always)]
-    #[must_use]
-    fn settled(each: impl FnMut(Self) -> Self) -> (Self, Self) {
-        settle::secant(each)
-    }
 
     /// The nearest whole number, |self| < 2^51; its derivative is zero.
     #[must_use]

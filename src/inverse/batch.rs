@@ -2,7 +2,8 @@
 
 use super::branch::Branch;
 use super::closed_form::Stance;
-use super::pose_shift::{Inverse, Outcome, step, within};
+use super::outcome::{Landed, Method, Methods, Outcome, Spent, Status};
+use super::pose_shift::{Inverse, step, within};
 use crate::geometry::{Pose, Separation};
 use crate::model::Model;
 use crate::model::batch::{Four, WIDTH, side_by_side};
@@ -32,6 +33,15 @@ pub struct Targets<'a> {
 /// If the three slices differ in length: the caller's bug.
 #[must_use]
 pub fn solve_batch(inverse: &Inverse, targets: Targets) -> Vec<Outcome> {
+    solve_batch_by(Methods::Auto, inverse, targets)
+}
+
+/// [`solve_batch`] with the methods that are allowed.
+///
+/// # Panics
+/// If the three slices differ in length: the caller's bug.
+#[must_use]
+pub fn solve_batch_by(methods: Methods, inverse: &Inverse, targets: Targets) -> Vec<Outcome> {
     let count = targets.wanted.len();
     assert!(
         targets.branches.len() == count && targets.near.len() == count,
@@ -40,6 +50,7 @@ pub fn solve_batch(inverse: &Inverse, targets: Targets) -> Vec<Outcome> {
     let real = inverse.real.cast::<Four>();
     let mut outcomes = Vec::with_capacity(count);
     Arch::new().dispatch(Kernel {
+        methods,
         inverse,
         real: &real,
         targets,
@@ -49,6 +60,7 @@ pub fn solve_batch(inverse: &Inverse, targets: Targets) -> Vec<Outcome> {
 }
 
 struct Kernel<'a> {
+    methods: Methods,
     inverse: &'a Inverse,
     real: &'a Model<Four>,
     targets: Targets<'a>,
@@ -61,6 +73,7 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
     #[inline(always)]
     fn call(self) {
         let Self {
+            methods,
             inverse,
             real,
             targets,
@@ -100,27 +113,38 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
                     distance_m: last.distance.0[lane],
                     angle_rad: last.angle.0[lane],
                 };
-                let outcome = if within(residual.distance_m, residual.angle_rad)
-                    && last.beyond.0[lane] == 0.0
-                {
-                    inverse.finish(
-                        q.map(|q| q.0[lane]),
-                        &Stance {
-                            wrist_rad: stance.wrist_rad.0[lane],
-                            elbow_rad: stance.elbow_rad.0[lane],
-                            shoulder_m: stance.shoulder_m.0[lane],
-                        },
+                let landed =
+                    within(residual.distance_m, residual.angle_rad) && last.beyond.0[lane] == 0.0;
+                let by_shift = landed.then(|| {
+                    let stance = Stance {
+                        wrist_rad: stance.wrist_rad.0[lane],
+                        elbow_rad: stance.elbow_rad.0[lane],
+                        shoulder_m: stance.shoulder_m.0[lane],
+                    };
+                    let landed = Landed {
+                        q: q.map(|q| q.0[lane]),
+                        stance: &stance,
                         residual,
-                        iterations,
-                        targets.branches[target],
-                    )
-                } else {
-                    inverse.solve(
-                        &targets.wanted[target],
-                        targets.branches[target],
-                        &targets.near[target],
-                    )
-                };
+                        method: Method::PoseShift,
+                        spent: Spent {
+                            shift: iterations,
+                            newton: 0,
+                        },
+                        follows: false,
+                    };
+                    inverse.finish(targets.branches[target], &landed)
+                });
+                // what lands elsewhere than meant is looked at more closely
+                let outcome = by_shift
+                    .filter(|outcome| outcome.status == Status::Converged)
+                    .unwrap_or_else(|| {
+                        inverse.solve_by(
+                            methods,
+                            &targets.wanted[target],
+                            targets.branches[target],
+                            &targets.near[target],
+                        )
+                    });
                 outcomes.push(outcome);
             }
         }

@@ -8,9 +8,13 @@ mod batch;
 mod branch;
 mod closed_form;
 mod newton;
+mod outcome;
 mod pose_shift;
+mod track;
 
-pub use batch::{Targets, solve_batch};
+pub use batch::{Targets, solve_batch, solve_batch_by};
 pub use branch::Branch;
-pub use closed_form::{Arm, Margins, Solution, Unsupported};
-pub use pose_shift::{Inverse, Outcome, Status, TOLERANCE_M, TOLERANCE_RAD};
+pub use closed_form::{Answer, Arm, Margins, Solution, Unsupported};
+pub use outcome::{Method, Methods, Outcome, Status};
+pub use pose_shift::{Inverse, TOLERANCE_M, TOLERANCE_RAD};
+pub use track::{Ambiguous, TrackEnds};

@@ -15,6 +15,12 @@ use crate::model::{Conditions, Model};
 use nalgebra::{SMatrix, SVector};
 
 const MOST_ITERATIONS: u32 = 60;
+/// Evaluations after which no further start is tried: where an answer is to be had, it is mostly found within some dozens.
+const MOST_EVALUATIONS: u32 = 2000;
+/// A descent that does not lower the error by this share in so many steps has come to rest.
+const STALLS: (f64, u32) = (0.01, 4);
+/// A posture with the tool nearer to the target than this is a start of its own, metres and radians.
+const NEAR_TARGET: (f64, f64) = (0.1, 0.3);
 const LEAST_DAMPING: f64 = 1e-12;
 const MOST_DAMPING: f64 = 1e6;
 /// Larger steps could jump to another branch.
@@ -29,6 +35,8 @@ const NEAR_AXIS_1_M: f64 = 0.008;
 const NEAR_STRAIGHT_RAD: f64 = 0.15;
 /// Where the two first starts end farther from the wanted pose, no other start can help: the pose is out of reach.
 const HOPELESS_M: f64 = 0.002;
+/// A metre at the tip counts as much as so many radians where not all can be had.
+const TIP_FIRST: f64 = 1e4;
 /// Turns of joint 4 against joint 6 that are tried at an aligned wrist, as parts of a right angle.
 const WRIST_TURNS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
@@ -40,13 +48,31 @@ pub(super) struct Found {
 }
 
 impl Found {
-    fn is_done(&self) -> bool {
+    pub fn is_done(&self) -> bool {
         within(self.residual.distance_m, self.residual.angle_rad)
     }
 
     fn size(&self) -> f64 {
         self.residual.distance_m + self.residual.angle_rad
     }
+}
+
+/// The descent from `near`, where the real tool is near to `wanted` there.
+pub(super) fn from_near(inverse: &Inverse, wanted: &Pose, near: &[f64; 6]) -> Option<Found> {
+    let Inverse {
+        real, conditions, ..
+    } = inverse;
+    let gap = real.forward(near, conditions).separation(wanted);
+    let is_near = gap.distance_m < NEAR_TARGET.0 && gap.angle_rad < NEAR_TARGET.1;
+    is_near.then(|| descend(&real.cast(), conditions, wanted, near, None))
+}
+
+/// The descent from `near` with one joint held where it is: the tool's tip goes to `wanted`, its orientation as near as may be.
+pub(super) fn held(inverse: &Inverse, wanted: &Pose, near: &[f64; 6], joint: usize) -> Found {
+    let Inverse {
+        real, conditions, ..
+    } = inverse;
+    descend(&real.cast(), conditions, wanted, near, Some(joint))
 }
 
 /// Searches from the given start and the nominal solution, then from starts beside the singularities that these are near
@@ -57,24 +83,30 @@ pub(super) fn solve(
     branch: Branch,
     near: &[f64; 6],
     start: &[f64; 6],
+    nominal: &[f64; 6],
 ) -> Found {
     let Inverse {
         arm,
         real,
         conditions,
     } = inverse;
-    let real = real.cast();
-    let nominal = arm.solve_branch(wanted, branch, near).q;
-    let (first, then) = (
-        [*start, nominal],
-        beside_singularities(arm, wanted, branch, near, nominal),
-    );
+    let is_meant = |found: &Found| {
+        found.is_done() && (arm.posture(&found.q).0 == branch || inverse.follows(&found.q, nominal))
+    };
     let mut best: Option<Found> = None;
     let mut spent = 0;
+    let real = real.cast();
+    let (first, then) = (
+        [*start, *nominal],
+        beside_singularities(arm, wanted, branch, near, *nominal),
+    );
     for (number, q) in first.into_iter().chain(then).enumerate() {
-        let found = descend(&real, conditions, wanted, &q);
+        if spent > MOST_EVALUATIONS {
+            break;
+        }
+        let found = descend(&real, conditions, wanted, &q, None);
         spent += found.iterations;
-        if found.is_done() && arm.posture(&found.q).0 == branch {
+        if is_meant(&found) {
             return Found {
                 iterations: spent,
                 ..found
@@ -181,22 +213,48 @@ struct Linearized {
     gap: Separation,
 }
 
-/// Levenberg–Marquardt from one start.
+impl Linearized {
+    /// Without one joint; with six demands on five joints those of the tip go first.
+    fn hold(&mut self, joint: usize) {
+        self.jacobian.column_mut(joint).fill(0.0);
+        for row in 0..3 {
+            self.error[row] *= TIP_FIRST;
+            self.jacobian.row_mut(row).scale_mut(TIP_FIRST);
+        }
+    }
+}
+
+/// Levenberg–Marquardt from one start; with a joint held, distances count more than angles.
 fn descend(
     real: &Model<Dual<6>>,
     conditions: &Conditions,
     wanted: &Pose,
     start: &[f64; 6],
+    held: Option<usize>,
 ) -> Found {
+    let linearize = |q: &[f64; 6]| {
+        let mut here = linearize(real, conditions, wanted, q);
+        if let Some(joint) = held {
+            here.hold(joint);
+        }
+        here
+    };
     let mut q = *start;
-    let mut here = linearize(real, conditions, wanted, &q);
+    let mut here = linearize(&q);
     let mut lambda = LEAST_DAMPING;
     let mut iterations = 1;
-    while iterations < MOST_ITERATIONS && lambda < MOST_DAMPING {
+    let mut idle = 0;
+    while iterations < MOST_ITERATIONS && lambda < MOST_DAMPING && idle < STALLS.1 {
         let trial = stepped(&q, &here, lambda);
-        let there = linearize(real, conditions, wanted, &trial);
+        let there = linearize(&trial);
         iterations += 1;
-        if there.error.norm() < here.error.norm() {
+        let (before, after) = (here.error.norm(), there.error.norm());
+        idle = if after < (1.0 - STALLS.0) * before {
+            0
+        } else {
+            idle + 1
+        };
+        if after < before {
             let settled = within(here.gap.distance_m, here.gap.angle_rad);
             (q, here) = (trial, there);
             lambda = (0.1 * lambda).max(LEAST_DAMPING);

@@ -2,6 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::inverse::{Arm, Branch, Inverse, Status, Unsupported};
+use crate::model::effects::Need;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 
@@ -13,6 +14,8 @@ pub(crate) struct Equipped {
     pub calibrated_controller: Option<Inverse>,
     /// The real arm without conditions.
     pub inverse: Inverse,
+    /// Joints of the real arm that stand elsewhere when they come from the other side.
+    pub has_backlash: [bool; 6],
 }
 
 impl Equipped {
@@ -35,11 +38,19 @@ impl Equipped {
             real: controller.clone(),
             conditions,
         });
+        let mut has_backlash = [false; 6];
+        for effect in profile.real_effects() {
+            let needs = effect.definition().needs;
+            if !effect.is_zero() && needs.contains(&Need::Directions) {
+                has_backlash[effect.site.index] = true;
+            }
+        }
         Ok(Self {
             arm,
             controller,
             calibrated_controller,
             inverse,
+            has_backlash,
         })
     }
 

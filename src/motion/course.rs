@@ -14,6 +14,10 @@ use crate::model::{Conditions, Model};
 const SMALL: f64 = 1e-9;
 /// An interval shorter than this whose bounds are not finite is not halved again.
 const SHORTEST: f64 = 1.0 / 512.0;
+/// Pieces in which a joint with backlash may turn back are not shorter.
+const SHORTEST_TURN: f64 = 1.0 / 256.0;
+/// A joint whose rate is less than this stands, radians per metre.
+pub(super) const STANDSTILL_RAD_M: f64 = 1e-3;
 /// What the search for joints leaves, radians.
 const SLACK_RAD: f64 = 1e-8;
 
@@ -274,8 +278,12 @@ pub(crate) struct Leg<'a> {
 pub(crate) struct Piece {
     pub from: f64,
     pub to: f64,
+    /// The controller's joints where it begins, radians.
+    pub start: [f64; 6],
     /// The controller's joints, in radians, and their derivatives by s.
     pub joints: [Jet; 6],
+    /// The conditions of the arm in it: from which side joints with backlash come.
+    pub conditions: Conditions,
     /// The bounds hold everywhere in the piece; else it is near a singularity or the controller has a chain of its own.
     pub certified: bool,
 }
@@ -306,7 +314,7 @@ impl Leg<'_> {
             Course::Tool(course) => {
                 let pose = course.pose(s);
                 match &self.equipped.calibrated_controller {
-                    None => self.equipped.arm.solve_branch(&pose, self.branch, near).q,
+                    None => self.equipped.arm.solve_along(&pose, self.branch, near).q,
                     Some(controller) => controller.solve(&pose, self.branch, near).q,
                 }
             }
@@ -321,7 +329,7 @@ impl Leg<'_> {
                 let pose = course.pose(s);
                 self.equipped
                     .arm
-                    .solve_branch(&pose, self.branch, &self.start)
+                    .solve_along(&pose, self.branch, &self.start)
                     .beyond
             }
         }
@@ -360,7 +368,7 @@ impl Leg<'_> {
                     enclosed
                 } else {
                     let middle_pose = course.pose(0.5 * (from + to));
-                    let nominal = arm.solve_branch(&middle_pose, self.branch, middle).q;
+                    let nominal = arm.solve_along(&middle_pose, self.branch, middle).q;
                     std::array::from_fn(|i| beside(enclosed[i], middle[i] - nominal[i]))
                 };
                 (joints, exact)
@@ -369,14 +377,17 @@ impl Leg<'_> {
         let mut piece = Piece {
             from,
             to,
+            start: *middle,
             joints,
+            conditions: self.conditions,
             certified,
         };
         piece.certified &= piece.is_bounded();
         piece
     }
 
-    /// The whole move in pieces whose bounds are tight enough to work with.
+    /// The whole move in pieces whose bounds are tight enough to work with. A piece in which a joint with backlash may turn
+    /// back stands there once for each side from which it may come.
     pub fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut near = self.start;
@@ -389,21 +400,73 @@ impl Leg<'_> {
         let mut piece = self.enclose(from, to, &middle);
         let end = self.joints(to, &middle);
         piece.certified &= piece.holds(near) && piece.holds(&end);
+        piece.start = *near;
         let long = to - from;
+        let sides = self.sides(&piece);
+        let is_one_sided = sides.iter().all(|sides| sides.len() == 1);
         let steady = piece.joints.iter().all(|joint| {
             let change = joint.bend.magnitude() * long;
             change <= 0.5 * joint.slope.magnitude() + 0.2 && joint.slope.magnitude() * long < 1.0
         });
         let exact = self.equipped.calibrated_controller.is_none();
-        if (steady && (piece.certified || !exact)) || long <= SHORTEST {
+        let is_fine = steady && (piece.certified || !exact);
+        if (is_fine && (is_one_sided || long <= SHORTEST_TURN)) || long <= SHORTEST {
             *near = end;
-            out.push(piece);
+            each_side(&piece, &sides, out);
         } else {
             let half = 0.5 * (from + to);
             self.split(from, half, near, out);
             self.split(half, to, near, out);
         }
     }
+}
+
+impl Leg<'_> {
+    /// From which sides each joint may come in a piece. A joint that stands keeps the side of the move's end.
+    fn sides(&self, piece: &Piece) -> [Vec<f64>; 6] {
+        let Course::Tool(course) = &self.course else {
+            return self.conditions.direction.map(|side| vec![side]);
+        };
+        let stands = STANDSTILL_RAD_M * (course.length_m() + course.angle_rad());
+        std::array::from_fn(|i| {
+            let slope = &piece.joints[i].slope;
+            let (low, high) = (slope.middle - slope.radius, slope.middle + slope.radius);
+            if !self.equipped.has_backlash[i] || (low > -stands && high < stands) {
+                vec![self.conditions.direction[i]]
+            } else if low > 0.0 {
+                vec![1.0]
+            } else if high < 0.0 {
+                vec![-1.0]
+            } else {
+                vec![-1.0, 1.0]
+            }
+        })
+    }
+}
+
+/// The piece with the joints on each of their sides.
+fn each_side(piece: &Piece, sides: &[Vec<f64>; 6], out: &mut Vec<Piece>) {
+    let mut all = vec![[0.0; 6]];
+    for (joint, sides) in sides.iter().enumerate() {
+        all = sides
+            .iter()
+            .flat_map(|side| {
+                let of = |direction: &[f64; 6]| {
+                    let mut direction = *direction;
+                    direction[joint] = *side;
+                    direction
+                };
+                all.iter().map(of).collect::<Vec<_>>()
+            })
+            .collect();
+    }
+    out.extend(all.into_iter().map(|direction| Piece {
+        conditions: Conditions {
+            direction,
+            ..piece.conditions
+        },
+        ..piece.clone()
+    }));
 }
 
 /// Bounds of a joint of a controller whose own chain is calibrated: those of the nominal one, shifted and widened. Its chain

@@ -59,34 +59,13 @@ impl<'a> Ground<'a> {
 
     fn check_known(&self, needs: &impl Fn(&Move) -> bool) -> Result<(), PlacementError> {
         let mut missing: Vec<Missing> = Vec::new();
-        let mut add = |motion: &Move, what, name: &str| {
-            if missing
-                .iter()
-                .any(|known| known.what == what && known.name == name)
-            {
-                return;
-            }
-            let source = &self.sources[motion.file as usize];
-            let (line, column) = source.line_column(motion.offset as usize);
-            missing.push(Missing {
-                file: source.name.clone(),
-                line,
-                column,
-                what,
-                name: name.into(),
-            });
-        };
         for motion in self.program.moves.iter().filter(|motion| needs(motion)) {
-            if self.setting.tools[motion.tool].is_none() {
-                add(motion, "tool", &self.program.tools[motion.tool].name);
-            }
-            let frame = self.frame_of(motion);
-            if self.setting.frames[frame].is_none() {
-                add(
-                    motion,
-                    "work frame",
-                    &self.program.frames[motion.frame].name,
-                );
+            for (what, name) in self.setting.unknown(self.program, motion) {
+                let is_same = |known: &Missing| known.what == what && known.name == name;
+                if !missing.iter().any(is_same) {
+                    let source = &self.sources[motion.file as usize];
+                    missing.push(Missing::at(source, motion, what, name));
+                }
             }
         }
         if missing.is_empty() {

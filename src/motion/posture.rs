@@ -5,7 +5,7 @@ use super::ground::Ground;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
-use crate::inverse::{Arm, Branch};
+use crate::inverse::{Ambiguous, Answer, Arm, Branch};
 use crate::program::{Configuration, TargetId};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
@@ -52,6 +52,16 @@ pub(super) fn choose(
         honoured,
         start,
     } = asked;
+    if arm.has_offset_wrist() {
+        match on_track(asked) {
+            Ok(None) => {}
+            Ok(posture) => return posture,
+            Err(ambiguous) => {
+                findings.push(unclear(ground, *target, &ambiguous));
+                return None;
+            }
+        }
+    }
     // along a path the next posture is mostly on the branch of the last one; the others are tried where it does not fit
     if let Some(before) = start {
         let same = on_branch(arm, wanted, arm.posture(before).0, before, configuration);
@@ -125,6 +135,54 @@ pub(super) fn choose(
     None
 }
 
+/// The answer of an arm with an offset wrist that the configuration means, by its track from the posture before where several
+/// have it. `None` where none has it.
+fn on_track(asked: &Asked) -> Result<Option<Posture>, Ambiguous> {
+    let (arm, wanted) = (asked.arm, &asked.wanted);
+    let middle = arm
+        .mechanism()
+        .joints
+        .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
+    let before = asked.start.as_ref();
+    // a robot that does not honour its configuration goes on as it came
+    let free = !asked.honoured && before.is_some();
+    let fits = |posture: &Posture| free || posture.configured;
+    if let Some(q) = before.and_then(|before| arm.follow(before, wanted).ok()) {
+        let posture = configured(arm, arm.posture(&q).0, q, &asked.configuration);
+        if let Some(posture) = posture.filter(fits) {
+            return Ok(Some(posture));
+        }
+    }
+    let near = asked.start.unwrap_or(middle);
+    let posture = |answer: &Answer| configured(arm, answer.branch, answer.q, &asked.configuration);
+    let is_meant = |answer: &Answer| posture(answer).as_ref().is_some_and(fits);
+    let chosen = arm.choose(wanted, &near, before, is_meant)?;
+    Ok(chosen.as_ref().and_then(posture))
+}
+
+/// Several postures of one branch have the configuration that the file gives.
+fn unclear(ground: &Ground, target: TargetId, ambiguous: &Ambiguous) -> Finding {
+    let joints = |answer: &Answer| {
+        let q = answer.q.map(|q| format!("{:.1}", q / DEG));
+        format!("({})", q.join(", "))
+    };
+    let candidates: Vec<String> = ambiguous.candidates.iter().map(joints).collect();
+    let message = format!(
+        "{} postures at {} have the configuration that the file gives, and no straight path from a target before leads to one of \
+         them (joints {} deg)",
+        candidates.len(),
+        ground.name_of(target),
+        candidates.join(" or ")
+    );
+    ground.at_target(
+        "configuration-ambiguous",
+        Severity::Error,
+        target,
+        message,
+        "put a joint target before it",
+    )
+}
+
 /// Whether a posture follows the one before without a change of branch or a turn in between.
 fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
     (0..6).all(|i| (q[i] - before[i]).abs() < 45.0 * DEG)
@@ -156,8 +214,17 @@ pub(super) fn on_branch(
     if solution.beyond > 0.0 {
         return None;
     }
+    configured(arm, branch, solution.q, configuration)
+}
+
+/// A solution with the rotations that the configuration data and the limits ask for; `None` beyond a limit.
+fn configured(
+    arm: &Arm,
+    branch: Branch,
+    mut q: [f64; 6],
+    configuration: &Configuration,
+) -> Option<Posture> {
     let mechanism = arm.mechanism();
-    let mut q = solution.q;
     let mut in_ranges = true;
     for i in 0..6 {
         let limits = (

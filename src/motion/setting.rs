@@ -1,9 +1,10 @@
 //! The tools and work frames of a program, as far as files, profile and command line tell them.
 
+use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{Mounted, Profile};
-use crate::program::{Frame, FrameId, Language, Program, Tool, ToolId};
+use crate::program::{Frame, FrameId, Language, Move, Program, Source, Tool, ToolId};
 use std::collections::BTreeMap;
 
 /// Two values of one tool or frame that differ by less than this are the same, metres and radians.
@@ -179,6 +180,56 @@ impl std::fmt::Display for PlacementError {
 
 impl std::error::Error for PlacementError {}
 
+/// Makes an error of each tool and frame that nobody knows, and leaves the targets of the moves that need it.
+pub(crate) fn block_unplaced(
+    language: &dyn Language,
+    program: &mut Program,
+    sources: &[Source],
+    profile: &Profile,
+    given: &Given,
+    findings: &mut Vec<Finding>,
+    needs: impl Fn(&Program, &Move) -> bool,
+) {
+    let setting = Setting::of(language, program, profile, given);
+    let mut blocked = Vec::new();
+    let mut told = std::collections::BTreeSet::new();
+    for motion in program.moves.iter().filter(|motion| needs(program, motion)) {
+        for (what, name) in setting.unknown(program, motion) {
+            blocked.extend(motion.target);
+            if told.insert((motion.file, what, name)) {
+                let missing = Missing::at(&sources[motion.file as usize], motion, what, name);
+                let error = PlacementError {
+                    missing: vec![missing],
+                };
+                findings.push(sources[motion.file as usize].finding(
+                    motion.offset as usize,
+                    "frame-unknown",
+                    Severity::Error,
+                    error.message(),
+                    &error.hint(),
+                ));
+            }
+        }
+    }
+    for target in blocked {
+        program.targets[target].blocked = true;
+    }
+}
+
+impl Missing {
+    /// What a move lacks.
+    pub(crate) fn at(source: &Source, motion: &Move, what: &'static str, name: &str) -> Self {
+        let (line, column) = source.line_column(motion.offset as usize);
+        Self {
+            file: source.name.clone(),
+            line,
+            column,
+            what,
+            name: name.into(),
+        }
+    }
+}
+
 /// The tools and work frames of a program as far as anybody knows them.
 pub(crate) struct Setting {
     /// The program's, and one more: what the user gave for targets that no move uses.
@@ -188,6 +239,21 @@ pub(crate) struct Setting {
 }
 
 impl Setting {
+    /// What a move needs and nobody knows: `tool` or `work frame`, and its name.
+    pub fn unknown<'p>(
+        &self,
+        program: &'p Program,
+        motion: &Move,
+    ) -> impl Iterator<Item = (&'static str, &'p str)> {
+        let tool = self.tools[motion.tool]
+            .is_none()
+            .then(|| ("tool", program.tools[motion.tool].name.as_str()));
+        // joints stand in the world
+        let frame = (program.goes_to_pose(motion) && self.frames[motion.frame].is_none())
+            .then(|| ("work frame", program.frames[motion.frame].name.as_str()));
+        tool.into_iter().chain(frame)
+    }
+
     pub fn of(
         language: &dyn Language,
         program: &Program,

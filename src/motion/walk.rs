@@ -4,7 +4,7 @@
 //! as the controller does; on a straight line or an arc the posture is that of the path itself, followed from the posture before.
 //! The direction of a joint is the sign of its rate at the end of the path; one that stands keeps its last.
 
-use super::course::{Course, Leg, ToolCourse, Turning};
+use super::course::{Course, Leg, STANDSTILL_RAD_M, ToolCourse, Turning};
 use super::ground::Ground;
 use super::posture::{self, Asked, Posture};
 use crate::finding::{Finding, Severity};
@@ -18,8 +18,6 @@ use std::collections::BinaryHeap;
 
 /// A joint that moves less than this on a joint move keeps the direction in which it moved before, radians.
 const STANDSTILL_RAD: f64 = 1e-6;
-/// A joint whose rate at the end of a path is less than this stands, radians per metre.
-const STANDSTILL_RAD_M: f64 = 1e-3;
 /// Parts of an orientation beyond this, in degrees or radians, are no angles: 1e5 degrees are 278 rotations.
 const MOST_ANGLE: f64 = 1e5;
 /// Arrivals at one move that are told apart.
@@ -542,7 +540,7 @@ fn follow(
     };
     let arm = &equipped.arm;
     let at = |s: f64, branch: Branch, near: &[f64; 6]| {
-        let solution = arm.solve_branch(&path.pose(s), branch, near);
+        let solution = arm.solve_along(&path.pose(s), branch, near);
         (solution.beyond == 0.0).then_some(solution.q)
     };
     let (mut branch, margins) = arm.posture(start);

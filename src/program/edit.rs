@@ -77,10 +77,32 @@ impl Edits {
         self.spans.extend(other.spans.iter().map(moved));
     }
 
+    /// Where a byte of the file comes to lie: behind what is put in at it.
+    #[must_use]
+    pub fn length_before(&self, at: usize) -> usize {
+        let before = (0..self.spans.len())
+            .map(|i| self.change(i))
+            .filter(|(span, _)| span.end <= at);
+        let (gone, new) = before.fold((0, 0), |(gone, new), (span, text)| {
+            (gone + span.len(), new + text.len())
+        });
+        at - gone + new
+    }
+
     /// Whether nothing is replaced.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.spans.is_empty()
+    }
+
+    /// The replaced ranges and their new text, in the order of the file.
+    pub fn changes(&self) -> impl Iterator<Item = (Range<usize>, &[u8])> {
+        let mut order: Vec<u32> = (0..short(self.spans.len())).collect();
+        order.sort_by_key(|i| {
+            let span = self.spans[*i as usize];
+            (span.start, span.end)
+        });
+        order.into_iter().map(|i| self.change(i as usize))
     }
 
     /// The file with the replacements made.
@@ -88,17 +110,12 @@ impl Edits {
     /// # Panics
     /// If two spans overlap or one lies outside the file: the caller's bug.
     #[must_use]
-    pub fn apply(self, bytes: &[u8]) -> Vec<u8> {
-        let mut order: Vec<u32> = (0..short(self.spans.len())).collect();
-        order.sort_by_key(|i| {
-            let span = self.spans[*i as usize];
-            (span.start, span.end)
-        });
+    pub fn apply(&self, bytes: &[u8]) -> Vec<u8> {
         let replaced = |span: &Span| (span.end - span.start) as usize;
         let gone: usize = self.spans.iter().map(replaced).sum();
         let mut out = Vec::with_capacity((bytes.len() + self.text.len()).saturating_sub(gone));
         let mut done = 0;
-        for (span, text) in order.iter().map(|i| self.change(*i as usize)) {
+        for (span, text) in self.changes() {
             let start = span.start;
             assert!(start >= done, "two changes of one span at byte {start}");
             out.extend_from_slice(&bytes[done..start]);

@@ -20,6 +20,16 @@ pub struct Insertion {
     pub motion: usize,
     /// The targets on the way.
     pub between: Vec<Between>,
+    /// A target of its own for the move itself, which it shares with others so far.
+    pub own: Option<Vec<Vec<u8>>>,
+}
+
+impl Insertion {
+    /// No move is added: the move itself gets a target of its own.
+    #[must_use]
+    pub fn is_split(&self) -> bool {
+        self.between.is_empty()
+    }
 }
 
 /// Byte ranges of a file, and what to put in their place.
@@ -173,7 +183,12 @@ impl Repeated<'_> {
             text.extend_from_slice(self.source.line_end());
             text.extend_from_slice(self.blanks);
         }
-        changes.push((self.span.start..self.span.start, text));
+        if let Some(numbers) = &insertion.own {
+            changes.push((self.end.clone(), written(numbers)?));
+        }
+        if !text.is_empty() {
+            changes.push((self.span.start..self.span.start, text));
+        }
         Some(changes)
     }
 }

@@ -24,7 +24,7 @@ pub mod urscript;
 pub use edit::Edits;
 pub use error::ReadError;
 pub use insert::{Between, Inserted, Insertion, Replacements};
-pub use marker::Marker;
+pub use marker::{Marker, sha256};
 pub use script::{Instruction, Place, Script};
 pub use source::Source;
 

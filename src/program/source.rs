@@ -10,6 +10,8 @@ pub struct Source {
     pub name: String,
     /// Its content.
     pub bytes: Vec<u8>,
+    /// It is read for what it declares, and stays as it is: others use its tools, frames, targets and routines.
+    pub is_context: bool,
     /// First byte of each line.
     line_starts: OnceLock<Vec<usize>>,
 }
@@ -21,7 +23,17 @@ impl Source {
         Self {
             name: name.into(),
             bytes,
+            is_context: false,
             line_starts: OnceLock::new(),
+        }
+    }
+
+    /// A file that is read for what it declares only.
+    #[must_use]
+    pub fn context(name: impl Into<String>, bytes: Vec<u8>) -> Self {
+        Self {
+            is_context: true,
+            ..Self::new(name, bytes)
         }
     }
 

@@ -5,7 +5,7 @@ use crate::task::compensate::{Compensated, Summary};
 
 /// The text for people, without the findings.
 #[must_use]
-pub fn text(found: &Compensated, files: usize, language: &dyn Language) -> String {
+pub fn text(found: &Compensated, language: &dyn Language) -> String {
     let Summary {
         targets,
         compensated,
@@ -19,9 +19,12 @@ pub fn text(found: &Compensated, files: usize, language: &dyn Language) -> Strin
         max_residual_mm,
         max_rounding_mm,
         max_rounding_deg,
+        added,
+        ref files,
     } = found.summary;
     let mut lines = vec![format!(
-        "{files} file(s) of {}, {targets} targets: {compensated} shifted, {unchanged} unchanged",
+        "{} file(s) of {}, {targets} targets: {compensated} shifted, {unchanged} unchanged",
+        files.written.len() + files.refused.len(),
         language.about().name
     )];
     if joint_targets > 0 {
@@ -49,6 +52,15 @@ pub fn text(found: &Compensated, files: usize, language: &dyn Language) -> Strin
             "  rounding  largest {:.4} mm, {:.4} deg (what the file's decimals cost)",
             max_rounding_mm, max_rounding_deg
         ));
+    }
+    if added > 0 {
+        lines.push(format!(
+            "  added     {added} targets, between others or for moves that shared one"
+        ));
+    }
+    if !files.written.is_empty() && !files.refused.is_empty() {
+        lines.push(format!("  written   {}", files.written.join(", ")));
+        lines.push(format!("  refused   {}", files.refused.join(", ")));
     }
     lines.join("\n") + "\n"
 }

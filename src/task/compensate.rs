@@ -1,15 +1,163 @@
-//! The report of `compensate`: what became of every target.
+//! `compensate`: program files in, program files with fake targets out, and what became of every target.
 
-use super::Document;
 use super::parts::{Names, Pose};
-use crate::compensate::{Compensation, meaning};
+use super::programs::{common_language, explain, refuse_doubtful, refuse_marked};
+use super::{Document, Failure, ProfileFile};
+use crate::check::CheckError;
+use crate::check::refine::refine;
+use crate::compensate::{Compensation, Options, Written, compensate, meaning};
 use crate::finding::Finding;
-use crate::geometry::units::{DEG, mm_from_m};
-use crate::inverse::Status;
+use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::inverse::{Method, Status};
 use crate::program::{Language, Source, Value};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
+
+/// The smallest path error that can be asked for, mm.
+const LEAST_PATH_ERROR_MM: f64 = 0.001;
+
+/// What is to be done.
+pub struct Request<'a> {
+    /// Program files that belong together; those that are read for their declarations only are marked so.
+    pub sources: &'a [Source],
+    /// Their language where the user says it.
+    pub language: Option<&'static dyn Language>,
+    /// The robot.
+    pub profile: &'a ProfileFile,
+    /// How.
+    pub options: Options,
+    /// Also files that are compensated already.
+    pub force: bool,
+    /// Insert targets until the path between targets, too, is within so many mm of the wanted one.
+    pub max_path_error_mm: Option<f64>,
+    /// What is written where there are errors.
+    pub despite_errors: DespiteErrors,
+}
+
+/// What is written where there are errors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DespiteErrors {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Programs that share neither targets nor calls with one that has an error.
+    Good,
+    /// Everything: targets with an error stay as they are.
+    All,
+}
+
+/// A compensation that is not yet written.
+pub struct Prepared<'a> {
+    request: &'a Request<'a>,
+    /// The programs' language.
+    pub language: &'static dyn Language,
+    /// What became of their targets.
+    pub compensation: Compensation,
+}
+
+/// Computes fake targets for programs.
+///
+/// # Errors
+/// Programs that are not understood, of several languages, or compensated already; an arm, a tool or a frame that is not known.
+pub fn prepare<'a>(request: &'a Request<'a>) -> Result<Prepared<'a>, Failure> {
+    let (sources, profile) = (request.sources, request.profile);
+    refuse_doubtful(profile)?;
+    let language = match request.language {
+        Some(language) => language,
+        None => common_language(sources, &profile.profile)?,
+    };
+    if !request.force {
+        refuse_marked(sources)?;
+    }
+    let mut options = request.options.clone();
+    options.accept_absolutely_accurate = request.force;
+    options.each_for_itself = request.despite_errors == DespiteErrors::Good;
+    let mut compensation = compensate(language, sources, &profile.profile, &options)
+        .map_err(|error| explain(&error, sources))?;
+    if let Some(limit) = request.max_path_error_mm {
+        keep_path(request, language, limit, &mut compensation)?;
+        compensation.judge(sources, &options.accepted);
+    }
+    Ok(Prepared {
+        request,
+        language,
+        compensation,
+    })
+}
+
+/// Inserts targets where the path asks for them.
+fn keep_path(
+    request: &Request,
+    language: &dyn Language,
+    limit_mm: f64,
+    compensation: &mut Compensation,
+) -> Result<(), Failure> {
+    if !(limit_mm >= LEAST_PATH_ERROR_MM && limit_mm.is_finite()) {
+        return Err(Failure::new(format!(
+            "--max-path-error is {limit_mm}; it must be at least {LEAST_PATH_ERROR_MM} mm"
+        )));
+    }
+    let scene = crate::check::Scene::default();
+    let subject = crate::check::Subject {
+        language,
+        sources: request.sources,
+        nominal: None,
+        profile: &request.profile.profile,
+        scene: &scene,
+    };
+    let checked = crate::check::Options {
+        given: request.options.given.clone(),
+        ..crate::check::Options::default()
+    };
+    let decimals = request.options.decimals;
+    refine(&subject, &checked, limit_mm * MM, decimals, compensation).map_err(|error| match error {
+        CheckError::Program(error) | CheckError::Nominal(error) => explain(&error, request.sources),
+        CheckError::NoCounterpart { .. } => Failure::new(error.to_string()),
+    })
+}
+
+impl Prepared<'_> {
+    /// Whether an error finding says that not every program may be written.
+    #[must_use]
+    pub fn is_refused(&self) -> bool {
+        self.compensation.is_refused()
+    }
+
+    /// Whether each of the sources will be written.
+    #[must_use]
+    pub fn will_write(&self) -> Vec<bool> {
+        let refused = self.is_refused();
+        let files = self.request.sources.iter().zip(&self.compensation.refused);
+        files
+            .map(|(source, in_refused)| {
+                let despite = match self.request.despite_errors {
+                    DespiteErrors::Nothing => !refused,
+                    DespiteErrors::Good => !in_refused,
+                    DespiteErrors::All => true,
+                };
+                despite && !source.is_context
+            })
+            .collect()
+    }
+
+    /// The new files, read again and compared with what was meant. Takes what was computed, so that a long program is not in
+    /// memory twice.
+    ///
+    /// # Errors
+    /// They would not say what was meant: a fault of this program.
+    pub fn written(self) -> Result<Written, Failure> {
+        let only_good = self.request.despite_errors == DespiteErrors::Good;
+        self.compensation
+            .written(
+                self.language,
+                self.request.sources,
+                &self.request.profile.sha256,
+                only_good,
+            )
+            .map_err(|differs| Failure::internal(differs.to_string()))
+    }
+}
 
 /// What the report says beside the compensation itself.
 pub struct Header<'a> {
@@ -17,6 +165,8 @@ pub struct Header<'a> {
     pub inputs: Vec<String>,
     /// Where they were written; empty where nothing was.
     pub outputs: Vec<String>,
+    /// Whether each source is written.
+    pub written: Vec<bool>,
     /// The program files.
     pub sources: &'a [Source],
     /// The language.
@@ -58,8 +208,14 @@ pub struct Target {
     pub rounding_mm: f64,
     /// Their angle.
     pub rounding_deg: f64,
-    /// Steps of the search.
+    /// Evaluations of the real model.
     pub iterations: u32,
+    /// Which method found it: `pose-shift` or `newton`.
+    pub method: Option<&'static str>,
+    /// Evaluations by pose shift.
+    pub shift_evaluations: u32,
+    /// Evaluations by Newton's method.
+    pub newton_evaluations: u32,
     /// The configuration.
     pub branch: Option<String>,
     /// How the search ended.
@@ -85,7 +241,12 @@ impl Targets<'_> {
             findings.entry(place).or_default().push(finding.id);
         }
         let count = self.compensation.targets.len();
-        (0..count).map(move |index| self.target(index, &findings))
+        let targets = &self.compensation.program.targets;
+        let is_own =
+            move |index: &usize| !self.header.sources[targets[*index].file as usize].is_context;
+        (0..count)
+            .filter(is_own)
+            .map(move |index| self.target(index, &findings))
     }
 
     fn target(
@@ -126,6 +287,9 @@ impl Targets<'_> {
             rounding_mm: mm_from_m(t.rounding.distance_m),
             rounding_deg: t.rounding.angle_rad / DEG,
             iterations: t.iterations,
+            method: t.method.map(Method::id),
+            shift_evaluations: t.shift_evaluations,
+            newton_evaluations: t.newton_evaluations,
             branch: t.branch.map(|b| b.to_string()),
             status: t.status.map(Status::id),
             changed: t.changed,
@@ -170,6 +334,37 @@ pub struct Summary {
     pub max_rounding_mm: f64,
     /// Largest angle likewise.
     pub max_rounding_deg: f64,
+    /// Targets that were put between others, or given to moves of their own.
+    pub added: usize,
+    /// Which programs are written.
+    pub files: Files,
+}
+
+/// Which programs are written.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Files {
+    /// These are.
+    pub written: Vec<String>,
+    /// These are not.
+    pub refused: Vec<String>,
+}
+
+impl Files {
+    fn of(header: &Header) -> Self {
+        let (mut written, mut refused) = (Vec::new(), Vec::new());
+        for (source, is_written) in header.sources.iter().zip(&header.written) {
+            if source.is_context {
+                continue;
+            }
+            let list = if *is_written {
+                &mut written
+            } else {
+                &mut refused
+            };
+            list.push(source.name.clone());
+        }
+        Self { written, refused }
+    }
 }
 
 /// What became of programs.
@@ -201,8 +396,13 @@ impl<'a> Compensated<'a> {
     #[must_use]
     pub fn new(header: &'a Header<'a>, compensation: &'a Compensation) -> Self {
         let s = &compensation.summary;
+        let inputs = header.inputs.iter().zip(header.sources);
+        let own: Vec<String> = inputs
+            .filter(|(_, source)| !source.is_context)
+            .map(|(name, _)| name.clone())
+            .collect();
         Self {
-            input: header.inputs.as_slice().into(),
+            input: own.as_slice().into(),
             output: header.outputs.as_slice().into(),
             language: header.language.about().id,
             profile_sha256: header.profile_sha256,
@@ -223,6 +423,8 @@ impl<'a> Compensated<'a> {
                 max_residual_mm: mm_from_m(s.max_residual_m),
                 max_rounding_mm: mm_from_m(s.max_rounding_m),
                 max_rounding_deg: s.max_rounding_rad / DEG,
+                added: compensation.added.targets.len(),
+                files: Files::of(header),
             },
             findings: &compensation.findings,
         }

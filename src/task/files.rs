@@ -1,17 +1,8 @@
 //! Several files as one: hashes, what may not be written over, and writing that happens whole or not at all.
 
 use super::failure::Failure;
-use sha2::{Digest, Sha256};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// 64 hexadecimal digits.
-pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes)
-        .iter()
-        .map(|b| format!("{b:02x}"))
-        .collect()
-}
 
 /// Whether two names lead to one file that exists.
 pub fn same_file(a: &Path, b: &Path) -> bool {

@@ -29,6 +29,8 @@ pub struct Solution {
     pub id: String,
     /// The branch: 4 behind axis 1, 2 behind the lower arm, 1 joint 5 negative, added.
     pub solution: usize,
+    /// Which of the answers on the branch, from 0, where it may hold several: arms with an offset wrist.
+    pub root: Option<u8>,
     /// The controller's joint angles.
     pub joints_deg: [f64; 6],
     /// Distance of the pose attained from the one asked for.
@@ -86,6 +88,18 @@ pub fn ik(
         } else {
             middle(profile)
         };
+        let mut add = |branch, root, near: &[f64; 6]| {
+            let outcome = inverse.solve(&wanted, branch, near);
+            reached &= outcome.status == Status::Converged;
+            solutions.push(solution(row.id(number + 1), branch, root, &outcome));
+        };
+        if all && inverse.arm.has_offset_wrist() {
+            // the real arm's answer is sought from the nominal one
+            for answer in inverse.arm.solve_all(&wanted, &near) {
+                add(answer.branch, Some(answer.root), &answer.q);
+            }
+            continue;
+        }
         let branches = if all {
             Branch::ALL.to_vec()
         } else if table.has("branch") {
@@ -94,9 +108,7 @@ pub fn ik(
             vec![inverse.arm.posture(&near).0]
         };
         for branch in branches {
-            let outcome = inverse.solve(&wanted, branch, &near);
-            reached &= outcome.status == Status::Converged;
-            solutions.push(solution(row.id(number + 1), branch, &outcome));
+            add(branch, None, &near);
         }
     }
     Ok(Solutions { solutions, reached })
@@ -110,10 +122,11 @@ fn branch(row: &Row) -> Result<Branch, Failure> {
         .ok_or_else(|| row.failure(format!("branch {number} is not a whole number from 0 to 7")))
 }
 
-fn solution(id: String, branch: Branch, outcome: &Outcome) -> Solution {
+fn solution(id: String, branch: Branch, root: Option<u8>, outcome: &Outcome) -> Solution {
     Solution {
         id,
         solution: usize::from(branch.number()),
+        root,
         joints_deg: outcome.q.map(|q| q / DEG),
         residual_mm: mm_from_m(outcome.residual.distance_m),
         residual_deg: outcome.residual.angle_rad / DEG,
@@ -160,8 +173,9 @@ impl Solutions {
                 .chain([s.residual_mm, s.residual_deg])
                 .map(cell)
                 .collect();
+            let root = s.root.map_or_else(String::new, |root| format!("/{root}"));
             text += &format!(
-                "{},{},{},{},{}\n",
+                "{},{}{root},{},{},{}\n",
                 s.id,
                 s.solution,
                 numbers.join(","),

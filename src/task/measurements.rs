@@ -1,10 +1,10 @@
 //! Several files of measurements as one.
 
 use super::failure::Failure;
-use super::files::sha256;
 use crate::identify::IdentifyError;
 use crate::identify::measurements::Measurements;
 use crate::program::Source;
+use crate::program::sha256;
 use std::sync::Arc;
 
 /// Rows of one or several files, in their order.

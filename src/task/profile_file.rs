@@ -1,9 +1,9 @@
 //! Profiles and frame files as they are read: with their hash, and their faults with line and column.
 
 use super::failure::Failure;
-use super::files::sha256;
 use crate::model::profile::{Mounted, Profile, rewritten};
 use crate::program::Source;
+use crate::program::sha256;
 use crate::register::frame_file::Frame;
 
 /// A profile with the file it comes from.

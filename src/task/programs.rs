@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::profile_file::ProfileFile;
 use crate::compensate::CompensateError;
+use crate::finding::{Acceptance, AcceptanceError};
 use crate::model::effects::Effect;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::program::{LANGUAGES, Language, Marker, Source, language_of};
@@ -24,6 +25,19 @@ pub fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
         Failure::with_hint(
             format!("no language is called `{id}`"),
             format!("languages are: {}", known()),
+        )
+    })
+}
+
+/// What `--accept` says.
+///
+/// # Errors
+/// No finding has this id, or it is not for the user to take.
+pub fn acceptance(text: &str) -> Result<Acceptance, Failure> {
+    text.parse().map_err(|error: AcceptanceError| {
+        Failure::with_hint(
+            format!("--accept {text}: {error}"),
+            "`poseshift explain` lists the findings, and which can be accepted",
         )
     })
 }
@@ -102,7 +116,7 @@ pub fn refuse_doubtful(file: &ProfileFile) -> Result<(), Failure> {
 /// # Errors
 /// One of them is.
 pub fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
-    for source in sources {
+    for source in sources.iter().filter(|source| !source.is_context) {
         if let Some(offset) = Marker::find(&source.bytes) {
             let (line, column) = source.line_column(offset);
             let hint = "compensate the original instead; --force compensates once more";

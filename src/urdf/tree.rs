@@ -6,8 +6,9 @@ use crate::geometry::{Pose, Rotation, Vector, norm, scale};
 use std::collections::BTreeMap;
 use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 
-/// Angles of frames that are this near to a multiple of 45° are rounded ones of it, radians.
-const ROUNDED_RAD: f64 = 1e-5;
+/// Angles of frames that are this near to a multiple of 45° are rounded ones of it, radians: files with four digits write
+/// 1.571 for a right angle, 2.04e-4 off, and none of 348 files of makers means an angle so near to one.
+const ROUNDED_RAD: f64 = 3e-4;
 /// Names that a flange has by convention, best first.
 const FLANGES: [&str; 3] = ["tool0", "flange", "ee_link"];
 

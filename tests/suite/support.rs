@@ -202,3 +202,52 @@ pub fn is_tracked(word: &str) -> bool {
     let path = Path::new(word.trim_end_matches('/'));
     !word.is_empty() && tracked().iter().any(|file| file.starts_with(path))
 }
+
+/// Arms of `tests/data/inverse_general/arms.csv`, whose axes 4 and 5 meet beside axis 6: name, nominal geometry without a
+/// tool, mechanism.
+pub fn offset_wrist_arms() -> Vec<(
+    String,
+    poseshift::model::Geometry,
+    poseshift::model::Mechanism,
+)> {
+    use poseshift::geometry::Pose;
+    use poseshift::model::{Geometry, JointSense, Link, Mechanism};
+    let arm = |row: &Row| {
+        let number =
+            |key: &str, i: usize, unit: &str| row.number(&format!("{key}{}_{unit}", i + 1));
+        let links = std::array::from_fn(|i| Link {
+            alpha_rad: number("alpha", i, "deg").to_radians(),
+            a_m: number("a", i, "mm") / 1e3,
+            beta_rad: 0.0,
+            theta_rad: number("theta", i, "deg").to_radians(),
+            d_m: number("d", i, "mm") / 1e3,
+        });
+        let joints = std::array::from_fn(|i| JointSense {
+            sign: 1.0,
+            offset_rad: 0.0,
+            min_rad: number("min", i, "deg").to_radians(),
+            max_rad: number("max", i, "deg").to_radians(),
+        });
+        let geometry = Geometry {
+            world_from_base: Pose::identity(),
+            links,
+            link6_from_flange: Pose::identity(),
+            flange_from_tool: Pose::identity(),
+            flange_from_nominal_tool: Pose::identity(),
+            bodies: Vec::new(),
+            load: None,
+            gravity_m_s2: [0.0, 0.0, -9.81],
+            tool_name: String::new(),
+        };
+        let coupling = Vec::new();
+        (
+            row.text("arm").to_owned(),
+            geometry,
+            Mechanism { joints, coupling },
+        )
+    };
+    table("tests/data/inverse_general/arms.csv")
+        .iter()
+        .map(arm)
+        .collect()
+}

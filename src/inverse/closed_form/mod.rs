@@ -8,79 +8,39 @@
     reason = "one index runs over several arrays"
 )]
 
+mod answers;
+mod conditions;
 mod offset;
 mod parallel;
 mod spherical;
 
+pub use answers::Answer;
+pub(super) use answers::is_close;
+pub use conditions::Unsupported;
+
 use super::branch::Branch;
 use crate::geometry::{Jet, Pose, Rotation, Scalar, Turn, Vector, add};
-use crate::model::{Geometry, Link, Mechanism};
+use crate::model::{Chain, Mechanism};
 
-/// How far an angle or length of the chain may be from what the closed form needs, radians or metres.
-const TOLERANCE: f64 = 1e-9;
+/// Joint 5 of an arm with three parallel axes farther than this from alignment, radians, multiplies an error of the
+/// orientation in joint 6 by seven at most.
+const STEADY_WRIST_RAD: f64 = 0.15;
 /// Below this sine of joint 5 the angles of the two joints beside it cannot be told apart in 64-bit numbers.
 const WRIST_SINE: f64 = 1e-12;
-
-/// Which condition of the closed forms an arm does not meet.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Unsupported {
-    /// An angle between axes.
-    #[error(
-        "no closed-form inverse: alpha of row {row} is {found_deg} deg; both kinds of arm need {needed}"
-    )]
-    Alpha {
-        /// Row, from 1.
-        row: usize,
-        /// Its α.
-        found_deg: f64,
-        /// What would do.
-        needed: &'static str,
-    },
-    /// Neither a spherical wrist, nor one with axis 6 offset from axis 5, nor three parallel axes.
-    #[error(
-        "no closed-form inverse: alpha of row 4 is {alpha_4_deg} deg, so axes 2, 3 and 4 are not parallel; and axes 4 \
-         and 5 do not meet: {key} of row {row} is {found_mm} mm where 0 is needed"
-    )]
-    Wrist {
-        /// α of row 4.
-        alpha_4_deg: f64,
-        /// `a` or `d`.
-        key: &'static str,
-        /// Row, from 1.
-        row: usize,
-        /// The length that is in the way.
-        found_mm: f64,
-    },
-    /// An offset that three parallel axes do not allow.
-    #[error(
-        "no closed-form inverse: axes 2, 3 and 4 are parallel, and a of row {row} is {found_mm} mm where 0 is needed"
-    )]
-    ParallelOffset {
-        /// Row, from 1.
-        row: usize,
-        /// The length that is in the way.
-        found_mm: f64,
-    },
-    /// A link without length.
-    #[error("no closed-form inverse: {link} has no length")]
-    NoLength {
-        /// Which link.
-        link: &'static str,
-    },
-}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wrist {
     /// Axes 4, 5 and 6 meet in one point.
     Spherical,
-    /// Axes 4 and 5 meet; axis 6 passes axis 5 at a distance.
+    /// Axes 4 and 5 meet; axis 6 passes axis 5 or axis 4 at a distance, or stands slanted on axis 5.
     Offset,
     /// Axes 2, 3 and 4 are parallel.
     Parallel,
 }
 
 /// An arm whose inverse has a closed form: (a) ortho-parallel base and spherical wrist, with shoulder, lateral and elbow
-/// offsets; (b) the same with axis 6 offset from axis 5, closed but for the angle of joint 6; (c) three parallel axes.
+/// offsets; (b) the same with axis 6 offset from axis 4 or 5 and wrists bent at any angles, closed but for the angle of joint 6;
+/// (c) three parallel axes.
 ///
 /// # Source
 /// Derived here from the rows of the chain. The conditions are those of M. Brandstötter, A. Angerer, M. Hofbaur, "An
@@ -90,13 +50,14 @@ enum Wrist {
 pub struct Arm {
     wrist: Wrist,
     mechanism: Mechanism,
+    chain: Chain,
     /// θ of each row plus the controller's offset.
     home: [Turn; 6],
     sign: [f64; 6],
     /// From the world to the frame that axis 1 turns, and from the tool to the last row's frame without its d.
     turning_from_world: Pose,
     tool_from_link6: Pose,
-    /// Sines of α2, α5, α6 and cosines of α3, α4: +1 or −1 (α4 is free on a spherical wrist).
+    /// Sines of α2, α5, α6 and cosines of α3, α4: +1 or −1 where the kind of arm needs a right or a straight angle.
     e2: f64,
     e5: f64,
     e6: f64,
@@ -112,7 +73,12 @@ pub struct Arm {
     forearm: Turn,
     a5_m: f64,
     d5_m: f64,
-    a6_m: f64,
+    /// α4, α5 and α6, for the offset wrist.
+    alpha_4: Turn,
+    alpha_5: Turn,
+    alpha_6: Turn,
+    /// Where axes 4 and 5 meet, in the last row's frame without its d and before joint 6 turns it.
+    meeting_in_last_m: Vector,
     /// Sign that turns "in front of the lower arm" into the sine of the elbow.
     elbow_sign: f64,
     /// Sign that turns the controller's joint 5 into the sine of the chain's.
@@ -175,146 +141,7 @@ pub struct Margins {
     pub shoulder_m: f64,
 }
 
-fn near(angle: f64, wanted: f64) -> bool {
-    let turn = std::f64::consts::TAU;
-    let gap = (angle - wanted).rem_euclid(turn);
-    gap.min(turn - gap) < TOLERANCE
-}
-
-fn right_angle(row: usize, link: &Link) -> Result<f64, Unsupported> {
-    let quarter = std::f64::consts::FRAC_PI_2;
-    if near(link.alpha_rad, quarter) {
-        Ok(1.0)
-    } else if near(link.alpha_rad, -quarter) {
-        Ok(-1.0)
-    } else {
-        Err(Unsupported::Alpha {
-            row,
-            found_deg: link.alpha_rad.to_degrees(),
-            needed: "90 or -90",
-        })
-    }
-}
-
-fn straight_angle(link: &Link) -> Option<f64> {
-    if near(link.alpha_rad, 0.0) {
-        Some(1.0)
-    } else if near(link.alpha_rad, std::f64::consts::PI) {
-        Some(-1.0)
-    } else {
-        None
-    }
-}
-
 impl Arm {
-    /// Recognises the kind of arm.
-    ///
-    /// # Errors
-    /// The first condition that fails.
-    pub fn of(geometry: &Geometry, mechanism: &Mechanism) -> Result<Self, Unsupported> {
-        let l = &geometry.links;
-        let e2 = right_angle(2, &l[1])?;
-        let s3 = straight_angle(&l[2]).ok_or(Unsupported::Alpha {
-            row: 3,
-            found_deg: l[2].alpha_rad.to_degrees(),
-            needed: "0 or 180",
-        })?;
-        let e5 = right_angle(5, &l[4])?;
-        let e6 = right_angle(6, &l[5])?;
-        let (sine_4, cosine_4) = l[3].alpha_rad.sin_cos();
-        let parallel = straight_angle(&l[3]);
-        let is_there = |length: f64| length.abs() > TOLERANCE;
-        let between_4_and_5 = [("a", l[4].a_m), ("d", l[4].d_m)];
-        let apart = between_4_and_5
-            .into_iter()
-            .find(|(_, length)| is_there(*length));
-        let offset = is_there(l[5].a_m);
-        let (wrist, forearm, lateral) = match (apart, parallel) {
-            (None, _) => {
-                let forearm = [l[3].a_m, -sine_4 * l[3].d_m];
-                (
-                    if offset {
-                        Wrist::Offset
-                    } else {
-                        Wrist::Spherical
-                    },
-                    forearm,
-                    l[1].d_m + s3 * (l[2].d_m + cosine_4 * l[3].d_m),
-                )
-            }
-            (Some(_), Some(s4)) => {
-                if offset {
-                    return Err(Unsupported::ParallelOffset {
-                        row: 6,
-                        found_mm: 1e3 * l[5].a_m,
-                    });
-                }
-                (
-                    Wrist::Parallel,
-                    [l[3].a_m, 0.0],
-                    l[1].d_m + s3 * (l[2].d_m + s4 * l[3].d_m),
-                )
-            }
-            (Some((key, length)), None) => {
-                let alpha_4_deg = l[3].alpha_rad.to_degrees();
-                return Err(Unsupported::Wrist {
-                    alpha_4_deg,
-                    key,
-                    row: 5,
-                    found_mm: 1e3 * length,
-                });
-            }
-        };
-        let forearm_m = forearm[0].hypot(forearm[1]);
-        for (link, length) in [
-            ("the upper arm (a of row 3)", l[2].a_m),
-            ("the forearm (a and d of row 4)", forearm_m),
-        ] {
-            if length.abs() < TOLERANCE {
-                return Err(Unsupported::NoLength { link });
-            }
-        }
-        let home: [f64; 6] =
-            std::array::from_fn(|i| l[i].theta_rad + mechanism.joints[i].offset_rad);
-        let sign = std::array::from_fn(|i| mechanism.joints[i].sign);
-        let base_from_turning = Pose {
-            rotation: Rotation::about_x(l[0].alpha_rad),
-            translation: Rotation::about_x(l[0].alpha_rad) * [0.0, 0.0, l[0].d_m],
-        };
-        let base_from_turning = Pose::from_translation(l[0].a_m, 0.0, 0.0) * base_from_turning;
-        let link6_from_tool = geometry.link6_from_flange * geometry.flange_from_tool;
-        let back = Pose::from_translation(0.0, 0.0, -l[5].d_m);
-        Ok(Self {
-            wrist,
-            mechanism: mechanism.clone(),
-            home: home.map(Turn::of),
-            sign,
-            turning_from_world: (geometry.world_from_base * base_from_turning).inverse(),
-            tool_from_link6: link6_from_tool.inverse() * back,
-            e2,
-            e5,
-            e6,
-            s3,
-            s4: parallel.unwrap_or(0.0),
-            link4_from_wrist: Rotation::about_x(-l[3].alpha_rad),
-            lateral_m: -e2 * lateral,
-            a2_m: l[1].a_m,
-            a3_m: l[2].a_m,
-            forearm_m,
-            forearm: Turn::toward(forearm[1], forearm[0]),
-            a5_m: l[4].a_m,
-            d5_m: l[4].d_m,
-            a6_m: l[5].a_m,
-            elbow_sign: -e2 * s3 * l[2].a_m.signum(),
-            wrist_sign: sign[4]
-                * if home[4].cos() < -TOLERANCE {
-                    -1.0
-                } else {
-                    1.0
-                },
-        })
-    }
-
     /// A name for the kind of arm.
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -329,6 +156,13 @@ impl Arm {
     #[must_use]
     pub fn mechanism(&self) -> &Mechanism {
         &self.mechanism
+    }
+
+    /// `world_from_tool` of the nominal arm at the controller's joint angles `q`, radians.
+    #[must_use]
+    pub fn forward(&self, q: &[f64; 6]) -> Pose {
+        self.chain
+            .forward(&Turn::of_each(&self.mechanism.commanded(q)))
     }
 
     /// The joint angles on one branch that bring the nominal tool to `world_from_tool`, by whole turns nearest to `near`.
@@ -362,11 +196,12 @@ impl Arm {
         middle: &[f64; 6],
     ) -> [Jet; 6] {
         let (signs, near) = (signs.map(Jet::constant), middle.map(Jet::constant));
-        if self.wrist != Wrist::Offset {
-            return self.solve(world_from_tool, signs, &near).q;
-        }
         let target = self.last_row(world_from_tool);
-        let (rows, _) = self.enclose_offset(&target, half_width, signs, &near);
+        let (rows, _) = match self.wrist {
+            Wrist::Spherical => self.solve_spherical(&target, signs, &near),
+            Wrist::Offset => self.enclose_offset(&target, half_width, middle),
+            Wrist::Parallel => self.solve_parallel(&target, signs, &near),
+        };
         let angles = self.angles(&self.turns_of(rows), &near);
         self.mechanism.controller(&angles)
     }
@@ -448,6 +283,8 @@ impl Arm {
     }
 
     /// The solution on one branch for plain numbers.
+    ///
+    /// An arm with an offset wrist can have several on a branch ([`Arm::solve_all`]): this is the one nearest to `near`.
     #[must_use]
     pub fn solve_branch(
         &self,
@@ -455,7 +292,18 @@ impl Arm {
         branch: Branch,
         near: &[f64; 6],
     ) -> Solution {
-        self.solve(world_from_tool, branch.signs(), near)
+        if self.wrist != Wrist::Offset {
+            return self.solve(world_from_tool, branch.signs(), near);
+        }
+        self.solution(&self.offset_on_branch(world_from_tool, branch, near), near)
+    }
+
+    /// Joint angles of a solution by sines and cosines.
+    pub(super) fn solution(&self, turned: &Turned, near: &[f64; 6]) -> Solution {
+        Solution {
+            q: self.mechanism.controller(&self.angles(&turned.turns, near)),
+            beyond: turned.beyond,
+        }
     }
 
     /// Turn of row 1 and the distance of the wrist centre from axis 1 within the arm's plane.
@@ -473,11 +321,9 @@ impl Arm {
     #[inline(always)]
     fn planar<S: Scalar>(&self, u: S, v: S, before: S) -> (Turn<S>, Turn<S>, S) {
         let (upper, fore) = (S::constant(self.a3_m), S::constant(self.forearm_m));
-        let squared = u * u + v * v;
-        let inverse = S::constant((2.0 * self.a3_m * self.forearm_m).recip());
-        let raw = (squared - upper * upper - fore * fore) * inverse;
-        let (one, low) = (S::one(), -S::one());
-        let cosine = raw.max(low).min(one);
+        let raw = self.elbow_cosine(u, v);
+        let one = S::one();
+        let cosine = raw.max(-one).min(one);
         let beyond = (raw.abs() - one).max(S::zero());
         let sine =
             before * S::constant(self.elbow_sign) * (one - cosine * cosine).max(S::zero()).sqrt();
@@ -487,6 +333,15 @@ impl Arm {
         // row 3 turns by the elbow's angle less the direction of the forearm in its frame
         let third = Turn { sine, cosine } * self.forearm.cast().inverse();
         (second, third, beyond)
+    }
+
+    /// Cosine of the elbow by the law of cosines; out of reach its magnitude is above one.
+    #[inline(always)]
+    fn elbow_cosine<S: Scalar>(&self, u: S, v: S) -> S {
+        let (upper, fore) = (S::constant(self.a3_m), S::constant(self.forearm_m));
+        let squared = u * u + v * v;
+        let inverse = S::constant((2.0 * self.a3_m * self.forearm_m).recip());
+        (squared - upper * upper - fore * fore) * inverse
     }
 
     /// A pose moved across axis 1 by `radius_m` in the direction `angle_rad` about it.
@@ -506,6 +361,12 @@ impl Arm {
     pub fn posture(&self, q: &[f64; 6]) -> (Branch, Margins) {
         let stance = self.stance(&Turn::of_each(&self.mechanism.commanded(q)));
         (stance.branch(), stance.margins())
+    }
+
+    /// Whether a small change of the pose changes little of what the first three joints must reach. With three parallel axes
+    /// that hangs on joint 6, which turns freely where joint 5 aligns the wrist.
+    pub(super) fn reach_is_steady(&self, stance: &Stance) -> bool {
+        self.wrist != Wrist::Parallel || stance.wrist_rad.abs() > STEADY_WRIST_RAD
     }
 
     /// On which side of each singularity the mechanical joints stand, and how far from it.

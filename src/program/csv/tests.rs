@@ -222,6 +222,7 @@ fn the_marker_is_a_comment_at_the_top() {
         version: "1".into(),
         profile_sha256: "a".repeat(64),
         source_sha256: "b".repeat(64),
+        decided: Vec::new(),
     };
     let text = "\u{feff}q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\r\n1,2,3,4,5,6\r\n";
     let source = Source::new("x", text.as_bytes().to_vec());

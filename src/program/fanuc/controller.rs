@@ -375,7 +375,8 @@ impl Controller {
     }
 }
 
-fn frame(script: &mut Script, name: &str, pose: Option<Pose>) -> ValueId {
+/// A tool or frame of this name.
+pub fn frame(script: &mut Script, name: &str, pose: Option<Pose>) -> ValueId {
     script.value(Held::Frame(NamedFrame {
         name: name.into(),
         pose,

@@ -247,7 +247,8 @@ fn row(line: &[u8]) -> Option<Option<[f64; 6]>> {
     Some(known.then_some(values))
 }
 
-fn pose([x, y, z, w, p, r]: [f64; 6]) -> Pose {
+/// The pose of these numbers, millimetres and degrees.
+pub fn pose([x, y, z, w, p, r]: [f64; 6]) -> Pose {
     Pose {
         rotation: angles::rotation([w, p, r]),
         translation: [x, y, z].map(m_from_mm),

@@ -75,7 +75,11 @@ impl Copied {
         let instruction = &program.instructions[index];
         let span = instruction.place.offset as usize..instruction.end as usize;
         let before = head(bytes, span.start)?;
-        let points = points(program, index)?;
+        let points = if insertion.is_split() {
+            vec![instruction.target_span.range()?]
+        } else {
+            points(program, index)?
+        };
         let is_arc = insertion.between.iter().any(|b| b.via.is_some());
         if is_arc != (points.len() == 2) {
             return None;
@@ -214,7 +218,13 @@ fn repeat(
         text.extend(spliced(points.bytes, &copied.span, &parts));
         text.extend_from_slice(points.end);
     }
-    let at = line_start(points.bytes, copied.span.start);
-    changes.push((at..at, text));
+    if let Some(numbers) = &insertion.own {
+        let name = points.add(program, target, copied, numbers)?;
+        changes.push((copied.points[copied.points.len() - 1].clone(), name));
+    }
+    if !text.is_empty() {
+        let at = line_start(points.bytes, copied.span.start);
+        changes.push((at..at, text));
+    }
     Some(changes)
 }

@@ -33,12 +33,18 @@ pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     (at, text)
 }
 
-fn remarks(marker: &Marker) -> [String; 3] {
-    let [first, ..] = marker.lines();
+fn remarks(marker: &Marker) -> Vec<String> {
+    let first = marker.lines().swap_remove(0);
     let word = first.split(" (").next().unwrap_or_default();
     let profile = format!("profile {:.24}", marker.profile_sha256);
     let source = format!("source {:.16} v{}", marker.source_sha256, marker.version);
-    [word, &profile, &source].map(|remark| remark.chars().take(WIDEST_REMARK).collect())
+    // what was decided may be longer than a remark: a remark for each word
+    let decided = marker.decided.iter().flat_map(|text| text.split(' '));
+    [word, &profile, &source]
+        .into_iter()
+        .chain(decided)
+        .map(|remark| remark.chars().take(WIDEST_REMARK).collect())
+        .collect()
 }
 
 /// The number of the last line; `None` where lines have no numbers. Blocks inside moves number their own lines.
@@ -75,6 +81,7 @@ mod tests {
             version: "1.2".into(),
             profile_sha256: "a".repeat(64),
             source_sha256: "b".repeat(64),
+            decided: Vec::new(),
         };
         let source = Source::new("a.ls", text.as_bytes().to_vec());
         let (at, text) = mark(&source, &marker);

@@ -33,6 +33,7 @@
 
 mod angles;
 mod config;
+mod constants;
 mod controller;
 mod frames;
 mod insert;

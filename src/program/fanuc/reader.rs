@@ -78,6 +78,8 @@ pub struct Reader<'a> {
     pub copies: Vec<(Place, u32)>,
     /// Writes of tools and frames from registers.
     pub from_registers: Vec<(usize, u32)>,
+    /// Writes of frames by registers whose numbers the program has just written.
+    pub from_constants: Vec<usize>,
     /// Moves to any register.
     pub to_any_register: Vec<usize>,
 }
@@ -131,6 +133,7 @@ pub fn script(sources: &[Source]) -> Result<Script, ReadError> {
         reads_any: false,
         copies: Vec::new(),
         from_registers: Vec::new(),
+        from_constants: Vec::new(),
         to_any_register: Vec::new(),
     };
     for listing in listings {
@@ -384,6 +387,14 @@ impl Reader<'_> {
             if self.aliased.contains(&number) {
                 let variable = self.register(number);
                 self.builder.script.writes[write].how = How::Whole(Expr::Variable(variable));
+            }
+        }
+        // a program that runs beside may have written the registers meanwhile
+        let mut routines = self.builder.script.routines.iter();
+        if routines.any(|routine| routine.start == Start::Concurrent) {
+            for write in std::mem::take(&mut self.from_constants) {
+                let assigned = Expr::Unknown(self.controller.assigned);
+                self.builder.script.writes[write].how = How::Whole(assigned);
             }
         }
         let mut all = vec![Expr::Unknown(self.controller.computed)];

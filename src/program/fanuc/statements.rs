@@ -1,6 +1,7 @@
 //! Instructions as statements: calls, jumps, blocks, and writes of tools, frames, registers and points.
 
-use super::controller::{Kind, Mode, Which, kinds};
+use super::constants::Constants;
+use super::controller::{Kind, Mode, Which, frame, kinds};
 use super::lines::Line;
 use super::moves::Row;
 use super::reader::{Reader, called};
@@ -30,6 +31,7 @@ pub struct State {
     labels: BTreeSet<u64>,
     /// A register says which label the program goes to.
     goes_anywhere: bool,
+    constants: Constants,
 }
 
 impl Reader<'_> {
@@ -54,6 +56,7 @@ impl Reader<'_> {
             self.go(line, letter, at);
         } else if !text.is_empty() {
             self.statement(text, 0);
+            self.state.constants.follow(text);
         }
     }
 
@@ -341,8 +344,16 @@ impl Reader<'_> {
             };
             let script = &mut self.builder.script;
             let entry = self.controller.entry(script, kind, number);
+            let written = source.filter(|_| which.is_some());
+            let numbers = written.and_then(|register| self.state.constants.pose(register));
+            if let Some(pose) = numbers {
+                self.from_constants.push(script.writes.len());
+                let value = Expr::Value(frame(script, &number.to_string(), Some(pose)));
+                self.set(entry, value);
+                continue;
+            }
             // whether the register is known depends on the other programs, too
-            if let Some(register) = source.filter(|_| which.is_some()) {
+            if let Some(register) = written {
                 self.from_registers.push((script.writes.len(), register));
             }
             let value = self.other_frame(value).unwrap_or(assigned);

@@ -61,7 +61,9 @@ impl<'a> Copied<'a> {
     ) -> Option<Self> {
         let motion = &program.moves[insertion.motion];
         let is_arc = insertion.between.iter().any(|b| b.via.is_some());
-        let verbs: &[&[u8]] = if is_arc {
+        let verbs: &[&[u8]] = if insertion.is_split() {
+            &[b"MOVJ ", b"MOVL ", b"MOVC ", b"MOVS "]
+        } else if is_arc {
             &[b"MOVC "]
         } else {
             &[b"MOVJ ", b"MOVL "]
@@ -268,8 +270,14 @@ fn repeat<'a>(
         }
         line(&copied.span, &copied.operand, &here);
     }
-    // an arc's parts stand before its first line
-    let first = copied.via.as_ref().map_or(&copied.span, |(span, _)| span);
-    changes.push((first.start..first.start, text));
+    if let Some(numbers) = &insertion.own {
+        let name = new.add(program, target, copied, numbers)?;
+        changes.push((copied.operand.clone(), name));
+    }
+    if !text.is_empty() {
+        // an arc's parts stand before its first line
+        let first = copied.via.as_ref().map_or(&copied.span, |(span, _)| span);
+        changes.push((first.start..first.start, text));
+    }
     Some(changes)
 }

@@ -79,7 +79,7 @@ impl Reader<'_> {
             if let Some(target) = unknown_pulses {
                 let (id, wrong, hint) = Cause::Pulses.words();
                 let place = self.place_of(target);
-                self.say(id, Severity::Error, place, wrong.to_owned(), hint);
+                self.say(id, Severity::Warning, place, wrong.to_owned(), hint);
             }
             if variables > 0 {
                 let message = format!(

@@ -58,6 +58,7 @@ static ABOUT: About = About {
     leaves: &[
         "RCONF, external axes (BC, EC, BP, EX), speeds, positions that no move goes to",
         "moves to places that the running program computes (local and indexed variables) or reads from the robot: told",
+        "PULSE positions without pulses_per_deg: told",
         "TOOL.CND and UFRAME.CND, which tell tools and user frames",
         "comments, line ends, encoding, header",
     ],
@@ -66,7 +67,6 @@ static ABOUT: About = About {
         "moves while a shift (SFTON) may be on, incremental (IMOV), search (SRCH) and coordinated (SMOV) moves",
         "tools and frames that the running program sets (MFRAME, SETTOOL), tool coordinates",
         "positions of a second robot, with base or station axes that are not at zero, or without six axes",
-        "PULSE positions without pulses_per_deg",
     ],
 };
 

@@ -99,7 +99,8 @@ impl Cause {
             ),
             Self::Pulses => (
                 "pulses-per-degree-unknown",
-                "positions of this job are in pulses, and the profile does not say how many make a degree",
+                "positions of this job are in pulses, and the profile does not say how many make a degree: they stay as they are, and \
+                 where the robot is there is not known",
                 "add `pulses_per_deg: [S, L, U, R, B, T]` to the profile (ALL.PRM, or pulses and angles on the pendant)",
             ),
         }

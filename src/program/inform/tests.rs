@@ -397,6 +397,7 @@ fn the_marker_is_a_comment_behind_nop_in_short_lines() {
         version: "0.1.0".into(),
         profile_sha256: "a".repeat(64),
         source_sha256: "b".repeat(64),
+        decided: Vec::new(),
     };
     for end in ["\n", "\r\n", "\r"] {
         let text = job(&format!("{USER}{}", points(1)), "MOVL C00000 V=5").replace('\n', end);

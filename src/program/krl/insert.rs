@@ -67,11 +67,29 @@ pub(super) fn insert(
     let instruction = &program.instructions[motion.instruction as usize];
     let source = &sources[motion.file as usize];
     let target = program.target_of(motion)?;
-    if motion.displacement != Displacement::None || !is_repeated(&source.bytes, instruction) {
+    if motion.displacement != Displacement::None {
         return None;
     }
     let start = instruction.place.offset as usize;
     let blanks = indent(&source.bytes, start)?;
+    let bytes = &sources[target.file as usize].bytes;
+    let held = aggregate(bytes, target)?;
+    let written =
+        |numbers: &[Vec<u8>]| with_numbers(bytes, &held, program.numbers_of(target), numbers);
+    if insertion.is_split() {
+        let repeated = Repeated {
+            source,
+            span: start..instruction.end as usize,
+            blanks,
+            via: None,
+            end: instruction.target_span.range()?,
+            longest: LONGEST_LINE,
+        };
+        return repeated.insert(insertion, written);
+    }
+    if !is_repeated(&source.bytes, instruction) {
+        return None;
+    }
     let is_arc = insertion.between.iter().any(|b| b.via.is_some());
     let mut before = motion.before;
     let via = if is_arc {
@@ -88,10 +106,6 @@ pub(super) fn insert(
     if !stands_still(sources, before, target) {
         return None;
     }
-    let bytes = &sources[target.file as usize].bytes;
-    let held = aggregate(bytes, target)?;
-    let written =
-        |numbers: &[Vec<u8>]| with_numbers(bytes, &held, program.numbers_of(target), numbers);
     let repeated = Repeated {
         source,
         span: start..instruction.end as usize,

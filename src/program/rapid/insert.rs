@@ -75,6 +75,20 @@ pub(super) fn insert(
     let source = &sources[motion.file as usize];
     let target = &program.targets[motion.target?];
     let instruction = &program.instructions[motion.instruction as usize];
+    let blanks = indent(&source.bytes, instruction.place.offset as usize).unwrap_or_default();
+    let written = |numbers: &[Vec<u8>]| aggregate(sources, program, target, numbers);
+    let end = argument(sources, program, motion)?;
+    if insertion.is_split() {
+        let repeated = Repeated {
+            source,
+            span: instruction.place.offset as usize..instruction.end as usize,
+            blanks,
+            via: None,
+            end,
+            longest: usize::MAX,
+        };
+        return repeated.insert(insertion, written);
+    }
     let text = text(source, instruction)?;
     let word = text
         .iter()
@@ -82,7 +96,6 @@ pub(super) fn insert(
         .count();
     let known = |name: &&&str| text[..word].eq_ignore_ascii_case(name.as_bytes());
     REPEATED.iter().find(known)?;
-    let end = argument(sources, program, motion)?;
     let is_arc = insertion.between.iter().any(|b| b.via.is_some());
     let (mut via, mut from) = (None, before(program, motion)?);
     if is_arc {
@@ -92,12 +105,9 @@ pub(super) fn insert(
     if !stands_still(sources, program, &program.targets[from.target?], target) {
         return None;
     }
-    let start = instruction.place.offset as usize;
-    let blanks = indent(&source.bytes, start).unwrap_or_default();
-    let written = |numbers: &[Vec<u8>]| aggregate(sources, program, target, numbers);
     let repeated = Repeated {
         source,
-        span: start..instruction.end as usize,
+        span: instruction.place.offset as usize..instruction.end as usize,
         blanks,
         via,
         end,

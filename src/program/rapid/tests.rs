@@ -815,6 +815,7 @@ fn the_marker_stands_behind_the_module_line() {
         version: "1".into(),
         profile_sha256: "a".into(),
         source_sha256: "b".into(),
+        decided: Vec::new(),
     };
     for (text, before) in [
         (

@@ -243,7 +243,8 @@ impl Reader<'_> {
         }
         let mut values = Vec::new();
         let elements = self.elements(open, (!pose).then_some(&mut values))?;
-        let literal = literals::other(start, self.scanner.at, pose, elements);
+        let mut literal = literals::other(start, self.scanner.at, pose, elements);
+        self.look_into(&mut literal, open);
         self.notes.literals.push(literal);
         let literal = short(self.notes.literals.len() - 1);
         if values.iter().all(|value| *value == OTHER) {
@@ -271,6 +272,9 @@ impl Reader<'_> {
                     content,
                     numbers: first..first + 6,
                     elements: 6,
+                    computed: false,
+                    names: 0..0,
+                    shifted: None,
                 });
                 let id = short(self.notes.literals.len() - 1);
                 Ok(Some(self.notes.add(Expr::Literal(id))))

@@ -27,11 +27,11 @@ pub struct Goal {
     /// The bytes of the target's numbers or of the variable that holds them alone.
     pub span: Span,
     /// It is nothing but a target's numbers, by whichever name.
-    is_plain: bool,
+    pub is_plain: bool,
 }
 
 impl Goal {
-    fn to(target: script::Expr) -> Self {
+    pub fn to(target: script::Expr) -> Self {
         Self {
             target,
             feature: Feature::Base,
@@ -68,6 +68,7 @@ pub struct Common {
     pub base: ValueId,
     actual: ValueId,
     pub computed: RemarkId,
+    pub expressions: RemarkId,
     not_called: RemarkId,
     pub frame_computed: RemarkId,
     pub frame_changes: RemarkId,
@@ -95,6 +96,12 @@ impl Common {
             Severity::Warning,
             "where this move goes is known at run time only; the move stays as it is",
             "write the target with numbers, or as pose_trans or pose_add of them",
+        );
+        let expressions = remark(
+            "target-has-expressions",
+            Severity::Warning,
+            "parts of the pose that this move goes to are expressions, not numbers; the move stays as it is",
+            "write the target with numbers in the offline system",
         );
         let not_called = remark(
             "computed-target",
@@ -124,6 +131,7 @@ impl Common {
             base,
             actual: script.value(Held::Actual),
             computed,
+            expressions,
             not_called,
             frame_computed,
             frame_changes,
@@ -192,33 +200,20 @@ impl Goals<'_, '_, '_> {
         Goal::to(script::Expr::Unknown(self.common.computed))
     }
 
-    fn goal_within(&mut self, value: ExprId, function: FunctionId, steps: u32) -> Goal {
+    pub(super) fn goal_within(&mut self, value: ExprId, function: FunctionId, steps: u32) -> Goal {
         let Some(steps) = steps.checked_sub(1) else {
             return self.unknown();
         };
         match self.notes.expression(value) {
+            Expr::Literal(id) if self.notes.literal(id).computed => {
+                self.composed(id, function, steps)
+            }
             Expr::Literal(id) => self.literal(id),
             Expr::List(list) => match self.variables.joints_of(list) {
                 Some(id) => self.literal(id),
                 None => self.unknown(),
             },
-            Expr::Name(name, offset) => {
-                let Some(variable) = self.variables.meaning(name, function) else {
-                    return Goal::to(self.not_in_files(name));
-                };
-                let Some(source) = self.variables.fixed(variable) else {
-                    return self.variable(variable);
-                };
-                let goal = self.goal_within(source.value, source.function, steps);
-                let span = Span {
-                    start: offset,
-                    end: offset + script::short(self.notes.bytes(name).len()),
-                };
-                Goal {
-                    span: if goal.is_plain { span } else { Span::default() },
-                    ..goal
-                }
-            }
+            Expr::Name(name, offset) => self.named(name, offset, function, steps),
             Expr::Element(name, at) => self.element(name, at, function, steps),
             Expr::Call(call) => match self.variables.result(call) {
                 Some(variable) => self.variable(variable),
@@ -264,22 +259,52 @@ impl Goals<'_, '_, '_> {
                 let goal = self.goal_within(a, function, steps);
                 self.note_offset(goal.target, b, function);
                 let by = self.variables.constant(b, function).ok();
-                // the sum is in the base, the displacement in the feature
-                let base_from_feature = match &goal.feature {
-                    Feature::Base => Some(Pose::identity()),
-                    Feature::Known(pose, _) => Some(*pose),
-                    Feature::Held(_) => None,
-                };
-                let by = by
-                    .zip(base_from_feature)
-                    .map(|(by, base_from_feature)| Shift {
-                        in_frame_m: base_from_feature.rotation.transpose() * by.translation,
-                        in_tool: Pose::from_rotation(by.rotation),
-                    });
-                self.displaced(goal, by)
+                self.shifted_in_base(goal, by)
             }
             Expr::Inverse(_) | Expr::Other => self.unknown(),
         }
+    }
+
+    /// Where a variable is.
+    pub(super) fn named(
+        &mut self,
+        name: Symbol,
+        offset: u32,
+        function: FunctionId,
+        steps: u32,
+    ) -> Goal {
+        let Some(variable) = self.variables.meaning(name, function) else {
+            return Goal::to(self.not_in_files(name));
+        };
+        let Some(source) = self.variables.fixed(variable) else {
+            return self.variable(variable);
+        };
+        let goal = self.goal_within(source.value, source.function, steps);
+        let span = Span {
+            start: offset,
+            end: offset + script::short(self.notes.bytes(name).len()),
+        };
+        Goal {
+            span: if goal.is_plain { span } else { Span::default() },
+            ..goal
+        }
+    }
+
+    /// The sum of a position and an offset, as `pose_add` has it.
+    pub(super) fn shifted_in_base(&mut self, goal: Goal, by: Option<Pose>) -> Goal {
+        // the sum is in the base, the displacement in the feature
+        let base_from_feature = match &goal.feature {
+            Feature::Base => Some(Pose::identity()),
+            Feature::Known(pose, _) => Some(*pose),
+            Feature::Held(_) => None,
+        };
+        let by = by
+            .zip(base_from_feature)
+            .map(|(by, base_from_feature)| Shift {
+                in_frame_m: base_from_feature.rotation.transpose() * by.translation,
+                in_tool: Pose::from_rotation(by.rotation),
+            });
+        self.displaced(goal, by)
     }
 
     fn literal(&self, id: LiteralId) -> Goal {
@@ -298,7 +323,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// What a variable holds that has several values.
-    fn variable(&self, variable: VarId) -> Goal {
+    pub(super) fn variable(&self, variable: VarId) -> Goal {
         let held = self.held[variable as usize];
         let Some(position) = held.position else {
             return self.unknown();
@@ -336,7 +361,7 @@ impl Goals<'_, '_, '_> {
         }
     }
 
-    fn displaced(&mut self, goal: Goal, by: Option<Shift>) -> Goal {
+    pub(super) fn displaced(&mut self, goal: Goal, by: Option<Shift>) -> Goal {
         let by: DisplacementId = match by {
             Some(shift) => self
                 .builder

@@ -26,15 +26,16 @@ pub(super) fn insert(
     let call = &program.instructions[at];
     let start = call.place.offset as usize;
     let via = match call.motion {
-        Motion::ArcEnd => Some(
+        Motion::ArcEnd if !insertion.is_split() => Some(
             program.instructions[at.checked_sub(1)?]
                 .target_span
                 .range()?,
         ),
         _ => None,
     };
-    let held = literal(bytes, target)?;
+    let held = literal(&sources[target.file as usize].bytes, target)?;
     let written = |numbers: &[Vec<u8>]| {
+        let bytes = &sources[target.file as usize].bytes;
         let mut text = with_numbers(bytes, &held, program.numbers_of(target), numbers)?;
         text.retain(|b| !matches!(b, b'\n' | b'\r'));
         Some(text)

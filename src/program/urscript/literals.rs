@@ -103,5 +103,8 @@ pub fn other(offset: usize, end: usize, pose: bool, elements: u32) -> Literal {
         content: Content::Expressions,
         numbers: 0..0,
         elements,
+        computed: false,
+        names: 0..0,
+        shifted: None,
     }
 }

@@ -8,6 +8,8 @@
 //!
 //! `get_inverse_kin(pose, qnear=joints)`: the pose is the target, the joints tell which of its solutions is meant and stay.
 //! Joints that are computed so keep the tool that is set where they are computed.
+//! `p[a[0], a[1], a[2] + 0.1, a[3], a[4], a[5]]` of a target a that moves go to is a displacement of it, too, and what is
+//! computed from targets in another manner stands beside them by something.
 //! `pose_trans(target, offset)` of a target that other moves go to, and `pose_add`, are displacements of it.
 //!
 //! ```text
@@ -25,6 +27,7 @@
 //! is assigned once.
 
 mod calls;
+mod composed;
 mod expressions;
 mod goals;
 mod insert;
@@ -69,7 +72,7 @@ static ABOUT: About = About {
         "speedj, speedl, force_mode and other motion without a target",
     ],
     refuses: &[
-        "targets with expressions, variables whose parts are assigned",
+        "targets with expressions of numbers, such as pi/2; variables whose parts are assigned",
         "features and tools that only the running program knows",
         "targets that functions outside the file are given, servoing to poses",
         "conveyor tracking and path offsets",

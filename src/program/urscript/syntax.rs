@@ -75,6 +75,21 @@ pub struct Literal {
     pub numbers: Range<u32>,
     /// Elements between its commas.
     pub elements: u32,
+    /// Only the running program knows its elements.
+    pub computed: bool,
+    /// Where it is: the names in it, in [`Notes::composed`].
+    pub names: Range<u32>,
+    /// The pose is another one, shifted along the base by what the text tells.
+    pub shifted: Option<Shifted>,
+}
+
+/// `p[a[0] + 0.1, a[1], a[2] - 0.05, a[3], a[4], a[5]]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shifted {
+    pub name: Symbol,
+    /// Its first byte.
+    pub offset: u32,
+    pub by_m: [f64; 3],
 }
 
 /// A list and what stands between its commas.
@@ -199,6 +214,8 @@ pub struct Notes<'a> {
     pub forces: Vec<u32>,
     /// Names in expressions that are assigned to another variable, with the place of that.
     pub mentions: Vec<(Symbol, FunctionId, u32)>,
+    /// Names in poses with expressions.
+    pub composed: Vec<Symbol>,
     symbols: HashMap<&'a [u8], Symbol>,
     spellings: Vec<&'a [u8]>,
 }
@@ -233,6 +250,12 @@ impl<'a> Notes<'a> {
     pub fn add(&mut self, expression: Expr) -> ExprId {
         self.expressions.push(expression);
         short(self.expressions.len() - 1)
+    }
+
+    /// The names in a pose with expressions.
+    pub fn names_in(&self, id: LiteralId) -> &[Symbol] {
+        let names = &self.literal(id).names;
+        &self.composed[names.start as usize..names.end as usize]
     }
 
     /// The values of a literal with its numbers written out, in the file's units.

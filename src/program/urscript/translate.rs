@@ -156,7 +156,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             .collect();
         literals.retain(|id| {
             let literal = notes.literal(*id);
-            literal.pose || literal.elements == 6
+            (literal.pose || literal.elements == 6) && !literal.computed
         });
         literals.sort_by_key(|id| notes.literal(*id).offset);
         let first = short(self.goals.builder.script.numbers.len());

@@ -85,6 +85,8 @@ pub struct Variables<'n, 'a> {
     functions: HashMap<Symbol, Vec<FunctionId>>,
     /// The tool is set somewhere: a position whose joints are computed keeps the one of that place.
     pub sets_tool: bool,
+    /// Variables in whose assignments others are named, with those.
+    pub(super) mentioned: HashMap<VarId, Vec<VarId>>,
     /// Literals that moves go to: their numbers change, so nothing that holds them is constant.
     pub targets: Vec<bool>,
 }
@@ -107,12 +109,14 @@ impl<'n, 'a> Variables<'n, 'a> {
             results: HashMap::new(),
             functions,
             sets_tool: false,
+            mentioned: HashMap::new(),
             targets: vec![false; notes.literals.len()],
         };
         variables.declare_parameters();
         variables.assign();
         variables.bind();
         variables.fix();
+        variables.find_mentions();
         variables.find_targets();
         variables.find_frames();
         variables

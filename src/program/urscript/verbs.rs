@@ -217,6 +217,25 @@ pub fn starts_statement(name: &[u8]) -> bool {
         )
 }
 
+/// Words of numbers that the text tells, such as `pi/2` and `d2r(90)`.
+pub fn is_constant(name: &[u8]) -> bool {
+    matches!(
+        name,
+        b"pi"
+            | b"d2r"
+            | b"r2d"
+            | b"sqrt"
+            | b"pow"
+            | b"sin"
+            | b"cos"
+            | b"tan"
+            | b"asin"
+            | b"acos"
+            | b"atan"
+            | b"atan2"
+    )
+}
+
 /// Words that open a block, which none of the language's expressions holds.
 pub fn starts_block(name: &[u8]) -> bool {
     matches!(name, b"def" | b"thread" | b"if" | b"while")

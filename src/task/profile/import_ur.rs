@@ -5,7 +5,7 @@ use super::facts::typical_deviation_of;
 use crate::model::effects::{Effect, Kind};
 use crate::model::profile::{Profile, universal_robots, with_controller};
 use crate::program::Source;
-use crate::task::files::sha256;
+use crate::program::sha256;
 use crate::task::{Document, Failure, ProfileFile, text};
 use schemars::JsonSchema;
 use serde::Serialize;

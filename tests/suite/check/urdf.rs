@@ -2,6 +2,7 @@
 
 use super::part;
 use crate::support::{poseshift, scratch};
+use poseshift::inverse::Arm;
 use poseshift::model::Conditions;
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::urdf::{Choice, UrdfArm, UrdfError, profile_text};
@@ -104,6 +105,33 @@ fn chains_of_any_six_axes_move_like_their_urdf() {
     // a macro in a comment is none
     let text = urdf(&usual(), "<!-- <xacro:macro name=\"m\"/> -->");
     assert!(convert(&text).is_ok());
+}
+
+#[test]
+fn a_right_angle_written_with_three_decimals_is_one_and_said_so() {
+    let mut joints = usual();
+    joints[5].0[3] = 1.571;
+    let (arm, profile) = convert(&urdf(&joints, "")).expect("a chain");
+    assert!(
+        arm.notes.iter().any(|note| note.contains("2.0e-4 rad")),
+        "{:?}",
+        arm.notes
+    );
+    let kind = |profile: &Profile| {
+        let geometry = profile.geometry(&Mounted::flange());
+        Arm::of(&geometry, &profile.mechanism).map(|arm| arm.kind())
+    };
+    let (_, exact) = convert(&urdf(&usual(), "")).expect("a chain");
+    assert_eq!(kind(&profile), Ok("spherical wrist"));
+    assert_eq!(kind(&profile), kind(&exact));
+    // half a degree is meant
+    joints[5].0[3] = 1.58;
+    let (arm, _) = convert(&urdf(&joints, "")).expect("a chain");
+    assert!(
+        arm.notes
+            .iter()
+            .all(|note| !note.contains("multiple of 45"))
+    );
 }
 
 #[test]

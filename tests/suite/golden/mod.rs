@@ -155,6 +155,7 @@ fn unmarked(after: &[u8], before: &[u8], file: &Path) -> Vec<u8> {
         version: String::new(),
         profile_sha256: String::new(),
         source_sha256: String::new(),
+        decided: Vec::new(),
     };
     let (at, _) = language.mark(&source, &marker);
     let grown = after.len().saturating_sub(before.len());

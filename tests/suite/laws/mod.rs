@@ -1,4 +1,5 @@
 //! What must hold for every input.
 
+mod every_arm;
 mod inverse;
 mod offset_wrist;

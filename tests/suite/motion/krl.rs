@@ -1,6 +1,6 @@
 //! KRL programs whose thin reading lands beside: what each means, or that it is refused with both places.
 
-use super::rows::{BACKLASH, PLAIN, done, errors, message};
+use super::{BACKLASH, PLAIN, done, errors, message};
 use poseshift::compensate::Compensation;
 use poseshift::finding::Severity;
 

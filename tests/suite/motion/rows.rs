@@ -1,72 +1,8 @@
 //! Small programs whose thin reading lands beside: what each means, or that it is refused with both places.
 
-use crate::support::repository;
-use poseshift::compensate::{CompensateError, Compensation, Given, Options, compensate};
-use poseshift::finding::Severity;
+use super::{BACKLASH, P, PLAIN, done, errors, given, message, rapid, try_with};
+use poseshift::compensate::{CompensateError, Options};
 use poseshift::geometry::Pose;
-use poseshift::model::profile::{Mounted, Profile};
-use poseshift::program::{self, Source};
-
-/// Effects of the arm of these tests.
-pub(super) const PLAIN: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
-pub(super) const BACKLASH: &str = "{effect: backlash, joint: 2, width_deg: -0.1}";
-
-fn profile(effects: &[&str]) -> Profile {
-    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
-    let plain = &text[..text.find("calibration:").expect("a list of effects")];
-    let effects = effects.join(", ");
-    Profile::from_yaml(&format!("{plain}calibration: {{effects: [{effects}]}}\n"))
-        .expect("a profile")
-}
-
-pub(super) fn try_with(
-    options: &Options,
-    effects: &[&str],
-    files: &[(&str, &str)],
-) -> Result<Compensation, CompensateError> {
-    let sources: Vec<Source> = files
-        .iter()
-        .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
-        .collect();
-    let language = program::language_of(&sources[0]).expect("a language");
-    compensate(language, &sources, &profile(effects), options)
-}
-
-pub(super) fn given() -> Options {
-    let mut given = Given::default();
-    given.tools.insert(None, Mounted::flange());
-    given.frames.insert(None, Pose::identity());
-    Options {
-        given,
-        ..Options::default()
-    }
-}
-
-pub(super) fn done(effects: &[&str], files: &[(&str, &str)]) -> Compensation {
-    try_with(&given(), effects, files).expect("read")
-}
-
-pub(super) fn errors(done: &Compensation) -> Vec<&'static str> {
-    let errors = done
-        .findings
-        .iter()
-        .filter(|f| f.severity == Severity::Error);
-    errors.map(|f| f.id).collect()
-}
-
-/// The message of an error, which must be there.
-pub(super) fn message<'a>(done: &'a Compensation, id: &str) -> &'a str {
-    let found = done.findings.iter().find(|f| f.id == id);
-    &found
-        .unwrap_or_else(|| panic!("{id} in {:?}", done.findings))
-        .message
-}
-
-fn rapid(data: &str, body: &str) -> String {
-    format!("MODULE t\n{data}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n")
-}
-
-const P: &str = "[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
 
 #[test]
 fn a_target_that_joints_reach_from_both_sides_is_refused_with_both_lines() {
@@ -239,13 +175,13 @@ fn a_profile_that_corrects_nothing_marks_nothing() {
     // row q
     let body = format!("MoveJ [[430,0,400],{P},v100,fine,tool0;");
     let files = [("t.mod", &*rapid("", &body))];
-    let refused = try_with(&given(), &[], &files);
+    let refused = try_with(given(), &[], &files);
     assert!(matches!(refused, Err(CompensateError::NothingToCorrect)));
     let moved = Options {
         work_offset: Some(Pose::from_translation(0.001, 0.0, 0.0)),
         ..given()
     };
-    let moved = try_with(&moved, &[], &files).expect("the part is moved");
+    let moved = try_with(moved, &[], &files).expect("the part is moved");
     assert_eq!(moved.summary.compensated, 1, "{:?}", moved.findings);
 }
 
@@ -304,7 +240,7 @@ fn all_unknown_tools_and_frames_are_named_with_the_options_that_give_them() {
         "MoveJ [[430,0,400],{P},v100,fine,tGun\\WObj:=wLeft;\nMoveJ [[430,0,410],{P},v100,fine,tGrip\\WObj:=wRight;"
     );
     let refused = try_with(
-        &Options::default(),
+        Options::default(),
         &[PLAIN],
         &[("t.mod", &rapid("", &body))],
     );
@@ -330,7 +266,7 @@ fn the_joints_before_the_first_move_tell_its_direction() {
             start_joints: Some([0.0, q2, 0.1, 0.0, 1.2, 0.0]),
             ..given()
         };
-        let done = try_with(&options, &[BACKLASH], &[("t.mod", &rapid("", &body))]).expect("read");
+        let done = try_with(options, &[BACKLASH], &[("t.mod", &rapid("", &body))]).expect("read");
         done.targets[0].q.expect("solved")[1]
     };
     // the width of the backlash

@@ -432,3 +432,84 @@ fn straight_moves_land_in_every_language_walked_by_an_independent_inverse() {
         );
     }
 }
+
+#[test]
+fn bounds_hold_where_a_joint_turns_back_on_the_way() {
+    // the bound of the path's error is for both sides from which a joint comes on it
+    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
+    let plain = &text[..text.find("calibration:").expect("a list of effects")];
+    let profile = Profile::from_yaml(&format!("{plain}{EFFECTS}")).expect("a profile");
+    let (peer, robot, faults) = (Peer::new(), robot(), faults());
+    let form = &FORMS[0];
+    let mut random = rand::rngs::StdRng::seed_from_u64(7);
+    let (mut seen, mut wider) = (0, 0);
+    while seen < 40 {
+        let Some((start, from, to)) = random_move(&mut random, &peer, false) else {
+            continue;
+        };
+        let program = (form.program)(&start, &to);
+        let to = (form.read)(&program);
+        // the largest error on the way, each joint from the side from which it comes there
+        let (mut near, mut turns_back) = (start, false);
+        let (mut largest, mut at_end_sides) = (0.0_f64, 0.0_f64);
+        let Some((_, last)) = peer.walk(&from, &to, &start) else {
+            continue;
+        };
+        for step in 0..1000 {
+            let s = |k: f64| (f64::from(step) + k) / 1000.0;
+            let here = peer
+                .inverse(&from.between(&to, s(0.5)), &near)
+                .expect("on the way");
+            let [before, after] = [0.4, 0.6].map(|k| {
+                peer.inverse(&from.between(&to, s(k)), &here)
+                    .expect("there")
+            });
+            let direction: [f64; 6] = std::array::from_fn(|i| (after[i] - before[i]).signum());
+            turns_back |= (0..3).any(|i| direction[i] != last[i].signum());
+            let wanted = from.between(&to, s(0.5)).position;
+            let error = |direction: [f64; 6]| {
+                let moment = Moment {
+                    direction,
+                    ..Moment::default()
+                };
+                let m = tool_pose(&robot, &faults, &here, &moment);
+                (Vector3::new(m[0][3], m[1][3], m[2][3]) - wanted).norm()
+            };
+            largest = largest.max(error(direction));
+            at_end_sides = at_end_sides.max(error(last.map(f64::signum)));
+            near = here;
+        }
+        if !turns_back {
+            continue;
+        }
+        let sources = [Source::new(form.file, program.into_bytes())];
+        let scene = poseshift::check::Scene::default();
+        let subject = poseshift::check::Subject {
+            language: program::language_of(&sources[0]).expect("a language"),
+            sources: &sources,
+            nominal: None,
+            profile: &profile,
+            scene: &scene,
+        };
+        let options = super::given();
+        let options = poseshift::check::Options {
+            given: options.given,
+            ..poseshift::check::Options::default()
+        };
+        let checked = poseshift::check::check(&subject, &options).expect("checked");
+        let path = checked.moves[1].path.expect("a path");
+        assert!(path.certified);
+        let bound = path.bound.distance_m;
+        assert!(bound > largest - 1e-7, "{bound} is no bound of {largest}");
+        assert!(
+            bound < 1.05 * largest + 5e-5,
+            "{bound} is far from {largest}"
+        );
+        seen += 1;
+        wider += usize::from(largest > at_end_sides + 1e-5);
+    }
+    assert!(
+        wider > 3,
+        "{wider} of {seen} are worse on the way than with the sides of the end"
+    );
+}

@@ -167,3 +167,35 @@ fn a_frame_is_what_a_register_is_copied_from() {
         Some(Pose::identity())
     );
 }
+
+#[test]
+fn a_frame_is_what_the_program_has_just_written() {
+    let numbers = "PR[3,1]=(-30) ;\nPR[3,2]=0 ;\n! a tool ;\nPR[3,3:tool]=40.5 ;\nPR[GP1:3,4]=0 ;\nPR[3,5]=-60 ;\nPR[3,6]=0 ;\n";
+    let behind = "UTOOL[1]=PR[3] ;\nL P[1] 9mm/sec FINE ;";
+    let tool = |lines: &str| {
+        let program = read(lines, &usual("1"));
+        let ids: Vec<_> = ids(&program).into_iter().map(str::to_owned).collect();
+        (program.tools[program.moves[0].tool].flange_from_tool, ids)
+    };
+    let (known, found) = tool(&format!("{numbers}{behind}"));
+    let pose = known.expect("the tool");
+    assert!((pose.translation[0] + 0.03).abs() < 1e-12 && found.is_empty());
+    assert!((pose.rotation.angle() - 60_f64.to_radians()).abs() < 1e-12);
+    // behind a label, a call, a condition; another register, one from elsewhere, one that is not whole
+    for line in [
+        "LBL[1] ;",
+        "CALL OTHER ;",
+        "IF R[1]=1,PR[3,1]=R[5] ;",
+        "PR[R[1]]=PR[4] ;",
+        "PR[3,1]=R[5] ;",
+        "PR[3,1]=PR[3,1]+1 ;",
+    ] {
+        let (_, found) = tool(&format!("{numbers}{line}\n{behind}"));
+        assert!(
+            found.iter().any(|id| id == "frame-assigned-at-run-time"),
+            "{line}: {found:?}"
+        );
+    }
+    let (_, found) = tool(&format!("{}{behind}", numbers.replace("PR[3,2]=0 ;\n", "")));
+    assert_eq!(found, ["frame-assigned-at-run-time"]);
+}

@@ -24,7 +24,7 @@ proptest::proptest! {
         }
         let source = Source::new("x", bytes);
         let _ = Fanuc.recognises(&source);
-        let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
+        let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into(), decided: Vec::new() };
         let (at, _) = Fanuc.mark(&source, &marker);
         assert!(at <= source.bytes.len());
         if let Ok(program) = crate::motion::read(&Fanuc, std::slice::from_ref(&source), &Settings::default()) {

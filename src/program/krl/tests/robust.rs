@@ -25,7 +25,7 @@ proptest::proptest! {
         let source = Source::new("m.src", bytes);
         let data = Source::new("m.dat", DATA.as_bytes().to_vec());
         let _ = Krl.recognises(&source);
-        let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
+        let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into(), decided: Vec::new() };
         let (at, _) = Krl.mark(&source, &marker);
         assert!(at <= source.bytes.len());
         let sources = [source, data];

@@ -146,6 +146,7 @@ fn the_marker_is_a_comment_behind_the_line_that_opens_the_file() {
         version: "1".into(),
         profile_sha256: "a".repeat(64),
         source_sha256: "b".repeat(64),
+        decided: Vec::new(),
     };
     for (text, behind) in [
         (

@@ -88,6 +88,68 @@ fn elements_of_lists_are_any_of_them() {
 }
 
 #[test]
+fn poses_with_expressions_stay_or_stand_beside_the_targets_that_flow_into_them() {
+    let displaced = |lines: &str| {
+        let program = path(lines);
+        let last = program.moves.last().expect("a move");
+        let told = program.findings.first().map(|f| (f.id, f.severity));
+        (to(&program).pop(), last.displacement.clone(), told)
+    };
+    let warned = Some(("target-has-expressions", Severity::Warning));
+    for lines in [
+        "movel(p[q[0], q[1], 0,0,0,0])",
+        "movel(p[.1,.2,f(3),0,0,0])",
+        // nothing goes to x itself: its numbers stay
+        "x=p[.1,.2,.3,0,0,1]\ny=p[x[0],x[1],x[2]+0.05,x[3],x[4],x[5]]\nmovel(y)",
+    ] {
+        let found = displaced(lines);
+        assert_eq!(
+            (found.0.as_deref(), found.2),
+            (Some("?"), warned),
+            "{lines}"
+        );
+    }
+    let x = "x=p[.1,.2,.3,0,0,1]\nmovel(x)\n";
+    for (lines, z) in [
+        ("movel(p[x[0],x[1],x[2]+0.05,x[3],x[4],x[5]])", 0.05),
+        (
+            "y=p[x[0], x[1] ,x[2] - .05,x[3],x[4],x[5]]\nmovel(y)",
+            -0.05,
+        ),
+    ] {
+        let (to, by, _) = displaced(&format!("{x}{lines}"));
+        let Displacement::By(shift) = by else {
+            panic!("{lines}")
+        };
+        assert_eq!(
+            (to.as_deref(), shift.in_frame_m),
+            (Some("x"), [0.0, 0.0, z])
+        );
+    }
+    for lines in [
+        "movel(p[x[0],x[1],x[2]+h,x[3],x[4],x[5]])",
+        "movel(p[x[1],x[0],x[2],x[3],x[4],x[5]])",
+        "movel(p[x[0],x[1],x[2],x[3]+1,x[4],x[5]])",
+        // through other variables, a list, a function
+        "a=x[0]+1\nb=a\nmovel(p[b,0,0,0,0,0])",
+        "w=[x[0],x[1]]\nmovel(p[w[0],0,0,0,0,0])",
+        "def f(a):\nb=a[2]\nmovel(p[0,0,b,0,0,0])\nend\nf(x)",
+        "y=p[x[0],0,h,0,0,0]\nz=p[y[0],0,0,0,0,0]\nmovel(z)",
+    ] {
+        let (to, by, _) = displaced(&format!("{x}{lines}"));
+        assert_eq!(
+            (to.as_deref(), by),
+            (Some("x"), Displacement::Unknown),
+            "{lines}"
+        );
+    }
+    let two = path(&format!(
+        "{x}w=p[.2,.2,.3,0,0,1]\nmovel(w)\nmovel(p[x[0],w[1],0,0,0,0])"
+    ));
+    assert_eq!(to(&two)[2..], ["x", "w"]);
+}
+
+#[test]
 fn joints_keep_the_tool_that_is_set_where_they_are_computed() {
     let text = "set_tcp(p[1,0,0,0,0,0])\nq=get_inverse_kin(p[.1,.2,.3,0,0,0], [0,1,2,3,4,5])\nset_tcp(p[2,0,0,0,0,0])\nmovej(q)\nmovej(get_inverse_kin(p[.1,.2,.4,0,0,0], tcp=p[3,0,0,0,0,0]))\nmovej(p[.1,.2,.5,0,0,0])";
     let program = path(text);

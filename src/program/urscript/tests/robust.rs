@@ -25,7 +25,7 @@ proptest::proptest! {
         }
         let source = Source::new("x", bytes);
         let _ = UrScript.recognises(&source);
-        let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into() };
+        let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into(), decided: Vec::new() };
         let (at, _) = UrScript.mark(&source, &marker);
         assert!(at <= source.bytes.len());
         if let Ok(program) = read_sources(std::slice::from_ref(&source)) {

@@ -1,0 +1,277 @@
+//! The files' new bytes: changes and marker put in, read again, and every number compared with what was meant.
+
+use super::Compensation;
+use crate::program::{Edits, Language, Marker, Program, Role, Source, Target, number, sha256};
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// What is written does not read back as what was meant: a fault of this program.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{file}: what would be written does not read back as what was meant: {what}")]
+pub struct Differs {
+    /// The file.
+    pub file: String,
+    /// The difference.
+    pub what: String,
+}
+
+/// Program files as they are to be written.
+#[derive(Debug)]
+pub struct Written {
+    /// All files that were read, in their order.
+    pub sources: Vec<Source>,
+    /// Whether each is to be written: none that is read for its declarations only.
+    pub is_written: Vec<bool>,
+}
+
+impl Compensation {
+    /// The files with their changes and markers. Takes the compensation, so that a long program is not in memory twice.
+    ///
+    /// `only_good`: files that are refused, or share targets or calls with one that is, stay as they are.
+    ///
+    /// # Errors
+    /// What is written would not read back, number by number, as what was meant.
+    pub fn written(
+        self,
+        language: &dyn Language,
+        sources: &[Source],
+        profile_sha256: &str,
+        only_good: bool,
+    ) -> Result<Written, Differs> {
+        let is_written: Vec<bool> = sources
+            .iter()
+            .zip(&self.refused)
+            .map(|(source, refused)| !source.is_context && !(only_good && *refused))
+            .collect();
+        let mut meant = Vec::with_capacity(sources.len());
+        let mut written = Vec::with_capacity(sources.len());
+        for (file, source) in sources.iter().enumerate() {
+            let mut edits = self.edits[file].clone();
+            if !is_written[file] {
+                edits = Edits::default();
+            }
+            meant.push(Meant::of(&self, file, &edits));
+            if self.compensated[file] && is_written[file] {
+                let marker = Marker {
+                    version: env!("CARGO_PKG_VERSION").into(),
+                    profile_sha256: profile_sha256.into(),
+                    source_sha256: sha256(&source.bytes),
+                    decided: self.decided.clone(),
+                };
+                let (at, text) = language.mark(source, &marker);
+                let before = edits.length_before(at);
+                edits.replace(at..at, |out| out.extend_from_slice(&text));
+                meant[file].move_behind(before, text.len());
+            }
+            let bytes = edits.apply(&source.bytes);
+            written.push(if source.is_context {
+                Source::context(source.name.clone(), bytes)
+            } else {
+                Source::new(source.name.clone(), bytes)
+            });
+        }
+        let (settings, moves) = (self.settings, self.program.moves.len());
+        let all_written = is_written
+            .iter()
+            .zip(sources)
+            .all(|(is, s)| *is || s.is_context);
+        let added = all_written.then_some(self.added);
+        drop((self.program, self.edits, self.findings));
+        let differs = |file: usize, what: String| Differs {
+            file: sources[file].name.clone(),
+            what,
+        };
+        let after = crate::motion::read(language, &written, &settings)
+            .map_err(|error| differs(0, error.to_string()))?;
+        let mut new: Vec<Vec<f64>> = Vec::new();
+        for (file, meant) in meant.iter().enumerate() {
+            meant
+                .compare(&after, file, language, &mut new)
+                .map_err(|what| differs(file, what))?;
+        }
+        if let Some(mut added) = added {
+            if after.moves.len() != moves + added.moves {
+                let what = format!(
+                    "{} moves where {} are meant",
+                    after.moves.len(),
+                    moves + added.moves
+                );
+                return Err(differs(0, what));
+            }
+            added.targets.sort_by(|a, b| order(a, b));
+            new.sort_by(|a, b| order(a, b));
+            if added.targets != new {
+                let what = format!("{} new targets are not those that are meant", new.len());
+                return Err(differs(0, what));
+            }
+        }
+        Ok(Written {
+            sources: written,
+            is_written,
+        })
+    }
+}
+
+fn order(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
+    let each = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
+    each.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+        .then(a.len().cmp(&b.len()))
+}
+
+/// What one file is to hold.
+struct Meant {
+    /// The numbers that stay and those that replace others, in the order of the file.
+    numbers: Vec<f64>,
+    /// Those of targets that no move goes to any more, by place in the list.
+    freed: BTreeSet<usize>,
+    /// Text that is new, in the written file.
+    new: Vec<Range<usize>>,
+}
+
+impl Meant {
+    fn of(compensation: &Compensation, file: usize, edits: &Edits) -> Self {
+        let program = &compensation.program;
+        let order = numbers_of(program, file);
+        let mut next = order.into_iter().peekable();
+        let mut meant = Self {
+            numbers: Vec::new(),
+            freed: BTreeSet::new(),
+            new: Vec::new(),
+        };
+        let freed = &compensation.added.freed;
+        let freed: Vec<&Range<u32>> = freed.iter().map(|t| &program.targets[*t].numbers).collect();
+        let is_freed = |index: u32| freed.iter().any(|numbers| numbers.contains(&index));
+        let configuration = |index: u32| {
+            let at = compensation
+                .configurations
+                .binary_search_by_key(&index, |(index, _)| *index);
+            at.ok().map(|at| compensation.configurations[at].1)
+        };
+        let (mut behind, mut before) = (0, 0);
+        for (span, text) in edits.changes() {
+            let start = span.start as u32;
+            while let Some(index) = next.next_if(|i| program.numbers[*i as usize].start < start) {
+                meant.keep(program.numbers[index as usize].value, is_freed(index));
+            }
+            let here = next.peek().copied().filter(|index| {
+                let number = &program.numbers[*index as usize];
+                number.start == start && usize::from(number.length) == span.len()
+            });
+            let at = span.start + behind - before;
+            if let Some(index) = here.filter(|_| !span.is_empty()) {
+                next.next();
+                let value = configuration(index).or_else(|| number::parse(text.trim_ascii_start()));
+                // what is no number equals none
+                meant.numbers.push(value.unwrap_or(f64::NAN));
+            } else {
+                while next
+                    .next_if(|i| (program.numbers[*i as usize].start as usize) < span.end)
+                    .is_some()
+                {}
+                if !text.is_empty() {
+                    meant.new.push(at..at + text.len());
+                }
+            }
+            behind += text.len();
+            before += span.len();
+        }
+        for index in next {
+            meant.keep(program.numbers[index as usize].value, is_freed(index));
+        }
+        meant
+    }
+
+    fn keep(&mut self, number: f64, is_freed: bool) {
+        if is_freed {
+            self.freed.insert(self.numbers.len());
+        }
+        self.numbers.push(number);
+    }
+
+    /// Text of some length is put in at a byte of the written file.
+    fn move_behind(&mut self, at: usize, length: usize) {
+        for range in &mut self.new {
+            if range.start >= at {
+                *range = range.start + length..range.end + length;
+            }
+        }
+    }
+
+    /// Compares with what was read again; adds the numbers of new targets.
+    fn compare(
+        &self,
+        after: &Program,
+        file: usize,
+        language: &dyn Language,
+        new: &mut Vec<Vec<f64>>,
+    ) -> Result<(), String> {
+        let is_new = |offset: u32| {
+            let behind = self
+                .new
+                .partition_point(|range| range.end <= offset as usize);
+            self.new
+                .get(behind)
+                .is_some_and(|range| range.contains(&(offset as usize)))
+        };
+        let mut found = numbers_of(after, file);
+        if !self.new.is_empty() {
+            found.retain(|index| !is_new(after.numbers[*index as usize].start));
+            let of_file = after.targets.iter().filter(|t| t.file as usize == file);
+            for target in of_file {
+                let numbers = after.numbers_of(target);
+                if numbers.first().is_some_and(|first| is_new(first.start)) {
+                    new.push(without_configuration(language, target, |i| {
+                        numbers[i].value
+                    }));
+                }
+            }
+        }
+        let all_there = found.len() == self.numbers.len();
+        if !all_there && found.len() + self.freed.len() != self.numbers.len() {
+            return Err(format!(
+                "{} numbers where {} are meant",
+                found.len(),
+                self.numbers.len()
+            ));
+        }
+        let meant = self.numbers.iter().enumerate();
+        let meant = meant.filter(|(at, _)| all_there || !self.freed.contains(at));
+        for (index, (_, meant)) in found.iter().zip(meant) {
+            let number = &after.numbers[*index as usize];
+            if number.value != *meant {
+                return Err(format!(
+                    "{} at byte {} where {meant} is meant",
+                    number.value, number.start
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The numbers of a target in the order of its roles; 0 for configuration data.
+pub(super) fn without_configuration(
+    language: &dyn Language,
+    target: &Target,
+    value: impl Fn(usize) -> f64,
+) -> Vec<f64> {
+    let roles = language.roles(target.layout).iter().enumerate();
+    roles
+        .map(|(i, role)| match role {
+            Role::Configuration => 0.0,
+            _ => value(i),
+        })
+        .collect()
+}
+
+/// The numbers of a file's targets in the order of the file, each place once.
+fn numbers_of(program: &Program, file: usize) -> Vec<u32> {
+    let of_file = program.targets.iter().filter(|t| t.file as usize == file);
+    let mut numbers: Vec<u32> = of_file.flat_map(|target| target.numbers.clone()).collect();
+    let start = |index: &u32| program.numbers[*index as usize].start;
+    if !numbers.is_sorted_by_key(start) {
+        numbers.sort_by_key(start);
+    }
+    numbers.dedup_by_key(|index| start(index));
+    numbers
+}

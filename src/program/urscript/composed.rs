@@ -1,0 +1,217 @@
+//! Poses with expressions in them: `p[x, y, z + 0.1, 0, 0, 0]`, `p[a[0], a[1], a[2] + 0.1, a[3], a[4], a[5]]`.
+//!
+//! Their moves stay as they are. Where numbers of a rewritten target flow into one, it takes the correction along: it is that
+//! target, displaced by what the text tells or by something.
+
+use super::goals::{Feature, Goal, Goals};
+use super::reader::Reader;
+use super::syntax::{Expr, ExprId, FunctionId, Literal, LiteralId, Notes, Shifted, Symbol};
+use super::tokens::{Kind, Scanner, Token};
+use super::variables::{VarId, Variables};
+use super::verbs;
+use crate::geometry::Pose;
+use crate::program::number;
+use crate::program::script::{self, short};
+use std::collections::{HashMap, HashSet};
+
+/// Variables between a pose and the targets that it is computed from, that are looked into.
+const MOST_BETWEEN: usize = 256;
+
+/// Names of a list that are compared with each further one, so that each is noted once.
+const MOST_COMPARED: usize = 64;
+
+impl Reader<'_> {
+    /// What the brackets behind `open` name.
+    pub(super) fn look_into(&mut self, literal: &mut Literal, open: Token) {
+        let end = self.scanner.at;
+        let mut ahead = self.scanner;
+        ahead.at = open.end;
+        let is_pose = literal.pose && literal.elements == 6;
+        literal.shifted = shifted(ahead, &mut self.notes).filter(|_| is_pose);
+        let first = self.notes.composed.len();
+        while ahead.at < end
+            && let Ok(token) = ahead.next()
+        {
+            let text = self.text(token);
+            if token.kind != Kind::Word || verbs::is_operator(text) || verbs::is_constant(text) {
+                continue;
+            }
+            literal.computed = is_pose;
+            if !ahead.peek().is(b'(') {
+                let dot = memchr::memchr(b'.', text);
+                let symbol = self.notes.symbol(&text[..dot.unwrap_or(text.len())]);
+                let known = &self.notes.composed[first..];
+                if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
+                    self.notes.composed.push(symbol);
+                }
+            }
+        }
+        literal.names = short(first)..short(self.notes.composed.len());
+    }
+}
+
+/// The elements of another pose in their order, with numbers added to the first three.
+fn shifted<'a>(mut ahead: Scanner<'a>, notes: &mut Notes<'a>) -> Option<Shifted> {
+    let bytes = ahead.bytes;
+    let text = |token: Token| &bytes[token.start..token.end];
+    let mut of: Option<Token> = None;
+    let mut by_m = [0.0; 3];
+    for at in 0..6_u8 {
+        let mut next = || ahead.next().ok();
+        let name = next().filter(|token| token.kind == Kind::Word)?;
+        let index = next()
+            .filter(|open| open.is(b'['))
+            .and_then(|_| next())
+            .and_then(|index| number::parse(text(index)))?;
+        let is_same = of.is_none_or(|of| text(of) == text(name));
+        let is_element = (index - f64::from(at)).abs() < 0.1;
+        if !is_same || !is_element || text(name).contains(&b'.') || !next()?.is(b']') {
+            return None;
+        }
+        of.get_or_insert(name);
+        let mut sign = next()?;
+        if let (Some(by), Kind::Sign(plus @ (b'+' | b'-'))) =
+            (by_m.get_mut(usize::from(at)), sign.kind)
+        {
+            let value = number::parse(text(next()?)).filter(|value| value.is_finite())?;
+            *by = if plus == b'+' { value } else { -value };
+            sign = next()?;
+        }
+        if !sign.is(if at == 5 { b']' } else { b',' }) {
+            return None;
+        }
+    }
+    let of = of?;
+    Some(Shifted {
+        name: notes.symbol(text(of)),
+        offset: short(of.start),
+        by_m,
+    })
+}
+
+impl Variables<'_, '_> {
+    /// Variables whose values are computed from others, with those.
+    pub(super) fn find_mentions(&mut self) {
+        let notes = self.notes;
+        if notes.composed.is_empty() {
+            return;
+        }
+        let assignments = notes.assignments.iter().zip(&self.assigned);
+        let at: HashMap<u32, VarId> = assignments
+            .map(|(assignment, variable)| (assignment.offset, *variable))
+            .collect();
+        for &(name, function, offset) in &notes.mentions {
+            if let (Some(to), Some(from)) = (at.get(&offset), self.meaning(name, function)) {
+                self.mentioned.entry(*to).or_default().push(from);
+            }
+        }
+    }
+
+    /// The positions that moves go to whose numbers may flow into a pose with these names.
+    fn positions_behind(&self, names: &[Symbol], function: FunctionId) -> Vec<VarId> {
+        let meanings = names
+            .iter()
+            .filter_map(|name| self.meaning(*name, function));
+        let mut open: Vec<VarId> = meanings.collect();
+        let mut seen = HashSet::new();
+        let mut found = Vec::new();
+        while let Some(variable) = open.pop() {
+            if !seen.insert(variable) || seen.len() > MOST_BETWEEN {
+                continue;
+            }
+            if self.list[variable as usize].is_position {
+                found.push(variable);
+                continue;
+            }
+            for source in self.sources(variable) {
+                self.add_behind(source.value, source.function, &mut open);
+            }
+            open.extend(self.mentioned.get(&variable).into_iter().flatten());
+        }
+        found.sort_unstable();
+        found
+    }
+
+    /// The variables in a value.
+    fn add_behind(&self, value: ExprId, function: FunctionId, open: &mut Vec<VarId>) {
+        let notes = self.notes;
+        let mut values = vec![value];
+        // values inside each other come one after the other, and are not many
+        while let Some(value) = values.pop() {
+            match notes.expression(value) {
+                Expr::Name(name, _) | Expr::Element(name, _) => {
+                    open.extend(self.meaning(name, function));
+                }
+                Expr::Literal(id) => {
+                    let names = notes.names_in(id).iter();
+                    open.extend(names.filter_map(|name| self.meaning(*name, function)));
+                }
+                Expr::List(list) => {
+                    let names = notes.names_in(notes.lists[list as usize].literal).iter();
+                    open.extend(names.filter_map(|name| self.meaning(*name, function)));
+                }
+                Expr::Trans(a, b) | Expr::Add(a, b) => values.extend([a, b]),
+                Expr::Inverse(a) | Expr::Kinematics { pose: a, .. } => values.push(a),
+                Expr::Call(call) => {
+                    open.extend(self.result(call));
+                    let given = notes.arguments_of(&notes.calls[call as usize]);
+                    values.extend(given.iter().map(|(_, value)| *value));
+                }
+                Expr::Actual | Expr::Other => {}
+            }
+        }
+    }
+}
+
+impl Goals<'_, '_, '_> {
+    /// Where a pose with expressions is.
+    pub(super) fn composed(&mut self, id: LiteralId, function: FunctionId, steps: u32) -> Goal {
+        let notes = self.notes;
+        let literal = notes.literal(id);
+        let known = literal.shifted.filter(|shifted| {
+            let of = self.variables.meaning(shifted.name, function);
+            of.is_some_and(|of| self.variables.list[of as usize].is_position)
+        });
+        if let Some(Shifted {
+            name,
+            offset,
+            by_m: [x, y, z],
+        }) = known
+        {
+            let goal = self.named(name, offset, function, steps);
+            let by = Pose::from_translation(x, y, z);
+            return self.shifted_in_base(goal, Some(by));
+        }
+        let mut goals = Vec::new();
+        for variable in self
+            .variables
+            .positions_behind(notes.names_in(id), function)
+        {
+            let goal = match self.variables.fixed(variable) {
+                Some(source) => self.goal_within(source.value, source.function, steps),
+                None => self.variable(variable),
+            };
+            if !matches!(goal.target, script::Expr::Unknown(_)) {
+                goals.push(self.displaced(goal, None));
+            }
+        }
+        if goals.len() < 2 {
+            let unknown = Goal::to(script::Expr::Unknown(self.common.expressions));
+            return goals.pop().unwrap_or(unknown);
+        }
+        let is_plain = |goal: &Goal| matches!(goal.feature, Feature::Base) && goal.tool.is_none();
+        let feature = if goals.iter().all(is_plain) {
+            Feature::Base
+        } else {
+            Feature::Held(script::Expr::Unknown(self.common.frame_computed))
+        };
+        let any = self
+            .builder
+            .script
+            .any(goals.into_iter().map(|goal| goal.target));
+        Goal {
+            feature,
+            ..Goal::to(any)
+        }
+    }
+}

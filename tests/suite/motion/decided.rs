@@ -1,0 +1,283 @@
+//! What the user decides: accepted errors, targets split, ways past a singularity, files for their declarations only, good
+//! programs beside refused ones.
+
+use super::{BACKLASH, P, PLAIN, errors, given, message, profile, rapid, try_with};
+use poseshift::compensate::{AtSingularity, Compensation, Options, compensate};
+use poseshift::finding::Severity;
+use poseshift::program::{self, Marker, Source};
+
+fn sources(files: &[(&str, &str)]) -> Vec<Source> {
+    files
+        .iter()
+        .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
+        .collect()
+}
+
+fn written(done: Compensation, files: &[(&str, &str)]) -> Vec<String> {
+    let sources = sources(files);
+    let language = program::language_of(&sources[0]).expect("a language");
+    let written = done
+        .written(language, &sources, &"0".repeat(64), false)
+        .expect("what is written reads back");
+    let text = |source: Source| String::from_utf8(source.bytes).expect("text");
+    written.sources.into_iter().map(text).collect()
+}
+
+/// A target that a joint with backlash comes to from both sides, in each language that holds targets by name.
+fn from_both_sides() -> Vec<(&'static str, String)> {
+    let joints = |q2: &str| format!("[[0,{q2},0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]]");
+    let rapid = rapid(
+        &format!("CONST robtarget p := [[430,0,400],{P};"),
+        &format!(
+            "MoveAbsJ {},v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveAbsJ {},v100,fine,tool0;\nMoveJ p,v100,fine,tool0;",
+            joints("-20"),
+            joints("60")
+        ),
+    );
+    let krl = "DEF t()\nDECL E6POS XP={X 430,Y 0,Z 400,A 0,B 90,C 0,S 2,T 2}\n$TOOL=$NULLFRAME\n$BASE=$WORLD\n\
+               PTP {A1 0,A2 -20,A3 0,A4 0,A5 60,A6 0}\nPTP XP\nPTP {A1 0,A2 60,A3 0,A4 0,A5 60,A6 0}\nPTP XP\nEND\n";
+    let urscript = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  p1 = p[0.43,0.0,0.4,0.0,1.5,0.0]\n  movej([0,-0.35,0,0,1.0,0])\n  movej(p1)\n  \
+                    movej([0,1.05,0,0,1.0,0])\n  movej(p1)\nend\n";
+    let fanuc = "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J P[2] 10% FINE ;\n   3:J P[3] 10% FINE ;\n   4:J P[2] 10% FINE ;\n/POS\n\
+                 P[1]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -20.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n\
+                 P[2]{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = 180.000 deg, P = 0.000 deg, R = 0.000 deg\n};\n\
+                 P[3]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = 60.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n/END\n";
+    vec![
+        ("t.mod", rapid),
+        ("t.src", krl.into()),
+        ("t.script", urscript.into()),
+        ("t.ls", fanuc.into()),
+    ]
+}
+
+#[test]
+fn a_shared_target_is_split_into_one_for_each_move() {
+    for (name, text) in from_both_sides() {
+        let files = [(name, text.as_str())];
+        let shared = try_with(given(), &[BACKLASH], &files).expect("read");
+        assert_eq!(errors(&shared), ["target-shared"], "{name}");
+        let options = Options {
+            split_targets: true,
+            ..given()
+        };
+        let done = try_with(options, &[BACKLASH], &files).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{name} {:?}", done.findings);
+        assert_eq!(done.added.targets.len(), 2, "{name}");
+        let [first, second] = [&done.added.targets[0], &done.added.targets[1]];
+        let apart = first.iter().zip(second).map(|(a, b)| (a - b).abs());
+        assert!(
+            apart.fold(0.0, f64::max) > 1e-4,
+            "{name}: {first:?} {second:?}"
+        );
+        let after = written(done, &files);
+        // each lands where it is wanted: nothing is left to correct against the original
+        let again = [(name, after[0].as_str())];
+        let checked = super::landings(&[BACKLASH], &again, &files);
+        assert!(checked < 0.002, "{name}: {checked} mm\n{}", after[0]);
+    }
+}
+
+#[test]
+fn an_accepted_error_is_a_warning_and_the_marker_records_it() {
+    let (name, text) = from_both_sides().swap_remove(0);
+    let files = [(name, text.as_str())];
+    let accept = |text: &str| Options {
+        accepted: vec![text.parse().expect("an acceptance")],
+        ..given()
+    };
+    let done = try_with(accept("target-shared:t.mod:2"), &[BACKLASH, PLAIN], &files).expect("read");
+    assert!(!done.is_refused(), "{:?}", done.findings);
+    let taken = done.findings.iter().find(|f| f.id == "target-shared");
+    assert!(taken.is_some_and(|f| f.accepted && f.severity == Severity::Warning));
+    assert_eq!(done.decided, ["accepted target-shared"]);
+    // a line where there is none: it is said, and the error stays
+    let done = try_with(accept("target-shared:t.mod:3"), &[BACKLASH, PLAIN], &files).expect("read");
+    assert!(done.is_refused());
+    assert!(done.findings.iter().any(|f| f.id == "acceptance-unused"));
+}
+
+#[test]
+fn the_marker_of_a_file_names_what_was_accepted() {
+    let data =
+        format!("CONST robtarget p := [[430,0,400],{P};\nCONST robtarget r := [[400,50,420],{P};");
+    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\n\
+                MoveAbsJ [[0,60,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveJ r,v100,fine,tool0;";
+    let text = rapid(&data, body);
+    let files = [("t.mod", text.as_str())];
+    let options = Options {
+        accepted: vec!["target-shared".parse().expect("an acceptance")],
+        ..given()
+    };
+    let done = try_with(options, &[BACKLASH], &files).expect("read");
+    let after = written(done, &files);
+    assert!(
+        after[0].contains("! accepted target-shared"),
+        "{}",
+        after[0]
+    );
+    assert!(after[0].contains("CONST robtarget p := [[430,0,400],"));
+    assert!(Marker::find(after[0].as_bytes()).is_some());
+}
+
+#[test]
+fn at_the_singularity_of_the_wrist_the_user_chooses_a_way_out() {
+    // joint 5 a hundredth of a degree from zero, joint 4 near its limit: the small correction asks it to turn far
+
+    let effects = ["{effect: link_geometry, link: 5, alpha_deg: 0.05}"];
+    let profile = profile(&effects);
+    let tool = poseshift::model::profile::Mounted::flange();
+    let controller = profile.controller_model(&tool);
+    let mut refused = 0;
+    for (q4, q5) in [
+        (155.0, 0.01),
+        (-155.0, 0.02),
+        (158.0, -0.01),
+        (-158.0, -0.03),
+    ] {
+        let q = [10.0_f64, 20.0, 10.0, q4, q5, 30.0].map(f64::to_radians);
+        let pose = controller.forward(&q, &poseshift::model::Conditions::default());
+        let [w, x, y, z] = pose.rotation.quaternion().0;
+        let [px, py, pz] = pose.translation.map(|m| 1e3 * m);
+        let text = format!(
+            "x_mm,y_mm,z_mm,qw,qx,qy,qz,near1_deg,near2_deg,near3_deg,near4_deg,near5_deg,near6_deg\n\
+             {px:.9},{py:.9},{pz:.9},{w:.12},{x:.12},{y:.12},{z:.12},10,20,10,{q4},{q5},30\n"
+        );
+        let files = [("t.csv", text.as_str())];
+        let plain = try_with(given(), &effects, &files).expect("read");
+        if !plain.is_refused() {
+            continue;
+        }
+        refused += 1;
+        let hint = &plain
+            .findings
+            .iter()
+            .find(|f| f.severity == Severity::Error)
+            .expect("an error")
+            .hint;
+        assert!(hint.contains("--at-singularity"), "{hint}");
+        for way in [AtSingularity::Flip, AtSingularity::Nearest] {
+            let word = format!("{way:?}").to_lowercase();
+            if !hint.contains(&format!("--at-singularity {word}")) {
+                continue;
+            }
+            let options = Options {
+                at_singularity: way,
+                ..given()
+            };
+            let done = try_with(options, &effects, &files).expect("read");
+            assert_eq!(errors(&done), [""; 0], "{word} {:?}", done.findings);
+            assert!(done.findings.iter().any(|f| f.id == "at-singularity"));
+            let q = done.targets[0].q.expect("solved");
+            let real = profile.real_model(&tool, &poseshift::model::Conditions::default());
+            let gap = real
+                .forward(&q, &poseshift::model::Conditions::default())
+                .separation(&pose);
+            assert!(gap.distance_m < 2e-9, "{word} {gap:?}");
+            if way == AtSingularity::Flip {
+                assert!(gap.angle_rad < 1e-8, "{word} {gap:?}");
+                assert!(q[4].signum() != q5.signum(), "{word} {q:?}");
+            } else {
+                assert!((q[3].to_degrees() - q4).abs() < 1e-6, "{word} {q:?}");
+                assert!(gap.angle_rad < 0.01, "{word} {gap:?}");
+            }
+        }
+    }
+    assert!(refused >= 2, "{refused} of 4 are refused without a choice");
+}
+
+#[test]
+fn files_of_context_are_read_and_stay() {
+    let tools = "MODULE cell\nPERS tooldata tGun := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\nENDMODULE\n";
+    let main = rapid(
+        &format!("CONST robtarget p := [[430,0,300],{P};"),
+        "MoveJ p,v100,fine,tGun;",
+    );
+    let read = |context: &str| {
+        let sources = [
+            Source::new("t.mod", main.as_bytes().to_vec()),
+            Source::context("cell.sys", context.as_bytes().to_vec()),
+        ];
+        let language = program::language_of(&sources[0]).expect("a language");
+        let options = Options::default();
+        let done = compensate(language, &sources, &profile(&[PLAIN]), &options).expect("read");
+        let findings = done.findings.clone();
+        let targets = done.summary.targets;
+        (
+            findings,
+            targets,
+            done.written(language, &sources, "", false)
+                .expect("written"),
+        )
+    };
+    let (findings, targets, written) = read(tools);
+    assert!(
+        findings.iter().all(|f| f.severity != Severity::Error),
+        "{findings:?}"
+    );
+    assert_eq!(targets, 1);
+    assert_eq!(written.is_written, [true, false]);
+    assert_eq!(written.sources[1].bytes, tools.as_bytes());
+    assert_ne!(written.sources[0].bytes, main.as_bytes());
+    // a target of a context file that a program goes to must not be left in silence
+    let other = rapid("", "MoveJ far,v100,fine,tGun;");
+    let context = tools.replace(
+        "ENDMODULE",
+        &format!("CONST robtarget far := [[430,0,300],{P};\nENDMODULE"),
+    );
+    let sources = [
+        Source::new("t.mod", other.into_bytes()),
+        Source::context("cell.sys", context.into_bytes()),
+    ];
+    let language = program::language_of(&sources[0]).expect("a language");
+    let done =
+        compensate(language, &sources, &profile(&[PLAIN]), &Options::default()).expect("read");
+    assert_eq!(errors(&done), ["target-in-context"]);
+    assert!(message(&done, "target-in-context").contains("cell.sys line"));
+}
+
+#[test]
+fn good_programs_are_those_that_share_nothing_with_a_refused_one() {
+    let module = |name: &str, body: &str| {
+        format!("MODULE {name}\nPROC {name}()\n{body}\nENDPROC\nENDMODULE\n")
+    };
+    let literal = format!("[[430,0,400],{P}");
+    let files = [
+        (
+            "good.mod",
+            module("good", &format!("MoveJ {literal},v100,fine,tool0;")),
+        ),
+        (
+            "bad.mod",
+            module("bad", &format!("MoveJ {literal},v100,fine,tNone;")),
+        ),
+        (
+            "calls.mod",
+            module(
+                "calls",
+                &format!(
+                    "MoveJ {literal},v100,fine,tool0;\nbad;\nMoveL {literal},v100,fine,tool0;"
+                ),
+            ),
+        ),
+    ];
+    let files: Vec<(&str, &str)> = files
+        .iter()
+        .map(|(name, text)| (*name, text.as_str()))
+        .collect();
+    // by itself an unknown tool ends the run
+    assert!(try_with(Options::default(), &[PLAIN], &files).is_err());
+    let options = Options {
+        each_for_itself: true,
+        ..Options::default()
+    };
+    let done = try_with(options, &[PLAIN], &files).expect("read");
+    assert_eq!(errors(&done), ["frame-unknown"]);
+    assert!(message(&done, "frame-unknown").contains("tNone"));
+    assert_eq!(done.refused, [false, true, true]);
+    let sources = sources(&files);
+    let language = program::language_of(&sources[0]).expect("a language");
+    let written = done.written(language, &sources, "", true).expect("written");
+    assert_eq!(written.is_written, [true, false, false]);
+    assert_eq!(written.sources[1].bytes, sources[1].bytes);
+    assert_ne!(written.sources[0].bytes, sources[0].bytes);
+}
