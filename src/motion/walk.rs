@@ -424,7 +424,7 @@ impl Walker<'_, '_> {
         let ground = self.ground;
         if motion.configured && !posture::holds(configuration, branch, &q) {
             let shown = q.map(|q| format!("{:.1}", q / DEG)).join(", ");
-            let message = format!(
+            let mut message = format!(
                 "the path to {} ends in another configuration than the file gives (joints {shown} deg)",
                 ground.name_of(target)
             );
@@ -434,8 +434,16 @@ impl Walker<'_, '_> {
             } else {
                 ("configuration-mismatch", Severity::Warning)
             };
+            // the controller would stop there: where the program runs, it stands as the file says, and stood so before
+            let meant = self.meant(motion, target, wanted, configuration, &q);
+            if meant.is_some() {
+                message += "; the one of the file is taken, since the controller stops at another";
+            }
             let finding = ground.at_target(id, severity, target, message, hint);
             self.findings.push(finding);
+            if let Some(meant) = meant {
+                return meant;
+            }
         }
         let as_it_is = Posture {
             branch,
@@ -462,6 +470,29 @@ impl Walker<'_, '_> {
             .filter(|inside| mechanism.beyond_limit(&inside.q, 0.0).is_none())
             .or_else(|| posture::on_branch(arm, wanted, branch, &q, &any))
             .unwrap_or(as_it_is)
+    }
+
+    /// The posture that the configuration data of a path's end name; `None` where there is none, or the program is only looked at.
+    fn meant(
+        &self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        configuration: &Configuration,
+        q: &[f64; 6],
+    ) -> Option<Posture> {
+        if self.pace.strict {
+            return None;
+        }
+        let asked = Asked {
+            target,
+            arm: &self.ground.arm_with(motion.tool).arm,
+            wanted: *wanted,
+            configuration: *configuration,
+            honoured: true,
+            start: Some(*q),
+        };
+        posture::choose(self.ground, &asked, &mut Vec::new()).filter(|posture| posture.configured)
     }
 
     /// A part of the target's orientation so large that its angle is lost in rounding.

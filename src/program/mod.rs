@@ -6,6 +6,7 @@
 //! stays as it was ([`Edits`]).
 
 pub mod csv;
+mod drive;
 mod edit;
 mod error;
 pub mod fanuc;
@@ -21,6 +22,7 @@ pub mod script;
 mod source;
 pub mod urscript;
 
+pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;
 pub use insert::{Between, Inserted, Insertion, Replacements};
@@ -189,6 +191,13 @@ pub trait Language: Sync {
     ) -> Inserted {
         let _ = (sources, program, file);
         Inserted::none(insertions)
+    }
+
+    /// A program that drives through configurations; `None` where none can be written in this language, or not with these
+    /// settings.
+    fn drive(&self, steps: &[Step], settings: &Settings) -> Option<String> {
+        let _ = (steps, settings);
+        None
     }
 
     /// Where the marker goes and its text in the file's own line ends.

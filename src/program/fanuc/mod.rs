@@ -35,6 +35,7 @@ mod angles;
 mod config;
 mod constants;
 mod controller;
+mod drive;
 mod frames;
 mod insert;
 mod lines;
@@ -48,7 +49,7 @@ mod words;
 
 use super::{
     About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Script, Settings, Shape, Source, Value,
+    ReadError, Role, Script, Settings, Shape, Source, Step, Value,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -201,6 +202,10 @@ impl Language for Fanuc {
         insertions: &[Insertion],
     ) -> Inserted {
         insert::insert(&sources[file], program, file, insertions)
+    }
+
+    fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
+        Some(drive::drive(steps))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -23,6 +23,7 @@
 //! are coupled (turning B moves T) PULSE positions come out wrong. The unit of base and station axes is not known.
 
 mod cnd;
+mod drive;
 mod insert;
 mod instruction;
 mod job;
@@ -38,7 +39,7 @@ use super::kit::check_bytes;
 use super::script::{Script, short};
 use super::{
     About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source, Value,
+    ReadError, Role, Settings, Shape, Source, Step, Value,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Rotation};
@@ -179,6 +180,10 @@ impl Language for Inform {
         insertions: &[Insertion],
     ) -> Inserted {
         insert::insert(&sources[file], program, file, insertions)
+    }
+
+    fn drive(&self, steps: &[Step], settings: &Settings) -> Option<String> {
+        Some(drive::drive(steps, settings.pulses_per_deg?))
     }
 
     /// Comments behind NOP, in lines short enough for every controller.

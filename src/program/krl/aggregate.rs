@@ -186,7 +186,8 @@ impl Aggregate {
     pub fn driven(&self) -> Option<(usize, f64)> {
         let mut axes = (1..).zip(self.external);
         axes.find_map(|(axis, value)| {
-            let value = value.filter(|value| *value != 0.0 && !(*value >= UNUSED))?;
+            let value =
+                value.filter(|value| *value != 0.0 && (*value < UNUSED || value.is_nan()))?;
             Some((axis, value))
         })
     }

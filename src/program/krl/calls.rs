@@ -87,12 +87,12 @@ fn known(word: &[u8]) -> Option<Known> {
         b"CREAD" => Known::Writes(6),
         // SREAD(string, state, offset, format, variables)
         b"SREAD" => Known::Writes(4),
-        // CAST_FROM(buffer, offset, variables)
-        b"CAST_FROM" => Known::Writes(2),
         b"CAST_TO" => Known::Writes(0),
-        // EKI_GetFrame(channel, element, frame)
-        b"EKI_GETREAL" | b"EKI_GETINT" | b"EKI_GETBOOL" | b"EKI_GETFRAME" | b"EKI_GETSTRING"
-        | b"EKI_GETREALARRAY" | b"EKI_GETINTARRAY" | b"EKI_GETFRAMEARRAY" => Known::Writes(2),
+        // CAST_FROM(buffer, offset, variables), EKI_GetFrame(channel, element, frame)
+        b"CAST_FROM" | b"EKI_GETREAL" | b"EKI_GETINT" | b"EKI_GETBOOL" | b"EKI_GETFRAME"
+        | b"EKI_GETSTRING" | b"EKI_GETREALARRAY" | b"EKI_GETINTARRAY" | b"EKI_GETFRAMEARRAY" => {
+            Known::Writes(2)
+        }
         _ => return None,
     })
 }

@@ -179,9 +179,10 @@ impl Reader {
             }
             Some(Table::Load) => {}
             Some(table) => {
-                let frame = match is_aggregate {
-                    true => aggregate::read(cursor)?.frame(),
-                    false => None,
+                let frame = if is_aggregate {
+                    aggregate::read(cursor)?.frame()
+                } else {
+                    None
                 };
                 self.declared.add(table, element, frame, self.file);
             }

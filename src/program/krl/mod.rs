@@ -20,6 +20,7 @@
 mod aggregate;
 mod calls;
 mod data;
+mod drive;
 mod frames;
 mod insert;
 mod moves;
@@ -38,7 +39,7 @@ use super::kit::check_bytes;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
     About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source, Value,
+    ReadError, Role, Settings, Shape, Source, Step, Value,
 };
 use crate::geometry::Rotation;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -190,6 +191,10 @@ impl Language for Krl {
         insertions: &[Insertion],
     ) -> Inserted {
         Inserted::each(insertions, |one| insert::insert(sources, program, one))
+    }
+
+    fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
+        Some(drive::drive(steps))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -180,14 +180,13 @@ impl Reader {
                 self.calls_in(cursor);
                 self.builder.begin_if();
             }
-            b"ELSE" => self.builder.next_branch(true),
+            b"ELSE" | b"DEFAULT" => self.builder.next_branch(true),
             b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),
             b"SWITCH" => {
                 self.calls_in(cursor);
                 self.builder.begin_choice();
             }
             b"CASE" => self.builder.next_branch(false),
-            b"DEFAULT" => self.builder.next_branch(true),
             b"LOOP" | b"REPEAT" => self.builder.begin_loop(false),
             b"WHILE" => {
                 self.builder.begin_loop(true);

@@ -17,6 +17,7 @@ mod builtins;
 mod calls;
 mod confdata;
 mod declarations;
+mod drive;
 mod expressions;
 mod handlers;
 mod insert;
@@ -35,7 +36,7 @@ use super::kit::check_bytes;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
     About, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role, Settings, Shape,
-    Source, Value,
+    Source, Step, Value,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
@@ -179,6 +180,10 @@ impl Language for Rapid {
         insertions: &[Insertion],
     ) -> Inserted {
         Inserted::each(insertions, |one| insert::insert(sources, program, one))
+    }
+
+    fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
+        Some(drive::drive(steps))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -28,6 +28,7 @@
 
 mod calls;
 mod composed;
+mod drive;
 mod expressions;
 mod goals;
 mod insert;
@@ -46,7 +47,7 @@ use super::kit::check_bytes;
 use super::script::{Builder, Script, short};
 use super::{
     About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source, Value,
+    ReadError, Role, Settings, Shape, Source, Step, Value,
 };
 use crate::geometry::units::DEG;
 use goals::Common;
@@ -162,6 +163,10 @@ impl Language for UrScript {
         insertions: &[Insertion],
     ) -> Inserted {
         Inserted::each(insertions, |one| insert::insert(sources, program, one))
+    }
+
+    fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
+        Some(drive::drive(steps))
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -17,7 +17,7 @@ use crate::identify::parameters::Selection;
 use crate::identify::plan::{Plan as Found, Request, plan_telling};
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
-use crate::program::Source;
+use crate::program::{Settings, Source};
 use approach::Stop;
 use driving::Driving;
 use schemars::JsonSchema;
@@ -139,7 +139,11 @@ pub fn plan(
         let stops = found.joints.iter().zip(over);
         let stops: Vec<Stop> = stops.map(|(q, over)| Stop { over, q: *q }).collect();
         poses_between = stops.iter().map(|stop| stop.over.len()).sum();
-        let text = approach::program(language, &stops, approach_rad, profile.pulses_per_deg)
+        let settings = Settings {
+            pulses_per_deg: profile.pulses_per_deg,
+            ..Settings::default()
+        };
+        let text = approach::program(language, &stops, approach_rad, &settings)
             .ok_or_else(|| no_program(language))?;
         findings = driving.findings(language, wanted.name, &text, &stops);
         program = Some(text);
@@ -171,11 +175,15 @@ pub fn plan(
 }
 
 fn no_program(language: &str) -> Failure {
+    let any = Settings {
+        pulses_per_deg: Some([1.0; 6]),
+        ..Settings::default()
+    };
     Failure::with_hint(
         format!("no program can be written in `{language}`"),
         format!(
             "--language is one of: {}; inform needs controller.pulses_per_deg in the profile",
-            approach::LANGUAGES.join(", ")
+            approach::languages(&any).join(", ")
         ),
     )
 }

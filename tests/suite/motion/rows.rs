@@ -273,3 +273,82 @@ fn the_joints_before_the_first_move_tell_its_direction() {
     let apart = (from(-0.4) - from(1.2)).abs();
     assert!((apart - 0.1_f64.to_radians()).abs() < 1e-4, "{apart}");
 }
+
+/// Reads files as the motion model does.
+fn read(files: &[(&str, &str)]) -> poseshift::program::Program {
+    let sources: Vec<poseshift::program::Source> = files
+        .iter()
+        .map(|(name, text)| poseshift::program::Source::new(*name, text.as_bytes().to_vec()))
+        .collect();
+    let language = poseshift::program::language_of(&sources[0]).expect("a language");
+    let settings = poseshift::program::Settings::default();
+    poseshift::motion::read(language, &sources, &settings).expect("read")
+}
+
+#[test]
+fn whole_rotations_of_a_joint_move_are_those_of_config() {
+    // row e: behind J6 = -290 the rotation nearest to the joints before is another than CONFIG gives
+    let profile = super::profile(&[PLAIN]);
+    let controller = profile.controller_model(&poseshift::model::profile::Mounted::flange());
+    let q = [0.0, -10.0, 20.0, 10.0, 50.0, 179.95_f64].map(f64::to_radians);
+    let pose = controller.forward(&q, &poseshift::model::Conditions::default());
+    let m = &pose.rotation.0;
+    let r = m[1][0].atan2(m[0][0]).to_degrees();
+    let p = (-m[2][0]).atan2(m[2][1].hypot(m[2][2])).to_degrees();
+    let w = m[2][1].atan2(m[2][2]).to_degrees();
+    let [x, y, z] = pose.translation.map(|v| 1e3 * v);
+    let program = |flip: char, turn: i32| {
+        format!(
+            "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J P[2] 10% FINE ;\n/POS\n\
+             P[1]{{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -10.000 deg, J3 = 20.000 deg,\n    \
+             J4 = 10.000 deg, J5 = 50.000 deg, J6 = -290.000 deg\n}};\n\
+             P[2]{{\n   GP1:\n    UF : 0, UT : 0, CONFIG : '{flip} U T, 0, 0, {turn}',\n    \
+             X = {x:.3} mm, Y = {y:.3} mm, Z = {z:.3} mm,\n    W = {w:.3} deg, P = {p:.3} deg, R = {r:.3} deg\n}};\n/END\n"
+        )
+    };
+    let joint_6 = |turn: i32| -> Vec<f64> {
+        ['N', 'F']
+            .iter()
+            .filter_map(|flip| {
+                let done = done(&[PLAIN], &[("t.ls", &program(*flip, turn))]);
+                let agrees = !done
+                    .findings
+                    .iter()
+                    .any(|f| f.id == "configuration-mismatch");
+                let q = done.targets[1].q.filter(|_| agrees)?;
+                Some(q[5].to_degrees())
+            })
+            .collect()
+    };
+    let near = |found: Vec<f64>, q6: f64| found.iter().any(|q| (q - q6).abs() < 2.0);
+    assert!(near(joint_6(0), 179.95), "{:?}", joint_6(0));
+    assert!(near(joint_6(-1), -180.05), "{:?}", joint_6(-1));
+}
+
+#[test]
+fn a_move_to_a_position_that_nobody_understands_does_not_vanish() {
+    // row n: the move behind it does not begin where the one before it ended
+    let rapid = rapid(
+        &format!("CONST robtarget p := [[430,0,400],{P};\nVAR robtarget where;"),
+        "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ fSomewhere(3),v100,fine,tool0;\nMoveL p,v100,fine,tool0;",
+    );
+    let fanuc = "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J PR[5] 10% FINE ;\n   3:L P[2] 100mm/sec FINE ;\n/POS\n\
+        P[1]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = 0.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n\
+        P[2]{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = 180.000 deg, P = 0.000 deg, R = 0.000 deg\n};\n/END\n";
+    let urscript = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,-1.0,1.0,0,1.0,0])\n  movel(somewhere(3))\n  movel(p[0.43,0.0,0.4,0.0,1.5,0.0])\nend\n";
+    let inform = "/JOB\n//NAME T\n//POS\n///NPOS 2,0,0,1,0,0\n///TOOL 0\n///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\n\
+        C00000=430.000,0.000,500.000,180.0000,0.0000,0.0000\nC00001=430.000,0.000,400.000,180.0000,0.0000,0.0000\n\
+        //INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=10.00\nMOVJ P[I001] VJ=10.00\nMOVL C00001 V=100.0\nEND\n";
+    for (name, text) in [
+        ("t.mod", rapid.as_str()),
+        ("t.ls", fanuc),
+        ("t.script", urscript),
+        ("t.jbi", inform),
+    ] {
+        let program = read(&[(name, text)]);
+        let targets: Vec<bool> = program.moves.iter().map(|m| m.target.is_some()).collect();
+        assert_eq!(targets, [true, false, true], "{name}");
+        let before = program.before(&program.moves[2]);
+        assert_eq!(before, [poseshift::program::Before::One(1)], "{name}");
+    }
+}
