@@ -10,6 +10,29 @@
 //! The controller interpolates in its own model: joints, straight lines and arcs of the tool; the real model says where the
 //! tool and the links are then. Corners (zones) are not rounded: the path is that through the programmed corner, and moves
 //! with a zone are marked.
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::check::{Options, Scene, Subject, check};
+//! use poseshift::model::profile::Profile;
+//! use poseshift::program::{Source, language_of};
+//!
+//! let profile = Profile::from_yaml(include_str!("../../robots/abb_irb120_thesis.yaml"))?;
+//! let text = include_bytes!("../../programs/rapid/olp/in/Deburr.mod");
+//! let sources = [Source::new("Deburr.mod", text.to_vec())];
+//! let subject = Subject {
+//!     language: language_of(&sources[0]).expect("a language"),
+//!     sources: &sources,
+//!     nominal: None,
+//!     profile: &profile,
+//!     scene: &Scene::default(),
+//! };
+//! let found = check(&subject, &Options::default())?;
+//! // run as it is, this robot misses its targets by more than 0.1 mm
+//! assert!(found.summary.max_target_error.distance_m > 1e-4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod baseline;
 pub mod cell;

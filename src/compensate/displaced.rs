@@ -65,6 +65,23 @@ pub(super) fn check(
                 };
                 ground.at_move("displacement-unknown", severity, motion, message, hint)
             }
+            Displacement::Overwritten => {
+                let lost = approach
+                    .wanted(job)
+                    .separation(&(*ground.world_from_frame(approach.frame as usize) * *fake));
+                let message = format!(
+                    "the running program writes numbers over some of a copy of {name}: these lose a correction of {:.3} mm (the limit \
+                     is {:.3} mm)",
+                    mm_from_m(lost.distance_m),
+                    mm_from_m(limit_m)
+                );
+                let severity = if lost.distance_m > limit_m {
+                    Severity::Error
+                } else {
+                    Severity::Warning
+                };
+                ground.at_move("target-overwritten", severity, motion, message, hint)
+            }
             Displacement::By(shift) => {
                 let Some(gap) = landing(job, approach, fake, shift) else {
                     let message = format!("a point derived from {name} is out of reach");

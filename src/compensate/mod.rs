@@ -16,6 +16,24 @@
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::compensate::{Options, compensate};
+//! use poseshift::model::profile::Profile;
+//! use poseshift::program::{Source, language_of};
+//!
+//! let profile = Profile::from_yaml(include_str!("../../robots/abb_irb120_thesis.yaml"))?;
+//! let text = include_bytes!("../../programs/rapid/olp/in/Deburr.mod");
+//! let sources = [Source::new("Deburr.mod", text.to_vec())];
+//! let language = language_of(&sources[0]).expect("a language");
+//! let done = compensate(language, &sources, &profile, &Options::default())?;
+//! assert!(!done.is_refused() && done.summary.mean_after_m < 0.01 * done.summary.mean_before_m);
+//! let written = done.written(language, &sources, "", false)?;
+//! assert_ne!(written.sources[0].bytes, text);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod added;
 mod approach;

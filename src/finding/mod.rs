@@ -1,4 +1,15 @@
 //! What is done, but should be looked at, and the [table](TABLE) of all that there is to find.
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::finding::{Acceptance, kind};
+//!
+//! let shared = kind("target-shared").expect("a finding of the table");
+//! println!("{}: {}", shared.meaning, shared.remedy);
+//! assert!("target-shared:Deburr.mod:12".parse::<Acceptance>().is_ok());
+//! assert!("out-of-reach".parse::<Acceptance>().is_err());
+//! ```
 
 mod accept;
 mod table;

@@ -2,6 +2,18 @@
 //!
 //! A transform `a_from_b` maps coordinates in frame b to coordinates in frame a, so adjacent words match in a product:
 //! `world_from_tool = world_from_base * base_from_flange * flange_from_tool`. Lengths are metres, angles radians.
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::geometry::Pose;
+//!
+//! let world_from_base = Pose::<f64>::from_xyz_rxryrz([1.0, 0.0, 0.5, 0.0, 0.0, 0.3]);
+//! let base_from_tool = Pose::from_translation(0.4, 0.1, 0.2);
+//! let world_from_tool = world_from_base * base_from_tool;
+//! let again = world_from_base.inverse() * world_from_tool;
+//! assert!(again.separation(&base_from_tool).distance_m < 1e-15);
+//! ```
 
 mod dual;
 mod jet;

@@ -3,6 +3,20 @@
 //! The data flow: a [`profile::Profile`] gives the nominal [`Geometry`] and a list of [`effects`]; [`Model::build`] applies
 //! the effects that change the geometry once, and [`Model::forward`] evaluates the ones that depend on the posture for
 //! each set of commanded joint angles.
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::model::{Conditions, profile::{Mounted, Profile}};
+//!
+//! let profile = Profile::from_yaml(include_str!("../../robots/abb_irb120_thesis.yaml"))?;
+//! let (tool, conditions) = (Mounted::flange(), Conditions::default());
+//! let q = [0.0, 0.3, 0.2, 0.0, 1.0, 0.0];
+//! let nominal = profile.controller_model(&tool).forward(&q, &conditions);
+//! let real = profile.real_model(&tool, &conditions).forward(&q, &conditions);
+//! assert!(real.separation(&nominal).distance_m > 1e-4);
+//! # Ok::<(), poseshift::model::profile::ProfileError>(())
+//! ```
 
 pub(crate) mod batch;
 mod chain;

@@ -11,9 +11,9 @@ use super::before::{ANYWHERE, Before, START, Sets, Stop};
 use super::holding::{Atom, DECLARED, Holding, Holdings, NOTHING, Site};
 use super::readers::read_elsewhere;
 use crate::program::script::{
-    Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, NOT_DISPLACED, Part,
-    PartValue, RoutineId, Script, Start, Statement, TableId, ValueId, VariableId, Write, Written,
-    short,
+    Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, NOT_DISPLACED,
+    OVERWRITTEN, Part, PartValue, RoutineId, Script, Start, Statement, TableId, ValueId,
+    VariableId, Write, Written, short,
 };
 use std::collections::{BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
@@ -393,9 +393,16 @@ impl<'a> Flow<'a> {
                             target,
                             displacement: by,
                         },
-                        Atom::Target { target, .. } => Atom::Target {
+                        Atom::Target {
                             target,
-                            displacement: DISPLACED_SOMEHOW,
+                            displacement,
+                        } => Atom::Target {
+                            target,
+                            displacement: if displacement == OVERWRITTEN {
+                                OVERWRITTEN
+                            } else {
+                                DISPLACED_SOMEHOW
+                            },
                         },
                         // beside where the robot itself was nothing is as it is
                         Atom::Value(value) if *self.value(value) == Held::Actual => Atom::Anything,
@@ -899,11 +906,17 @@ impl<'a> Flow<'a> {
                 return self.holdings.intern(here);
             }
             How::Parts { first, parts } => (*first, parts.clone(), None),
-            How::PartSomehow(remark) => (0, 0..0, Some(*remark)),
+            How::PartSomehow(remark) | How::PartNumber(remark) => (0, 0..0, Some(*remark)),
         };
         let own = match self.script.variables[variable as usize].declared {
             Expr::Target(target) => Some(short(target)),
             _ => None,
+        };
+        // numbers of the text do not know of a correction; what is computed is mostly the old value and something more
+        let by = if matches!(write.how, How::PartNumber(_)) {
+            OVERWRITTEN
+        } else {
+            DISPLACED_SOMEHOW
         };
         let held = self.variable(state, variable);
         let atoms = self.holdings.of(held).to_vec();
@@ -913,7 +926,7 @@ impl<'a> Flow<'a> {
                 Atom::Target { target, .. } if own == Some(target) => Atom::Changed { target },
                 Atom::Target { target, .. } => Atom::Target {
                     target,
-                    displacement: DISPLACED_SOMEHOW,
+                    displacement: by,
                 },
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
@@ -1129,16 +1142,16 @@ impl<'a> Flow<'a> {
         let Expr::Target(own) = self.script.variables[variable as usize].declared else {
             return held;
         };
-        let part_written = Atom::Target {
+        let part_written = [DISPLACED_SOMEHOW, OVERWRITTEN].map(|displacement| Atom::Target {
             target: short(own),
-            displacement: DISPLACED_SOMEHOW,
-        };
+            displacement,
+        });
         let mut atoms = self.holdings.of(held).to_vec();
-        if atoms.iter().all(|(atom, _)| *atom != part_written) {
+        if atoms.iter().all(|(atom, _)| !part_written.contains(atom)) {
             return held;
         }
         for (atom, _) in &mut atoms {
-            if *atom == part_written {
+            if part_written.contains(atom) {
                 *atom = Atom::Changed { target: short(own) };
             }
         }

@@ -96,6 +96,10 @@ pub(super) fn choose(
     if let Some(posture) =
         nearest(&|posture| posture.configured).or_else(|| nearest(&|posture| posture.in_ranges))
     {
+        let is_other = |other: &Posture| other.configured && other.branch != posture.branch;
+        if start.is_none() && postures.iter().any(is_other) {
+            findings.push(assumed(ground, *target, &posture));
+        }
         return Some(posture);
     }
     let name = ground.name_of(*target);
@@ -180,6 +184,22 @@ fn unclear(ground: &Ground, target: TargetId, ambiguous: &Ambiguous) -> Finding 
         target,
         message,
         "put a joint target before it",
+    )
+}
+
+/// Neither the file nor the move before tells the posture.
+fn assumed(ground: &Ground, target: TargetId, posture: &Posture) -> Finding {
+    let message = format!(
+        "neither configuration data nor a move before tell in which posture the robot comes to {}: joints {} deg are assumed",
+        ground.name_of(target),
+        posture.q.map(|q| format!("{:.1}", q / DEG)).join(", ")
+    );
+    ground.at_target(
+        "posture-assumed",
+        Severity::Warning,
+        target,
+        message,
+        "begin with a joint move to joints, or give --start-joints",
     )
 }
 

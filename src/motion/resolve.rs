@@ -5,8 +5,8 @@ use super::flow::{Flow, Reached};
 use super::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::finding::{Finding, Severity};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, Expr, Held, Instruction, NOT_DISPLACED, NamedFrame, Place, Remark, RemarkId,
-    Script, ValueId, short,
+    DISPLACED_SOMEHOW, Expr, Held, Instruction, NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place,
+    Remark, RemarkId, Script, ValueId, short,
 };
 use crate::program::{
     Before, Displacement, Frame, FrameId, Language, Load, Move, Program, ReadError, Settings,
@@ -906,6 +906,7 @@ const MOST_ALTERNATIVES: u32 = 16;
 fn both(a: u32, b: u32) -> u32 {
     match (a, b) {
         (NOT_DISPLACED, other) | (other, NOT_DISPLACED) => other,
+        (OVERWRITTEN, _) | (_, OVERWRITTEN) => OVERWRITTEN,
         _ => DISPLACED_SOMEHOW,
     }
 }

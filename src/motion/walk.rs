@@ -309,7 +309,7 @@ impl Walker<'_, '_> {
         }
         let (value, displaced) = match (&decoded.value, &motion.displacement) {
             (Value::Pose(pose), Displacement::By(shift)) => (Value::Pose(shift.apply(pose)), false),
-            (value, Displacement::Unknown) => (*value, true),
+            (value, Displacement::Unknown | Displacement::Overwritten) => (*value, true),
             (value, _) => (*value, false),
         };
         let wanted = ground.wanted(&value, motion.tool, frame);

@@ -4,6 +4,21 @@
 //! to it with which tool in which work frame. It never evaluates kinematics. Writing is the reverse: the new numbers of a
 //! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
 //! stays as it was ([`Edits`]).
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::motion;
+//! use poseshift::program::{Settings, Source, language_of};
+//!
+//! let text = include_bytes!("../../programs/rapid/olp/in/Deburr.mod");
+//! let sources = [Source::new("Deburr.mod", text.to_vec())];
+//! let language = language_of(&sources[0]).expect("a language");
+//! assert_eq!(language.about().id, "rapid");
+//! let program = motion::read(language, &sources, &Settings::default())?;
+//! assert!(program.targets.len() > 10);
+//! # Ok::<(), poseshift::program::ReadError>(())
+//! ```
 
 pub mod csv;
 mod drive;
@@ -344,6 +359,8 @@ pub enum Displacement {
     By(Box<Shift>),
     /// Something that only the running program knows.
     Unknown,
+    /// The running program puts numbers of its own in the place of some of a copy's: these lose their correction.
+    Overwritten,
 }
 
 /// `shifted frame_from_tool = Trans(in_frame_m) · frame_from_tool · in_tool`.

@@ -8,6 +8,17 @@
 //!
 //! Lengths are metres, angles radians. A motion found here maps coordinates of the first set (FROM: the simulation, the
 //! nominal part) into the second (TO: the cell as measured).
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::register::kabsch::kabsch;
+//!
+//! let simulated = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.3]];
+//! let measured = simulated.map(|[x, y, z]| [x + 0.001, y, z - 0.002]);
+//! let fit = kabsch(&simulated, &measured, None).expect("four points that are no line");
+//! assert!((fit.to_from_from.translation[2] + 0.002).abs() < 1e-12);
+//! ```
 
 pub mod axes;
 pub mod features;

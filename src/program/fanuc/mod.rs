@@ -29,7 +29,8 @@
 //!
 //! Registers `R[n]` are not followed: what they select is unknown. A program that a local condition of a move (TB, TA) calls is
 //! taken to run behind the move. `PAYLOAD` is not read: a tool's load is the profile's. A translated INC, RTCP, COORD, IF or CALL is
-//! known in German only. That moves other than J keep the posture, and MOTN-018, are *not verified on a controller*.
+//! known in German only. That moves other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
+//! MOTN-018, are *not verified on a controller*.
 
 mod angles;
 mod config;

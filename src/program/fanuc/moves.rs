@@ -76,7 +76,7 @@ impl Reader<'_> {
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
-            configured: if letter == b'J' && !words.wrist_joint {
+            configured: if !words.wrist_joint {
                 Expr::Value(self.controller.honoured)
             } else {
                 Expr::Absent

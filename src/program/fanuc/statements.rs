@@ -397,7 +397,7 @@ impl Reader<'_> {
     fn set_register(&mut self, index: &[u8], value: &[u8]) {
         let Register { number, is_element } = register(index);
         let how = if is_element {
-            How::PartSomehow(self.controller.computed)
+            How::part(value, self.controller.computed)
         } else {
             How::Whole(self.position_value(value))
         };

@@ -368,7 +368,11 @@ impl<'a> Reader<'a> {
         self.note_sources(line, Some(operand));
         let computed = self.builder.script.remark(Cause::Computed.remark());
         match effect {
-            Effect::Part => self.write(line, written, How::PartSomehow(computed)),
+            Effect::Part => {
+                let sets = line.text.starts_with(b"SETE");
+                let value = words(line.text).last().filter(|_| sets).unwrap_or_default();
+                self.write(line, written, How::part(value, computed));
+            }
             Effect::Perhaps => {
                 self.builder.begin_if();
                 self.write(line, written, How::Whole(Expr::Unknown(computed)));

@@ -209,7 +209,7 @@ impl Modal {
             })
         });
         let external = script.remark(refusal(
-            "external-tcp",
+            "held-work-piece",
             "the robot holds the work piece and the tool stands still (#TCP)",
             "moves with a fixed tool are not compensated",
         ));

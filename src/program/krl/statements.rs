@@ -321,7 +321,8 @@ impl Reader {
         self.last = None;
         let how = if is_part {
             self.calls_in(cursor);
-            How::PartSomehow(self.builder.script.remark(computed()))
+            let remark = self.builder.script.remark(computed());
+            How::part(&cursor.bytes[cursor.at..cursor.end], remark)
         } else if cursor.peek().kind == Kind::End {
             return Ok(());
         } else {

@@ -403,7 +403,11 @@ impl Translator<'_> {
             return How::Whole(self.computed());
         };
         if component != Component::Whole {
-            return How::PartSomehow(self.changed());
+            let changed = self.changed();
+            return match expression {
+                Expression::Computed((from, to)) if from == to => How::PartNumber(changed),
+                _ => How::PartSomehow(changed),
+            };
         }
         if let Expression::Point {
             base: super::syntax::Base::Target(target),

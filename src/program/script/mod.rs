@@ -42,6 +42,8 @@ pub type Label = u32;
 pub const NOT_DISPLACED: DisplacementId = 0;
 /// [`Displacement::Unknown`] in [`Script::displacements`].
 pub const DISPLACED_SOMEHOW: DisplacementId = 1;
+/// [`Displacement::Overwritten`] in [`Script::displacements`].
+pub const OVERWRITTEN: DisplacementId = 2;
 
 /// The statements of all files.
 #[derive(Debug)]
@@ -101,7 +103,11 @@ impl Default for Script {
             parts: Vec::new(),
             lists: Vec::new(),
             remarks: Vec::new(),
-            displacements: vec![Displacement::None, Displacement::Unknown],
+            displacements: vec![
+                Displacement::None,
+                Displacement::Unknown,
+                Displacement::Overwritten,
+            ],
             routines: Vec::new(),
             statements: Vec::new(),
             instructions: Vec::new(),
@@ -430,6 +436,8 @@ pub enum How {
     },
     /// A part of it, in a manner that only the running program knows.
     PartSomehow(RemarkId),
+    /// A part of a position becomes a number of the text.
+    PartNumber(RemarkId),
 }
 
 /// A call.
@@ -456,6 +464,18 @@ pub struct Argument {
     pub value: Expr,
     /// The caller's variable that the routine may write through it.
     pub back: Option<VariableId>,
+}
+
+impl How {
+    /// A part of a position becomes what a text says: a number, or what the running program computes.
+    #[must_use]
+    pub fn part(text: &[u8], remark: RemarkId) -> Self {
+        if super::number::parse(text.trim_ascii()).is_some() {
+            Self::PartNumber(remark)
+        } else {
+            Self::PartSomehow(remark)
+        }
+    }
 }
 
 impl Script {
@@ -485,6 +505,7 @@ impl Script {
         match displacement {
             Displacement::None => NOT_DISPLACED,
             Displacement::Unknown => DISPLACED_SOMEHOW,
+            Displacement::Overwritten => OVERWRITTEN,
             Displacement::By(_) => {
                 self.displacements.push(displacement);
                 short(self.displacements.len() - 1)

@@ -352,3 +352,28 @@ fn a_move_to_a_position_that_nobody_understands_does_not_vanish() {
         assert_eq!(before, [poseshift::program::Before::One(1)], "{name}");
     }
 }
+
+#[test]
+fn numbers_written_over_a_part_of_a_copy_lose_their_correction() {
+    let program = |write: &str| {
+        rapid(
+            &format!("CONST robtarget p := [[430,0,300],{P};\nVAR robtarget here;"),
+            &format!(
+                "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nhere := p;\n{write}\nMoveL here,v100,fine,tool0;"
+            ),
+        )
+    };
+    let over = done(&[PLAIN], &[("t.mod", &program("here.trans.z := 320;"))]);
+    assert_eq!(errors(&over), ["target-overwritten"], "{:?}", over.findings);
+    // what is added to the old value takes the correction along
+    let more = done(
+        &[PLAIN],
+        &[("t.mod", &program("here.trans.z := here.trans.z + 20;"))],
+    );
+    assert_eq!(errors(&more), [""; 0], "{:?}", more.findings);
+    assert!(
+        more.findings.iter().any(|f| f.id.starts_with("displace")),
+        "{:?}",
+        more.findings
+    );
+}

@@ -324,7 +324,7 @@ fn fixed_tools_are_refused_by_name() {
         "FDAT_ACT={TOOL_NO 1,BASE_NO 2,IPO_FRAME #TCP,POINT2[] \" \"}\nBAS(#FRAMES)",
     ] {
         let program = in_cell(&format!("BAS(#TOOL,1)\nBAS(#BASE,2)\n{set}\nLIN XP1"));
-        assert_eq!(told(&program), ["external-tcp"], "{set}");
+        assert_eq!(told(&program), ["held-work-piece"], "{set}");
         assert_eq!(blocked(&program), ["XP1"]);
     }
     let program = in_cell("BAS(#TOOL,1)\nBAS(#BASE,2)\n$IPO_MODE=#TCP\n$IPO_MODE=#BASE\nLIN XP1");

@@ -71,7 +71,7 @@ fn the_sample_of_refusals_has_each_of_them() {
         .collect();
     let expected = [
         "absolutely-accurate",
-        "external-tcp",
+        "held-work-piece",
         "frame-chosen-at-run-time",
         "partial-target",
         "relative-move",
