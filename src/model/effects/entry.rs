@@ -1,6 +1,6 @@
 //! An effect as an entry of a profile: `{effect: ID, joint: 2, rad_per_n_m: 3.2e-5}`.
 
-use super::definition::{Definition, Parameter, Place};
+use super::definition::{Definition, Parameter, Place, Unit};
 use super::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
 use serde_json::{Map, Value, json};
 
@@ -86,6 +86,25 @@ impl EntryError {
                 "`poseshift effects` lists every key with its unit".into()
             }
         }
+    }
+}
+
+/// Angles above this, degrees, lengths above this, mm, and compliances from this on, rad/(N m), are none of an arm's errors.
+const MOST_DEG: f64 = 2.0;
+const MOST_MM: f64 = 20.0;
+const MOST_RAD_PER_N_M: f64 = 5e-3;
+/// What units cost in digits.
+const ROUNDED: f64 = 1e-12;
+
+/// The largest value of a parameter that a profile takes without a reason; `None` where any is.
+fn usual_limit(parameter: &Parameter) -> Option<f64> {
+    match parameter.unit {
+        Unit::Degree => Some(MOST_DEG),
+        // where a load has its centre is no error of the arm
+        Unit::Millimetre if parameter.key.starts_with("cog_") => None,
+        Unit::Millimetre => Some(MOST_MM),
+        Unit::RadPerNm => Some(MOST_RAD_PER_N_M),
+        _ => None,
     }
 }
 
@@ -199,6 +218,32 @@ impl Effect {
         entry
     }
 
+    /// A parameter beyond what arms usually have, its value and the limit, both in the profile's unit: a profile has to say
+    /// that it means it.
+    #[must_use]
+    pub fn beyond_usual(&self) -> Option<(&'static Parameter, f64, f64)> {
+        let parameters = self.parameters.iter().zip(self.definition().parameters);
+        parameters
+            .filter_map(|(value, parameter)| {
+                let limit = usual_limit(parameter)?;
+                Some((parameter, value / parameter.unit.in_si(), limit))
+            })
+            .find(|(parameter, value, limit)| {
+                let reaches = parameter.unit == Unit::RadPerNm;
+                let limit = limit
+                    * if reaches {
+                        1.0 - ROUNDED
+                    } else {
+                        1.0 + ROUNDED
+                    };
+                if reaches {
+                    value.abs() >= limit
+                } else {
+                    value.abs() > limit
+                }
+            })
+    }
+
     /// What it is and belongs to, in words: `joint_harmonic joint 6 order 2`.
     #[must_use]
     pub fn label(&self) -> String {
@@ -309,6 +354,8 @@ pub fn entry_schema() -> Value {
                 required.push(parameter.key);
             }
         }
+        properties.insert("large".into(), json!({"type": "boolean"}));
+        properties.insert("reason".into(), json!({"type": "string", "minLength": 1}));
         json!({
             "title": definition.id,
             "description": definition.summary,

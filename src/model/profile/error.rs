@@ -146,6 +146,60 @@ pub enum Fault {
         /// Which.
         label: String,
     },
+    /// An effect beyond what arms have.
+    #[error(
+        "`{key}` of `{label}` is {found} {unit}; more than {limit} {unit} is no error of an arm"
+    )]
+    Large {
+        /// The effect.
+        label: String,
+        /// The key.
+        key: &'static str,
+        /// What the file says.
+        found: f64,
+        /// The limit.
+        limit: f64,
+        /// Their unit.
+        unit: &'static str,
+    },
+    /// `large: true` that nobody can judge, or a reason for nothing.
+    #[error(
+        "`{label}`: `large: true` and `reason: \"…\"` stand together, and the reason is a text"
+    )]
+    LargeWithoutReason {
+        /// The effect.
+        label: String,
+    },
+    /// A mass beyond what the robot carries.
+    #[error("mass_kg of tool `{tool}` is {found}; robot.payload_kg is {payload}")]
+    BeyondPayload {
+        /// The tool.
+        tool: String,
+        /// Its mass, kg.
+        found: f64,
+        /// The limit, kg.
+        payload: f64,
+    },
+    /// A tool so small that its lengths must be in another unit.
+    #[error(
+        "the frame of tool `{tool}` is {largest_mm} mm from the flange at most in each coordinate; below 1 mm it is none, or in metres"
+    )]
+    TinyTool {
+        /// The tool.
+        tool: String,
+        /// Its largest coordinate, mm.
+        largest_mm: f64,
+    },
+    /// An angle of a frame in another unit than degrees.
+    #[error("{key} is {found}; a frame has at most {limit} deg")]
+    EndlessAngle {
+        /// The key.
+        key: &'static str,
+        /// What the file says, degrees.
+        found: f64,
+        /// The limit, degrees.
+        limit: f64,
+    },
     /// Effects of a controller that has none.
     #[error("the controller has effects, but computes with the nominal chain")]
     EffectsOfNominal,
@@ -196,6 +250,11 @@ impl ProfileError {
             Fault::UnknownBody { known, .. } => format!("bodies are: {known}"),
             Fault::MovingPlane { .. } => "a box does the same".into(),
             Fault::EffectsOfNominal => "set `model: calibrated`, or take the effects away".into(),
+            Fault::Large { .. } => "is it in the unit of its key? `large: true` with `reason: \"…\"` in the entry says that it is meant".into(),
+            Fault::LargeWithoutReason { .. } => "write `large: true, reason: \"…\"`, or leave both out".into(),
+            Fault::BeyondPayload { .. } => "masses are in kg; correct the tool or robot.payload_kg".into(),
+            Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange itself".into(),
+            Fault::EndlessAngle { .. } => "angles are in degrees, between -360 and 360".into(),
             Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
             Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),
             _ => String::new(),

@@ -75,6 +75,10 @@ pub struct RobotFile {
     /// Serial number.
     #[serde(default)]
     pub serial: Option<String>,
+    /// The largest mass that the flange may carry; without it masses of tools and loads are not checked.
+    #[serde(default)]
+    #[schemars(with = "Option<Number>")]
+    pub payload_kg: Option<Spanned<Number>>,
 }
 
 /// How the controller is programmed and what it computes with.
@@ -224,7 +228,8 @@ pub struct ToolFile {
     pub cog_mm: Option<[Number; 3]>,
 }
 
-/// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them.
+/// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them; beside them `large: true` with
+/// a `reason` where a value is beyond the usual.
 pub type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
 
 /// What was identified.

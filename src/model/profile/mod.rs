@@ -17,7 +17,7 @@ pub use write::{WriteError, rewritten};
 use super::effects::{Effect, Kind, Need};
 use super::shape::{Form, LinkShape};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};
-use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion, Vector};
 pub(crate) use file::{Number, PoseFile};
 use serde_yaml::{Location, Spanned};
@@ -25,6 +25,12 @@ use std::collections::BTreeMap;
 
 /// How far a quaternion's length may be from 1.
 const UNIT_TOLERANCE: f64 = 1e-3;
+/// A tool that is nearer to the flange in each coordinate is in another unit, or none.
+const TINY_M: f64 = 1e-3;
+/// Lengths below this are zero.
+const NO_LENGTH_M: f64 = 1e-9;
+/// No frame is turned by more: two whole turns.
+const MOST_ANGLE_DEG: f64 = 720.0;
 
 /// One robot: its nominal arm, tools, and what was identified of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +41,8 @@ pub struct Profile {
     pub model: String,
     /// Serial number.
     pub serial: Option<String>,
+    /// The largest mass that the flange may carry, where the file gives it.
+    pub payload_kg: Option<f64>,
     /// Programming language of the controller.
     pub language: Option<String>,
     /// What the controller computes with.
@@ -65,10 +73,21 @@ pub struct Profile {
     pub points: BTreeMap<String, Vector>,
     /// The identified effects.
     pub effects: Vec<Effect>,
+    /// Why effects may be beyond the usual.
+    pub large: Reasons,
     /// Statistics of the calibration, as the file has them.
     pub quality: Option<serde_json::Value>,
     /// Where the calibration comes from, as the file has it.
     pub provenance: Option<serde_json::Value>,
+}
+
+/// Why effects of a profile may be beyond the usual (`large: true` with a `reason`), by [`Effect::label`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reasons {
+    /// Those of the controller's own chain.
+    pub controller: BTreeMap<String, String>,
+    /// Those of the calibration.
+    pub calibration: BTreeMap<String, String>,
 }
 
 /// A tool of the profile.
@@ -122,7 +141,19 @@ impl Profile {
             .at(file.poseshift.defined));
         }
         let kinematics = file.kinematics;
-        let own_effects = own_effects(file.controller.model, file.controller.effects)?;
+        let mut large = Reasons::default();
+        let own_effects = own_effects(
+            file.controller.model,
+            file.controller.effects,
+            &mut large.controller,
+        )?;
+        let payload_kg = match file.robot.payload_kg {
+            Some(kg) if kg.value.0 <= 0.0 => {
+                let (key, found) = ("payload_kg", kg.value.0);
+                return Err(Fault::NotPositive { key, found }.at(kg.defined));
+            }
+            kg => kg.map(|kg| kg.value.0),
+        };
         let mut bodies = Vec::new();
         for body in &file.bodies {
             let at = body.defined;
@@ -139,6 +170,15 @@ impl Profile {
         for (name, tool) in file.tools {
             let load = match (tool.mass_kg, tool.cog_mm) {
                 (Some(kg), cog) => {
+                    if let Some(payload) = payload_kg.filter(|most| kg.value.0 > *most) {
+                        let (tool, found) = (name, kg.value.0);
+                        return Err(Fault::BeyondPayload {
+                            tool,
+                            found,
+                            payload,
+                        }
+                        .at(kg.defined));
+                    }
                     Some((mass(kg.value, kg.defined)?, cog.map_or([0.0; 3], metres)))
                 }
                 (None, Some(_)) => {
@@ -146,13 +186,29 @@ impl Profile {
                 }
                 (None, None) => None,
             };
+            let flange_from_tool = pose(&tool.frame)?;
+            check_angles(&tool.frame)?;
+            if is_tiny(&flange_from_tool) {
+                let largest = flange_from_tool
+                    .translation
+                    .iter()
+                    .fold(0.0, |most: f64, m| most.max(m.abs()));
+                return Err(Fault::TinyTool {
+                    tool: name,
+                    largest_mm: mm_from_m(largest),
+                }
+                .at(tool.frame.defined));
+            }
             tools.insert(
                 name,
                 ToolOfProfile {
-                    flange_from_tool: pose(&tool.frame)?,
+                    flange_from_tool,
                     load,
                 },
             );
+        }
+        for frame in kinematics.base.iter().chain(&kinematics.flange) {
+            check_angles(frame)?;
         }
         let (links, joints) = rows(&kinematics.joints)?;
         let mut joint_speeds = [None; 6];
@@ -170,6 +226,7 @@ impl Profile {
             manufacturer: file.robot.manufacturer,
             model: file.robot.model,
             serial: file.robot.serial,
+            payload_kg,
             language: file.controller.language.map(|language| language.value),
             controller: file.controller.model,
             own_effects,
@@ -200,7 +257,8 @@ impl Profile {
                 .into_iter()
                 .map(|(name, point)| (name, metres(point)))
                 .collect(),
-            effects: effects(file.calibration.effects)?,
+            effects: effects(file.calibration.effects, &mut large.calibration)?,
+            large,
             quality: file.calibration.quality,
             provenance: file.calibration.provenance,
         };
@@ -418,6 +476,28 @@ fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, P
     Ok(ordered)
 }
 
+/// Whether a tool is off the flange, and by less than a millimetre in each coordinate: metres are meant.
+pub(crate) fn is_tiny(flange_from_tool: &Pose) -> bool {
+    let off = flange_from_tool.translation.map(f64::abs);
+    off.iter().all(|m| *m < TINY_M) && off.iter().any(|m| *m > NO_LENGTH_M)
+}
+
+/// No frame is turned by so much.
+fn check_angles(file: &Spanned<PoseFile>) -> Result<(), ProfileError> {
+    let angles = [
+        ("rx_deg", file.value.rx_deg),
+        ("ry_deg", file.value.ry_deg),
+        ("rz_deg", file.value.rz_deg),
+    ];
+    for (key, angle) in angles {
+        if let Some(Number(found)) = angle.filter(|angle| angle.0.abs() > MOST_ANGLE_DEG) {
+            let limit = MOST_ANGLE_DEG;
+            return Err(Fault::EndlessAngle { key, found, limit }.at(file.defined));
+        }
+    }
+    Ok(())
+}
+
 pub(crate) fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
     let p = &file.value;
     let translation = metres([p.x_mm, p.y_mm, p.z_mm]);
@@ -453,12 +533,13 @@ pub(crate) fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
 fn own_effects(
     model: ControllerModel,
     entries: Option<Vec<file::EffectFile>>,
+    large: &mut BTreeMap<String, String>,
 ) -> Result<Option<Vec<Effect>>, ProfileError> {
     let Some(entries) = entries else {
         return Ok(None);
     };
     let places: Vec<Location> = entries.iter().map(|entry| entry.defined).collect();
-    let effects = effects(entries)?;
+    let effects = effects(entries, large)?;
     for (effect, at) in effects.iter().zip(places) {
         if model == ControllerModel::Nominal {
             return Err(Fault::EffectsOfNominal.at(at));
@@ -475,9 +556,15 @@ fn own_effects(
     Ok(Some(effects))
 }
 
-fn effects(entries: Vec<file::EffectFile>) -> Result<Vec<Effect>, ProfileError> {
+/// `large` takes the reasons of those that are beyond the usual.
+fn effects(
+    entries: Vec<file::EffectFile>,
+    large: &mut BTreeMap<String, String>,
+) -> Result<Vec<Effect>, ProfileError> {
     let mut out: Vec<Effect> = Vec::new();
-    for entry in entries {
+    for mut entry in entries {
+        let says_large = entry.value.remove("large");
+        let reason = entry.value.remove("reason");
         let at = entry.defined;
         let places: BTreeMap<_, _> = entry
             .value
@@ -506,6 +593,34 @@ fn effects(entries: Vec<file::EffectFile>) -> Result<Vec<Effect>, ProfileError> 
                 label: effect.label(),
             }
             .at(at));
+        }
+        let said = says_large.as_ref().map(|said| &said.value);
+        let why = reason.as_ref().map(|reason| reason.value.as_str());
+        let why = why.map(|why| why.filter(|why| !why.trim().is_empty()));
+        match (said, why) {
+            (Some(serde_json::Value::Bool(true)), Some(Some(why))) => {
+                large.insert(effect.label(), why.to_owned());
+            }
+            (None | Some(serde_json::Value::Bool(false)), None) => {
+                if let Some((parameter, found, limit)) = effect.beyond_usual() {
+                    let at = places.get(parameter.key).copied().unwrap_or(at);
+                    return Err(Fault::Large {
+                        label: effect.label(),
+                        key: parameter.key,
+                        found,
+                        limit,
+                        unit: parameter.unit.symbol(),
+                    }
+                    .at(at));
+                }
+            }
+            _ => {
+                let place = says_large.or(reason).map_or(at, |said| said.defined);
+                return Err(Fault::LargeWithoutReason {
+                    label: effect.label(),
+                }
+                .at(place));
+            }
         }
         out.push(effect);
     }

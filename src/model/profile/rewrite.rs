@@ -53,6 +53,7 @@ pub fn with_controller(
     let same = own.len() == effects.len() && own.iter().zip(effects).all(|(a, b)| near(a, b));
     let rest = Profile {
         own_effects: meant.own_effects.clone(),
+        large: meant.large.clone(),
         ..written
     };
     (same && rest == meant).then_some(out)
@@ -96,6 +97,9 @@ fn entry(effect: &Effect) -> String {
             .as_str()
             .map_or_else(|| value.to_string(), ToOwned::to_owned);
         write!(out, "{comma}{key}: {value}").expect("a text takes all");
+    }
+    if effect.beyond_usual().is_some() {
+        out += ", large: true, reason: \"the controller computes with it\"";
     }
     out + "}"
 }

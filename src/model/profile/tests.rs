@@ -153,3 +153,108 @@ fn what_is_no_calibration_of_this_arm_is_told() {
     let error = link_geometry(CONF, &other.expect("a shipped profile")).expect_err("an ABB");
     assert!(matches!(error, UrError::NotTheTable { .. }), "{error}");
 }
+
+#[test]
+fn an_effect_beyond_the_usual_says_that_it_is_meant_and_why() {
+    let with = |entry: &str| {
+        ur5(
+            "{model: nominal}",
+            &format!("calibration:\n  effects:\n    - {entry}\n"),
+        )
+    };
+    for (entry, key) in [
+        (
+            "{effect: link_geometry, link: 3, theta_deg: 2.1}",
+            "theta_deg",
+        ),
+        ("{effect: link_geometry, link: 3, a_mm: -20.5}", "a_mm"),
+        (
+            "{effect: joint_compliance, joint: 2, rad_per_n_m: 5e-3}",
+            "rad_per_n_m",
+        ),
+        ("{effect: base_frame, x_mm: 75}", "x_mm"),
+        ("{effect: backlash, joint: 2, width_deg: 3}", "width_deg"),
+    ] {
+        let error = with(entry).expect_err(entry);
+        assert!(
+            matches!(&error.fault, Fault::Large { key: of, .. } if *of == key),
+            "{error}"
+        );
+        assert!(
+            error.line > 0 && error.hint().contains("large: true"),
+            "{error}"
+        );
+        let meant = entry.replace('}', ", large: true, reason: \"measured\"}");
+        let profile = with(&meant).expect(&meant);
+        assert_eq!(
+            profile.large.calibration.values().collect::<Vec<_>>(),
+            ["measured"]
+        );
+        // both stay when the profile is written again
+        let text = ur5_text(&format!("calibration:\n  effects:\n    - {meant}\n"));
+        let again = rewritten(&text, &profile).expect("a plain layout");
+        assert!(again.contains("large: true, reason: measured}"), "{again}");
+        assert_eq!(
+            Profile::from_yaml(&again).expect("read back").large,
+            profile.large
+        );
+    }
+    for entry in [
+        "{effect: base_frame, x_mm: 75, large: true}",
+        "{effect: base_frame, x_mm: 75, large: true, reason: \" \"}",
+        "{effect: base_frame, x_mm: 75, large: 1, reason: a}",
+        "{effect: base_frame, x_mm: 1, reason: a}",
+    ] {
+        let error = with(entry).expect_err(entry);
+        assert!(
+            matches!(error.fault, Fault::LargeWithoutReason { .. }),
+            "{error}"
+        );
+    }
+    for entry in [
+        "{effect: link_geometry, link: 3, theta_deg: 2, a_mm: 20}",
+        "{effect: joint_compliance, joint: 2, rad_per_n_m: 4.9e-3}",
+        "{effect: payload_error, mass_kg: 1, cog_x_mm: 50}",
+        "{effect: base_frame, x_mm: 1, large: false}",
+    ] {
+        assert!(with(entry).is_ok(), "{entry}: {:?}", with(entry));
+    }
+    assert!(with("{effect: base_frame, x_mm: .inf}").is_err());
+    let schema = Profile::schema().to_string();
+    assert!(schema.contains("\"reason\"") && schema.contains("\"payload_kg\""));
+}
+
+fn ur5_text(calibration: &str) -> String {
+    let start = UR5.find("calibration:\n").expect("the last block");
+    UR5[..start].to_owned() + calibration
+}
+
+#[test]
+fn tools_and_frames_in_other_units_are_faults_with_their_place() {
+    let tools = |tool: &str| {
+        let start = UR5.find("calibration:\n").expect("the last block");
+        let text = UR5[..start].replace("tools: {}\n", "");
+        let text = text.replace("robot: {", "robot: {payload_kg: 5, ");
+        Profile::from_yaml(&format!("{text}tools:\n  t: {tool}\n"))
+    };
+    let frame = |z: &str, rz: &str| {
+        format!("{{frame: {{x_mm: 0, y_mm: 0, z_mm: {z}, rx_deg: 0, ry_deg: 0, rz_deg: {rz}}}")
+    };
+    for good in [
+        frame("0", "0") + "}",
+        frame("1.5", "-360") + ", mass_kg: 5}",
+    ] {
+        assert!(tools(&good).is_ok(), "{good}: {:?}", tools(&good));
+    }
+    let fault = |tool: String| tools(&tool).expect_err(&tool).fault;
+    assert!(matches!(
+        fault(frame("0.1", "0") + "}"),
+        Fault::TinyTool { .. }
+    ));
+    assert!(matches!(
+        fault(frame("100", "721") + "}"),
+        Fault::EndlessAngle { .. }
+    ));
+    let heavy = frame("100", "0") + ", mass_kg: 5.1}";
+    assert!(matches!(fault(heavy), Fault::BeyondPayload { .. }));
+}

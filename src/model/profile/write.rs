@@ -100,6 +100,9 @@ fn of_robot(profile: &Profile) -> impl Iterator<Item = &Effect> {
 const IDENTIFIED: &str = "# Its calibration was identified by poseshift from measurements (quality and provenance below). The other comments are of the\n\
      # profile that it started from: what they say of effects is not of this one.\n";
 
+/// Why an effect that was identified may be beyond the usual.
+const IDENTIFIED_LARGE: &str = "identified from measurements";
+
 /// The section `calibration`.
 fn calibration(profile: &Profile) -> String {
     let mut out = String::from("calibration:\n");
@@ -110,8 +113,14 @@ fn calibration(profile: &Profile) -> String {
         "  effects:\n"
     };
     for effect in effects {
-        let entry: Vec<String> = effect
-            .to_entry()
+        let mut entry = effect.to_entry();
+        let reason = profile.large.calibration.get(&effect.label());
+        let identified = || effect.beyond_usual().map(|_| IDENTIFIED_LARGE);
+        if let Some(reason) = reason.map(String::as_str).or_else(identified) {
+            entry.push(("large", json!(true)));
+            entry.push(("reason", json!(reason)));
+        }
+        let entry: Vec<String> = entry
             .into_iter()
             .map(|(key, value)| format!("{key}: {}", plain_or_flow(&value)))
             .collect();

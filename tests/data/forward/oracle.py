@@ -571,13 +571,16 @@ UR5_LINKS = each("link_geometry", ["link", "alpha_deg", "a_mm", "theta_deg", "d_
                  (4, -0.01, 0.09, 0.03, 0.15, -0.008),
                  (5, 0.021, 0.04, -0.05, -0.07, 0),
                  (6, -0.016, -0.03, 0.08, 0.02, 0))
+for link in UR5_LINKS[1:3]:
+    link.update(large="true", reason='"parallel axes: the d of links 2 and 3 cancel"')
 
 LRMATE_EFFECTS = {
     "link_geometry": each("link_geometry", ["link", "alpha_deg", "a_mm", "theta_deg", "d_mm", "beta_deg"],
                           (1, 0.011, -0.12, 0.02, 0.21, 0.004), (2, -0.017, 0.15, 0.06, -0.08, -0.009),
                           (3, 0.023, -0.31, -0.04, 0.13, 0.019), (4, -0.013, 0.08, 0.05, -0.27, 0.006),
                           (5, 0.019, -0.06, -0.03, 0.07, -0.011), (6, -0.021, 0.04, 0.08, 0.05, 0.014)),
-    "base_frame": [{"effect": "base_frame", **xyz(12.3, -45.6, 7.89, 1.2, -3.4, 56.7)}],
+    "base_frame": [{"effect": "base_frame", **xyz(12.3, -45.6, 7.89, 1.2, -3.4, 56.7), "large": "true",
+                    "reason": '"far from the nominal base, for the test"'}],
     "tool_frame": [{"effect": "tool_frame", **xyz(0.9, -0.8, 0.7, 0.6, -0.5, 0.4)}],
     "joint_scale": each("joint_scale", ["joint", "ratio"], (1, 1.5e-4), (2, -2.1e-4), (3, 2.8e-4), (6, -3.3e-4)),
     "joint_compliance": each("joint_compliance", ["joint", "rad_per_n_m"],
