@@ -15,8 +15,8 @@ use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
 use crate::task::check::{Checked as Run, Header};
 use crate::task::files::write_all;
 use crate::task::meshes::Loader;
-use crate::task::programs::{common_language, explain, language_by_id};
-use crate::task::{Document, Failure, ProfileFile, text};
+use crate::task::programs::{common_language, explain, language_by_id, refuse_other_origin};
+use crate::task::{Document, Failure, text};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -35,6 +35,9 @@ pub struct Check {
     /// The program that a compensated one was made from: where the tool is wanted
     #[arg(long, value_name = "ORIGINAL")]
     nominal: Vec<PathBuf>,
+    /// Compare with --nominal and --profile although the marker of a program names another original or profile
+    #[arg(long)]
+    force: bool,
     /// A path error above this is an error, mm
     #[arg(long, value_name = "MM")]
     max_path_error: Option<f64>,
@@ -87,12 +90,9 @@ enum Orientation {
 impl Check {
     pub fn run(&self, output: Output) -> Result<Answer, Failure> {
         self.refuse_nonsense()?;
-        let ProfileFile {
-            mut profile,
-            sha256: profile_sha256,
-            name,
-            ..
-        } = files::profile(&self.profile)?;
+        let file = files::profile(&self.profile)?;
+        let mut profile = file.profile.clone();
+        let (name, profile_sha256) = (file.name.clone(), file.sha256.clone());
         let mut meshes = Loader::new(&|path| std::fs::read(path));
         for shape in &mut profile.shapes {
             meshes.load(&mut shape.shape, &name)?;
@@ -113,6 +113,9 @@ impl Check {
         } else {
             Some(read_programs(&self.nominal, Some(language))?)
         };
+        if let Some(originals) = nominal.as_deref().filter(|_| !self.force) {
+            refuse_other_origin(&sources, originals, &file)?;
+        }
         let subject = Subject {
             language,
             sources: &sources,

@@ -1,10 +1,18 @@
 //! The comment that says a file is compensated.
 
-use memchr::memmem;
+use crate::finding::kind;
 use sha2::{Digest, Sha256};
 
 /// The word that a marker starts with; no program that was not compensated holds it.
 const WORD: &str = "poseshift compensated this file";
+/// The fewest digits of a hash that a language keeps.
+const LEAST_DIGITS: usize = 16;
+/// Digits of a hash in one comment of INFORM.
+const HALF_HASH: usize = 32;
+/// Bytes between the words of a marker, at most.
+const WIDEST_GAP: usize = 24;
+/// Bytes of a line that tells what was decided, at most.
+const WIDEST_DECISION: usize = 80;
 
 /// What a compensated file says about itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,10 +40,138 @@ impl Marker {
         lines
     }
 
-    /// Offset of a marker in a file, where there is one.
+    /// Offset of a marker in a file, where there is one: any of its lines is enough, in any case and spacing.
     #[must_use]
     pub fn find(bytes: &[u8]) -> Option<usize> {
-        memmem::find(bytes, WORD.as_bytes())
+        let found = Found::of(bytes);
+        found.offset
+    }
+}
+
+/// What markers in a file say.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Found {
+    /// Where the first begins.
+    pub offset: Option<usize>,
+    /// Hashes of profiles, lower case, as many digits as the language keeps.
+    pub profiles: Vec<String>,
+    /// Hashes of the files that this one was made from, likewise.
+    pub sources: Vec<String>,
+}
+
+impl Found {
+    /// Looks for markers in a file.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Self {
+        let mut found = Self::default();
+        for at in memchr::memchr2_iter(b'p', b'P', bytes) {
+            if sentence(bytes, at) {
+                found.see(at);
+                break;
+            }
+        }
+        let mut start = 0;
+        for end in memchr::memchr2_iter(b'\n', b'\r', bytes).chain([bytes.len()]) {
+            found.line(bytes, start, end);
+            start = end + 1;
+        }
+        found
+    }
+
+    fn see(&mut self, at: usize) {
+        self.offset = Some(self.offset.map_or(at, |before| before.min(at)));
+    }
+
+    /// One line.
+    fn line(&mut self, bytes: &[u8], start: usize, end: usize) {
+        let at = start + comment_sign(&bytes[start..end]);
+        if let Some(digest) = digest(bytes, at, b"profile") {
+            self.see(at);
+            self.profiles.push(digest);
+        } else if let Some(digest) = digest(bytes, at, b"source") {
+            self.see(at);
+            self.sources.push(digest);
+        } else if decided(&bytes[at.min(end)..end]) || is_rest(&bytes[start..end]) {
+            self.see(at);
+        }
+    }
+}
+
+/// Bytes before the text of a comment: signs, blanks, the number of a line.
+fn comment_sign(line: &[u8]) -> usize {
+    let sign = |line: &[u8]| {
+        let letters = line.iter().take_while(|b| !b.is_ascii_alphanumeric());
+        letters.count()
+    };
+    let signs = sign(line);
+    let digits = line[signs..].iter().take_while(|b| b.is_ascii_digit());
+    let digits = digits.count();
+    if digits > 0 && line.get(signs + digits) == Some(&b':') {
+        let behind = signs + digits;
+        return behind + sign(&line[behind..]);
+    }
+    signs
+}
+
+/// The byte behind a word at a place, in any case.
+fn word(bytes: &[u8], at: usize, word: &[u8]) -> Option<usize> {
+    let text = bytes.get(at..at + word.len())?;
+    text.eq_ignore_ascii_case(word).then_some(at + word.len())
+}
+
+/// Whether the words of a marker's first line stand here, whatever is between them.
+fn sentence(bytes: &[u8], at: usize) -> bool {
+    let mut at = Some(at);
+    for part in WORD.split(' ') {
+        at = at
+            .map(|at| at + gap(&bytes[at.min(bytes.len())..]))
+            .and_then(|at| word(bytes, at, part.as_bytes()));
+    }
+    at.is_some()
+}
+
+/// Bytes that are neither letters nor digits: blanks, the end of a line and the sign of the next comment.
+fn gap(bytes: &[u8]) -> usize {
+    let gap = bytes.iter().take(WIDEST_GAP);
+    gap.take_while(|b| !b.is_ascii_alphanumeric()).count()
+}
+
+/// The digits of a hash behind its name.
+fn digest(bytes: &[u8], at: usize, name: &[u8]) -> Option<String> {
+    let behind = word(bytes, at, name)?;
+    let between = gap(&bytes[behind..]);
+    let digits = &bytes[behind + between..];
+    let count = digits.iter().take_while(|b| b.is_ascii_alphanumeric());
+    let digits = &digits[..count.count()];
+    let is_hash = between > 0
+        && (LEAST_DIGITS..=64).contains(&digits.len())
+        && digits.iter().all(u8::is_ascii_hexdigit);
+    is_hash.then(|| String::from_utf8_lossy(digits).to_ascii_lowercase())
+}
+
+/// Whether a line is half a hash, as INFORM's short comments hold it.
+fn is_rest(line: &[u8]) -> bool {
+    let digits = line.trim_ascii().strip_prefix(b"'");
+    let digits = digits.map(<[u8]>::trim_ascii_start);
+    digits.is_some_and(|text| text.len() == HALF_HASH && text.iter().all(u8::is_ascii_hexdigit))
+}
+
+/// Whether a comment's text is a line of what was decided.
+fn decided(text: &[u8]) -> bool {
+    let Some(text) = text.get(..text.len().min(WIDEST_DECISION)) else {
+        return false;
+    };
+    let is = |first: &[u8]| word(text, 0, first).is_some();
+    if !is(b"accepted") && !is(b"max-shift") {
+        return false;
+    }
+    let text = String::from_utf8_lossy(text).to_ascii_lowercase();
+    let mut words = text.split(|c: char| c.is_ascii_whitespace() || c == ';');
+    let mut words = words.by_ref().filter(|word| !word.is_empty());
+    match (words.next(), words.next(), words.next()) {
+        (Some("accepted"), Some(id), None) => kind(id).is_some(),
+        (Some("max-shift"), Some(limit), None) => limit.contains("mm,") && limit.ends_with("deg"),
+        _ => false,
     }
 }
 
@@ -64,5 +200,46 @@ mod tests {
         assert_eq!(Marker::find(text.as_bytes()), Some(11));
         assert!(text.ends_with("! accepted target-shared\n"));
         assert_eq!(Marker::find(b"! made by poseshift"), None);
+    }
+
+    #[test]
+    fn any_line_in_any_case_and_spacing_is_a_marker() {
+        let profile = format!("profile {}", "a1".repeat(32));
+        let remark = format!("   4:  !SOURCE   {} v1.2 ;", "B2".repeat(8));
+        for text in [
+            "!PoseShift  Compensated\tthis file",
+            "poseshiftCOMPENSATEDthisfile",
+            "  # accepted target-shared",
+            "; MAX-SHIFT 30mm,3deg",
+            profile.as_str(),
+            remark.as_str(),
+        ] {
+            let inside = format!("MODULE m\r\n{text}\r\nENDMODULE\r\n");
+            assert!(Marker::find(inside.as_bytes()).is_some(), "{text}");
+        }
+        for text in [
+            "! profile of the part: abcdef",
+            "! source code 0123",
+            "! accepted by the customer",
+            "! accepted rounding errors",
+            "PROFILE := 1234;",
+            "! poseshift did not compensate this file",
+        ] {
+            assert_eq!(Marker::find(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn the_hashes_are_read_over_the_lines_of_comments() {
+        let text = format!(
+            "'profile\r\n'{}\r\n'{}\r\n//source {}\r\n",
+            "a".repeat(32),
+            "b".repeat(32),
+            "C".repeat(64)
+        );
+        let found = Found::of(text.as_bytes());
+        assert_eq!(found.profiles, ["a".repeat(32)]);
+        assert_eq!(found.offset, Some(1));
+        assert_eq!(found.sources, ["c".repeat(64)]);
     }
 }

@@ -41,7 +41,7 @@ pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;
 pub use insert::{Between, Inserted, Insertion, Replacements};
-pub use marker::{Marker, sha256};
+pub use marker::{Found, Marker, sha256};
 pub use script::{Instruction, Place, Script};
 pub use source::Source;
 

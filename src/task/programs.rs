@@ -6,7 +6,7 @@ use crate::compensate::CompensateError;
 use crate::finding::{Acceptance, AcceptanceError};
 use crate::model::effects::Effect;
 use crate::model::profile::{ControllerModel, Profile};
-use crate::program::{LANGUAGES, Language, Marker, Source, language_of};
+use crate::program::{Found, LANGUAGES, Language, Marker, Source, language_of, sha256};
 
 /// The language of this id.
 ///
@@ -128,6 +128,62 @@ pub fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
                 "this file is already compensated",
                 hint,
             ));
+        }
+    }
+    Ok(())
+}
+
+/// Digits of a hash that a message shows.
+const SHOWN: usize = 16;
+
+/// That compensated programs were made with this profile from one of these originals, as their markers say.
+///
+/// # Errors
+/// A marker names another profile or another original.
+pub fn refuse_other_origin(
+    sources: &[Source],
+    originals: &[Source],
+    profile: &ProfileFile,
+) -> Result<(), Failure> {
+    let short = |digits: &str| digits[..digits.len().min(SHOWN)].to_owned();
+    let hashes: Vec<String> = originals.iter().map(|of| sha256(&of.bytes)).collect();
+    for source in sources.iter().filter(|source| !source.is_context) {
+        let found = Found::of(&source.bytes);
+        let Some(offset) = found.offset else {
+            continue;
+        };
+        let (line, column) = source.line_column(offset);
+        let fail = |message: String, what: &str| {
+            let hint =
+                format!("give the {what} that it was made with; --force compares all the same");
+            Err(Failure::at(source, line, column, None, message, &hint))
+        };
+        let begins = |hash: &str, all: &[String]| {
+            let mut all = all.iter();
+            all.any(|digits| hash.starts_with(digits.as_str()))
+        };
+        if !found.profiles.is_empty() && !begins(&profile.sha256, &found.profiles) {
+            let message = format!(
+                "this file was compensated with a profile of SHA-256 {}…; {} has {}…",
+                short(&found.profiles[0]),
+                profile.name,
+                short(&profile.sha256)
+            );
+            return fail(message, "profile");
+        }
+        let known = |hash: &String| begins(hash, &found.sources);
+        if !found.sources.is_empty() && !hashes.iter().any(known) {
+            let each = originals.iter().zip(&hashes);
+            let each: Vec<String> = each
+                .take(3)
+                .map(|(of, hash)| format!("{} has {}…", of.name, short(hash)))
+                .collect();
+            let message = format!(
+                "this file was made from a program of SHA-256 {}…; {}",
+                short(&found.sources[0]),
+                each.join(", ")
+            );
+            return fail(message, "original program");
         }
     }
     Ok(())
