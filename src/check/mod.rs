@@ -59,7 +59,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Separation};
 use crate::model::profile::Profile;
-use crate::motion::Given;
+use crate::motion::{Given, setting};
 use crate::program::{Language, Motion, Move, Program, Source};
 use collision::Clearance;
 use deviation::PathError;
@@ -248,6 +248,9 @@ pub fn check(subject: &Subject, options: &Options) -> Result<Check, CheckError> 
         .map(|sources| Walk::of(subject.language, sources, subject.profile, options))
         .transpose()
         .map_err(CheckError::Nominal)?;
+    let of_original = original.iter().map(|original| &original.program);
+    let programs: Vec<&Program> = std::iter::once(&walk.program).chain(of_original).collect();
+    setting::check_given(&programs, &options.given).map_err(CompensateError::from)?;
     let parts = original
         .as_ref()
         .map(|original| nominal::align(&walk, original, subject, options))

@@ -5,7 +5,7 @@ use super::collision::Mover;
 use super::deviation::Models;
 use super::uncertainty::Spread;
 use crate::compensate::CompensateError;
-use crate::finding::Finding;
+use crate::finding::{Finding, Severity};
 use crate::geometry::Jet;
 use crate::geometry::Pose;
 use crate::inverse::Branch;
@@ -13,6 +13,7 @@ use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
 use crate::motion::arms::Equipped;
 use crate::motion::course::{Course, Leg, ToolCourse, Turning};
+use crate::motion::doubt;
 use crate::motion::ground::Ground;
 use crate::motion::setting::Setting;
 use crate::motion::walk::{self, Arrival, Pace};
@@ -130,6 +131,7 @@ impl Walk {
             &options.given,
             has_numbers,
         )?;
+        doubt::units(&ground, Severity::Warning, &mut findings);
         let pace = Pace {
             start_joints: options.start_joints,
             exact: true,

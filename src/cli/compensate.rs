@@ -94,6 +94,10 @@ pub struct Compensate {
     /// How far points that the running program derives from a target may land off their own wanted pose, mm
     #[arg(long, value_name = "MM", default_value_t = 0.05)]
     max_derived_error: f64,
+    /// How far a correction may shift a target (default: ten times what the profile's effects usually do, at most 20mm,2deg);
+    /// the marker records it
+    #[arg(long, value_name = "MM,DEG")]
+    max_shift: Option<String>,
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
     language: Option<String>,
@@ -265,6 +269,11 @@ impl Compensate {
                 .start_joints
                 .as_deref()
                 .map(values::joints)
+                .transpose()?,
+            max_shift: self
+                .max_shift
+                .as_deref()
+                .map(values::max_shift)
                 .transpose()?,
             split_targets: self.split_targets,
             at_singularity: match self.at_singularity {

@@ -1,9 +1,50 @@
 //! Values on the command line.
 
 use crate::geometry::units::{DEG, m_from_mm};
-use crate::geometry::{Pose, Vector};
+use crate::geometry::{Pose, Separation, Vector};
 use crate::model::profile::{Mounted, Profile};
 use crate::task::Failure;
+
+/// No tool or frame is turned by more, degrees.
+const MOST_ANGLE_DEG: f64 = 720.0;
+
+/// `30mm,3deg`, or the numbers alone.
+pub fn max_shift(text: &str) -> Result<Separation, Failure> {
+    let part = |part: &str, unit: &str| {
+        let part = part.trim();
+        let number = part.strip_suffix(unit).unwrap_or(part).trim_end();
+        let number: Option<f64> = number.parse().ok();
+        number.filter(|number| number.is_finite() && *number > 0.0)
+    };
+    let parts = text.split_once(',');
+    let parts = parts.and_then(|(mm, deg)| Some((part(mm, "mm")?, part(deg, "deg")?)));
+    let (mm, deg) = parts.ok_or_else(|| {
+        Failure::with_hint(
+            format!("--max-shift {text}: this is no length and angle above 0"),
+            "give millimetres and degrees: --max-shift 30mm,3deg",
+        )
+    })?;
+    Ok(Separation {
+        distance_m: m_from_mm(mm),
+        angle_rad: deg * DEG,
+    })
+}
+
+/// No tool or frame that is given has an angle that can only be in another unit.
+fn check_angles(option: &str, text: &str, value: &str) -> Result<(), Failure> {
+    let angles = list::<6>(value).map(|[_, _, _, angles @ ..]| angles);
+    let endless = angles.and_then(|angles| {
+        let beyond = |angle: &f64| angle.abs() > MOST_ANGLE_DEG;
+        angles.into_iter().find(beyond)
+    });
+    match endless {
+        Some(angle) => Err(Failure::with_hint(
+            format!("{option} {text}: an angle is {angle}; the limit is {MOST_ANGLE_DEG} deg"),
+            "angles are in degrees: write them between -360 and 360",
+        )),
+        None => Ok(()),
+    }
+}
 
 /// Six numbers `x,y,z,rx,ry,rz` in mm and degrees.
 pub fn pose(text: &str) -> Option<Pose> {
@@ -52,6 +93,7 @@ pub fn named(text: &str) -> (Option<String>, &str) {
 /// A tool by name of the profile or by its pose on the flange.
 pub fn tool(text: &str, profile: &Profile) -> Result<(Option<String>, Mounted), Failure> {
     let (name, value) = named(text);
+    check_angles("--tool", text, value)?;
     let found = profile.tool(value).or_else(|| {
         let flange_from_tool = pose(value)?;
         Some(Mounted {
@@ -73,6 +115,7 @@ pub fn tool(text: &str, profile: &Profile) -> Result<(Option<String>, Mounted), 
 /// A work frame by its pose in the world.
 pub fn frame(text: &str) -> Result<(Option<String>, Pose), Failure> {
     let (name, value) = named(text);
+    check_angles("--frame", text, value)?;
     let pose = pose(value).ok_or_else(|| {
         Failure::new(format!(
             "--frame {text}: `{value}` is not x,y,z,rx,ry,rz in mm and degrees"

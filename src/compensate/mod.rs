@@ -39,6 +39,7 @@ mod added;
 mod approach;
 mod context;
 mod displaced;
+mod limit;
 mod outcome;
 mod refused;
 mod rewrite;
@@ -48,20 +49,22 @@ mod solve;
 mod written;
 
 use approach::Approach;
+use limit::Limits;
 use outcome::Tally;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
 use rewrite::{Portion, Split};
 pub use written::{Differs, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
-use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::{Pose, Separation};
 pub use crate::inverse::Methods;
 use crate::inverse::{Outcome, Unsupported};
 use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
-use crate::motion::setting;
 use crate::motion::walk::{self, Pace};
-pub use crate::motion::{Given, MeasuredFrameError, PlacementError};
+pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
+use crate::motion::{doubt, setting};
 pub use crate::program::meaning;
 use crate::program::{Edits, Language, ReadError, Settings, Source};
 use rayon::prelude::*;
@@ -101,6 +104,9 @@ pub struct Options {
     pub start_joints: Option<[f64; 6]>,
     /// Which methods may search the joints of the real arm.
     pub methods: Methods,
+    /// How far a correction may shift a target; without it ten times what the profile's effects usually do, and at most 20 mm
+    /// and 2 degrees.
+    pub max_shift: Option<Separation>,
 }
 
 /// What becomes of a target at the wrist's singularity that the real arm does not reach on the meant side.
@@ -127,6 +133,9 @@ pub enum CompensateError {
     /// A measured work frame cannot be meant.
     #[error(transparent)]
     MeasuredFrame(#[from] MeasuredFrameError),
+    /// A tool or work frame is given that none is needed for.
+    #[error(transparent)]
+    Given(#[from] GivenError),
     /// The arm has no closed-form inverse.
     #[error(transparent)]
     Arm(#[from] Unsupported),
@@ -150,6 +159,7 @@ const FEW: usize = 3;
 struct Job<'a> {
     ground: Ground<'a>,
     options: &'a Options,
+    limits: Limits,
 }
 
 /// Computes fake targets for a program and the edits that put them in its files.
@@ -179,6 +189,7 @@ pub fn compensate(
     }
     context::leave(&mut program, sources, &mut findings);
     setting::check_measured(&program, &options.given)?;
+    setting::check_given(&[&program], &options.given)?;
     if options.each_for_itself {
         let joints = options.correct_joint_targets;
         setting::block_unplaced(
@@ -202,7 +213,14 @@ pub fn compensate(
         |motion| approach::needs(&program, joints, motion),
     )?;
     ground.work_offset = options.work_offset;
-    let job = Job { ground, options };
+    doubt::units(&ground, Severity::Error, &mut findings);
+    limit::check_models(&ground, &mut findings);
+    let limits = Limits::new(&ground, options.max_shift);
+    let job = Job {
+        ground,
+        options,
+        limits,
+    };
     let pace = Pace {
         start_joints: options.start_joints,
         directed: solve::is_directed(&job),
@@ -241,12 +259,22 @@ pub fn compensate(
         refused: Vec::new(),
         added: Added::default(),
         configurations,
-        decided: Vec::new(),
+        decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
         summary,
     };
     compensation.split(language, sources, splits);
     compensation.judge(sources, &options.accepted);
     Ok(compensation)
+}
+
+/// The limit of shifts as the marker has it.
+fn raised(max_shift: &Separation) -> String {
+    let tidy = |number: f64| (number * 1e6).round() / 1e6;
+    format!(
+        "max-shift {}mm,{}deg",
+        tidy(mm_from_m(max_shift.distance_m)),
+        tidy(max_shift.angle_rad / DEG)
+    )
 }
 
 impl Compensation {

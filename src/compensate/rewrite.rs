@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::approach::Approach;
+use super::limit;
 use super::outcome::{TargetReport, small};
 use super::shared::{self, Fake};
 use super::singular;
@@ -86,6 +87,15 @@ impl<'a> Portion<'a> {
     pub fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
         let (approach, outcome) = &group[0];
         let mut report = TargetReport::new(Some((approach, outcome)));
+        let strange = group
+            .iter()
+            .find_map(|(approach, outcome)| limit::not_finite(job, approach, outcome));
+        if let Some(finding) = strange {
+            report.status = None;
+            self.findings.push(finding);
+            self.reports.push((approach.target as usize, report));
+            return;
+        }
         let lost = group
             .iter()
             .find(|(_, outcome)| outcome.status != Status::Converged);
@@ -137,6 +147,14 @@ impl<'a> Portion<'a> {
                 return false;
             };
             let approach = &alone[0].0;
+            let wanted = approach.wanted(job);
+            let frame = *job.ground.world_from_frame(approach.frame as usize);
+            let shift = wanted.separation(&(frame * fake.frame_from_tool));
+            if let Some(finding) = job.limits.judge(job, approach, &shift) {
+                self.findings.push(finding);
+                return false;
+            }
+            report.shift = largest(report.shift, shift);
             let Some(written) = self.written(job, approach, &fake, fractions) else {
                 return false;
             };
@@ -188,6 +206,17 @@ impl<'a> Portion<'a> {
         let wanted = approach.wanted(job);
         let given = *job.ground.world_from_frame(approach.frame as usize) * fake.frame_from_tool;
         let shift = wanted.separation(&given);
+        if !given.is_finite() || !limit::are_finite(&[shift.distance_m, shift.angle_rad]) {
+            report.status = None;
+            let finding = limit::not_finite_finding(job, approach, "the fake target");
+            self.findings.push(finding);
+            return;
+        }
+        if let Some(finding) = job.limits.judge(job, approach, &shift) {
+            self.findings.push(finding);
+            (report.status, report.shift) = (None, shift);
+            return;
+        }
         (report.fake, report.shift) = (Some(fake.frame_from_tool), shift);
         report.before = worst(group.iter().map(|(approach, _)| uncorrected(job, approach)));
         self.findings.extend(singularity(job, approach, outcome));
@@ -265,6 +294,11 @@ impl<'a> Portion<'a> {
             ground.settings,
             &mut new,
         );
+        if !limit::are_finite(&new) {
+            let finding = limit::not_finite_finding(job, approach, "a number to be written");
+            self.findings.push(finding);
+            return None;
+        }
         if let Some(joint) = kept_configuration(job, approach, &fake.q, &new) {
             self.findings.push(kept_finding(job, approach, joint));
             return None;

@@ -117,6 +117,13 @@ impl Pose {
         }
     }
 
+    /// Whether all its numbers are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let numbers = self.rotation.0.iter().flatten().chain(&self.translation);
+        numbers.into_iter().all(|number| number.is_finite())
+    }
+
     /// Distance of the origins and angle between the axes of two poses given in the same frame.
     #[inline]
     #[must_use]

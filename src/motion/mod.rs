@@ -25,6 +25,7 @@
 pub(crate) mod arms;
 mod before;
 pub(crate) mod course;
+pub(crate) mod doubt;
 mod flow;
 pub(crate) mod ground;
 mod holding;
@@ -36,7 +37,7 @@ pub(crate) mod walk;
 
 pub use course::Turning;
 pub(crate) use posture::OUT_OF_REACH;
-pub use setting::{Given, MeasuredFrameError, Missing, PlacementError};
+pub use setting::{Given, GivenError, MeasuredFrameError, Missing, PlacementError};
 
 use crate::program::{Language, Program, ReadError, Settings, Source};
 

@@ -81,6 +81,87 @@ pub(crate) fn check_measured(program: &Program, given: &Given) -> Result<(), Mea
     Ok(())
 }
 
+/// A tool or work frame that the user gives by name, and that does not count.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum GivenError {
+    /// No move has it.
+    #[error("{option} {name}: no move of these files uses a {what} `{name}`; they use: {used}")]
+    Unused {
+        /// The option.
+        option: &'static str,
+        /// `tool` or `work frame`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names that are used.
+        used: String,
+    },
+    /// The files tell it themselves.
+    #[error(
+        "{option} {name}: the files define {what} `{name}` themselves, and the controller computes with that"
+    )]
+    Defined {
+        /// The option.
+        option: &'static str,
+        /// `tool` or `work frame`.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+}
+
+impl GivenError {
+    /// The way out.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Unused { .. } => "names are as the program writes them; leave the option out",
+            Self::Defined { .. } => "leave the option out, or correct the value in the file",
+        }
+    }
+}
+
+/// Tools and work frames that are given by name must be used, and not be known already. The programs are those of one run.
+pub(crate) fn check_given(programs: &[&Program], given: &Given) -> Result<(), GivenError> {
+    let tools = programs.iter().flat_map(|program| &program.tools);
+    let tools: Vec<(&str, bool)> = tools
+        .map(|tool| (tool.name.as_str(), tool.flange_from_tool.is_some()))
+        .collect();
+    let frames = programs.iter().flat_map(|program| &program.frames);
+    let frames: Vec<(&str, bool)> = frames
+        .map(|frame| (frame.name.as_str(), frame.world_from_frame.is_some()))
+        .collect();
+    let tool_names = given.tools.keys().flatten();
+    let frame_names = given.frames.keys().flatten();
+    let asked = tool_names
+        .map(|name| ("--tool", "tool", name, &tools))
+        .chain(frame_names.map(|name| ("--frame", "work frame", name, &frames)));
+    for (option, what, name, known) in asked {
+        let name = name.clone();
+        let mut of_name = known.iter().filter(|(of, _)| *of == name).peekable();
+        if of_name.peek().is_none() {
+            let mut used: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+            used.sort_unstable();
+            used.dedup();
+            used.retain(|name| !name.is_empty());
+            return Err(GivenError::Unused {
+                option,
+                what,
+                name,
+                used: if used.is_empty() {
+                    "none by name".into()
+                } else {
+                    used.join(", ")
+                },
+            });
+        }
+        if of_name.all(|(_, is_defined)| *is_defined) {
+            return Err(GivenError::Defined { option, what, name });
+        }
+    }
+    Ok(())
+}
+
 /// The same frame but for the digits of the files: 1 µm and 1e-5 degrees.
 fn agrees(a: &Pose, b: &Pose) -> bool {
     let gap = a.separation(b);

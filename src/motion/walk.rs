@@ -18,8 +18,8 @@ use std::collections::BinaryHeap;
 
 /// A joint that moves less than this on a joint move keeps the direction in which it moved before, radians.
 const STANDSTILL_RAD: f64 = 1e-6;
-/// Parts of an orientation beyond this, in degrees or radians, are no angles: 1e5 degrees are 278 rotations.
-const MOST_ANGLE: f64 = 1e5;
+/// Numbers above this are written with an exponent.
+const READABLE: f64 = 1e6;
 /// Arrivals at one move that are told apart.
 const MOST_ARRIVALS: usize = 64;
 /// Joints that differ by less are the same, radians.
@@ -502,20 +502,29 @@ impl Walker<'_, '_> {
         let roles = self.ground.language.roles(target.layout);
         let numbers = program.numbers_of(target).iter().zip(roles);
         let mut angles = numbers.filter(|(_, role)| **role == Role::Orientation);
-        angles.find_map(|(number, _)| Some(number.value).filter(|angle| angle.abs() > MOST_ANGLE))
+        let limit = self.ground.language.most_orientation(target.layout);
+        angles.find_map(|(number, _)| Some(number.value).filter(|angle| angle.abs() > limit))
     }
 
     fn say_endless(&mut self, target: TargetId, angle: f64) {
         let ground = self.ground;
+        let shown = if angle.abs() < READABLE {
+            angle.to_string()
+        } else {
+            format!("{angle:e}")
+        };
         self.findings.push(ground.at_target(
             "angle-too-large",
             Severity::Error,
             target,
             format!(
-                "an angle of {angle:e} in {} is none that anybody means",
-                ground.name_of(target)
+                "an angle of {shown} in the orientation of {}; the limit is {:.3}",
+                ground.name_of(target),
+                ground
+                    .language
+                    .most_orientation(ground.program.targets[target].layout)
             ),
-            "write its orientation with angles of a few rotations at most",
+            "is it in the unit of the language (radians in URScript, else degrees)? write angles of a few rotations at most",
         ));
     }
 }

@@ -148,6 +148,12 @@ pub trait Language: Sync {
     /// What each number of a target is, in the order of [`Target::numbers`].
     fn roles(&self, layout: Layout) -> &'static [Role];
 
+    /// The largest number that a target's orientation can have: beyond it none is meant (1e5 degrees are 278 rotations).
+    fn most_orientation(&self, layout: Layout) -> f64 {
+        let _ = layout;
+        1e5
+    }
+
     /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a metre away where it is an
     /// angle or part of a quaternion.
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize;

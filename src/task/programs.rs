@@ -216,6 +216,7 @@ pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
         CompensateError::MeasuredFrame(error) => {
             Failure::with_hint(format!("--wobj: {error}"), error.hint())
         }
+        CompensateError::Given(error) => Failure::with_hint(error.to_string(), error.hint()),
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
         CompensateError::NothingToCorrect => Failure::with_hint(
             error.to_string(),

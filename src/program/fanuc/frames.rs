@@ -45,6 +45,8 @@ pub struct BadNumber {
 
 /// Millimetres or degrees.
 const LARGEST: f64 = 1e6;
+/// No tool or frame is turned by more, degrees.
+const MOST_ANGLE: f64 = 720.0;
 
 /// The kinds of files that show frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,7 +179,8 @@ fn coordinates(text: &[u8], start: usize, values: &mut [Option<f64>; 6]) -> Resu
         if rest[..length].contains(&b'*') {
             continue;
         }
-        let value = number::parse(&rest[..length]).filter(|value| value.abs() <= LARGEST);
+        let largest = if slot < 3 { LARGEST } else { MOST_ANGLE };
+        let value = number::parse(&rest[..length]).filter(|value| value.abs() <= largest);
         let at = start + colon + 1 + blanks;
         values[slot] = Some(value.ok_or(BadNumber { at, length })?);
     }

@@ -240,7 +240,7 @@ fn in_source(fault: &Fault, source: &Source) -> ReadError {
             column,
             value: found(&source.bytes[at..at + length]),
             meaning: "coordinate, or number of a tool or frame",
-            limit: "a plain number of at most 1000000 is wanted; numbers of tools and frames go to 255",
+            limit: "a plain number of at most 1000000 is wanted; angles of tools and frames go to 720 deg, their numbers to 255",
         },
     }
 }

@@ -303,7 +303,7 @@ fn broken_text_is_an_error_with_its_place() {
         (
             " 1922.978",
             " 19-2",
-            "a.ls:10:7: `19-2` is no coordinate, or number of a tool or frame: a plain number of at most 1000000 is wanted; numbers of tools and frames go to 255",
+            "a.ls:10:7: `19-2` is no coordinate, or number of a tool or frame: a plain number of at most 1000000 is wanted; angles of tools and frames go to 720 deg, their numbers to 255",
         ),
         (
             "X =",

@@ -7,8 +7,11 @@ use super::lines::{Lines, after, numbers, unexpected, whole, words};
 use super::pose_of;
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
-use crate::program::{Load, ReadError, Source};
+use crate::program::{Load, Number, ReadError, Source};
 use std::collections::HashMap;
+
+/// No tool or frame is turned by more, degrees.
+const MOST_ANGLE: f64 = 720.0;
 
 /// What condition files tell, by number; `None` where files differ.
 #[derive(Debug, Default)]
@@ -53,6 +56,18 @@ pub fn read(source: &Source, conditions: &mut Conditions) -> Result<(), ReadErro
             if found.len() < count {
                 let expected = "x, y, z (and Rx, Ry, Rz)";
                 return Err(unexpected(source, line.start, line.text, expected));
+            }
+            let endless = |n: &Number| n.value.abs() > MOST_ANGLE;
+            if let Some(angle) = found.iter().skip(3).find(|n| count == 6 && endless(n)) {
+                let (line, column) = source.line_column(angle.start as usize);
+                return Err(ReadError::BadValue {
+                    file: source.name.clone(),
+                    line,
+                    column,
+                    value: angle.value.to_string(),
+                    meaning: "angle of a tool or frame in degrees",
+                    limit: "the limit is 720 deg; write it between -360 and 360",
+                });
             }
             Ok(found.iter().map(|n| n.value).collect::<Vec<f64>>())
         };

@@ -276,6 +276,9 @@ pub fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
     }
 }
 
+/// No tool or base is turned by more, degrees.
+const MOST_ANGLE: f64 = 720.0;
+
 /// See [`crate::program::Language::frame_of`]: X Y Z A B C, and of a tool of the table its load.
 pub fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark> {
     let mut numbers = [0.0; 10];
@@ -294,6 +297,15 @@ pub fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark> {
         return Err(Remark {
             text: "the running program changes a part of the tool or base, and the files do not tell the rest".into(),
             hint: "give the $config.dat that declares it, too",
+            ..frame_assigned()
+        });
+    }
+    if let Some(angle) = numbers[3..6].iter().find(|angle| angle.abs() > MOST_ANGLE) {
+        return Err(Remark {
+            id: "angle-too-large",
+            text: format!("`{name}` has an angle of {angle} deg; the limit is {MOST_ANGLE} deg")
+                .into(),
+            hint: "A, B and C are in degrees: write them between -360 and 360",
             ..frame_assigned()
         });
     }

@@ -473,6 +473,19 @@ impl Goals<'_, '_, '_> {
             }
             NotConstant::Changing(variable) => self.held[variable as usize].frame,
             NotConstant::Computed => None,
+            NotConstant::Endless(angle) => {
+                let remark = Remark {
+                    id: "angle-too-large",
+                    severity: Severity::Error,
+                    text: format!(
+                        "the rotation vector of its feature or tool has a part of {angle}; the limit is 4 pi rad"
+                    )
+                    .into(),
+                    hint: "rotation vectors are in radians; d2r(…) turns degrees into them",
+                };
+                let remark = self.builder.script.remark(remark);
+                return script::Expr::Unknown(remark);
+            }
         };
         held.map_or(
             script::Expr::Unknown(self.common.frame_computed),

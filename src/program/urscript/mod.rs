@@ -109,6 +109,14 @@ impl Language for UrScript {
         }
     }
 
+    fn most_orientation(&self, layout: Layout) -> f64 {
+        if layout.variant == 1 {
+            rotation::MOST_ANGLE / DEG
+        } else {
+            rotation::MOST_ANGLE
+        }
+    }
+
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
         match role {
             // metres; and radians, of which a millionth is a thousandth of a millimetre at one metre

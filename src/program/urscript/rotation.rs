@@ -18,6 +18,18 @@ pub fn pose(numbers: [f64; 6], degrees: bool) -> Pose {
     Pose::from_parts([x, y, z], Quaternion::from_vector(vector).normalized())
 }
 
+/// No rotation vector has a longer part, radians.
+pub const MOST_ANGLE: f64 = 2.0 * TAU;
+
+/// A part of the rotation vector that is longer than any that is meant, in its own unit.
+pub fn endless(numbers: &[f64; 6], degrees: bool) -> Option<f64> {
+    let unit = if degrees { DEG } else { 1.0 };
+    let parts = numbers[3..].iter().copied();
+    parts
+        .into_iter()
+        .find(|part| part.abs() * unit > MOST_ANGLE)
+}
+
 /// The six numbers of a pose, the vector as near as can be to that of the present numbers.
 pub fn numbers(pose: &Pose, present: [f64; 6], degrees: bool) -> [f64; 6] {
     let unit = if degrees { DEG } else { 1.0 };

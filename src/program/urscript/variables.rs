@@ -67,6 +67,8 @@ pub enum NotConstant {
     Changing(VarId),
     /// This name is assigned nowhere; it is the whole pose.
     Unknown(Symbol),
+    /// Its rotation vector is longer than any that is meant.
+    Endless(f64),
     /// Anything else.
     Computed,
 }
@@ -423,7 +425,10 @@ impl<'n, 'a> Variables<'n, 'a> {
         let steps = steps.checked_sub(1).ok_or(NotConstant::Computed)?;
         let inner = |value| {
             self.evaluate(value, function, steps)
-                .map_err(|_| NotConstant::Computed)
+                .map_err(|error| match error {
+                    NotConstant::Endless(_) => error,
+                    _ => NotConstant::Computed,
+                })
         };
         match expression {
             Expr::Literal(id) => {
@@ -431,9 +436,11 @@ impl<'n, 'a> Variables<'n, 'a> {
                 let values = self.notes.values(literal);
                 let values = values.filter(|_| literal.pose && !self.targets[id as usize]);
                 let degrees = literal.content == super::syntax::Content::Degrees;
-                values
-                    .map(|values| super::rotation::pose(values, degrees))
-                    .ok_or(NotConstant::Computed)
+                let values = values.ok_or(NotConstant::Computed)?;
+                match super::rotation::endless(&values, degrees) {
+                    Some(angle) => Err(NotConstant::Endless(angle)),
+                    None => Ok(super::rotation::pose(values, degrees)),
+                }
             }
             Expr::Name(name, _) => Err(match self.meaning(name, function) {
                 Some(variable) if !self.list[variable as usize].is_fixed => {

@@ -1,0 +1,222 @@
+//! How far a correction may shift a target: what the profile's effects usually do, with room.
+
+use super::Job;
+use super::approach::Approach;
+use crate::finding::{Finding, Severity};
+use crate::geometry::Separation;
+use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::inverse::Outcome;
+use crate::model::Conditions;
+use crate::motion::arms::Equipped;
+use crate::motion::ground::Ground;
+use std::sync::OnceLock;
+
+/// Postures at which the effects are looked at, and which of them in order of size counts: 95 in 100.
+const POSTURES: usize = 1000;
+const COUNTS: usize = 949;
+/// The limit is so many times what the effects do there.
+const TIMES: f64 = 10.0;
+/// No limit is larger unless the user raises it.
+const MOST: Separation = Separation {
+    distance_m: 20.0 * MM,
+    angle_rad: 2.0 * DEG,
+};
+/// Nor smaller: what does nothing at most postures may do this much at others.
+const LEAST: Separation = Separation {
+    distance_m: 0.1 * MM,
+    angle_rad: 0.05 * DEG,
+};
+const SEED: u64 = 0x706f_7365_7368_6966;
+
+/// What the effects do with each tool of the program, looked at when it is asked for.
+pub(super) struct Limits {
+    raised: Option<Separation>,
+    of_tools: Vec<OnceLock<Separation>>,
+}
+
+impl Limits {
+    /// Of a program; `raised` where the user says the limit.
+    pub fn new(ground: &Ground, raised: Option<Separation>) -> Self {
+        Self {
+            raised,
+            of_tools: ground.arms.iter().map(|_| OnceLock::new()).collect(),
+        }
+    }
+
+    /// The limit for targets with a tool.
+    fn of(&self, ground: &Ground, tool: usize) -> Separation {
+        self.raised.unwrap_or_else(|| {
+            *self.of_tools[tool].get_or_init(|| usual(ground, ground.arm_with(tool)))
+        })
+    }
+
+    /// The finding of a correction that shifts its target too far: it is not written.
+    pub fn judge(&self, job: &Job, approach: &Approach, shift: &Separation) -> Option<Finding> {
+        let limit = self.of(&job.ground, approach.tool as usize);
+        if shift.distance_m <= limit.distance_m && shift.angle_rad <= limit.angle_rad {
+            return None;
+        }
+        let (shift_mm, shift_deg) = (mm_from_m(shift.distance_m), shift.angle_rad / DEG);
+        let whence = match self.raised {
+            Some(_) => "--max-shift",
+            None => "ten times what this profile's effects usually do, at most 20 mm and 2 deg",
+        };
+        let message = format!(
+            "the correction shifts {} by {shift_mm:.3} mm and {shift_deg:.3} deg; the limit is {:.3} mm and {:.3} deg ({whence})",
+            job.ground.name_of(approach.target as usize),
+            mm_from_m(limit.distance_m),
+            limit.angle_rad / DEG,
+        );
+        let asked = |shift: f64, limit: f64| (1.05 * shift.max(limit) * 10.0).ceil() / 10.0;
+        let hint = format!(
+            "check the effects of the profile and the tool's load; --max-shift {}mm,{}deg allows it",
+            asked(shift_mm, mm_from_m(limit.distance_m)),
+            asked(shift_deg, limit.angle_rad / DEG),
+        );
+        let target = approach.target as usize;
+        let finding =
+            job.ground
+                .at_target("shift-too-large", Severity::Error, target, message, &hint);
+        Some(finding)
+    }
+}
+
+/// What the effects do at most postures, times ten.
+fn usual(ground: &Ground, equipped: &Equipped) -> Separation {
+    let mut random = Random(SEED);
+    let joints = &ground.profile.mechanism.joints;
+    let mut gaps: Vec<Separation> = Vec::with_capacity(POSTURES);
+    for _ in 0..POSTURES {
+        let q = std::array::from_fn(|i| {
+            let (low, high) = (joints[i].min_rad, joints[i].max_rad);
+            low + (high - low) * random.draw()
+        });
+        let conditions = Conditions {
+            direction: std::array::from_fn(|_| if random.draw() < 0.5 { -1.0 } else { 1.0 }),
+            ..equipped.inverse.conditions
+        };
+        let real = equipped.inverse.real.forward(&q, &conditions);
+        let told = equipped.controller.forward(&q, &Conditions::default());
+        gaps.push(real.separation(&told));
+    }
+    let mut counts = |part: fn(&Separation) -> f64| {
+        gaps.sort_unstable_by(|a, b| part(a).total_cmp(&part(b)));
+        TIMES * part(&gaps[COUNTS])
+    };
+    let (distance_m, angle_rad) = (counts(|gap| gap.distance_m), counts(|gap| gap.angle_rad));
+    // a number that is not finite gives the largest limit: it is reported where it arises
+    let within = |value: f64, least: f64, most: f64| {
+        if value.is_finite() {
+            value.clamp(least, most)
+        } else {
+            most
+        }
+    };
+    Separation {
+        distance_m: within(distance_m, LEAST.distance_m, MOST.distance_m),
+        angle_rad: within(angle_rad, LEAST.angle_rad, MOST.angle_rad),
+    }
+}
+
+/// Numbers that look drawn, the same on every run (splitmix64).
+struct Random(u64);
+
+impl Random {
+    /// From 0 up to 1.
+    fn draw(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Whether all numbers are finite.
+pub(super) fn are_finite(numbers: &[f64]) -> bool {
+    numbers.iter().all(|number| number.is_finite())
+}
+
+/// What is not finite in the search for a target's joints.
+pub(super) fn not_finite(job: &Job, approach: &Approach, outcome: &Outcome) -> Option<Finding> {
+    let wanted = approach.wanted(job);
+    let what = if !wanted.is_finite() {
+        "the wanted pose"
+    } else if !are_finite(&approach.nominal_q) {
+        "a joint of the nominal arm"
+    } else if !are_finite(&outcome.q)
+        || !are_finite(&[outcome.residual.distance_m, outcome.residual.angle_rad])
+    {
+        "a joint of the real arm"
+    } else {
+        return None;
+    };
+    Some(not_finite_finding(job, approach, what))
+}
+
+/// A number that is none, and where it arises.
+pub(super) fn not_finite_finding(job: &Job, approach: &Approach, what: &str) -> Finding {
+    let target = approach.target as usize;
+    let message = format!(
+        "{what} for {} is not a finite number",
+        job.ground.name_of(target)
+    );
+    job.ground.at_target(
+        "not-finite",
+        Severity::Error,
+        target,
+        message,
+        "look for a number out of all bounds in the effects, masses and frames of the profile and in the tool",
+    )
+}
+
+/// Tools with which the arm's models give no finite pose, each at the first move that has it.
+pub(super) fn check_models(ground: &Ground, findings: &mut Vec<Finding>) {
+    let mut told = vec![false; ground.arms.len()];
+    for motion in &ground.program.moves {
+        let Some(equipped) = ground.equipped(motion.tool) else {
+            continue;
+        };
+        if std::mem::replace(&mut told[motion.tool], true) {
+            continue;
+        }
+        let q = std::array::from_fn(|i| {
+            let joint = &ground.profile.mechanism.joints[i];
+            0.4 * joint.min_rad + 0.6 * joint.max_rad
+        });
+        let conditions = &equipped.inverse.conditions;
+        let models = [
+            ("real arm", equipped.inverse.real.forward(&q, conditions)),
+            (
+                "controller",
+                equipped.controller.forward(&q, &Conditions::default()),
+            ),
+        ];
+        for (name, _) in models.iter().filter(|(_, pose)| !pose.is_finite()) {
+            let tool = &ground.program.tools[motion.tool].name;
+            findings.push(ground.at_move(
+                "not-finite",
+                Severity::Error,
+                motion,
+                format!("the model of the {name} with tool `{tool}` gives a pose that is not finite"),
+                "look for a number out of all bounds in the effects, masses and frames of the profile and in the tool",
+            ));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_drawn_evenly_and_alike_on_every_run() {
+        let mut random = Random(SEED);
+        let drawn: Vec<f64> = (0..1000).map(|_| random.draw()).collect();
+        let mean = drawn.iter().sum::<f64>() / 1000.0;
+        assert!((mean - 0.5).abs() < 0.03, "{mean}");
+        assert!(drawn.iter().all(|number| (0.0..1.0).contains(number)));
+        assert_eq!(Random(SEED).draw().to_bits(), drawn[0].to_bits());
+    }
+}
