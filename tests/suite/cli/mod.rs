@@ -5,6 +5,7 @@ mod fuzzed;
 mod hostile;
 mod identify;
 mod jobs_and_tables_of_poses;
+mod limits;
 mod outputs;
 mod planning;
 pub mod reports;

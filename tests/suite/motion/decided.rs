@@ -4,6 +4,7 @@
 use super::{BACKLASH, P, PLAIN, errors, given, message, profile, rapid, try_with};
 use poseshift::compensate::{AtSingularity, Compensation, Options, compensate};
 use poseshift::finding::Severity;
+use poseshift::geometry::{Pose, Separation};
 use poseshift::program::{self, Marker, Source};
 
 fn sources(files: &[(&str, &str)]) -> Vec<Source> {
@@ -280,4 +281,48 @@ fn good_programs_are_those_that_share_nothing_with_a_refused_one() {
     assert_eq!(written.is_written, [true, false, false]);
     assert_eq!(written.sources[1].bytes, sources[1].bytes);
     assert_ne!(written.sources[0].bytes, sources[0].bytes);
+}
+
+#[test]
+fn the_correction_has_a_limit_and_the_displacement_of_the_part_has_none() {
+    let files = [(
+        "t.mod",
+        rapid(
+            &format!("CONST robtarget p := [[430,0,400],{P};"),
+            "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;",
+        ),
+    )];
+    let files: Vec<(&str, &str)> = files.iter().map(|(n, t)| (*n, t.as_str())).collect();
+    let with = |options: Options| try_with(options, &[PLAIN], &files).expect("read");
+    let displaced = with(Options {
+        work_offset: Some(Pose::from_translation(-0.04, 0.03, 0.0)),
+        ..given()
+    });
+    assert!(!displaced.is_refused(), "{:?}", displaced.findings);
+    assert!(displaced.summary.max_shift_m > 1e-5 && displaced.summary.max_shift_m < 2e-3);
+    let shift = displaced.summary.max_shift_m;
+    let limited = with(Options {
+        max_shift: Some(Separation {
+            distance_m: 0.5 * shift,
+            angle_rad: 1.0,
+        }),
+        ..given()
+    });
+    assert_eq!(errors(&limited), ["shift-too-large"]);
+    assert!(message(&limited, "shift-too-large").contains("--max-shift"));
+    assert_eq!(limited.summary.compensated, 0);
+    let decided = &limited.decided;
+    assert!(decided[0].starts_with("max-shift 0.") && decided[0].ends_with("deg"));
+}
+
+#[test]
+fn an_effect_without_angles_has_room_for_those_of_the_search() {
+    // a limit of no angle at all would refuse what the search leaves
+    let files = from_both_sides();
+    for (name, text) in &files {
+        let files = [(*name, text.as_str())];
+        let shift = "{effect: base_frame, x_mm: 0.05}";
+        let done = try_with(given(), &[shift], &files).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{name} {:?}", done.findings);
+    }
 }

@@ -1,0 +1,313 @@
+//! What is too large, too small or another file's is refused before anything is written.
+
+use crate::support::{files_below, poseshift, repository, scratch, text};
+use poseshift::program::Marker;
+use std::path::Path;
+
+const DEBURR: &str = "programs/rapid/olp/in/Deburr.mod";
+const THESIS: &str = "robots/abb_irb120_thesis.yaml";
+const UR: &str = "programs/urscript/profile.yaml";
+const BRACKET: &str = "programs/urscript/olp/in/Deburr_bracket.script";
+
+/// A file of the repository with one text in the place of another.
+fn changed(file: &str, old: &str, new: &str) -> String {
+    let before = text(file);
+    assert!(before.contains(old), "{file}: {old}");
+    before.replacen(old, new, 1)
+}
+
+/// Runs a command in a folder; its status and all that it says.
+fn run_in(folder: &Path, words: &[&str]) -> (i32, String) {
+    let output = poseshift()
+        .current_dir(folder)
+        .args(words)
+        .output()
+        .expect("the program starts");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned()
+        + &String::from_utf8_lossy(&output.stdout);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    (output.status.code().unwrap_or(-1), said)
+}
+
+/// Compensates one program with one profile; status, what is said, and what is written.
+fn compensated(
+    name: &str,
+    program: &str,
+    profile: &str,
+    more: &[&str],
+) -> (i32, String, Option<String>) {
+    let folder = scratch();
+    let out = format!("out_{name}");
+    std::fs::write(folder.path().join(name), program).expect("scratch");
+    std::fs::write(folder.path().join("robot.yaml"), profile).expect("scratch");
+    let mut words = vec!["compensate", name, "--profile", "robot.yaml", "-o", &out];
+    words.extend(more);
+    let (status, said) = run_in(folder.path(), &words);
+    let written = std::fs::read_to_string(folder.path().join(&out)).ok();
+    (status, said, written)
+}
+
+#[test]
+fn nothing_wrong_leaves_in_silence() {
+    let (deburr, thesis) = (text(DEBURR), text(THESIS));
+    let link = "theta_deg: 0.054, d_mm: 0.006}";
+    let ur = "theta_deg: 0.12102099278859778";
+    let profile = |old: &str, new: &str| (deburr.clone(), changed(THESIS, old, new));
+    let program = |new: &str| (changed(DEBURR, "[1.4,[0,0,60]", new), thesis.clone());
+    let rows = [
+        (
+            "theta_deg",
+            profile(link, "theta_deg: 90, d_mm: 0.006}"),
+            2,
+            "90",
+        ),
+        ("a_mm", profile("a_mm: 0.236", "a_mm: 50"), 2, "50"),
+        ("rad_per_n_m", profile("1.3e-4}", "0.01}"), 2, "0.01"),
+        ("x_mm", profile("x_mm: -0.075", "x_mm: 75"), 2, "75"),
+        ("shift-too-large", program("[140,[0,0,60]"), 1, "20.000 mm"),
+        (
+            "shift-too-large",
+            program("[1.4,[0,0,60000]"),
+            1,
+            "20.000 mm",
+        ),
+    ];
+    for (what, (program, profile), status, value) in rows {
+        let (is, said, written) = compensated("a.mod", &program, &profile, &[]);
+        assert_eq!(is, status, "{what}: {said}");
+        assert!(
+            said.contains(what) && said.contains(value),
+            "{what}: {said}"
+        );
+        assert_eq!(written, None, "{what}");
+        if status == 2 {
+            // the file, the line and the way out
+            let line = profile
+                .lines()
+                .position(|l| l.contains(&format!("{what}: {value}")));
+            let place = format!("robot.yaml:{}:", line.expect("the line") + 1);
+            assert!(
+                said.contains(&place) && said.contains("large: true"),
+                "{said}"
+            );
+        }
+    }
+    let large = changed(UR, ur, "theta_deg: 1e155");
+    let (status, said, written) = compensated("a.script", &text(BRACKET), &large, &[]);
+    assert!(status == 2 && said.contains("theta_deg"), "{said}");
+    assert_eq!(written, None);
+    // what the profile means is no number all the same, whatever else is allowed
+    let meant = changed(UR, ur, "large: true, reason: \"a test\", theta_deg: 1e155");
+    for more in [&[][..], &["--keep-going", "--max-shift", "1000,180"]] {
+        let (status, said, written) = compensated("a.script", &text(BRACKET), &meant, more);
+        assert!(status == 1 || status == 2, "{status} {said}");
+        assert!(
+            said.contains("not-finite") || said.contains("within reach"),
+            "{said}"
+        );
+        assert!(
+            written.is_none_or(|text| !text.contains("p[0,0,0,0,0,0]")),
+            "{said}"
+        );
+    }
+    let (status, said, _) = compensated(
+        "a.script",
+        &text(BRACKET),
+        &text(UR),
+        &["--accept", "not-finite"],
+    );
+    assert!(status == 2 && said.contains("cannot be accepted"), "{said}");
+}
+
+#[test]
+fn the_limit_of_shifts_is_raised_by_the_user_and_recorded() {
+    let heavy = changed(DEBURR, "[1.4,[0,0,60]", "[140,[0,0,60]");
+    let thesis = text(THESIS);
+    let (status, said, written) = compensated(
+        "a.mod",
+        &heavy,
+        &thesis,
+        &["--max-shift", "100mm,20deg", "--keep-going"],
+    );
+    assert_eq!(status, 0, "{said}");
+    assert!(
+        written
+            .expect("a program")
+            .contains("! max-shift 100mm,20deg")
+    );
+    let (status, said, written) = compensated("a.mod", &heavy, &thesis, &["--max-shift", "100,20"]);
+    assert_eq!(status, 0, "{said}");
+    assert!(
+        written
+            .expect("a program")
+            .contains("! max-shift 100mm,20deg")
+    );
+    // with --keep-going such targets stay as they are
+    let (status, said, written) = compensated("a.mod", &heavy, &thesis, &["--keep-going"]);
+    assert_eq!(status, 1, "{said}");
+    let stays = heavy
+        .lines()
+        .find(|line| line.contains("MoveL [["))
+        .map(str::trim);
+    let written = written.expect("a program");
+    assert!(stays.is_none_or(|line| written.contains(line)), "{said}");
+    for nonsense in ["0,1", "30", "30deg,3mm", "NaN,1", "-5,1"] {
+        let option = format!("--max-shift={nonsense}");
+        let (status, said, _) = compensated("a.mod", &heavy, &thesis, &[&option]);
+        assert!(
+            status == 2 && said.contains("30mm,3deg"),
+            "{nonsense}: {said}"
+        );
+    }
+}
+
+#[test]
+fn other_units_are_doubted() {
+    let thesis = text(THESIS);
+    let tiny = changed(
+        DEBURR,
+        "[[12.500, -3.250, 128.400]",
+        "[[0.0125, -0.00325, 0.1284]",
+    );
+    let (status, said, _) = compensated("a.mod", &tiny, &thesis, &[]);
+    assert_eq!(status, 1, "{said}");
+    for word in ["tool-unit", "rdkTool", "0.1284 mm", "1 mm", "a.mod:"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    let (status, said, _) = compensated("a.mod", &tiny, &thesis, &["--accept", "tool-unit"]);
+    assert_eq!(status, 0, "{said}");
+    for (old, new, value) in [
+        (
+            "0.145000,0.000000,0.436332,0.000000]",
+            "0.145,0,25,0]",
+            "25",
+        ),
+        ("0.040000,0.000000,0.000000,0.523599]", "0.04,0,0,30]", "30"),
+        (".21778, -2.58430, -.09859]", "12.5, -155, -5.6]", "-155"),
+    ] {
+        let program = changed(BRACKET, old, new);
+        let (status, said, _) = compensated("a.script", &program, &text(UR), &[]);
+        assert_eq!(status, 1, "{said}");
+        assert!(
+            said.contains("angle-too-large") && said.contains(value),
+            "{said}"
+        );
+        assert!(
+            said.contains("a.script:") && said.contains("radians"),
+            "{said}"
+        );
+    }
+    let options: [(&[&str], &str); 4] = [
+        (&["--tool", "nope=0,0,50,0,0,0"], "`nope`"),
+        (&["--frame", "nope=0,0,50,0,0,0"], "`nope`"),
+        (&["--tool", "rdkTool=0,0,50,0,0,0"], "themselves"),
+        (&["--tool", "0,0,50,0,1000,0"], "720 deg"),
+    ];
+    for (more, word) in options {
+        let (status, said, _) = compensated("a.mod", &text(DEBURR), &thesis, more);
+        assert!(status == 2 && said.contains(word), "{more:?}: {said}");
+    }
+}
+
+#[test]
+fn loads_beyond_the_payload_are_errors() {
+    let robot = "robot: {manufacturer";
+    let limited = changed(THESIS, robot, "robot: {payload_kg: 2.7, manufacturer");
+    let (status, said, _) = compensated("a.mod", &text(DEBURR), &limited, &[]);
+    assert_eq!(status, 0, "{said}");
+    let heavy = changed(DEBURR, "[1.4,[0,0,60]", "[2.8,[0,0,60]");
+    let (status, said, _) = compensated("a.mod", &heavy, &limited, &[]);
+    assert!(
+        status == 1 && said.contains("load-beyond-payload"),
+        "{said}"
+    );
+    assert!(said.contains("2.8 kg") && said.contains("2.7 kg"), "{said}");
+    let light = changed(THESIS, robot, "robot: {payload_kg: 2.5, manufacturer");
+    let (status, said, _) = compensated("a.mod", &text(DEBURR), &light, &[]);
+    assert!(status == 2 && said.contains("`artifact` is 2.6"), "{said}");
+}
+
+#[test]
+fn a_check_compares_with_the_files_of_the_marker() {
+    let folder = scratch();
+    let at = folder.path();
+    std::fs::copy(repository(DEBURR), at.join("a.mod")).expect("scratch");
+    std::fs::copy(repository(THESIS), at.join("robot.yaml")).expect("scratch");
+    let words = [
+        "compensate",
+        "a.mod",
+        "--profile",
+        "robot.yaml",
+        "-o",
+        "out.mod",
+    ];
+    assert_eq!(run_in(at, &words).0, 0);
+    let check = |nominal: &str, profile: &str, more: &[&str]| {
+        let mut words = vec![
+            "check",
+            "out.mod",
+            "--nominal",
+            nominal,
+            "--profile",
+            profile,
+        ];
+        words.extend(more);
+        run_in(at, &words)
+    };
+    assert_eq!(check("a.mod", "robot.yaml", &[]).0, 0);
+    std::fs::write(at.join("b.mod"), text(DEBURR) + "\n").expect("scratch");
+    std::fs::write(at.join("other.yaml"), text(THESIS) + "\n").expect("scratch");
+    let (status, said) = check("b.mod", "robot.yaml", &[]);
+    assert!(
+        status == 2 && said.contains("out.mod:") && said.contains("b.mod has"),
+        "{said}"
+    );
+    assert!(said.contains("--force"), "{said}");
+    let (status, said) = check("a.mod", "other.yaml", &[]);
+    assert!(status == 2 && said.contains("other.yaml has"), "{said}");
+    assert_eq!(check("b.mod", "other.yaml", &["--force"]).0, 0);
+}
+
+#[test]
+fn a_marker_is_known_by_what_is_left_of_it() {
+    let mut languages = 0;
+    for language in ["rapid", "krl", "fanuc", "urscript", "inform", "csv"] {
+        let folder = repository(&format!("programs/{language}"));
+        let mut seen = 0;
+        for file in files_below(&folder) {
+            let name = file.to_string_lossy().into_owned();
+            if !name.contains("out/") {
+                continue;
+            }
+            let bytes = std::fs::read(folder.join(&file)).expect("a program");
+            let Some(first) = Marker::find(&bytes) else {
+                continue;
+            };
+            seen += 1;
+            let mut end = first;
+            while !matches!(bytes[end], b'\n' | b'\r') {
+                end += 1;
+            }
+            let mut left = bytes.clone();
+            left.drain(first..end);
+            assert!(
+                Marker::find(&left).is_some(),
+                "{name}: without its first line"
+            );
+            assert!(
+                Marker::find(&bytes.to_ascii_uppercase()).is_some(),
+                "{name}"
+            );
+            let line = bytes[first..end].to_ascii_uppercase();
+            assert!(Marker::find(&line).is_some(), "{name}: only its first line");
+        }
+        languages += usize::from(seen > 0);
+    }
+    assert_eq!(languages, 6);
+    for file in files_below(&repository("programs")) {
+        if !file.components().any(|part| part.as_os_str() == "out") {
+            let bytes = std::fs::read(repository("programs").join(&file)).expect("a file");
+            assert_eq!(Marker::find(&bytes), None, "{}", file.display());
+        }
+    }
+}
