@@ -4,7 +4,7 @@ use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, Notes
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
 use crate::program::script::short;
-use crate::program::{ReadError, Source};
+use crate::program::{ReadError, Source, number};
 
 /// Blocks inside each other that a program may have.
 const MOST_BLOCKS: usize = 200;
@@ -132,9 +132,10 @@ impl<'a> Reader<'a> {
                 self.function(first, true)
             }
             b"if" => {
+                let never = self.is_never_true();
                 self.header()?;
                 self.open(BlockKind::Branch, first, "`if`")?;
-                self.event(Event::If);
+                self.event(if never { Event::Never } else { Event::If });
                 Ok(())
             }
             b"elif" => {
@@ -309,6 +310,40 @@ impl<'a> Reader<'a> {
             BlockKind::Loop { endless } => self.event(Event::EndLoop { endless }),
         }
         Ok(())
+    }
+
+    /// Whether a condition is two numbers that are not the same, `1 == 2`, or `False`.
+    fn is_never_true(&self) -> bool {
+        let mut ahead = self.scanner;
+        let mut next = || {
+            ahead.next().unwrap_or(Token {
+                kind: Kind::End,
+                start: 0,
+                end: 0,
+            })
+        };
+        let mut token = next();
+        let in_brackets = token.is(b'(');
+        if in_brackets {
+            token = next();
+        }
+        let is_false = token.kind == Kind::Word && matches!(self.text(token), b"False" | b"false");
+        if !is_false {
+            let signs = [next(), next()];
+            let (a, b) = (token, next());
+            let value = |token: Token| number::parse(self.text(token));
+            let (Some(a), Some(b)) = (value(a), value(b)) else {
+                return false;
+            };
+            if !signs.iter().all(|sign| sign.is(b'=')) || a.total_cmp(&b).is_eq() {
+                return false;
+            }
+        }
+        if in_brackets && !next().is(b')') {
+            return false;
+        }
+        let end = next();
+        end.is(b':') || end.kind == Kind::Line
     }
 
     /// What follows `if`, `while`, `def name()`: to the colon or the end of the line.

@@ -163,6 +163,8 @@ pub enum Event {
     /// Index in [`Notes::calls`].
     Call(u32),
     If,
+    /// `if` with a condition that is never true: nothing runs before its first branch.
+    Never,
     /// `switch`: nothing runs before its first branch.
     Switch,
     /// `elif`, `case`; the last one is `else` or `default`.

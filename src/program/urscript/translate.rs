@@ -296,7 +296,25 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         let notes = self.goals.notes;
         let routine = self.first_routine + function;
         self.goals.builder.open(routine);
+        // blocks around that never run, from the outermost such `if` on
+        let mut dead = 0_u32;
         for event in &notes.functions[function as usize].events {
+            match event {
+                Event::Never if dead == 0 => dead = 1,
+                Event::Branch { .. } if dead == 1 => dead = 0,
+                Event::If | Event::Never | Event::Switch | Event::Loop if dead > 0 => {
+                    dead += 1;
+                    continue;
+                }
+                Event::EndIf | Event::EndLoop { .. } if dead > 0 => {
+                    dead -= 1;
+                    if dead > 0 {
+                        continue;
+                    }
+                }
+                _ if dead > 0 => continue,
+                _ => {}
+            }
             let builder = &mut *self.goals.builder;
             match *event {
                 Event::Assign(number) => self.assign(number),
@@ -324,7 +342,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 }
                 Event::Call(call) => self.call(&notes.calls[call as usize]),
                 Event::If => builder.begin_if(),
-                Event::Switch => builder.begin_choice(),
+                Event::Switch | Event::Never => builder.begin_choice(),
                 Event::Branch { is_last } => builder.next_branch(is_last),
                 Event::EndIf => builder.end_choice(),
                 Event::Loop => builder.begin_loop(false),
