@@ -91,7 +91,8 @@ struct Tracer<'a> {
 impl Tracer<'_> {
     fn trace(&self, index: usize) -> Option<Traced> {
         let motion = self.walk.motion(index);
-        if motion.motion == Motion::ArcVia {
+        let is_context = self.subject.sources[motion.file as usize].is_context;
+        if motion.motion == Motion::ArcVia || is_context {
             return None;
         }
         let stop = self.walk.stops[index]?;
@@ -104,7 +105,7 @@ impl Tracer<'_> {
         let mut traced = Traced {
             motion: self.walk.index(index),
             counterpart: match (self.original, part) {
-                (Some(original), Some(part)) => original.index(part.motion),
+                (Some(original), Some(part)) => original.index(part.stop),
                 _ => self.walk.index(index),
             },
             target: motion.target?,
@@ -130,14 +131,14 @@ impl Tracer<'_> {
         };
         let of_original = match (self.original, part) {
             (Some(original), Some(part)) => {
-                let leg = original.leg(part.motion, self.options.turning);
+                let leg = original.leg(part.stop, self.options.turning);
                 leg.map(|leg| (leg, original, part))
             }
             _ => None,
         };
         let wanted = match &of_original {
             Some((leg, original, part)) => {
-                let stop = original.stops[part.motion]?;
+                let stop = original.stops[part.stop]?;
                 let arms = original.arms(&stop);
                 Wanted {
                     leg,

@@ -182,6 +182,12 @@ impl Walk {
         })
     }
 
+    /// The stops at which a move ends.
+    pub fn stops_of(&self, motion: usize) -> std::ops::Range<usize> {
+        let first = self.motions.partition_point(|of| *of < motion);
+        first..first + self.motions[first..].partition_point(|of| *of == motion)
+    }
+
     /// Index of the move of a stop.
     pub fn index(&self, stop: usize) -> usize {
         self.motions[stop]

@@ -55,6 +55,7 @@ pub use written::{Differs, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
 use crate::geometry::Pose;
+use crate::geometry::units::{MM, mm_from_m};
 pub use crate::inverse::Methods;
 use crate::inverse::{Outcome, Unsupported};
 use crate::model::profile::Profile;
@@ -67,6 +68,8 @@ use crate::program::{Edits, Language, ReadError, Settings, Source};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
+/// How far points that are derived from a target may land off their wanted pose by default, metres.
+const LIMIT_DERIVED_M: f64 = 0.05 * MM;
 /// Targets rewritten by one thread at a time.
 const CHUNK: usize = 512;
 
@@ -101,6 +104,25 @@ pub struct Options {
     pub start_joints: Option<[f64; 6]>,
     /// Which methods may search the joints of the real arm.
     pub methods: Methods,
+}
+
+impl Options {
+    /// What differs from the defaults so that a reader of the file should know it.
+    fn decided(&self) -> Vec<String> {
+        let mut decided = Vec::new();
+        if let Some(limit_m) = self
+            .max_derived_error_m
+            .filter(|limit| *limit > LIMIT_DERIVED_M)
+        {
+            decided.push(format!("max-derived-error {}", mm_from_m(limit_m)));
+        }
+        match self.at_singularity {
+            AtSingularity::Refuse => {}
+            AtSingularity::Flip => decided.push("at-singularity flip".into()),
+            AtSingularity::Nearest => decided.push("at-singularity nearest".into()),
+        }
+        decided
+    }
 }
 
 /// What becomes of a target at the wrist's singularity that the real arm does not reach on the meant side.
@@ -244,6 +266,7 @@ pub fn compensate(
         decided: Vec::new(),
         summary,
     };
+    compensation.decided.extend(options.decided());
     compensation.split(language, sources, splits);
     compensation.judge(sources, &options.accepted);
     Ok(compensation)

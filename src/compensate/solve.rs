@@ -56,10 +56,53 @@ pub(super) fn solve(
             solve_some(job, approaches, &again, &mut outcomes);
         }
     }
+    if pace.directed {
+        tell_unknown(job, approaches, findings);
+    }
     let outcomes = outcomes.into_iter();
     outcomes
         .map(|outcome| outcome.expect("every approach is solved"))
         .collect()
+}
+
+/// Says where a joint with backlash comes to a target from a side that nobody knows.
+fn tell_unknown(job: &Job, approaches: &[Approach], findings: &mut Vec<Finding>) {
+    let ground = &job.ground;
+    for approach in approaches {
+        let equipped = ground.arm_with(approach.tool as usize);
+        let joints: Vec<String> = (0..6)
+            .filter(|&i| equipped.has_backlash[i] && approach.direction[i] == 0)
+            .map(|i| (i + 1).to_string())
+            .collect();
+        if joints.is_empty() {
+            continue;
+        }
+        let real = &equipped.inverse.real;
+        let from = |side: f64| {
+            let mut conditions = approach.conditions(job);
+            for i in 0..6 {
+                if approach.direction[i] == 0 {
+                    conditions.direction[i] = side;
+                }
+            }
+            real.forward(&approach.nominal_q, &conditions)
+        };
+        let apart = from(-1.0).separation(&from(1.0)).distance_m;
+        let message = format!(
+            "nothing says from which side joint {} with backlash comes to {}: it is taken to stand in the middle, and the tool may \
+             be {:.3} mm off",
+            joints.join(", "),
+            ground.name_of(approach.target as usize),
+            mm_from_m(0.5 * apart)
+        );
+        findings.push(ground.at_target(
+            "direction-uncertain",
+            Severity::Warning,
+            approach.target as usize,
+            message,
+            "--start-joints says where the robot stands when the program starts",
+        ));
+    }
 }
 
 /// Solves some approaches, those with the same tool and conditions side by side, on all processors.

@@ -97,9 +97,9 @@ impl Job<'_> {
     fn path_error(&self, leg: &Leg, pieces: &[Piece], arms: &Arms, index: usize) -> PathError {
         let part = self.parts.and_then(|parts| parts[index]);
         if let (Some(original), Some(part)) = (self.original, part)
-            && let Some(wanted) = original.leg(part.motion, self.options.turning)
+            && let Some(wanted) = original.leg(part.stop, self.options.turning)
         {
-            let stop = original.stops[part.motion].expect("a leg ends at a stop");
+            let stop = original.stops[part.stop].expect("a leg ends at a stop");
             let of_original = original.arms(&stop);
             let wanted = Wanted {
                 leg: &wanted,

@@ -24,6 +24,17 @@ impl Reader<'_> {
         }
     }
 
+    /// Skips a statement whose words are none of an expression.
+    pub(super) fn skip_statement(&mut self) -> Result<(), Fault> {
+        while !matches!(self.token.kind, Kind::Sign(b';') | Kind::End) {
+            self.advance()?;
+        }
+        if self.token.kind == Kind::End {
+            return Ok(());
+        }
+        self.advance()
+    }
+
     /// Passes over the rest of a statement.
     pub(super) fn finish_statement(&mut self) -> Result<(), Fault> {
         loop {

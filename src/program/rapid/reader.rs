@@ -222,7 +222,8 @@ impl<'a> Reader<'a> {
                 }
                 self.advance()
             }
-            b"alias" | b"connect" => self.finish_statement(),
+            // `CONNECT i1 WITH trap;` calls nothing: traps run at any time as it is
+            b"alias" | b"connect" => self.skip_statement(),
             word if BLOCK_WORDS.contains(&word) => self.block(first.start, word),
             _ => self.assignment_or_call(),
         }

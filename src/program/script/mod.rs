@@ -470,7 +470,9 @@ impl How {
     /// A part of a position becomes what a text says: a number, or what the running program computes.
     #[must_use]
     pub fn part(text: &[u8], remark: RemarkId) -> Self {
-        if super::number::parse(text.trim_ascii()).is_some() {
+        let text = text.trim_ascii();
+        let text = text.strip_prefix(b"=").unwrap_or(text).trim_ascii();
+        if super::number::parse(text).is_some() {
             Self::PartNumber(remark)
         } else {
             Self::PartSomehow(remark)
