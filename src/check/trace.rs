@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 /// A place on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct PathPoint {
     /// Where the tool is wanted, in the world, metres.
     pub wanted_m: Vector,
     /// Where the real tool is.
@@ -36,7 +36,7 @@ pub struct Traced {
     /// It continues the move before it; else its first place is where it ends.
     pub continues: bool,
     /// From its beginning to its end; of a move that continues another the beginning is the other's end and left out.
-    pub places: Vec<Place>,
+    pub places: Vec<PathPoint>,
 }
 
 /// Follows a program in samples: about `total` of them, and at least one for each move.
@@ -123,7 +123,7 @@ impl Tracer<'_> {
                 (Some(original), Some(part)) => part.end_pose(original, self.options),
                 _ => stop.pose,
             };
-            traced.places.push(Place {
+            traced.places.push(PathPoint {
                 wanted_m: wanted.translation,
                 real_m: arms.plain.real.forward(&stop.q, &conditions).translation,
             });
@@ -162,14 +162,14 @@ impl Tracer<'_> {
         Some(traced)
     }
 
-    fn places(&self, leg: &Leg, wanted: &Wanted, real: &crate::model::Model) -> Vec<Place> {
+    fn places(&self, leg: &Leg, wanted: &Wanted, real: &crate::model::Model) -> Vec<PathPoint> {
         let mut near = leg.start;
         (1..=self.samples)
             .map(|k| {
                 let s = f64::from(k) / f64::from(self.samples);
                 let joints = leg.joints(s, &near);
                 near = joints;
-                Place {
+                PathPoint {
                     wanted_m: wanted.at(s, &joints).translation,
                     real_m: real.forward(&joints, &leg.conditions).translation,
                 }

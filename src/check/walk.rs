@@ -15,7 +15,7 @@ use crate::motion::arms::Equipped;
 use crate::motion::course::{Course, Leg, ToolCourse, Turning};
 use crate::motion::ground::Ground;
 use crate::motion::setting::Setting;
-use crate::motion::walk::{self, Arrival, Pace};
+use crate::motion::walk::{self, Arrival, WalkOptions};
 use crate::program::{
     Displacement, Language, Motion, Move, Program, Settings, Shape, Source, Value,
 };
@@ -130,14 +130,14 @@ impl Walk {
             &options.given,
             has_numbers,
         )?;
-        let pace = Pace {
+        let walk_options = WalkOptions {
             start_joints: options.start_joints,
             exact: true,
             strict: true,
             directed: true,
             turning: options.turning,
         };
-        let arrivals = walk::walk(&ground, &pace, &mut findings);
+        let arrivals = walk::walk(&ground, &walk_options, &mut findings);
         let mut order: Vec<usize> = (0..arrivals.all.len()).collect();
         let key = |at: usize| (arrivals.all[at].motion, arrivals.all[at].from);
         order.sort_by_key(|&at| key(at));

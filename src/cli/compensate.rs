@@ -1,9 +1,9 @@
 //! `compensate`: program files in, program files with fake targets out.
 
+use super::drawing::Drawing;
 use super::layout;
 use super::programs::{programs_in, read_context};
 use super::telling::ReportFile;
-use super::way::Drawing;
 use super::{Answer, Output, files, print, values};
 use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
 use crate::geometry::units::m_from_mm;

@@ -6,6 +6,7 @@ mod catalogue;
 mod check;
 mod compensate;
 mod diagnose;
+mod drawing;
 mod explain;
 mod failure;
 mod files;
@@ -25,7 +26,6 @@ mod simulate;
 mod telling;
 mod validate;
 mod values;
-mod way;
 
 use crate::task::{Blame, Failure};
 use clap::{Args, Parser, Subcommand};

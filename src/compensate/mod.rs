@@ -61,7 +61,7 @@ use crate::inverse::{Outcome, Unsupported};
 use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
 use crate::motion::setting;
-use crate::motion::walk::{self, Pace};
+use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, MeasuredFrameError, PlacementError};
 pub use crate::program::meaning;
 use crate::program::{Edits, Language, ReadError, Settings, Source};
@@ -225,18 +225,24 @@ pub fn compensate(
     )?;
     ground.work_offset = options.work_offset;
     let job = Job { ground, options };
-    let pace = Pace {
+    let walk_options = WalkOptions {
         start_joints: options.start_joints,
         directed: solve::is_directed(&job),
-        ..Pace::default()
+        ..WalkOptions::default()
     };
-    let arrivals = walk::walk(&job.ground, &pace, &mut findings);
+    let arrivals = walk::walk(&job.ground, &walk_options, &mut findings);
     let mut approaches = approach::gather(&job, &arrivals, &mut findings);
     refuse_strange_robots(&job, &findings)?;
     if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
         return Err(CompensateError::NothingToCorrect);
     }
-    let mut outcomes = solve::solve(&job, &arrivals, &pace, &mut approaches, &mut findings);
+    let mut outcomes = solve::solve(
+        &job,
+        &arrivals,
+        &walk_options,
+        &mut approaches,
+        &mut findings,
+    );
     singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
     drop(arrivals);
     let Rewritten {

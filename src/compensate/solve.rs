@@ -7,7 +7,7 @@ use crate::geometry::units::mm_from_m;
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
-use crate::motion::walk::{self, Arrival, Arrivals, Pace};
+use crate::motion::walk::{self, Arrival, Arrivals, WalkOptions};
 use crate::program::script::short;
 use crate::program::{Motion, Shape};
 use rayon::prelude::*;
@@ -30,16 +30,16 @@ pub(super) fn is_directed(job: &Job) -> bool {
 pub(super) fn solve(
     job: &Job,
     arrivals: &Arrivals,
-    pace: &Pace,
+    walk_options: &WalkOptions,
     approaches: &mut [Approach],
     findings: &mut Vec<Finding>,
 ) -> Vec<Outcome> {
     let all: Vec<u32> = (0..short(approaches.len())).collect();
     let mut outcomes: Vec<Option<Outcome>> = vec![None; approaches.len()];
     solve_some(job, approaches, &all, &mut outcomes);
-    if pace.directed {
+    if walk_options.directed {
         for round in 0.. {
-            let changed = changed_directions(job, arrivals, pace, approaches, &outcomes);
+            let changed = changed_directions(job, arrivals, walk_options, approaches, &outcomes);
             if changed.is_empty() {
                 break;
             }
@@ -56,7 +56,7 @@ pub(super) fn solve(
             solve_some(job, approaches, &again, &mut outcomes);
         }
     }
-    if pace.directed {
+    if walk_options.directed {
         tell_unknown(job, approaches, findings);
     }
     let outcomes = outcomes.into_iter();
@@ -150,7 +150,7 @@ fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut 
 fn changed_directions(
     job: &Job,
     arrivals: &Arrivals,
-    pace: &Pace,
+    walk_options: &WalkOptions,
     approaches: &[Approach],
     outcomes: &[Option<Outcome>],
 ) -> Vec<(u32, [i8; 6])> {
@@ -183,7 +183,15 @@ fn changed_directions(
             (fakes[arrival.from as usize], None)
         };
         let wanted = equipped.controller.forward(&end, &Conditions::default());
-        let course = walk::course(motion, equipped, &start, via.as_ref(), &wanted, &end, pace);
+        let course = walk::course(
+            motion,
+            equipped,
+            &start,
+            via.as_ref(),
+            &wanted,
+            &end,
+            walk_options,
+        );
         directions[at] =
             walk::arrival_direction(equipped, &course, &start, &end, arrival.branch, carried);
     }

@@ -675,7 +675,7 @@ impl Resolver<'_, '_> {
             displacement,
             configured,
             near: instruction.near.clone(),
-            pace: instruction.pace,
+            speed_zone: instruction.speed_zone,
             free_orientation: listed.free_orientation,
             instruction: *at,
             before: Before::Start,

@@ -106,7 +106,7 @@ impl Arrivals {
 
 /// How a program is walked.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Pace {
+pub(crate) struct WalkOptions {
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
     /// Joints are those of a controller that computes with a calibrated chain of its own, where it does; else those of the
@@ -121,11 +121,15 @@ pub(crate) struct Pace {
 }
 
 /// Goes through all moves of a program.
-pub(crate) fn walk(ground: &Ground, pace: &Pace, findings: &mut Vec<Finding>) -> Arrivals {
+pub(crate) fn walk(
+    ground: &Ground,
+    walk_options: &WalkOptions,
+    findings: &mut Vec<Finding>,
+) -> Arrivals {
     let count = ground.program.moves.len();
     let mut walker = Walker {
         ground,
-        pace,
+        walk_options,
         findings,
         arrivals: Arrivals {
             all: Vec::with_capacity(count),
@@ -198,7 +202,7 @@ impl Behind {
 
 struct Walker<'a, 'f> {
     ground: &'a Ground<'a>,
-    pace: &'a Pace,
+    walk_options: &'a WalkOptions,
     findings: &'f mut Vec<Finding>,
     arrivals: Arrivals,
     /// Moves to arrive at, and from which arrival: the first of the text first.
@@ -268,7 +272,7 @@ impl Walker<'_, '_> {
             .iter()
             .any(|before| *before == Before::Start);
         let start = match (start, from) {
-            (None, NOWHERE) if is_first => self.pace.start_joints,
+            (None, NOWHERE) if is_first => self.walk_options.start_joints,
             _ => start,
         };
         let honoured = motion.configured && motion.near.is_none();
@@ -332,12 +336,12 @@ impl Walker<'_, '_> {
         };
         let equipped = ground.arm_with(motion.tool);
         let q = match &equipped.calibrated_controller {
-            Some(controller) if self.pace.exact => {
+            Some(controller) if self.walk_options.exact => {
                 controller.solve(&wanted, posture.branch, &posture.q).q
             }
             _ => posture.q,
         };
-        let direction = match start.filter(|_| self.pace.directed) {
+        let direction = match start.filter(|_| self.walk_options.directed) {
             Some(start) => {
                 let course = course(
                     motion,
@@ -346,7 +350,7 @@ impl Walker<'_, '_> {
                     via.as_ref(),
                     &wanted,
                     &q,
-                    self.pace,
+                    self.walk_options,
                 );
                 arrival_direction(equipped, &course, &start, &q, posture.branch, direction)
             }
@@ -396,7 +400,15 @@ impl Walker<'_, '_> {
             motion.motion != Motion::Joint && !motion.free_orientation && near.is_none()
         });
         if let Some(start) = along {
-            let course = course(motion, equipped, &start, via, wanted, &start, self.pace);
+            let course = course(
+                motion,
+                equipped,
+                &start,
+                via,
+                wanted,
+                &start,
+                self.walk_options,
+            );
             if let Some((branch, q)) = follow(equipped, &course, &start) {
                 return Some(self.compared(motion, target, wanted, configuration, branch, q));
             }
@@ -431,7 +443,7 @@ impl Walker<'_, '_> {
                 ground.name_of(target)
             );
             let hint = "check the configuration data, and that robot, tool and frame are those of the program";
-            let (id, severity) = if self.pace.strict {
+            let (id, severity) = if self.walk_options.strict {
                 (CONFIGURATION_CHANGE, Severity::Error)
             } else {
                 ("configuration-mismatch", Severity::Warning)
@@ -483,7 +495,7 @@ impl Walker<'_, '_> {
         configuration: &Configuration,
         q: &[f64; 6],
     ) -> Option<Posture> {
-        if self.pace.strict {
+        if self.walk_options.strict {
             return None;
         }
         let asked = Asked {
@@ -551,7 +563,7 @@ pub(crate) fn course(
     via: Option<&Pose>,
     wanted: &Pose,
     q: &[f64; 6],
-    pace: &Pace,
+    walk_options: &WalkOptions,
 ) -> Course {
     if motion.motion == Motion::Joint {
         return Course::Joint {
@@ -561,8 +573,8 @@ pub(crate) fn course(
     }
     let from = equipped.controller.forward(start, &Conditions::default());
     Course::Tool(match via {
-        Some(via) => ToolCourse::arc(&from, via.translation, wanted, pace.turning),
-        None => ToolCourse::straight(&from, wanted, pace.turning),
+        Some(via) => ToolCourse::arc(&from, via.translation, wanted, walk_options.turning),
+        None => ToolCourse::straight(&from, wanted, walk_options.turning),
     })
 }
 

@@ -388,7 +388,7 @@ pub fn diagnose(
         noise_source: match d.noise_source {
             NoiseSource::Given => "sigma_mm",
             NoiseSource::Repeats => "repeats",
-            NoiseSource::Left => "residuals",
+            NoiseSource::Residuals => "residuals",
         },
         left_mm: finite(mm_from_m(d.left_m)),
         outliers: d

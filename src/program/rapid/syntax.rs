@@ -1,4 +1,4 @@
-//! What the reader notes of a text before names are resolved.
+//! What the reader parsed of a text before names are resolved.
 
 use super::aggregate::Leaf;
 use crate::program::names::{Context, Symbol, Symbols};
@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// Everything noted of all files.
 #[derive(Debug, Default)]
-pub struct Notes {
+pub struct Parsed {
     /// Names.
     pub symbols: Symbols,
     /// How many modules there are; text between modules counts as one.
@@ -51,7 +51,7 @@ pub struct Notes {
 #[derive(Clone, Copy)]
 pub struct Lengths([usize; 12]);
 
-impl Notes {
+impl Parsed {
     /// Makes room for what a file of this size may hold, so that lists need not move while they grow: a target with its
     /// numbers takes some 150 bytes, a statement 40.
     pub fn reserve(&mut self, bytes: usize) {
@@ -107,7 +107,7 @@ impl Notes {
     }
 }
 
-/// A part of a list of [`Notes`].
+/// A part of a list of [`Parsed`].
 pub type Part = (u32, u32);
 
 /// A part as a range of indices.
@@ -141,7 +141,7 @@ pub struct Routine {
     pub is_procedure: bool,
     /// An interrupt starts it.
     pub is_trap: bool,
-    /// Its parameters, part of [`Notes::data`].
+    /// Its parameters, part of [`Parsed::data`].
     pub parameters: Part,
     /// It has an error handler, or an undo or backward handler.
     pub has_handler: bool,
@@ -215,9 +215,9 @@ pub struct Datum {
 pub enum Stored {
     /// No value.
     Nothing,
-    /// Targets: a single one where `sizes` is all zero, else an array; part of [`Notes::elements`].
+    /// Targets: a single one where `sizes` is all zero, else an array; part of [`Parsed::elements`].
     Elements { elements: Part, sizes: [u32; 3] },
-    /// A tool, frame or load, part of [`Notes::leaves`].
+    /// A tool, frame or load, part of [`Parsed::leaves`].
     Leaves(Part),
     /// An array of tools or frames, or a value that is not written out.
     Computed,
@@ -232,7 +232,7 @@ pub enum Element {
     Target(TargetId),
     /// A copy of another one.
     Named(Symbol),
-    /// Parts of it are expressions with these names: part of [`Notes::mentions`].
+    /// Parts of it are expressions with these names: part of [`Parsed::mentions`].
     Composed(Part),
     /// Anything else.
     Computed,
@@ -255,13 +255,13 @@ pub enum Expression {
     /// Nothing: an option without value.
     Nothing,
     /// A name, a target written out or what a function gives, displaced by `steps` from the innermost out: part of
-    /// [`Notes::steps`].
+    /// [`Parsed::steps`].
     Point { base: Base, steps: Part },
     /// A component of data.
     Member { name: Symbol, index: u32 },
-    /// A target some of whose parts are expressions, with the names in it: part of [`Notes::mentions`].
+    /// A target some of whose parts are expressions, with the names in it: part of [`Parsed::mentions`].
     Composed(Part),
-    /// Anything else, with the names in it: part of [`Notes::mentions`].
+    /// Anything else, with the names in it: part of [`Parsed::mentions`].
     Computed(Part),
     /// A string, without its quotes: its bytes.
     Text(u32, u32),
@@ -270,11 +270,11 @@ pub enum Expression {
 /// What Offs and `RelTool` start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
-    /// A name, perhaps with an index: see [`Notes::index`].
+    /// A name, perhaps with an index: see [`Parsed::index`].
     Named { name: Symbol, index: u32 },
     /// A target written out.
     Target(u32),
-    /// One of [`Notes::functions`].
+    /// One of [`Parsed::functions`].
     Function(u32),
 }
 
@@ -311,7 +311,7 @@ pub struct Argument {
 pub struct Function {
     pub name: Symbol,
     pub offset: u32,
-    /// Part of [`Notes::given`].
+    /// Part of [`Parsed::given`].
     pub arguments: Part,
 }
 
@@ -337,7 +337,7 @@ pub enum Component {
 /// What an assignment sets it to.
 #[derive(Clone, Copy, Debug)]
 pub enum Assigned {
-    /// Parts of a tool, frame or load that are written out: part of [`Notes::leaves`].
+    /// Parts of a tool, frame or load that are written out: part of [`Parsed::leaves`].
     Leaves(Part),
     /// Anything else.
     To(Expression),
@@ -365,7 +365,7 @@ pub enum StatementKind {
         arguments: Part,
         end: u32,
     },
-    /// A function of the files, or one that may write its arguments: one of [`Notes::functions`].
+    /// A function of the files, or one that may write its arguments: one of [`Parsed::functions`].
     Function(u32),
     If,
     /// `ELSEIF`, `CASE`; `ELSE`, `DEFAULT` where it is the last.

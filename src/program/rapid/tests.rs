@@ -771,7 +771,7 @@ fn broken_text_is_an_error_with_its_place() {
         assert!(error.to_string().contains(word), "{error}");
     }
     assert!(matches!(
-        read_files(&["hello world"]),
+        read_files(&["hello resolved"]),
         Err(ReadError::NotThisLanguage { .. })
     ));
     assert!(matches!(

@@ -1,6 +1,6 @@
 //! What values mean as positions, features and tools.
 
-use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Notes, Symbol};
+use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol};
 use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
 use crate::finding::Severity;
 use crate::geometry::units::DEG;
@@ -174,7 +174,7 @@ fn bits(pose: &Pose) -> [u64; 7] {
 
 /// Understands the values of one file.
 pub struct Goals<'m, 'n, 'a> {
-    pub notes: &'n Notes<'a>,
+    pub parsed: &'n Parsed<'a>,
     pub variables: &'m Variables<'n, 'a>,
     pub builder: &'m mut Builder,
     pub common: &'m mut Common,
@@ -204,8 +204,8 @@ impl Goals<'_, '_, '_> {
         let Some(steps) = steps.checked_sub(1) else {
             return self.unknown();
         };
-        match self.notes.expression(value) {
-            Expr::Literal(id) if self.notes.literal(id).computed => {
+        match self.parsed.expression(value) {
+            Expr::Literal(id) if self.parsed.literal(id).computed => {
                 self.composed(id, function, steps)
             }
             Expr::Literal(id) => self.literal(id),
@@ -282,7 +282,7 @@ impl Goals<'_, '_, '_> {
         let goal = self.goal_within(source.value, source.function, steps);
         let span = Span {
             start: offset,
-            end: offset + script::short(self.notes.bytes(name).len()),
+            end: offset + script::short(self.parsed.bytes(name).len()),
         };
         Goal {
             span: if goal.is_plain { span } else { Span::default() },
@@ -308,7 +308,7 @@ impl Goals<'_, '_, '_> {
     }
 
     fn literal(&self, id: LiteralId) -> Goal {
-        let literal = self.notes.literal(id);
+        let literal = self.parsed.literal(id);
         match self.targets[id as usize] {
             Some(target) => Goal {
                 span: Span {
@@ -385,7 +385,7 @@ impl Goals<'_, '_, '_> {
             return;
         };
         if let Some(target) = self.targets[id as usize] {
-            let at = self.notes.literal(id).offset;
+            let at = self.parsed.literal(id).offset;
             self.offsets.push((target, at));
             if let script::Expr::Target(of) = of {
                 self.offsets.push((of, at));
@@ -395,14 +395,14 @@ impl Goals<'_, '_, '_> {
 
     fn not_in_files(&mut self, name: Symbol) -> script::Expr {
         let script = &mut self.builder.script;
-        let notes = self.notes;
+        let parsed = self.parsed;
         let remark = *self.unknown.entry(name).or_insert_with(|| {
             script.remarks.push(Remark {
                 id: "target-not-in-files",
                 severity: Severity::Error,
                 text: format!(
                     "`{}`: the file does not assign this variable; the move is not compensated",
-                    notes.spelling(name)
+                    parsed.spelling(name)
                 )
                 .into(),
                 hint: "save the program together with the installation's variables",
@@ -416,8 +416,8 @@ impl Goals<'_, '_, '_> {
     fn feature(&mut self, value: ExprId, function: FunctionId) -> Feature {
         match self.variables.constant(value, function) {
             Ok(pose) => {
-                let name = match self.notes.expression(value) {
-                    Expr::Name(name, _) => self.notes.spelling(name),
+                let name = match self.parsed.expression(value) {
+                    Expr::Name(name, _) => self.parsed.spelling(name),
                     _ => "feature".into(),
                 };
                 Feature::Known(pose, name)
@@ -468,7 +468,7 @@ impl Goals<'_, '_, '_> {
     fn not_constant(&mut self, why: NotConstant) -> script::Expr {
         let held = match why {
             NotConstant::Unknown(name) => {
-                let name = self.notes.spelling(name);
+                let name = self.parsed.spelling(name);
                 return self.common.frame(&mut self.builder.script, &name, None);
             }
             NotConstant::Changing(variable) => self.held[variable as usize].frame,
@@ -485,8 +485,8 @@ impl Goals<'_, '_, '_> {
         let (Expr::Literal(id), _) = self.variables.follow(value, function) else {
             return None;
         };
-        let literal = self.notes.literal(id);
-        let values = self.notes.values(literal).filter(|_| !literal.pose)?;
+        let literal = self.parsed.literal(id);
+        let values = self.parsed.values(literal).filter(|_| !literal.pose)?;
         let unit = if literal.content == Content::Degrees {
             DEG
         } else {
@@ -501,7 +501,7 @@ impl Goals<'_, '_, '_> {
             return false;
         };
         let inner = |value| self.has_target(value, function, steps);
-        match self.notes.expression(value) {
+        match self.parsed.expression(value) {
             Expr::Literal(id) => self.targets[id as usize].is_some(),
             Expr::Name(name, _) => {
                 self.variables.meaning(name, function).is_some_and(|v| {
@@ -528,8 +528,8 @@ impl Goals<'_, '_, '_> {
         let Some(steps) = steps.checked_sub(1) else {
             return true;
         };
-        match self.notes.expression(value) {
-            Expr::Literal(id) => self.notes.literal(id).pose,
+        match self.parsed.expression(value) {
+            Expr::Literal(id) => self.parsed.literal(id).pose,
             Expr::Name(name, _) => self.variables.meaning(name, function).is_some_and(|v| {
                 let mut sources = self.variables.sources(v);
                 sources.any(|s| self.may_be_pose(s.value, s.function, steps / 2))

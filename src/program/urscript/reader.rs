@@ -1,6 +1,6 @@
 //! Statements: functions, blocks, assignments.
 
-use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, Notes, OTHER, Reach};
+use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, OTHER, Parsed, Reach};
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
 use crate::program::script::short;
@@ -26,7 +26,7 @@ struct Block {
 pub struct Reader<'a> {
     source: &'a Source,
     pub(super) scanner: Scanner<'a>,
-    pub notes: Notes<'a>,
+    pub parsed: Parsed<'a>,
     pub(super) function: FunctionId,
     blocks: Vec<Block>,
     /// Calls around the one that is being read.
@@ -39,13 +39,13 @@ pub(super) type Read<T> = Result<T, ReadError>;
 
 impl<'a> Reader<'a> {
     pub fn new(source: &'a Source) -> Self {
-        let mut notes = Notes::default();
-        notes.add(Expr::Other);
-        notes.functions.push(Function::default());
+        let mut parsed = Parsed::default();
+        parsed.add(Expr::Other);
+        parsed.functions.push(Function::default());
         Self {
             source,
             scanner: Scanner::new(&source.bytes),
-            notes,
+            parsed,
             function: 0,
             blocks: Vec::new(),
             depth: 0,
@@ -118,7 +118,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn event(&mut self, event: Event) {
-        self.notes.functions[self.function as usize]
+        self.parsed.functions[self.function as usize]
             .events
             .push(event);
     }
@@ -272,7 +272,7 @@ impl<'a> Reader<'a> {
                 Kind::End => return Err(self.unclosed(open.start, "a bracket")),
                 Kind::Sign(b',') => wants_name = true,
                 Kind::Word if wants_name => {
-                    let symbol = self.notes.symbol(self.text(token));
+                    let symbol = self.parsed.symbol(self.text(token));
                     let mut value = None;
                     if self.assigns() {
                         self.next()?;
@@ -285,8 +285,8 @@ impl<'a> Reader<'a> {
             }
         }
         self.header()?;
-        let symbol = self.notes.symbol(self.text(name));
-        self.notes.functions.push(Function {
+        let symbol = self.parsed.symbol(self.text(name));
+        self.parsed.functions.push(Function {
             name: Some(symbol),
             offset: short(first.start),
             parent: self.function,
@@ -294,7 +294,7 @@ impl<'a> Reader<'a> {
             parameters,
             events: Vec::new(),
         });
-        self.function = short(self.notes.functions.len() - 1);
+        self.function = short(self.parsed.functions.len() - 1);
         Ok(())
     }
 
@@ -304,7 +304,7 @@ impl<'a> Reader<'a> {
         };
         match block.kind {
             BlockKind::Function => {
-                self.function = self.notes.functions[self.function as usize].parent;
+                self.function = self.parsed.functions[self.function as usize].parent;
             }
             BlockKind::Branch => self.event(Event::EndIf),
             BlockKind::Loop { endless } => self.event(Event::EndLoop { endless }),
@@ -402,8 +402,8 @@ impl<'a> Reader<'a> {
         let text = self.text(name);
         // `a.b = …` changes a part of a
         let dot = memchr::memchr(b'.', text);
-        let symbol = self.notes.symbol(&text[..dot.unwrap_or(text.len())]);
-        self.notes.assignments.push(Assignment {
+        let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
+        self.parsed.assignments.push(Assignment {
             name: symbol,
             function: self.function,
             reach,
@@ -411,7 +411,7 @@ impl<'a> Reader<'a> {
             offset: short(name.start),
             part: part || dot.is_some(),
         });
-        let number = short(self.notes.assignments.len() - 1);
+        let number = short(self.parsed.assignments.len() - 1);
         self.event(Event::Assign(number));
     }
 

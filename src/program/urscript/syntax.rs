@@ -1,7 +1,7 @@
 //! What is noted of one file before names mean anything.
 
 use crate::program::script::short;
-use crate::program::{Load, Motion, Number, Pace};
+use crate::program::{Load, Motion, Number, SpeedZone};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -9,11 +9,11 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Symbol(pub u32);
 
-/// Index in [`Notes::expressions`].
+/// Index in [`Parsed::expressions`].
 pub type ExprId = u32;
-/// Index in [`Notes::literals`].
+/// Index in [`Parsed::literals`].
 pub type LiteralId = u32;
-/// Index in [`Notes::functions`]; 0 is the text outside functions.
+/// Index in [`Parsed::functions`]; 0 is the text outside functions.
 pub type FunctionId = u32;
 
 /// The value of everything that is not looked into.
@@ -24,7 +24,7 @@ pub const OTHER: ExprId = 0;
 pub enum Expr {
     /// `p[…]` or `[…]`.
     Literal(LiteralId),
-    /// `[…]` with poses, lists or names in it: index in [`Notes::lists`].
+    /// `[…]` with poses, lists or names in it: index in [`Parsed::lists`].
     List(u32),
     /// A variable, and its first byte.
     Name(Symbol, u32),
@@ -42,7 +42,7 @@ pub enum Expr {
         near: Option<ExprId>,
         tcp: Option<ExprId>,
     },
-    /// What a function of the file returns: index in [`Notes::calls`].
+    /// What a function of the file returns: index in [`Parsed::calls`].
     Call(u32),
     /// Where the robot is.
     Actual,
@@ -71,13 +71,13 @@ pub struct Literal {
     /// It has a `p`.
     pub pose: bool,
     pub content: Content,
-    /// In [`Notes::numbers`].
+    /// In [`Parsed::numbers`].
     pub numbers: Range<u32>,
     /// Elements between its commas.
     pub elements: u32,
     /// Only the running program knows its elements.
     pub computed: bool,
-    /// Where it is: the names in it, in [`Notes::composed`].
+    /// Where it is: the names in it, in [`Parsed::composed`].
     pub names: Range<u32>,
     /// The pose is another one, shifted along the base by what the text tells.
     pub shifted: Option<Shifted>,
@@ -134,7 +134,7 @@ pub struct Step {
     pub target: Option<ExprId>,
     /// The controller follows it as a stream of set points.
     pub streamed: bool,
-    pub pace: Pace,
+    pub speed_zone: SpeedZone,
     /// The call can be written again with another target.
     pub repeatable: bool,
 }
@@ -145,14 +145,14 @@ pub struct Called {
     pub name: Symbol,
     pub function: FunctionId,
     pub offset: u32,
-    /// In [`Notes::arguments`].
+    /// In [`Parsed::arguments`].
     pub arguments: Range<u32>,
 }
 
 /// A statement, in the order of the text of one function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
-    /// Index in [`Notes::assignments`].
+    /// Index in [`Parsed::assignments`].
     Assign(u32),
     /// `set_tcp(…)`, at a byte.
     Tool(ExprId, u32),
@@ -160,7 +160,7 @@ pub enum Event {
     Load(Option<Load>, u32),
     /// Moves go along a frame that moves from here on, or no longer.
     Tracking(bool, u32),
-    /// Index in [`Notes::calls`].
+    /// Index in [`Parsed::calls`].
     Call(u32),
     If,
     /// `if` with a condition that is never true: nothing runs before its first branch.
@@ -183,7 +183,7 @@ pub enum Event {
     Continue,
     Return(ExprId, u32),
     Halt,
-    /// Index in [`Notes::steps`].
+    /// Index in [`Parsed::steps`].
     Step(u32),
 }
 
@@ -201,7 +201,7 @@ pub struct Function {
 
 /// All of one file.
 #[derive(Debug, Default)]
-pub struct Notes<'a> {
+pub struct Parsed<'a> {
     pub expressions: Vec<Expr>,
     pub literals: Vec<Literal>,
     pub lists: Vec<List>,
@@ -222,7 +222,7 @@ pub struct Notes<'a> {
     spellings: Vec<&'a [u8]>,
 }
 
-impl<'a> Notes<'a> {
+impl<'a> Parsed<'a> {
     pub fn symbol(&mut self, name: &'a [u8]) -> Symbol {
         let next = Symbol(short(self.spellings.len()));
         let spellings = &mut self.spellings;

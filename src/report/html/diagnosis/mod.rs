@@ -48,7 +48,7 @@ pub fn page(of: &Diagnosis) -> Page {
     let source = match found.noise_source {
         NoiseSource::Given => "sigma_mm",
         NoiseSource::Repeats => "repeated poses",
-        NoiseSource::Left => "what no model explains",
+        NoiseSource::Residuals => "what no model explains",
     };
     page.fact(
         &format!("noise of a coordinate, by {source}"),
