@@ -273,14 +273,14 @@ pub fn compensate(
         summary,
     };
     compensation.decided.extend(options.decided());
-    compensation.split(language, sources, splits);
+    compensation.split(language, sources, &splits);
     compensation.judge(sources, &options.accepted);
     Ok(compensation)
 }
 
 impl Compensation {
     /// Gives moves that share a target targets of their own.
-    fn split(&mut self, language: &dyn Language, sources: &[Source], splits: Vec<Split>) {
+    fn split(&mut self, language: &dyn Language, sources: &[Source], splits: &[Split]) {
         if splits.is_empty() {
             return;
         }

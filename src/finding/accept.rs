@@ -62,10 +62,11 @@ impl FromStr for Acceptance {
 impl std::fmt::Display for Acceptance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.kind.id)?;
-        for part in [self.file.clone(), self.line.map(|line| line.to_string())] {
-            if let Some(part) = part {
-                write!(f, ":{part}")?;
-            }
+        for part in [self.file.clone(), self.line.map(|line| line.to_string())]
+            .into_iter()
+            .flatten()
+        {
+            write!(f, ":{part}")?;
         }
         Ok(())
     }

@@ -312,20 +312,17 @@ impl<'a> Flow<'a> {
                 }
                 _ => None,
             };
-            match once {
-                Some((value, site)) => {
-                    let holding = self.constant(value, site);
-                    self.fixed.push(holding);
-                    self.slots.push(None);
-                }
-                None => {
-                    self.fixed.push(NOTHING);
-                    let slot = short(self.tracked.len());
-                    self.slots.push(Some(slot));
-                    self.tracked.push(short(variable));
-                    if let Some(routine) = self.script.variables[variable].routine {
-                        self.locals.entry(routine).or_default().push(slot);
-                    }
+            if let Some((value, site)) = once {
+                let holding = self.constant(value, site);
+                self.fixed.push(holding);
+                self.slots.push(None);
+            } else {
+                self.fixed.push(NOTHING);
+                let slot = short(self.tracked.len());
+                self.slots.push(Some(slot));
+                self.tracked.push(short(variable));
+                if let Some(routine) = self.script.variables[variable].routine {
+                    self.locals.entry(routine).or_default().push(slot);
                 }
             }
         }
@@ -335,12 +332,11 @@ impl<'a> Flow<'a> {
     fn constant(&mut self, value: Expr, site: Site) -> Holding {
         match value {
             Expr::Variable(variable) if (variable as usize) < self.fixed.len() => {
-                match self.slots[variable as usize] {
-                    None => self.fixed[variable as usize],
-                    Some(_) => {
-                        let declared = self.script.variables[variable as usize].declared;
-                        self.constant(declared, site)
-                    }
+                if self.slots[variable as usize].is_none() {
+                    self.fixed[variable as usize]
+                } else {
+                    let declared = self.script.variables[variable as usize].declared;
+                    self.constant(declared, site)
                 }
             }
             Expr::Variable(variable) => {
@@ -1070,7 +1066,7 @@ impl<'a> Flow<'a> {
             let Some(exit) = self.instances[callee as usize].exit.clone() else {
                 continue;
             };
-            let back = self.back_from(&start, exit, call, routine, instance);
+            let back = self.back_from(&start, &exit, call, routine, instance);
             behind = Some(match behind {
                 Some(other) => self.join(&other, &back),
                 None => back,
@@ -1109,7 +1105,7 @@ impl<'a> Flow<'a> {
     fn back_from(
         &mut self,
         start: &State,
-        exit: State,
+        exit: &State,
         call: &Call,
         routine: RoutineId,
         instance: u32,
@@ -1129,7 +1125,7 @@ impl<'a> Flow<'a> {
                 && self.script.variables[parameter as usize].routine == Some(routine)
                 && self.slots[parameter as usize].is_some()
             {
-                let held = self.variable(&exit, parameter);
+                let held = self.variable(exit, parameter);
                 let written = self.come_back(held, variable);
                 self.set(&mut back, variable, written);
             }

@@ -266,11 +266,7 @@ impl Walker<'_, '_> {
         let motion = &ground.program.moves[at as usize];
         let before = self.arrivals.all.get(from as usize).copied();
         let start = before.filter(|before| before.known).map(|before| before.q);
-        let is_first = ground
-            .program
-            .before(motion)
-            .iter()
-            .any(|before| *before == Before::Start);
+        let is_first = ground.program.before(motion).contains(&Before::Start);
         let start = match (start, from) {
             (None, NOWHERE) if is_first => self.walk_options.start_joints,
             _ => start,

@@ -357,7 +357,7 @@ pub fn diagnose(
             .unknown
             .iter()
             .map(|u| Unregistered {
-                function: u.name.to_string(),
+                function: u.name.clone(),
                 chi_squared_fall: finite(u.gain),
             })
             .collect(),

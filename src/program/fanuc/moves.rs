@@ -76,10 +76,10 @@ impl Reader<'_> {
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
-            configured: if !words.wrist_joint {
-                Expr::Value(self.controller.honoured)
-            } else {
+            configured: if words.wrist_joint {
                 Expr::Absent
+            } else {
+                Expr::Value(self.controller.honoured)
             },
             displacement: if words.displaced {
                 DISPLACED_SOMEHOW
@@ -215,14 +215,15 @@ impl Reader<'_> {
                 None => Expr::Unknown(self.controller.missing),
             },
             Named::AnyPoint => return self.any_point(),
-            Named::Register(register) => match self.reads(register) {
-                Some(number) => Expr::Variable(self.register(number)),
-                None => {
+            Named::Register(register) => {
+                if let Some(number) = self.reads(register) {
+                    Expr::Variable(self.register(number))
+                } else {
                     let at = self.builder.script.instructions.len();
                     self.to_any_register.push(at);
                     Expr::Unknown(self.controller.computed)
                 }
-            },
+            }
             Named::Computed => Expr::Unknown(self.controller.computed),
         };
         vec![self.goal(target, None, None, false)]

@@ -17,6 +17,9 @@ use crate::program::{Layout, ReadError, Shape, Source, Target, TargetId};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
+/// A tool, a frame, and any of the points taught with them.
+type Group = (Option<u32>, Option<u32>, Expr);
+
 /// One program.
 #[derive(Debug, Default)]
 pub struct Listing {
@@ -29,7 +32,7 @@ pub struct Listing {
     /// The last point of each number.
     pub by_number: HashMap<u32, u32>,
     /// The points of one tool and frame, for moves to any of them.
-    pub any: Option<Vec<(Option<u32>, Option<u32>, Expr)>>,
+    pub any: Option<Vec<Group>>,
     /// It follows a conveyor.
     pub tracks_line: bool,
     /// Which tool and frame are selected matters to some of its moves.

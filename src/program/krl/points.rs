@@ -105,7 +105,8 @@ impl Reader {
         if name.kind == Kind::Name {
             let mut buffer = [0; 24];
             match capitals(cursor.text(name), &mut buffer) {
-                b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MEAS" | b"$AXIS_ACT_MES" | b"$POS_ACT_MES" => {
+                b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MEAS" | b"$AXIS_ACT_MES"
+                | b"$POS_ACT_MES" => {
                     cursor.brackets()?;
                     return Ok(if cursor.blanks() == b'.' {
                         cursor.skip();

@@ -259,8 +259,8 @@ impl Translator<'_> {
 
     /// A search writes where the robot was when the signal came.
     fn found(&mut self, all: &[Argument]) {
-        let found = all.iter().filter(|argument| argument.option.is_none());
-        if let Some(argument) = found.skip(1).next() {
+        let mut found = all.iter().filter(|argument| argument.option.is_none());
+        if let Some(argument) = found.nth(1) {
             let actual = Expr::Value(self.actual);
             self.write_argument(argument, How::Whole(actual));
         }
@@ -279,19 +279,16 @@ impl Translator<'_> {
         if self.resolved.spelling(name).eq_ignore_ascii_case("load0") {
             return Expr::Absent;
         }
-        match self.load(name) {
-            Some(load) => {
-                let value = self.loads.get(&name).copied();
-                Expr::Value(value.unwrap_or_else(|| {
-                    let value = self.builder.script.value(Held::Load(Some(load)));
-                    self.loads.insert(name, value);
-                    value
-                }))
-            }
-            None => {
-                self.other_load(name);
-                Expr::Absent
-            }
+        if let Some(load) = self.load(name) {
+            let value = self.loads.get(&name).copied();
+            Expr::Value(value.unwrap_or_else(|| {
+                let value = self.builder.script.value(Held::Load(Some(load)));
+                self.loads.insert(name, value);
+                value
+            }))
+        } else {
+            self.other_load(name);
+            Expr::Absent
         }
     }
 

@@ -282,10 +282,15 @@ impl<'a> Resolved<'a> {
             }
         }
         // what a routine writes into a parameter by reference is written where it is called
-        while calls
-            .iter()
-            .fold(false, |changed, call| self.mark_given(*call) || changed)
-        {}
+        loop {
+            let mut changed = false;
+            for call in &calls {
+                changed |= self.mark_given(*call);
+            }
+            if !changed {
+                break;
+            }
+        }
     }
 
     fn note_call(&mut self, given: Given, calls: &mut Vec<Given>) {
@@ -367,8 +372,7 @@ impl<'a> Resolved<'a> {
     pub fn is_written_target(&self, target: usize) -> bool {
         let declares = |datum: &Datum| match datum.value {
             Stored::Elements { elements, .. } => self.parsed.elements[indices(elements)]
-                .iter()
-                .any(|element| *element == super::syntax::Element::Target(target)),
+                .contains(&super::syntax::Element::Target(target)),
             _ => false,
         };
         let found = self.parsed.data.iter().position(declares);

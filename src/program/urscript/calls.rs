@@ -240,16 +240,15 @@ impl<'a> Reader<'a> {
         };
         let speed = places.speed.and_then(|_| find(places.speed, b"v"));
         let radius = places.radius.and_then(|_| find(places.radius, b"r"));
-        let speed_zone = match places.radius {
-            None => SpeedZone::default(),
-            Some(_) => {
-                // not given is none: the robot stops; a variable says how far
-                let zone_m = radius.map_or(Some(0.0), Argument::number);
-                SpeedZone {
-                    speed_m_s: speed.and_then(Argument::number),
-                    zone_m,
-                    blends: zone_m.is_none(),
-                }
+        let speed_zone = if places.radius.is_none() {
+            SpeedZone::default()
+        } else {
+            // not given is none: the robot stops; a variable says how far
+            let zone_m = radius.map_or(Some(0.0), Argument::number);
+            SpeedZone {
+                speed_m_s: speed.and_then(Argument::number),
+                zone_m,
+                blends: zone_m.is_none(),
             }
         };
         // with a time for the whole way the speed is not obeyed

@@ -141,7 +141,7 @@ impl Common {
     }
 
     /// What the parameters of a function hold that nothing in the file calls.
-    pub fn from_outside(&self) -> script::Expr {
+    pub fn given_outside(&self) -> script::Expr {
         script::Expr::Unknown(self.not_called)
     }
 

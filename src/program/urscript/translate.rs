@@ -245,12 +245,13 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 .map(|f| self.first_routine + f);
             let name = self.goals.parsed.spelling(variable.name);
             let from_outside = match variable.parameter {
-                Some(_) => self.goals.common.from_outside(),
+                Some(_) => self.goals.common.given_outside(),
                 None => script::Expr::Absent,
             };
-            let position = match variable.has_parts {
-                true => self.first_target(short(at)).unwrap_or(from_outside),
-                false => from_outside,
+            let position = if variable.has_parts {
+                self.first_target(short(at)).unwrap_or(from_outside)
+            } else {
+                from_outside
             };
             let frame = match variable.parameter {
                 Some(_) => script::Expr::Unknown(self.goals.common.frame_computed),
@@ -327,14 +328,15 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     self.write(Some(self.load), How::Whole(load), offset);
                 }
                 Event::Tracking(on, offset) => {
-                    let held = match on {
-                        true => Held::Remark(builder.script.remark(Remark {
-                            id: "moving-frame",
-                            severity: Severity::Error,
-                            text: "moves along a conveyor, with a path offset or on a part that moves are not compensated".into(),
-                            hint: "",
-                        })),
-                        false => Held::Flag(false),
+                    let held = if on {
+                        Held::Remark(builder.script.remark(Remark {
+                        id: "moving-frame",
+                        severity: Severity::Error,
+                        text: "moves along a conveyor, with a path offset or on a part that moves are not compensated".into(),
+                        hint: "",
+                    }))
+                    } else {
+                        Held::Flag(false)
                     };
                     let value = builder.script.value(held);
                     let how = How::Whole(script::Expr::Value(value));
@@ -476,14 +478,13 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         for &callee in &callees {
             for position in 0..parsed.functions[callee as usize].parameters.len() {
                 let (parameter, given) = self.goals.variables.given(call, callee, position);
-                let values = match given {
-                    Some((value, function)) => self.values(parameter, value, function),
+                let values = if let Some((value, function)) = given {
+                    self.values(parameter, value, function)
+                } else {
                     // what was given before is no longer there
-                    None => {
-                        let held = self.goals.held[parameter as usize].position;
-                        let outside = self.goals.common.from_outside();
-                        held.map(|held| (held, outside)).into_iter().collect()
-                    }
+                    let held = self.goals.held[parameter as usize].position;
+                    let outside = self.goals.common.given_outside();
+                    held.map(|held| (held, outside)).into_iter().collect()
                 };
                 arguments.extend(values.into_iter().map(|(parameter, value)| Argument {
                     parameter: Some(parameter),

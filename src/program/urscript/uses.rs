@@ -280,12 +280,11 @@ impl Variables<'_, '_> {
             let Some(variable) = variable else {
                 return (false, false);
             };
-            match self.fixed(variable) {
-                Some(source) => self.has_own(source.value, source.function, steps),
-                None => {
-                    let of = &self.list[variable as usize];
-                    (of.in_features, of.with_tools)
-                }
+            if let Some(source) = self.fixed(variable) {
+                self.has_own(source.value, source.function, steps)
+            } else {
+                let of = &self.list[variable as usize];
+                (of.in_features, of.with_tools)
             }
         };
         match self.parsed.expression(value) {

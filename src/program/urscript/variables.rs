@@ -221,13 +221,12 @@ impl<'n, 'a> Variables<'n, 'a> {
                     }
                 }
             }
-            let variable = match self.names.get(&(owner, name)) {
-                Some(known) => *known,
-                None => {
-                    let made = self.add(name, assignment.offset, None);
-                    self.names.insert((owner, name), made);
-                    made
-                }
+            let variable = if let Some(known) = self.names.get(&(owner, name)) {
+                *known
+            } else {
+                let made = self.add(name, assignment.offset, None);
+                self.names.insert((owner, name), made);
+                made
             };
             let way = if assignment.part {
                 Assigned::Part
@@ -247,14 +246,13 @@ impl<'n, 'a> Variables<'n, 'a> {
                 match *event {
                     Event::Return(value, offset) if at != 0 => {
                         let at = short(at);
-                        let result = match self.results.get(&at) {
-                            Some(known) => *known,
-                            None => {
-                                let name = function.name.expect("functions have names");
-                                let made = self.add(name, offset, None);
-                                self.results.insert(at, made);
-                                made
-                            }
+                        let result = if let Some(known) = self.results.get(&at) {
+                            *known
+                        } else {
+                            let name = function.name.expect("functions have names");
+                            let made = self.add(name, offset, None);
+                            self.results.insert(at, made);
+                            made
                         };
                         self.source(result, value, at, Assigned::Given);
                     }
