@@ -29,7 +29,7 @@ pub(crate) struct Part {
 
 impl Part {
     /// Where the tool is wanted at its end.
-    pub fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
+    pub(super) fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
         let stop = original.stops[self.stop].expect("a part's move ends at a stop");
         if self.to >= 1.0 {
             return stop.pose;

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 /// Predict where the real robot goes with programs as they are: accuracy along the path, limits, collisions
 #[derive(Args)]
-pub struct Check {
+pub(super) struct Check {
     /// Program files that belong together, or folders of them
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
@@ -92,7 +92,7 @@ enum Orientation {
 }
 
 impl Check {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         self.refuse_nonsense()?;
         let ProfileFile {
             mut profile,

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Rewrite the targets of programs so that the real tool arrives where the simulation wanted it
 #[derive(Args)]
-pub struct Compensate {
+pub(super) struct Compensate {
     /// Program files that belong together, or folders of them
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
@@ -137,7 +137,7 @@ struct Job {
 }
 
 impl Compensate {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let file = files::profile(&self.profile)?;
         let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
         let options = self.options(&file.profile, each)?;

@@ -44,7 +44,7 @@ use std::process::ExitCode;
 #[command(
     after_help = "Exit status: 0 done; 1 done, and the answer is no (nothing is written); 2 could not do it; 3 a fault of poseshift itself."
 )]
-pub struct CommandLine {
+pub(crate) struct CommandLine {
     #[command(subcommand)]
     command: Command,
     #[command(flatten)]
@@ -53,7 +53,7 @@ pub struct CommandLine {
 
 /// How results are told.
 #[derive(Args, Clone, Copy)]
-pub struct Output {
+pub(crate) struct Output {
     /// Print a machine-readable report (JSON) and nothing else
     #[arg(long, global = true)]
     json: bool,

@@ -71,7 +71,7 @@ pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
 
 impl<'a> Portion<'a> {
     /// Nothing yet.
-    pub fn new(bases: &'a BTreeSet<usize>) -> Self {
+    pub(super) fn new(bases: &'a BTreeSet<usize>) -> Self {
         Self {
             bases,
             reports: Vec::new(),
@@ -83,7 +83,7 @@ impl<'a> Portion<'a> {
     }
 
     /// Writes the new text of one target, where it converged from wherever the robot comes, and reports on it.
-    pub fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
+    pub(super) fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
         let (approach, outcome) = &group[0];
         let mut report = TargetReport::new(Some((approach, outcome)));
         let lost = group

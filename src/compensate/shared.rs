@@ -28,7 +28,7 @@ pub(super) struct Fake {
 }
 
 impl Fake {
-    pub fn of(job: &Job, approach: &Approach, outcome: &Outcome) -> Self {
+    pub(super) fn of(job: &Job, approach: &Approach, outcome: &Outcome) -> Self {
         let ground = &job.ground;
         let equipped = ground.arm_with(approach.tool as usize);
         let world_from_tool = equipped
@@ -44,7 +44,7 @@ impl Fake {
 
 impl Fake {
     /// What the numbers of a target mean.
-    pub fn meant(job: &Job, approach: &Approach, numbers: &[f64]) -> Self {
+    pub(super) fn meant(job: &Job, approach: &Approach, numbers: &[f64]) -> Self {
         let ground = &job.ground;
         let layout = ground.program.targets[approach.target as usize].layout;
         match ground

@@ -157,7 +157,7 @@ pub(super) struct Flow<'a> {
 
 impl<'a> Flow<'a> {
     /// Follows a script.
-    pub fn of(script: &'a Script) -> Self {
+    pub(super) fn of(script: &'a Script) -> Self {
         let mut label_places = vec![u32::MAX; script.labels as usize];
         for (at, statement) in script.statements.iter().enumerate() {
             if let Statement::Label(label) = statement {
@@ -225,7 +225,7 @@ impl<'a> Flow<'a> {
     }
 
     /// The value of an identifier, the flow's own included.
-    pub fn value(&self, value: ValueId) -> &Held {
+    pub(super) fn value(&self, value: ValueId) -> &Held {
         let at = value as usize;
         let own = self.script.values.len();
         if at < own {
@@ -786,7 +786,7 @@ impl<'a> Flow<'a> {
     }
 
     /// What a variable holds at a stop that goes to one of several positions.
-    pub fn chosen_at(&mut self, stop: Stop, variable: VariableId) -> Holding {
+    pub(super) fn chosen_at(&mut self, stop: Stop, variable: VariableId) -> Holding {
         let held = match (self.slots[variable as usize], self.chosen.get(&stop)) {
             (Some(slot), Some(holds)) => holds[slot as usize],
             _ => self.fixed[variable as usize],
@@ -1004,7 +1004,7 @@ impl<'a> Flow<'a> {
     }
 
     /// The parts of a record.
-    pub fn parts_of(&self, parts: &std::ops::Range<u32>) -> Vec<Part> {
+    pub(super) fn parts_of(&self, parts: &std::ops::Range<u32>) -> Vec<Part> {
         let own = short(self.script.parts.len());
         let (list, by) = if parts.start < own || parts.is_empty() {
             (&self.script.parts, 0)
@@ -1355,7 +1355,7 @@ impl<'a> Flow<'a> {
     }
 
     /// Where a write stands, or the declaration of what a variable holds.
-    pub fn place_of(&self, site: Site) -> Option<crate::program::script::Place> {
+    pub(super) fn place_of(&self, site: Site) -> Option<crate::program::script::Place> {
         let script = self.script;
         Some(match script.statements.get(site as usize)? {
             Statement::Move(at) => script.instructions[*at as usize].place,

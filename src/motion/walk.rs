@@ -79,7 +79,7 @@ pub(crate) struct Arrivals {
 
 impl Arrivals {
     /// Indices of the arrivals at a move.
-    pub fn at(&self, motion: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn at(&self, motion: usize) -> impl Iterator<Item = usize> + '_ {
         let first = self.first.get(motion).copied().unwrap_or(NOWHERE);
         let mut next = (first != NOWHERE).then_some(first as usize);
         std::iter::from_fn(move || {
@@ -91,7 +91,7 @@ impl Arrivals {
     }
 
     /// Where an arrival comes from, where its joints are known.
-    pub fn start_of(&self, arrival: &Arrival) -> Option<&Arrival> {
+    pub(crate) fn start_of(&self, arrival: &Arrival) -> Option<&Arrival> {
         let from = self.all.get(arrival.from as usize)?;
         from.known.then_some(from)
     }

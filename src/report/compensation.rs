@@ -5,7 +5,7 @@ use crate::task::compensate::{Compensated, Summary};
 
 /// The text for people, without the findings.
 #[must_use]
-pub fn text(found: &Compensated, language: &dyn Language) -> String {
+pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
     let Summary {
         targets,
         compensated,

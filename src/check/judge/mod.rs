@@ -24,7 +24,7 @@ pub(super) struct Job<'a> {
 
 impl Job<'_> {
     /// What the move does, and what a person should look at.
-    pub fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
+    pub(super) fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
         let mut findings = Vec::new();
         let program = &self.walk.program;
         let motion = self.walk.motion(index);

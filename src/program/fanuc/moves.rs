@@ -41,7 +41,7 @@ struct Goal {
 
 /// The row of arcs that `A` moves belong to.
 #[derive(Debug)]
-pub struct Row {
+pub(super) struct Row {
     /// The instructions of its last point.
     last: Range<usize>,
     /// It has no other point.
@@ -50,7 +50,7 @@ pub struct Row {
 
 impl Reader<'_> {
     /// A move; its position starts at `at` of its text.
-    pub fn go(&mut self, line: &Line, letter: u8, at: usize) {
+    pub(super) fn go(&mut self, line: &Line, letter: u8, at: usize) {
         let text = &self.bytes[line.text.clone()];
         let start = line.text.start;
         let Some((first, length)) = position(&text[at..]) else {

@@ -92,7 +92,7 @@ fn tag(word: &[u8], speed_zone: &mut SpeedZone) {
 
 impl<'a> Reader<'a> {
     /// A line with one or more moves: `MOVL C00001 EC00001 V=100.0 +MOVJ EC00002`.
-    pub fn moves(&mut self, line: Line<'a>) {
+    pub(super) fn moves(&mut self, line: Line<'a>) {
         let mut searches = false;
         let mut coordinated = false;
         let mut found: Vec<Words> = Vec::with_capacity(1);
@@ -195,7 +195,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The last point of an arc is its end.
-    pub fn end_arc(&mut self) {
+    pub(super) fn end_arc(&mut self) {
         let arc = std::mem::take(&mut self.here.arc);
         if let Arc { points: 2.., last } = arc {
             self.builder.script.instructions[last].motion = Motion::ArcEnd;
@@ -266,7 +266,7 @@ impl<'a> Reader<'a> {
     // ---- when all jobs are read
 
     /// The script, with what can only be said at the end.
-    pub fn finish(mut self) -> Script {
+    pub(super) fn finish(mut self) -> Script {
         if !self.shifts {
             let shift = self.variables.shift;
             for set in &mut self.builder.script.guards {

@@ -12,14 +12,14 @@ use crate::program::{Displacement, Motion, Shape, Shift, SpeedZone, number};
 
 /// How the robot goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Path {
+pub(super) enum Path {
     Joint,
     Linear,
     Arc,
 }
 
 /// A motion keyword in capitals, and whether the move is relative.
-pub fn motion(word: &[u8]) -> Option<(Path, bool)> {
+pub(super) fn motion(word: &[u8]) -> Option<(Path, bool)> {
     Some(match word {
         b"PTP" | b"SPTP" => (Path::Joint, false),
         b"LIN" | b"SLIN" | b"SPL" => (Path::Linear, false),
@@ -33,7 +33,7 @@ pub fn motion(word: &[u8]) -> Option<(Path, bool)> {
 
 /// What a move or a spline block sets for itself.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct With {
+pub(super) struct With {
     tool: Option<Expr>,
     base: Option<Expr>,
     load: Option<Expr>,
@@ -42,7 +42,7 @@ pub struct With {
 
 /// Where the robot is, for moves relative to it.
 #[derive(Clone, Copy, Debug)]
-pub struct Last {
+pub(super) struct Last {
     target: Expr,
     shift: Shift,
 }
@@ -290,7 +290,7 @@ fn speed(cursor: &mut Cursor, part: Option<Token>) -> Read<Option<f64>> {
 }
 
 /// Skips a value of WITH: up to a comma, or a word behind it such as `C_DIS`.
-pub fn skip_value(cursor: &mut Cursor) {
+pub(super) fn skip_value(cursor: &mut Cursor) {
     let mut depth = 0_u32;
     let mut ends = false;
     loop {

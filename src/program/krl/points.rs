@@ -13,7 +13,7 @@ use crate::program::{Displacement, Shape, Shift, TargetId};
 
 /// A position as it is written.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub(super) struct Point {
     pub target: Expr,
     pub displacement: DisplacementId,
     /// Where the robot is: it stays there.

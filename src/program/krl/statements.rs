@@ -12,7 +12,7 @@ use crate::program::script::{Expr, How, Write, Written};
 use crate::program::{SpeedZone, number};
 
 /// Whether a word in capitals starts a move.
-pub fn is_motion(word: &[u8]) -> bool {
+pub(super) fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
 }
 

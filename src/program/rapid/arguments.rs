@@ -12,11 +12,11 @@ use crate::program::{Layout, Number, Shape, Target, number};
 const DEEPEST: usize = 16;
 
 /// Coordinates (mm) and angles (degrees) of targets are smaller: 9E9 means "not connected".
-pub const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 /// External axes from here on are not connected: 9E9, or what is left of it in 32 bits.
 const NOT_CONNECTED: f64 = 8e9;
 /// Deviation of a quaternion's length from 1 that rounding explains.
-pub const UNIT_TOLERANCE: f64 = 0.01;
+pub(super) const UNIT_TOLERANCE: f64 = 0.01;
 
 /// Numbers of a pose that targets keep: the external axes stay as they are.
 const POSE_NUMBERS: usize = 11;
@@ -388,7 +388,7 @@ fn bad_value(shape: Shape, numbers: &[Number]) -> Option<Fault> {
 }
 
 /// Whether a quaternion's length is 1 but for rounding.
-pub fn is_unit(parts: [f64; 4]) -> bool {
+pub(super) fn is_unit(parts: [f64; 4]) -> bool {
     (Quaternion(parts).norm() - 1.0).abs() <= UNIT_TOLERANCE
 }
 

@@ -52,7 +52,7 @@ struct Given {
 }
 
 impl<'a> Resolved<'a> {
-    pub fn new(parsed: Parsed, verbs: Verbs, sources: &'a [Source]) -> Self {
+    pub(super) fn new(parsed: Parsed, verbs: Verbs, sources: &'a [Source]) -> Self {
         let (mut data, mut routines) = (Scopes::default(), Scopes::default());
         for (at, datum) in parsed.data.iter().enumerate() {
             data.add(datum.name, datum.context, datum.local, short(at));
@@ -78,28 +78,28 @@ impl<'a> Resolved<'a> {
         resolved
     }
 
-    pub fn datum(&self, datum: u32) -> &Datum {
+    pub(super) fn datum(&self, datum: u32) -> &Datum {
         &self.parsed.data[datum as usize]
     }
 
-    pub fn spelling(&self, name: Symbol) -> &str {
+    pub(super) fn spelling(&self, name: Symbol) -> &str {
         self.parsed.symbols.spelling(name)
     }
 
-    pub fn meaning(&self, name: Symbol, context: Context) -> Meaning {
+    pub(super) fn meaning(&self, name: Symbol, context: Context) -> Meaning {
         self.data.meaning(name, context)
     }
 
-    pub fn several(&self, list: u32) -> &[u32] {
+    pub(super) fn several(&self, list: u32) -> &[u32] {
         self.data.several(list)
     }
 
     /// What a function of this name does if it is one of the language.
-    pub fn known(&self, function: &Function) -> Known {
+    pub(super) fn known(&self, function: &Function) -> Known {
         self.verbs.known(function.name)
     }
 
-    pub fn is_written(&self, entity: Entity) -> bool {
+    pub(super) fn is_written(&self, entity: Entity) -> bool {
         match entity {
             Entity::Declared(datum) => self.written[datum as usize],
             Entity::Undeclared(name) => self.undeclared.contains(&name),
@@ -107,12 +107,12 @@ impl<'a> Resolved<'a> {
     }
 
     /// Whether a name is written that the files do not declare.
-    pub fn has_undeclared(&self) -> bool {
+    pub(super) fn has_undeclared(&self) -> bool {
         !self.undeclared.is_empty()
     }
 
     /// The type of what a name means; of several declarations that of the first.
-    pub fn kind(&self, name: Symbol, context: Context) -> Option<Type> {
+    pub(super) fn kind(&self, name: Symbol, context: Context) -> Option<Type> {
         match self.meaning(name, context) {
             Meaning::One(datum) => Some(self.datum(datum).kind),
             Meaning::Several(list) => Some(self.datum(self.several(list)[0]).kind),
@@ -121,12 +121,18 @@ impl<'a> Resolved<'a> {
     }
 
     /// Whether a call names a routine of the files.
-    pub fn is_routine(&self, name: Symbol, context: Context) -> bool {
+    pub(super) fn is_routine(&self, name: Symbol, context: Context) -> bool {
         self.routines.meaning(name, context) != Meaning::Nothing
     }
 
     /// The routines that a call may mean.
-    pub fn callees(&self, callee: Callee, arguments: Part, context: Context, file: u32) -> Callees {
+    pub(super) fn callees(
+        &self,
+        callee: Callee,
+        arguments: Part,
+        context: Context,
+        file: u32,
+    ) -> Callees {
         let named = |name: Option<Symbol>| {
             let meaning = name.map_or(Meaning::Nothing, |name| {
                 self.routines.meaning(name, context)
@@ -153,7 +159,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// Every procedure whose name begins so and that takes so many arguments, and others.
-    pub fn any_routine(&self, arguments: Part, prefix: &str) -> Callees {
+    pub(super) fn any_routine(&self, arguments: Part, prefix: &str) -> Callees {
         let positional = self.parsed.arguments[indices(arguments)]
             .iter()
             .filter(|argument| argument.option.is_none())
@@ -181,7 +187,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// The parameter of a routine that each argument is for.
-    pub fn parameters<'b>(
+    pub(super) fn parameters<'b>(
         &'b self,
         routine: u32,
         arguments: &'b [Argument],
@@ -369,7 +375,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// Whether the value that a target is declared with is written over, so that it may be anything.
-    pub fn is_written_target(&self, target: usize) -> bool {
+    pub(super) fn is_written_target(&self, target: usize) -> bool {
         let declares = |datum: &Datum| match datum.value {
             Stored::Elements { elements, .. } => self.parsed.elements[indices(elements)]
                 .contains(&super::syntax::Element::Target(target)),

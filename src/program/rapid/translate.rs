@@ -197,37 +197,43 @@ impl Modes {
 }
 
 impl Translator<'_> {
-    pub fn place(&self, offset: u32) -> Place {
+    pub(super) fn place(&self, offset: u32) -> Place {
         Place {
             offset,
             ..self.here
         }
     }
 
-    pub fn say(&mut self, id: &'static str, severity: Severity, message: String, hint: &str) {
+    pub(super) fn say(
+        &mut self,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) {
         let source = &self.resolved.sources[self.here.file as usize];
         let at = self.here.offset as usize;
         let finding = source.finding(at, id, severity, message, hint);
         self.builder.script.findings.push(finding);
     }
 
-    pub fn is_dead(&self, target: TargetId) -> bool {
+    pub(super) fn is_dead(&self, target: TargetId) -> bool {
         self.dead.contains(&target)
     }
 
     // ---- what statements become
 
-    pub fn emit_move(&mut self, instruction: Instruction) {
+    pub(super) fn emit_move(&mut self, instruction: Instruction) {
         self.may_fail();
         self.builder.go(instruction);
     }
 
-    pub fn emit_write(&mut self, write: Write) {
+    pub(super) fn emit_write(&mut self, write: Write) {
         self.may_fail();
         self.builder.write(write);
     }
 
-    pub fn emit_call(&mut self, call: Call) {
+    pub(super) fn emit_call(&mut self, call: Call) {
         self.may_fail();
         self.builder.call(call);
     }
@@ -318,7 +324,7 @@ impl Translator<'_> {
     }
 
     /// A mode of the controller is set.
-    pub fn mode(&mut self, mode: Mode, set: Set, arguments: Part) {
+    pub(super) fn mode(&mut self, mode: Mode, set: Set, arguments: Part) {
         let resolved = self.resolved;
         let has = |word: Option<Symbol>| {
             let all = &resolved.parsed.arguments[indices(arguments)];
@@ -347,7 +353,7 @@ impl Translator<'_> {
         self.set(variable, Expr::Value(value));
     }
 
-    pub fn set(&mut self, variable: VariableId, value: Expr) {
+    pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
         let place = self.here;
         self.emit_write(Write {
             place,

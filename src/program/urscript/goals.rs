@@ -18,7 +18,7 @@ const TOOL: &str = "tcp";
 const BASE: &str = "base";
 
 /// Where a move goes.
-pub struct Goal {
+pub(super) struct Goal {
     pub target: script::Expr,
     pub feature: Feature,
     /// The tool that the inverse is given, where it is not the one that is set.
@@ -31,7 +31,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    pub fn to(target: script::Expr) -> Self {
+    pub(super) fn to(target: script::Expr) -> Self {
         Self {
             target,
             feature: Feature::Base,
@@ -44,7 +44,7 @@ impl Goal {
 }
 
 /// The feature that a position is in.
-pub enum Feature {
+pub(super) enum Feature {
     Base,
     Known(Pose, String),
     Held(script::Expr),
@@ -52,7 +52,7 @@ pub enum Feature {
 
 /// The script's variables for one of the program's.
 #[derive(Clone, Copy, Default)]
-pub struct Facets {
+pub(super) struct Facets {
     /// The position.
     pub position: Option<VariableId>,
     /// The feature that the position is in.
@@ -64,7 +64,7 @@ pub struct Facets {
 }
 
 /// Values and remarks that several places name.
-pub struct Common {
+pub(super) struct Common {
     pub base: ValueId,
     actual: ValueId,
     pub computed: RemarkId,
@@ -77,7 +77,7 @@ pub struct Common {
 }
 
 impl Common {
-    pub fn new(script: &mut Script) -> Self {
+    pub(super) fn new(script: &mut Script) -> Self {
         let base = script.value(Held::Frame(NamedFrame {
             name: BASE.into(),
             pose: Some(Pose::identity()),
@@ -141,12 +141,17 @@ impl Common {
     }
 
     /// What the parameters of a function hold that nothing in the file calls.
-    pub fn given_outside(&self) -> script::Expr {
+    pub(super) fn given_outside(&self) -> script::Expr {
         script::Expr::Unknown(self.not_called)
     }
 
     /// A tool or feature, the same for the same name and pose.
-    pub fn frame(&mut self, script: &mut Script, name: &str, pose: Option<Pose>) -> script::Expr {
+    pub(super) fn frame(
+        &mut self,
+        script: &mut Script,
+        name: &str,
+        pose: Option<Pose>,
+    ) -> script::Expr {
         let key = (name.to_owned(), pose.as_ref().map_or([u64::MAX; 7], bits));
         let value = *self.frames.entry(key).or_insert_with(|| {
             script.value(Held::Frame(NamedFrame {
@@ -159,7 +164,7 @@ impl Common {
     }
 
     /// The tool of a file that sets none.
-    pub fn no_tool(&mut self, script: &mut Script) -> script::Expr {
+    pub(super) fn no_tool(&mut self, script: &mut Script) -> script::Expr {
         self.frame(script, TOOL, None)
     }
 }
@@ -173,7 +178,7 @@ fn bits(pose: &Pose) -> [u64; 7] {
 }
 
 /// Understands the values of one file.
-pub struct Goals<'m, 'n, 'a> {
+pub(super) struct Goals<'m, 'n, 'a> {
     pub parsed: &'n Parsed<'a>,
     pub variables: &'m Variables<'n, 'a>,
     pub builder: &'m mut Builder,
@@ -192,7 +197,7 @@ pub struct Goals<'m, 'n, 'a> {
 
 impl Goals<'_, '_, '_> {
     /// Follows a position to its numbers.
-    pub fn goal(&mut self, value: ExprId, function: FunctionId) -> Goal {
+    pub(super) fn goal(&mut self, value: ExprId, function: FunctionId) -> Goal {
         self.goal_within(value, function, MOST_STEPS)
     }
 
@@ -439,7 +444,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// A feature as an expression.
-    pub fn frame_of(&mut self, feature: Feature) -> script::Expr {
+    pub(super) fn frame_of(&mut self, feature: Feature) -> script::Expr {
         match feature {
             Feature::Base => script::Expr::Value(self.common.base),
             Feature::Known(pose, name) => {
@@ -451,7 +456,12 @@ impl Goals<'_, '_, '_> {
     }
 
     /// A feature or tool by its name.
-    pub fn named_frame(&mut self, value: ExprId, function: FunctionId, name: &str) -> script::Expr {
+    pub(super) fn named_frame(
+        &mut self,
+        value: ExprId,
+        function: FunctionId,
+        name: &str,
+    ) -> script::Expr {
         match self.variables.constant(value, function) {
             Ok(pose) => self
                 .common
@@ -461,7 +471,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// A tool.
-    pub fn tool(&mut self, value: ExprId, function: FunctionId) -> script::Expr {
+    pub(super) fn tool(&mut self, value: ExprId, function: FunctionId) -> script::Expr {
         self.named_frame(value, function, TOOL)
     }
 
@@ -496,7 +506,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// Whether a value holds a target that moves go to elsewhere.
-    pub fn has_target(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+    pub(super) fn has_target(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
         let Some(steps) = steps.checked_sub(1) else {
             return false;
         };
@@ -524,7 +534,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// Whether a value may be a pose, not joints.
-    pub fn may_be_pose(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+    pub(super) fn may_be_pose(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
         let Some(steps) = steps.checked_sub(1) else {
             return true;
         };

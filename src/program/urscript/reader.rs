@@ -23,7 +23,7 @@ struct Block {
 }
 
 /// Reads one file.
-pub struct Reader<'a> {
+pub(super) struct Reader<'a> {
     source: &'a Source,
     pub(super) scanner: Scanner<'a>,
     pub parsed: Parsed<'a>,
@@ -38,7 +38,7 @@ pub struct Reader<'a> {
 pub(super) type Read<T> = Result<T, ReadError>;
 
 impl<'a> Reader<'a> {
-    pub fn new(source: &'a Source) -> Self {
+    pub(super) fn new(source: &'a Source) -> Self {
         let mut parsed = Parsed::default();
         parsed.add(Expr::Other);
         parsed.functions.push(Function::default());
@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Where a block, bracket or text is not closed, or something else stands where the language wants one thing.
-    pub fn read(mut self) -> Read<Self> {
+    pub(super) fn read(mut self) -> Read<Self> {
         loop {
             let token = self.next()?;
             match token.kind {

@@ -13,7 +13,7 @@ use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
 use std::collections::{HashMap, HashSet};
 
 /// Adds the statements of a file.
-pub fn translate(
+pub(super) fn translate(
     builder: &mut Builder,
     common: &mut Common,
     source: &Source,

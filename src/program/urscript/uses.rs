@@ -90,7 +90,7 @@ impl Variables<'_, '_> {
     }
 
     /// A list of six values that are no literals: joints.
-    pub fn joints_of(&self, list: u32) -> Option<LiteralId> {
+    pub(super) fn joints_of(&self, list: u32) -> Option<LiteralId> {
         let list = &self.parsed.lists[list as usize];
         let is_plain = |value: &ExprId| {
             let value = self.parsed.expression(*value);
@@ -101,7 +101,7 @@ impl Variables<'_, '_> {
 
     /// What an element of a list may be: by its number where the list is written out once, else any. `None` where the
     /// text does not tell them all.
-    pub fn elements(
+    pub(super) fn elements(
         &self,
         name: Symbol,
         at: Option<u32>,
@@ -156,7 +156,7 @@ impl Variables<'_, '_> {
     }
 
     /// Whether a value is, by names alone, a position that moves go to.
-    pub fn goes_to(&self, value: ExprId, function: FunctionId) -> bool {
+    pub(super) fn goes_to(&self, value: ExprId, function: FunctionId) -> bool {
         match self.follow(value, function) {
             (Expr::Literal(id), _) => self.targets[id as usize],
             (Expr::Name(name, _), function) => self.meaning(name, function).is_some_and(|v| {
@@ -167,7 +167,7 @@ impl Variables<'_, '_> {
     }
 
     /// Whether a value is where the robot is, or displaced from there: what stands in it is no target.
-    pub fn is_actual(&self, value: ExprId, function: FunctionId) -> bool {
+    pub(super) fn is_actual(&self, value: ExprId, function: FunctionId) -> bool {
         self.comes_from_actual(value, function, MOST_STEPS)
     }
 

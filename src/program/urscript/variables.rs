@@ -9,18 +9,18 @@ use crate::program::script::short;
 use std::collections::{HashMap, HashSet};
 
 /// Names that stand for each other in turn, and calls inside each other, that are followed.
-pub const MOST_STEPS: u32 = 12;
+pub(super) const MOST_STEPS: u32 = 12;
 /// Functions of one name that are told apart: a program has one.
 const MOST_OF_A_NAME: usize = 4;
 /// No source follows.
 const NONE: u32 = u32::MAX;
 
 /// Index in [`Variables::list`].
-pub type VarId = u32;
+pub(super) type VarId = u32;
 
 /// How a variable gets a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Assigned {
+pub(super) enum Assigned {
     /// `x = …`
     Whole,
     /// `x[i] = …`
@@ -31,7 +31,7 @@ pub enum Assigned {
 
 /// One of the values that a variable gets.
 #[derive(Clone, Copy, Debug)]
-pub struct Source {
+pub(super) struct Source {
     pub value: ExprId,
     /// In which the names of the value are looked up.
     pub function: FunctionId,
@@ -41,7 +41,7 @@ pub struct Source {
 
 /// A variable, a parameter, or what a function returns.
 #[derive(Clone, Debug)]
-pub struct Variable {
+pub(super) struct Variable {
     pub name: Symbol,
     pub offset: u32,
     /// The function whose parameter it is.
@@ -62,7 +62,7 @@ pub struct Variable {
 
 /// Why a pose is not constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NotConstant {
+pub(super) enum NotConstant {
     /// A variable has more than one value; it is the whole pose.
     Changing(VarId),
     /// This name is assigned nowhere; it is the whole pose.
@@ -73,7 +73,7 @@ pub enum NotConstant {
 
 /// The variables of a file.
 #[derive(Debug)]
-pub struct Variables<'n, 'a> {
+pub(super) struct Variables<'n, 'a> {
     pub parsed: &'n Parsed<'a>,
     pub list: Vec<Variable>,
     sources: Vec<Source>,
@@ -92,7 +92,7 @@ pub struct Variables<'n, 'a> {
 }
 
 impl<'n, 'a> Variables<'n, 'a> {
-    pub fn new(parsed: &'n Parsed<'a>) -> Self {
+    pub(super) fn new(parsed: &'n Parsed<'a>) -> Self {
         let mut functions: HashMap<Symbol, Vec<FunctionId>> = HashMap::new();
         for (at, function) in parsed.functions.iter().enumerate() {
             if let Some(name) = function.name {
@@ -160,7 +160,7 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The values that a variable gets.
-    pub fn sources(&self, variable: VarId) -> impl Iterator<Item = Source> + '_ {
+    pub(super) fn sources(&self, variable: VarId) -> impl Iterator<Item = Source> + '_ {
         let mut at = self.list[variable as usize].first;
         std::iter::from_fn(move || {
             let source = *self.sources.get(at as usize)?;
@@ -170,7 +170,7 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The function that a variable belongs to alone: no function in it assigns it.
-    pub fn routine_of(&self, variable: VarId) -> Option<FunctionId> {
+    pub(super) fn routine_of(&self, variable: VarId) -> Option<FunctionId> {
         let of = &self.list[variable as usize];
         if of.parameter.is_some() {
             return of.parameter;
@@ -275,12 +275,12 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// Functions of the file that a call may mean.
-    pub fn callees(&self, call: &Called) -> &[FunctionId] {
+    pub(super) fn callees(&self, call: &Called) -> &[FunctionId] {
         self.functions.get(&call.name).map_or(&[], Vec::as_slice)
     }
 
     /// A parameter of a function, and what a call gives it with the function where that is meant.
-    pub fn given(
+    pub(super) fn given(
         &self,
         call: &Called,
         callee: FunctionId,
@@ -297,7 +297,7 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The variable that a name means in a function.
-    pub fn meaning(&self, name: Symbol, function: FunctionId) -> Option<VarId> {
+    pub(super) fn meaning(&self, name: Symbol, function: FunctionId) -> Option<VarId> {
         let mut function = function;
         loop {
             if let Some(variable) = self.names.get(&(function, name)) {
@@ -311,7 +311,7 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// What a call of a function of the file returns.
-    pub fn result(&self, call: u32) -> Option<VarId> {
+    pub(super) fn result(&self, call: u32) -> Option<VarId> {
         match self.callees(&self.parsed.calls[call as usize]) {
             [one] => self.results.get(one).copied(),
             _ => None,
@@ -319,7 +319,7 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// What a function returns.
-    pub fn result_of(&self, function: FunctionId) -> Option<VarId> {
+    pub(super) fn result_of(&self, function: FunctionId) -> Option<VarId> {
         self.results.get(&function).copied()
     }
 
@@ -383,13 +383,13 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The value of a variable that stands for it.
-    pub fn fixed(&self, variable: VarId) -> Option<Source> {
+    pub(super) fn fixed(&self, variable: VarId) -> Option<Source> {
         let is_fixed = self.list[variable as usize].is_fixed;
         self.sources(variable).next().filter(|_| is_fixed)
     }
 
     /// The value behind names that stand for theirs.
-    pub fn follow(&self, value: ExprId, function: FunctionId) -> (Expr, FunctionId) {
+    pub(super) fn follow(&self, value: ExprId, function: FunctionId) -> (Expr, FunctionId) {
         let (mut value, mut function) = (value, function);
         for _ in 0..MOST_STEPS {
             let Expr::Name(name, _) = self.parsed.expression(value) else {
@@ -407,7 +407,11 @@ impl<'n, 'a> Variables<'n, 'a> {
     ///
     /// # Errors
     /// Where it does not.
-    pub fn constant(&self, value: ExprId, function: FunctionId) -> Result<Pose, NotConstant> {
+    pub(super) fn constant(
+        &self,
+        value: ExprId,
+        function: FunctionId,
+    ) -> Result<Pose, NotConstant> {
         self.evaluate(value, function, MOST_STEPS)
     }
 

@@ -23,7 +23,7 @@ const STEP_RAD: f64 = 1e-6;
 
 /// The page of `diagnose`.
 #[must_use]
-pub fn page(of: &Diagnosis) -> Page {
+pub(crate) fn page(of: &Diagnosis) -> Page {
     let found = &of.found;
     let (level, answer) = match found.verdict {
         Verdict::Explained => (
