@@ -107,7 +107,7 @@ fn kinematics(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// FANUC's CRX-10iA (tests/data/inverse_general/arms.csv): axis 6 passes axis 4 by 150 mm.
+/// FANUC's CRX-10iA (`tests/data/inverse_general/arms.csv)`: axis 6 passes axis 4 by 150 mm.
 fn crx() -> Arm {
     let row = |alpha_rad, a_m, theta_rad, d_m| Link {
         alpha_rad,
@@ -185,8 +185,8 @@ fn refused(criterion: &mut Criterion) {
         translation: [f64::NAN; 3],
         ..*pose
     };
-    let cases: [(&str, &dyn Fn(&Pose) -> Pose); 2] =
-        [("out of reach", &far), ("not a number", &nowhere)];
+    type Case<'a> = (&'a str, &'a dyn Fn(&Pose) -> Pose);
+    let cases: [Case; 2] = [("out of reach", &far), ("not a number", &nowhere)];
     for (name, change) in cases {
         let poses: Vec<Pose> = work.wanted.iter().map(change).collect();
         group.bench_function(name, |b| {

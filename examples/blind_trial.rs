@@ -13,7 +13,7 @@ use clap::Parser;
 use poseshift::diagnose::candidates::MOST_ORDERS;
 use poseshift::diagnose::{Diagnosis, Options, Verdict, diagnose};
 use poseshift::identify::parameters::Pick;
-use poseshift::model::effects::{Effect, Place, REGISTRY};
+use poseshift::model::effects::{Effect, REGISTRY, SiteKey};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
@@ -95,13 +95,13 @@ fn percentile_95(sizes: &[f64]) -> f64 {
 }
 
 /// Number of an effect's place, from 1, as in [`Pick`].
-fn number_of(effect: &Effect, place: Place) -> Option<u32> {
+fn number_of(effect: &Effect, place: SiteKey) -> Option<u32> {
     let counted = |index: usize| u32::try_from(index + 1).ok();
     match place {
-        Place::Link | Place::Joint | Place::JointOrBase => counted(effect.site.index),
-        Place::On => counted(effect.site.on),
-        Place::Order => Some(effect.site.order),
-        Place::Row | Place::Tool => None,
+        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => counted(effect.site.index),
+        SiteKey::On => counted(effect.site.on),
+        SiteKey::Order => Some(effect.site.order),
+        SiteKey::Row | SiteKey::Tool => None,
     }
 }
 

@@ -27,6 +27,9 @@
 //! # Ok::<(), poseshift::model::profile::ProfileError>(())
 //! ```
 
+// what is not for callers is pub(crate): the compiler holds the layering
+#![warn(unreachable_pub)]
+
 pub mod check;
 mod cli;
 pub mod compensate;

@@ -262,7 +262,8 @@ pub fn check(subject: &Subject, options: &Options) -> Result<Check, CheckError> 
         original: original.as_ref(),
         parts: parts.as_deref(),
     };
-    let indices: Vec<usize> = (0..walk.stops.len()).collect();
+    let is_own = |stop: &usize| !subject.sources[walk.motion(*stop).file as usize].is_context;
+    let indices: Vec<usize> = (0..walk.stops.len()).filter(is_own).collect();
     let judged: Vec<(Option<MoveReport>, Vec<Finding>)> = indices
         .par_chunks(CHUNK)
         .flat_map_iter(|chunk| {
@@ -284,7 +285,11 @@ pub fn check(subject: &Subject, options: &Options) -> Result<Check, CheckError> 
     let order = |file: &str| subject.sources.iter().position(|s| s.name == file);
     findings.sort_by_cached_key(|f| (order(&f.file), f.line, f.column, f.id));
     findings.dedup();
-    let unknown = walk.stops.iter().filter(|s| s.is_none()).count();
+    let contexts = subject.sources.iter().filter(|source| source.is_context);
+    let contexts: Vec<&str> = contexts.map(|source| source.name.as_str()).collect();
+    findings.retain(|finding| !contexts.contains(&finding.file.as_str()));
+    let unknown = indices.iter().filter(|stop| walk.stops[**stop].is_none());
+    let unknown = unknown.count();
     let summary = sum_up(&moves, unknown, subject.scene.is_empty());
     Ok(Check {
         program: walk.program,

@@ -19,8 +19,8 @@ const KEPT_RAD: f64 = 1e-9;
 /// A part of a move of the original.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Part {
-    /// Index of the move in the original.
-    pub motion: usize,
+    /// Index of the stop in the original at which its move ends.
+    pub stop: usize,
     /// Where in it the part begins, 0 to 1.
     pub from: f64,
     /// Where it ends.
@@ -29,12 +29,12 @@ pub(crate) struct Part {
 
 impl Part {
     /// Where the tool is wanted at its end.
-    pub fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
-        let stop = original.stops[self.motion].expect("a part's move ends at a stop");
+    pub(super) fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
+        let stop = original.stops[self.stop].expect("a part's move ends at a stop");
         if self.to >= 1.0 {
             return stop.pose;
         }
-        let leg = original.leg(self.motion, options.turning);
+        let leg = original.leg(self.stop, options.turning);
         leg.map_or(stop.pose, |leg| {
             let joints = leg.joints(self.to, &leg.start);
             leg.controller_pose(self.to, &joints, &leg.equipped.controller)
@@ -42,8 +42,55 @@ impl Part {
     }
 }
 
-/// For each move of the program the part of the original that it is; `None` for those that cannot be followed.
+/// For each stop of the program the part of the original that its move is; `None` for those that cannot be followed.
 pub(crate) fn align(
+    walk: &Walk,
+    original: &Walk,
+    subject: &Subject,
+    options: &Options,
+) -> Result<Vec<Option<Part>>, CheckError> {
+    let of_moves = align_moves(walk, original, subject, options)?;
+    let part = |stop: usize| {
+        let part = of_moves[walk.index(stop)]?;
+        let theirs = original.index(part.stop);
+        let same = alike(walk, original, stop, theirs, &of_moves)?;
+        Some(Part { stop: same, ..part })
+    };
+    Ok((0..walk.stops.len()).map(part).collect())
+}
+
+/// The stop of the original's move that the robot comes to as to a stop of ours: from the same move, else in the nearest
+/// joints.
+fn alike(
+    walk: &Walk,
+    original: &Walk,
+    stop: usize,
+    theirs: usize,
+    of_moves: &[Option<Part>],
+) -> Option<usize> {
+    let ours = walk.stops[stop]?;
+    let before = ours
+        .before
+        .and_then(|before| of_moves[walk.index(before)])
+        .map(|part| original.index(part.stop));
+    let gap = |at: &usize| {
+        let other = original.stops[*at].expect("those that are known");
+        let is_other_way = other.before.map(|before| original.index(before)) != before;
+        let joints = (0..6).map(|k| (ours.q[k] - other.q[k]).abs());
+        (is_other_way, joints.fold(0.0, f64::max))
+    };
+    let known = original
+        .stops_of(theirs)
+        .filter(|at| original.stops[*at].is_some());
+    known.min_by(|a, b| {
+        gap(a)
+            .partial_cmp(&gap(b))
+            .unwrap_or(std::cmp::Ordering::Equal)
+    })
+}
+
+/// For each move of the program the part of the original that it is, with the first stop of the original's move.
+fn align_moves(
     walk: &Walk,
     original: &Walk,
     subject: &Subject,
@@ -62,9 +109,13 @@ pub(crate) fn align(
         });
         CheckError::NoCounterpart { file, line }
     };
+    let known_stop = |walk: &Walk, motion: usize| {
+        let mut stops = walk.stops_of(motion);
+        stops.find(|stop| walk.stops[*stop].is_some())
+    };
     if ours.len() == theirs.len() {
-        let whole = |motion: usize| Part {
-            motion,
+        let whole = |stop: usize| Part {
+            stop,
             from: 0.0,
             to: 1.0,
         };
@@ -72,9 +123,8 @@ pub(crate) fn align(
         if let Some(at) = alike {
             return Err(counterpart(at));
         }
-        let known = |i: &usize| original.stops[*i].is_some();
         return Ok((0..ours.len())
-            .map(|i| Some(i).filter(known).map(whole))
+            .map(|motion| known_stop(original, motion).map(whole))
             .collect());
     }
     let mut parts = vec![None; ours.len()];
@@ -85,7 +135,9 @@ pub(crate) fn align(
             next += 1;
             continue;
         }
-        let Some(stop) = original.stops[next] else {
+        let their_stop = known_stop(original, next);
+        let Some((their_stop, stop)) = their_stop.and_then(|at| Some((at, original.stops[at]?)))
+        else {
             if mine >= ours.len() {
                 return Err(counterpart(next));
             }
@@ -95,7 +147,7 @@ pub(crate) fn align(
         };
         let first = mine;
         let lands = |at: usize| {
-            let ours = walk.stops[at]?;
+            let ours = walk.stops[known_stop(walk, at)?]?;
             // a joint target that was kept does not land where the original wanted it
             let kept = (0..6).all(|k| (ours.q[k] - stop.q[k]).abs() < KEPT_RAD);
             let conditions = Conditions {
@@ -112,7 +164,7 @@ pub(crate) fn align(
             .filter(|&at| ours[at].motion != Motion::ArcVia)
             .find(|&at| lands(at).is_some_and(|(_, there)| there))
             .ok_or_else(|| counterpart(next))?;
-        let leg = original.leg(next, options.turning);
+        let leg = original.leg(their_stop, options.turning);
         let mut from = 0.0;
         for at in first..=end {
             if ours[at].motion == Motion::ArcVia {
@@ -135,7 +187,7 @@ pub(crate) fn align(
                 _ => return Err(counterpart(next)),
             };
             parts[at] = Some(Part {
-                motion: next,
+                stop: their_stop,
                 from,
                 to,
             });

@@ -17,7 +17,7 @@ use parry::shape::SupportMap;
 
 /// A convex body in the frame of what carries it: all points within a radius of its core, metres.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
+pub(crate) struct Body {
     core: Core,
     radius_m: f64,
     /// A ball that holds it: centre and radius.
@@ -45,7 +45,7 @@ enum Core {
 
 /// Two bodies' nearest points, in the frame of the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest {
+pub(crate) struct Nearest {
     /// Lower bound of the distance, metres, exact to rounding; 0 where they touch or overlap.
     pub distance_m: f64,
     /// On the first body.
@@ -132,19 +132,19 @@ impl Body {
 
     /// All points within a radius of a segment; a ball where its ends are one.
     #[must_use]
-    pub fn capsule(from: Vector, to: Vector, radius_m: f64) -> Self {
+    pub(crate) fn capsule(from: Vector, to: Vector, radius_m: f64) -> Self {
         Self::of(Core::Segment([from, to]), radius_m)
     }
 
     /// A triangle.
     #[must_use]
-    pub fn triangle(corners: [Vector; 3]) -> Self {
+    pub(crate) fn triangle(corners: [Vector; 3]) -> Self {
         Self::of(Core::Triangle(corners), 0.0)
     }
 
     /// The convex hull of points. At least one is needed.
     #[must_use]
-    pub fn hull(points: &[Vector]) -> Self {
+    pub(crate) fn hull(points: &[Vector]) -> Self {
         let all: Vec<Glam> = points.iter().copied().map(glam).collect();
         // flat or broken sets have no hull with a volume; their points do as well
         let corners = parry::transformation::try_convex_hull(&all).map_or_else(
@@ -156,7 +156,7 @@ impl Body {
 
     /// A box of these full edge lengths about the origin of `place`.
     #[must_use]
-    pub fn cuboid(size: Vector, place: &Pose) -> Self {
+    pub(crate) fn cuboid(size: Vector, place: &Pose) -> Self {
         let corner = |i: usize| {
             let side = |axis: usize| {
                 let half = 0.5 * size[axis];
@@ -169,7 +169,7 @@ impl Body {
 
     /// A cylinder about the z axis of `place`, centred.
     #[must_use]
-    pub fn cylinder(radius_m: f64, height_m: f64, place: &Pose) -> Self {
+    pub(crate) fn cylinder(radius_m: f64, height_m: f64, place: &Pose) -> Self {
         let core = Core::Cylinder {
             centre: place.translation,
             axis: place.rotation.axis(2),
@@ -181,19 +181,19 @@ impl Body {
 
     /// All points below a plane with this unit normal.
     #[must_use]
-    pub fn plane(normal: Vector, offset_m: f64) -> Self {
+    pub(crate) fn plane(normal: Vector, offset_m: f64) -> Self {
         Self::of(Core::Plane { normal, offset_m }, 0.0)
     }
 
     /// Centre and radius of a ball that holds the body.
     #[must_use]
-    pub fn ball(&self) -> (Vector, f64) {
+    pub(crate) fn ball(&self) -> (Vector, f64) {
         self.ball
     }
 
     /// The body is at least so far from a point of its own frame: exactly so where it is a capsule. Negative inside.
     #[must_use]
-    pub fn least_distance(&self, point: Vector) -> f64 {
+    pub(crate) fn least_distance(&self, point: Vector) -> f64 {
         match &self.core {
             Core::Segment([from, to]) => {
                 let (along, here) = (sub(*to, *from), sub(point, *from));
@@ -206,13 +206,13 @@ impl Body {
 
     /// Largest distance of its points from the origin of its frame.
     #[must_use]
-    pub fn extent(&self) -> f64 {
+    pub(crate) fn extent(&self) -> f64 {
         norm(self.ball.0) + self.ball.1
     }
 
     /// A point of the body.
     #[must_use]
-    pub fn some_point(&self) -> Vector {
+    pub(crate) fn some_point(&self) -> Vector {
         match &self.core {
             Core::Segment([a, _]) | Core::Triangle([a, ..]) => *a,
             Core::Points(points) => {
@@ -227,7 +227,7 @@ impl Body {
     /// The largest coordinate of its points along a unit direction.
     #[inline]
     #[must_use]
-    pub fn support(&self, direction: Vector) -> f64 {
+    pub(crate) fn support(&self, direction: Vector) -> f64 {
         match &self.core {
             // unbounded but straight down
             Core::Plane { normal, offset_m } => {
@@ -244,13 +244,13 @@ impl Body {
     /// The largest coordinate along a unit direction `n` (in frame b) of its points placed by `b_from_a`.
     #[inline]
     #[must_use]
-    pub fn support_placed(&self, b_from_a: &Pose, n: Vector) -> f64 {
+    pub(crate) fn support_placed(&self, b_from_a: &Pose, n: Vector) -> f64 {
         self.support(b_from_a.rotation.transpose() * n) + dot(n, b_from_a.translation)
     }
 
     /// Nearest points of this body, placed by `b_from_a`, and `b`, in the frame of `b`.
     #[must_use]
-    pub fn nearest(&self, b_from_a: &Pose, b: &Self) -> Nearest {
+    pub(crate) fn nearest(&self, b_from_a: &Pose, b: &Self) -> Nearest {
         let placed = |point: Vector| b_from_a.transform(point);
         let (on_a, on_b) = match (&self.core, &b.core) {
             (_, Core::Plane { normal, offset_m }) => {
@@ -398,7 +398,7 @@ fn segment_triangle(p: [Vector; 2], t: &[Vector; 3]) -> (Vector, Vector) {
 }
 
 /// Triangles that can be asked for by place.
-pub struct Triangles {
+pub(crate) struct Triangles {
     /// The triangles, in the world.
     pub bodies: Vec<Body>,
     tree: Bvh,
@@ -413,7 +413,7 @@ impl std::fmt::Debug for Triangles {
 impl Triangles {
     /// Builds the tree.
     #[must_use]
-    pub fn new(triangles: &[[Vector; 3]]) -> Self {
+    pub(crate) fn new(triangles: &[[Vector; 3]]) -> Self {
         let leaves = triangles.iter().map(|t| Aabb::from_points(t.map(glam)));
         Self {
             tree: Bvh::from_iter(BvhBuildStrategy::Binned, leaves.enumerate()),
@@ -422,7 +422,7 @@ impl Triangles {
     }
 
     /// Indices of the triangles whose boxes meet the cube about a ball.
-    pub fn near(&self, centre: Vector, radius_m: f64, mut each: impl FnMut(u32)) {
+    pub(crate) fn near(&self, centre: Vector, radius_m: f64, mut each: impl FnMut(u32)) {
         let half = Glam::splat(radius_m);
         let cube = Aabb::new(glam(centre) - half, glam(centre) + half);
         for index in self.tree.intersect_aabb(&cube) {

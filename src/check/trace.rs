@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 /// A place on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct PathPoint {
     /// Where the tool is wanted, in the world, metres.
     pub wanted_m: Vector,
     /// Where the real tool is.
@@ -36,7 +36,7 @@ pub struct Traced {
     /// It continues the move before it; else its first place is where it ends.
     pub continues: bool,
     /// From its beginning to its end; of a move that continues another the beginning is the other's end and left out.
-    pub places: Vec<Place>,
+    pub places: Vec<PathPoint>,
 }
 
 /// Follows a program in samples: about `total` of them, and at least one for each move.
@@ -91,7 +91,8 @@ struct Tracer<'a> {
 impl Tracer<'_> {
     fn trace(&self, index: usize) -> Option<Traced> {
         let motion = self.walk.motion(index);
-        if motion.motion == Motion::ArcVia {
+        let is_context = self.subject.sources[motion.file as usize].is_context;
+        if motion.motion == Motion::ArcVia || is_context {
             return None;
         }
         let stop = self.walk.stops[index]?;
@@ -104,7 +105,7 @@ impl Tracer<'_> {
         let mut traced = Traced {
             motion: self.walk.index(index),
             counterpart: match (self.original, part) {
-                (Some(original), Some(part)) => original.index(part.motion),
+                (Some(original), Some(part)) => original.index(part.stop),
                 _ => self.walk.index(index),
             },
             target: motion.target?,
@@ -122,7 +123,7 @@ impl Tracer<'_> {
                 (Some(original), Some(part)) => part.end_pose(original, self.options),
                 _ => stop.pose,
             };
-            traced.places.push(Place {
+            traced.places.push(PathPoint {
                 wanted_m: wanted.translation,
                 real_m: arms.plain.real.forward(&stop.q, &conditions).translation,
             });
@@ -130,14 +131,14 @@ impl Tracer<'_> {
         };
         let of_original = match (self.original, part) {
             (Some(original), Some(part)) => {
-                let leg = original.leg(part.motion, self.options.turning);
+                let leg = original.leg(part.stop, self.options.turning);
                 leg.map(|leg| (leg, original, part))
             }
             _ => None,
         };
         let wanted = match &of_original {
             Some((leg, original, part)) => {
-                let stop = original.stops[part.motion]?;
+                let stop = original.stops[part.stop]?;
                 let arms = original.arms(&stop);
                 Wanted {
                     leg,
@@ -161,14 +162,14 @@ impl Tracer<'_> {
         Some(traced)
     }
 
-    fn places(&self, leg: &Leg, wanted: &Wanted, real: &crate::model::Model) -> Vec<Place> {
+    fn places(&self, leg: &Leg, wanted: &Wanted, real: &crate::model::Model) -> Vec<PathPoint> {
         let mut near = leg.start;
         (1..=self.samples)
             .map(|k| {
                 let s = f64::from(k) / f64::from(self.samples);
                 let joints = leg.joints(s, &near);
                 near = joints;
-                Place {
+                PathPoint {
                     wanted_m: wanted.at(s, &joints).translation,
                     real_m: real.forward(&joints, &leg.conditions).translation,
                 }

@@ -37,7 +37,7 @@ fn covariance(quality: &Value) -> Option<Named<'_>> {
 
 impl Spread {
     /// The spread of a profile with a tool; `None` where the calibration says nothing of its covariance.
-    pub fn of(profile: &Profile, tool: &Mounted) -> Option<Self> {
+    pub(super) fn of(profile: &Profile, tool: &Mounted) -> Option<Self> {
         let (names, rows) = covariance(profile.quality.as_ref()?)?;
         let mut moved = Vec::new();
         let mut kept = Vec::new();
@@ -71,7 +71,12 @@ impl Spread {
 
     /// One standard deviation of the tool's position along a unit direction, metres; along the worst axis of the world where
     /// there is none.
-    pub fn sigma_m(&self, q: &[f64; 6], conditions: &Conditions, direction: Option<Vector>) -> f64 {
+    pub(super) fn sigma_m(
+        &self,
+        q: &[f64; 6],
+        conditions: &Conditions,
+        direction: Option<Vector>,
+    ) -> f64 {
         let slopes: Vec<Vector> = self
             .moved
             .iter()

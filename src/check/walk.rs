@@ -16,7 +16,7 @@ use crate::motion::course::{Course, Leg, ToolCourse, Turning};
 use crate::motion::doubt;
 use crate::motion::ground::Ground;
 use crate::motion::setting::Setting;
-use crate::motion::walk::{self, Arrival, Pace};
+use crate::motion::walk::{self, Arrival, WalkOptions};
 use crate::program::{
     Displacement, Language, Motion, Move, Program, Settings, Shape, Source, Value,
 };
@@ -31,7 +31,7 @@ pub(super) struct Arms {
 }
 
 impl Arms {
-    pub fn of(equipped: &Equipped, profile: &Profile, tool: &Mounted) -> Self {
+    pub(super) fn of(equipped: &Equipped, profile: &Profile, tool: &Mounted) -> Self {
         let plain = Models {
             real: equipped.inverse.real.clone(),
             controller: equipped.controller.clone(),
@@ -49,7 +49,7 @@ impl Arms {
     }
 
     /// One of the arms, to look for what it comes near.
-    pub fn mover(&self, which: Which) -> Mover<'_> {
+    pub(super) fn mover(&self, which: Which) -> Mover<'_> {
         let (model, jet, reaches) = match which {
             Which::Real => (&self.plain.real, &self.jets.real, self.reaches[0]),
             Which::Controller => {
@@ -104,7 +104,7 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    pub fn of(
+    pub(super) fn of(
         language: &dyn Language,
         sources: &[Source],
         profile: &Profile,
@@ -132,14 +132,14 @@ impl Walk {
             has_numbers,
         )?;
         doubt::units(&ground, Severity::Warning, &mut findings);
-        let pace = Pace {
+        let walk_options = WalkOptions {
             start_joints: options.start_joints,
             exact: true,
             strict: true,
             directed: true,
             turning: options.turning,
         };
-        let arrivals = walk::walk(&ground, &pace, &mut findings);
+        let arrivals = walk::walk(&ground, &walk_options, &mut findings);
         let mut order: Vec<usize> = (0..arrivals.all.len()).collect();
         let key = |at: usize| (arrivals.all[at].motion, arrivals.all[at].from);
         order.sort_by_key(|&at| key(at));
@@ -184,37 +184,43 @@ impl Walk {
         })
     }
 
+    /// The stops at which a move ends.
+    pub(super) fn stops_of(&self, motion: usize) -> std::ops::Range<usize> {
+        let first = self.motions.partition_point(|of| *of < motion);
+        first..first + self.motions[first..].partition_point(|of| *of == motion)
+    }
+
     /// Index of the move of a stop.
-    pub fn index(&self, stop: usize) -> usize {
+    pub(super) fn index(&self, stop: usize) -> usize {
         self.motions[stop]
     }
 
     /// The move of a stop.
-    pub fn motion(&self, stop: usize) -> &Move {
+    pub(super) fn motion(&self, stop: usize) -> &Move {
         &self.program.moves[self.motions[stop]]
     }
 
     /// Whether its move ends at this stop only.
-    pub fn is_only(&self, stop: usize) -> bool {
+    pub(super) fn is_only(&self, stop: usize) -> bool {
         let same = |other: Option<usize>| {
             other.and_then(|other| self.motions.get(other)) == Some(&self.motions[stop])
         };
         !same(stop.checked_sub(1)) && !same(Some(stop + 1))
     }
 
-    pub fn arms(&self, stop: &Stop) -> &Arms {
+    pub(super) fn arms(&self, stop: &Stop) -> &Arms {
         self.arms[stop.tool]
             .as_ref()
             .expect("a stop's tool has an arm")
     }
 
-    pub fn equipped(&self, stop: &Stop) -> &Equipped {
+    pub(super) fn equipped(&self, stop: &Stop) -> &Equipped {
         self.equipped[stop.tool]
             .as_ref()
             .expect("a stop's tool has an arm")
     }
 
-    pub fn conditions(&self, stop: &Stop) -> Conditions {
+    pub(super) fn conditions(&self, stop: &Stop) -> Conditions {
         Conditions {
             direction: stop.direction.map(f64::from),
             ..Conditions::default()
@@ -222,7 +228,7 @@ impl Walk {
     }
 
     /// A stop alone, where it is unknown how the robot comes there.
-    pub fn standing(&self, stop: &Stop) -> Leg<'_> {
+    pub(super) fn standing(&self, stop: &Stop) -> Leg<'_> {
         Leg {
             branch: stop.branch,
             equipped: self.equipped(stop),
@@ -236,7 +242,7 @@ impl Walk {
     }
 
     /// The point on the way of the arc that ends at a stop.
-    pub fn via(&self, stop: usize) -> Option<usize> {
+    pub(super) fn via(&self, stop: usize) -> Option<usize> {
         if self.motion(stop).motion != Motion::ArcEnd {
             return None;
         }
@@ -245,13 +251,13 @@ impl Walk {
     }
 
     /// The stop where the move to a stop begins; of an arc that before the point on its way.
-    pub fn start(&self, stop: usize) -> Option<usize> {
+    pub(super) fn start(&self, stop: usize) -> Option<usize> {
         let last = self.via(stop).unwrap_or(stop);
         self.stops[last]?.before
     }
 
     /// The move from the stop before, where both are known; arcs are one leg at their end.
-    pub fn leg(&self, index: usize, turning: Turning) -> Option<Leg<'_>> {
+    pub(super) fn leg(&self, index: usize, turning: Turning) -> Option<Leg<'_>> {
         let (motion, stop) = (self.motion(index), self.stops[index]?);
         if motion.motion == Motion::ArcVia {
             return None;

@@ -13,7 +13,7 @@ use std::path::PathBuf;
     after_help = "Sweeps: measurements (q1_deg…q6_deg, x_mm,y_mm,z_mm, optional qw,qx,qy,qz and dir1…dir6) with a column \
 sweep, 1 to 6: the joint that moves in this row's sweep. Joints 1 and 2 give the base, 5 and 6 the tool."
 )]
-pub struct Axes {
+pub(super) struct Axes {
     /// Measurements while one joint at a time moved
     #[arg(value_name = "SWEEPS.csv")]
     sweeps: PathBuf,
@@ -28,7 +28,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         self.report
             .refuse_over([self.profile.as_path(), self.sweeps.as_path()], [])?;
         let profile = files::profile(&self.profile)?;

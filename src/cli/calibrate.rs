@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// Loss of a residual
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LossName {
+pub(super) enum LossName {
     /// Its square
     Squares,
     /// Its square, in proportion to it beyond 3 standard deviations
@@ -25,7 +25,7 @@ pub enum LossName {
 
 impl LossName {
     /// The shape of this name.
-    pub const fn shape(self) -> Shape {
+    pub(super) const fn shape(self) -> Shape {
         match self {
             Self::Squares => Shape::Squares,
             Self::Huber => Shape::Huber,
@@ -47,7 +47,7 @@ enum BaseName {
 
 /// Identify a robot's effects from measurements
 #[derive(Args)]
-pub struct Calibrate {
+pub(super) struct Calibrate {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
@@ -108,7 +108,7 @@ impl Calibrate {
         })
     }
 
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = self.options()?;
         let profile = files::profile(&self.profile)?;
         let read = self.measurements.paths().chain([self.profile.as_path()]);

@@ -8,15 +8,15 @@ use clap::Args;
 
 /// List the robots whose profiles are built in
 #[derive(Args)]
-pub struct Robots {}
+pub(super) struct Robots {}
 
 /// List the physical effects that a calibration may have, with their keys and units
 #[derive(Args)]
-pub struct Effects {}
+pub(super) struct Effects {}
 
 /// List the robot languages: what is rewritten, left alone, refused
 #[derive(Args)]
-pub struct Languages {}
+pub(super) struct Languages {}
 
 fn tell(found: &impl Report, output: Output) -> Result<Answer, Failure> {
     finish(found, Vec::new(), None, (Told::Main, ""), output)?;
@@ -24,19 +24,19 @@ fn tell(found: &impl Report, output: Output) -> Result<Answer, Failure> {
 }
 
 impl Robots {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         tell(&catalogue::robots(), output)
     }
 }
 
 impl Effects {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         tell(&catalogue::effects(), output)
     }
 }
 
 impl Languages {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         tell(&catalogue::languages(), output)
     }
 }

@@ -1,11 +1,12 @@
 //! `check`: where the real robot goes with programs as they are, and what it comes near.
 
 use super::layout;
-use super::programs::read_programs;
+use super::programs::{read_context, read_programs};
 use super::telling::ReportFile;
 use super::{Answer, Output, files, print, values};
 use crate::check::trace::trace;
 use crate::check::{self, CheckError, Options, Scene, Subject, Turning, baseline};
+use crate::finding::{Acceptance, accept_errors};
 use crate::geometry::units::{DEG, MM};
 use crate::model::profile::Profile;
 use crate::motion::Given;
@@ -15,14 +16,16 @@ use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
 use crate::task::check::{Checked as Run, Header};
 use crate::task::files::write_all;
 use crate::task::meshes::Loader;
-use crate::task::programs::{common_language, explain, language_by_id, refuse_other_origin};
+use crate::task::programs::{
+    acceptance, common_language, explain, language_by_id, refuse_other_origin,
+};
 use crate::task::{Document, Failure, text};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// Predict where the real robot goes with programs as they are: accuracy along the path, limits, collisions
 #[derive(Args)]
-pub struct Check {
+pub(super) struct Check {
     /// Program files that belong together, or folders of them
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
@@ -68,6 +71,12 @@ pub struct Check {
     /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
+    /// Files and folders that are read for their declarations and calls only
+    #[arg(long, value_name = "PATH")]
+    with: Vec<PathBuf>,
+    /// Take an error, by its id, everywhere or at one place
+    #[arg(long, value_name = "ID[:FILE[:LINE]]")]
+    accept: Vec<String>,
     /// Joints of the robot when a program starts, degrees: they tell the first posture and direction
     #[arg(long, value_name = "Q1,…,Q6", allow_hyphen_values = true)]
     start_joints: Option<String>,
@@ -88,7 +97,7 @@ enum Orientation {
 }
 
 impl Check {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         self.refuse_nonsense()?;
         let file = files::profile(&self.profile)?;
         let mut profile = file.profile.clone();
@@ -105,13 +114,21 @@ impl Check {
         let scene = Scene::new(&profile, cell.as_ref(), &meshes.meshes)
             .map_err(|missing| Failure::new(missing.to_string()))?;
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
-        let sources = read_programs(&self.programs, asked)?;
+        let accepted: Vec<Acceptance> = self
+            .accept
+            .iter()
+            .map(|text| acceptance(text))
+            .collect::<Result<_, _>>()?;
+        let mut sources = read_programs(&self.programs, asked)?;
+        sources.extend(read_context(&self.with, asked, &sources)?);
         let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
         self.refuse_reports(&sources)?;
         let nominal = if self.nominal.is_empty() {
             None
         } else {
-            Some(read_programs(&self.nominal, Some(language))?)
+            let mut nominal = read_programs(&self.nominal, Some(language))?;
+            nominal.extend(read_context(&self.with, Some(language), &nominal)?);
+            Some(nominal)
         };
         if let Some(originals) = nominal.as_deref().filter(|_| !self.force) {
             refuse_other_origin(&sources, originals, &file)?;
@@ -124,7 +141,7 @@ impl Check {
             scene: &scene,
         };
         let options = self.options(&profile)?;
-        let found = check::check(&subject, &options).map_err(|error| match error {
+        let mut found = check::check(&subject, &options).map_err(|error| match error {
             CheckError::Program(error) => explain(&error, &sources),
             CheckError::Nominal(error) => explain(&error, nominal.as_deref().unwrap_or(&[])),
             CheckError::NoCounterpart { .. } => Failure::with_hint(
@@ -132,7 +149,11 @@ impl Check {
                 "is it the program that this one was made from?",
             ),
         })?;
-        let names = |sources: &[Source]| sources.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
+        accept_errors(&mut found.findings, &accepted, &sources[0].name);
+        let names = |sources: &[Source]| -> Vec<String> {
+            let own = sources.iter().filter(|source| !source.is_context);
+            own.map(|source| source.name.clone()).collect()
+        };
         let (inputs, originals) = (
             names(&sources),
             nominal.as_deref().map(names).unwrap_or_default(),

@@ -1,9 +1,9 @@
 //! `compensate`: program files in, program files with fake targets out.
 
+use super::drawing::Drawing;
 use super::layout;
 use super::programs::{programs_in, read_context};
 use super::telling::ReportFile;
-use super::way::Drawing;
 use super::{Answer, Output, files, print, values};
 use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
 use crate::geometry::units::m_from_mm;
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Rewrite the targets of programs so that the real tool arrives where the simulation wanted it
 #[derive(Args)]
-pub struct Compensate {
+pub(super) struct Compensate {
     /// Program files that belong together, or folders of them
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
@@ -141,7 +141,7 @@ struct Job {
 }
 
 impl Compensate {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let file = files::profile(&self.profile)?;
         let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
         let options = self.options(&file.profile, each)?;

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 /// Find where model and measurements disagree, name the missing effect, add it
 #[derive(Args)]
-pub struct Diagnose {
+pub(super) struct Diagnose {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
@@ -38,7 +38,7 @@ pub struct Diagnose {
 }
 
 impl Diagnose {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = Options {
             accept: picks("--accept", Some(&self.accept.join(",")))?,
             reject: picks("--reject", Some(&self.reject.join(",")))?,

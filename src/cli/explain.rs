@@ -8,13 +8,13 @@ use clap::Args;
 
 /// Explain a finding: what it means and what to do; without an id, every one
 #[derive(Args)]
-pub struct Explain {
+pub(super) struct Explain {
     /// The finding's id, as messages have it in brackets
     id: Option<String>,
 }
 
 impl Explain {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let found = explain(self.id.as_deref())?;
         finish(&found, Vec::new(), None, (Told::Main, ""), output)?;
         Ok(Answer::Yes)

@@ -6,11 +6,11 @@ use crate::task::{Blame, Failure};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 /// How a fault of poseshift itself is reported.
-pub const REPORT_IT: &str = "this is a fault of poseshift, nothing is written: please report it with the line above, the \
+pub(super) const REPORT_IT: &str = "this is a fault of poseshift, nothing is written: please report it with the line above, the \
                              command, its files, and what `poseshift --version` says";
 
 /// The text for standard error.
-pub fn render(failure: &Failure) -> String {
+pub(super) fn render(failure: &Failure) -> String {
     let (label, hint) = match failure.blame {
         Blame::Given => ("error: ", failure.hint.as_str()),
         Blame::Program => ("internal error: ", REPORT_IT),

@@ -5,22 +5,22 @@ use crate::task::{Failure, ProfileFile};
 use std::path::Path;
 
 /// A file's bytes.
-pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     std::fs::read(path).map_err(|error| Failure::file(path, "read", &error))
 }
 
 /// A file by its name and its bytes.
-pub fn source(path: &Path) -> Result<Source, Failure> {
+pub(super) fn source(path: &Path) -> Result<Source, Failure> {
     Ok(Source::new(path.display().to_string(), read(path)?))
 }
 
 /// A profile.
-pub fn profile(path: &Path) -> Result<ProfileFile, Failure> {
+pub(super) fn profile(path: &Path) -> Result<ProfileFile, Failure> {
     ProfileFile::read(&source(path)?)
 }
 
 /// That a profile which is made is not written over another.
-pub fn refuse_existing(path: &Path) -> Result<(), Failure> {
+pub(super) fn refuse_existing(path: &Path) -> Result<(), Failure> {
     if path.exists() {
         return Err(Failure::new(format!(
             "{} exists; profiles are not written over",

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 calibrated model says where the flange is. BOARD: poses camera_from_board, row by row.\nCorners: x_mm,y_mm,z_mm as touched by \
 the robot in its base, cx_mm,cy_mm,cz_mm as seen by the camera; eye in hand also row, the row of ROBOT from which it was seen."
 )]
-pub struct Handeye {
+pub(super) struct Handeye {
     /// Robot poses, or joints with --profile
     #[arg(value_name = "ROBOT.csv")]
     robot: PathBuf,
@@ -51,7 +51,7 @@ enum SetupArg {
 }
 
 impl Handeye {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let read = [&self.robot, &self.board].into_iter();
         let read = read.chain(&self.corners).chain(&self.profile);
         let outputs = self.output.iter().map(PathBuf::as_path);

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 r12_mm, r22_mm, r23_mm; optional mode (1 to 4) or a rough pose x_mm, y_mm, z_mm, qw, qx, qy, qz; q1_deg…q6_deg for -o.\nWith --taught: three points \
 and --base-mm give the frame of the base balls. With --reach: the 72 measurable poses and the joints that go there."
 )]
-pub struct Hexapod {
+pub(super) struct Hexapod {
     /// Lengths, one setting a row
     #[arg(value_name = "LENGTHS.csv", required_unless_present_any = ["taught", "reach"])]
     lengths: Option<PathBuf>,
@@ -61,7 +61,7 @@ pub struct Hexapod {
 }
 
 impl Hexapod {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         if !(self.sigma_mm.is_finite() && self.sigma_mm >= 0.0) {
             return Err(Failure::new(format!(
                 "--sigma-mm {}: it must be 0 or more",

@@ -19,7 +19,7 @@ enum Which {
 
 /// Print the tool's poses for joint angles
 #[derive(Args)]
-pub struct Fk {
+pub(super) struct Fk {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
@@ -36,7 +36,7 @@ pub struct Fk {
 
 /// Print the joint angles for poses of the tool
 #[derive(Args)]
-pub struct Ik {
+pub(super) struct Ik {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
@@ -65,7 +65,7 @@ fn options(which: Which, tool: Option<&String>) -> Options {
 }
 
 impl Fk {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let profile = files::profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
         let found = fk(&profile, &files::source(&self.joints)?, &options)?;
@@ -75,7 +75,7 @@ impl Fk {
 }
 
 impl Ik {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let profile = files::profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
         let found = ik(&profile, &files::source(&self.poses)?, &options, self.all)?;

@@ -20,7 +20,7 @@ fn told() -> Option<usize> {
 }
 
 /// Columns of standard output.
-pub fn width() -> usize {
+pub(super) fn width() -> usize {
     seen().unwrap_or(UNTOLD)
 }
 
@@ -33,7 +33,7 @@ fn seen() -> Option<usize> {
 }
 
 /// Columns of standard error where somebody sees it.
-pub fn seen_of_errors() -> Option<usize> {
+pub(super) fn seen_of_errors() -> Option<usize> {
     let terminal = || terminal_size::terminal_size_of(std::io::stderr());
     told()
         .or_else(|| terminal().map(|(width, _)| usize::from(width.0)))
@@ -41,22 +41,22 @@ pub fn seen_of_errors() -> Option<usize> {
 }
 
 /// Prints text for people to standard output, no line wider than it but for words that are.
-pub fn print_text(text: &str) -> Result<(), Failure> {
+pub(super) fn print_text(text: &str) -> Result<(), Failure> {
     print(&fitted(text))
 }
 
 /// Every line of a text broken to the columns of standard output.
-pub fn fitted(text: &str) -> String {
+pub(super) fn fitted(text: &str) -> String {
     wrapped_lines(text, width())
 }
 
 /// Findings for standard output. Where nobody sees them a finding is one line, for `grep` and editors.
-pub fn findings(findings: &[Finding], every: bool) -> String {
+pub(super) fn findings(findings: &[Finding], every: bool) -> String {
     of_findings(findings, every, seen())
 }
 
 /// Findings on standard error, as [`findings`] has them.
-pub fn print_findings(findings: &[Finding], every: bool) {
+pub(super) fn print_findings(findings: &[Finding], every: bool) {
     anstream::eprint!("{}", of_findings(findings, every, seen_of_errors()));
 }
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// Files of measurements.
 #[derive(Args)]
-pub struct MeasurementFiles {
+pub(super) struct MeasurementFiles {
     /// Measurements (CSV); several files are one after another
     #[arg(long, value_name = "FILE", required = true)]
     measurements: Vec<PathBuf>,
@@ -16,25 +16,25 @@ pub struct MeasurementFiles {
 
 impl MeasurementFiles {
     /// All rows.
-    pub fn read(&self) -> Result<Rows, Failure> {
+    pub(super) fn read(&self) -> Result<Rows, Failure> {
         let sources = self.paths().map(files::source);
         Rows::read(&sources.collect::<Result<Vec<_>, _>>()?)
     }
 
     /// Where they are.
-    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+    pub(super) fn paths(&self) -> impl Iterator<Item = &Path> {
         self.measurements.iter().map(PathBuf::as_path)
     }
 }
 
 /// Words of `--identify` and `--fix`.
-pub fn picks(option: &str, text: Option<&str>) -> Result<Vec<Pick>, Failure> {
+pub(super) fn picks(option: &str, text: Option<&str>) -> Result<Vec<Pick>, Failure> {
     Pick::parse_list(text.unwrap_or_default())
         .map_err(|error| Failure::with_hint(format!("{option}: {error}"), error.hint()))
 }
 
 /// What `--level` means.
-pub fn level(number: u8) -> Level {
+pub(super) fn level(number: u8) -> Level {
     match number {
         0 => Level::Frames,
         1 => Level::Joints,

@@ -6,6 +6,7 @@ mod catalogue;
 mod check;
 mod compensate;
 mod diagnose;
+mod drawing;
 mod explain;
 mod failure;
 mod files;
@@ -25,7 +26,6 @@ mod simulate;
 mod telling;
 mod validate;
 mod values;
-mod way;
 
 use crate::task::{Blame, Failure};
 use clap::{Args, Parser, Subcommand};
@@ -44,7 +44,7 @@ use std::process::ExitCode;
 #[command(
     after_help = "Exit status: 0 done; 1 done, and the answer is no (nothing is written); 2 could not do it; 3 a fault of poseshift itself."
 )]
-pub struct CommandLine {
+pub(crate) struct CommandLine {
     #[command(subcommand)]
     command: Command,
     #[command(flatten)]
@@ -53,7 +53,7 @@ pub struct CommandLine {
 
 /// How results are told.
 #[derive(Args, Clone, Copy)]
-pub struct Output {
+pub(crate) struct Output {
     /// Print a machine-readable report (JSON) and nothing else
     #[arg(long, global = true)]
     json: bool,

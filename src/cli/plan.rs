@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// Choose configurations to measure by observability
 #[derive(Args)]
-pub struct PlanCommand {
+pub(super) struct PlanCommand {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
@@ -153,7 +153,7 @@ impl PlanCommand {
         })
     }
 
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let request = self.request()?;
         let read = self.given.iter().chain([&self.profile]);
         let outputs = self.output.iter().chain(&self.program);

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// Make and inspect robot profiles
 #[derive(Args)]
-pub struct ProfileCommand {
+pub(super) struct ProfileCommand {
     #[command(subcommand)]
     command: Sub,
 }
@@ -83,7 +83,7 @@ struct ImportUr {
 }
 
 impl ProfileCommand {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         match &self.command {
             Sub::New {
                 robot,

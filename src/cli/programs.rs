@@ -7,7 +7,7 @@ use crate::task::files::same_file;
 use std::path::{Path, PathBuf};
 
 /// Program files in a folder and below, with their paths relative to it.
-pub fn programs_in(
+pub(super) fn programs_in(
     folder: &Path,
     asked: Option<&'static dyn Language>,
 ) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
@@ -39,7 +39,7 @@ pub fn programs_in(
 }
 
 /// Program files in the order of the arguments; folders give theirs by name.
-pub fn read_programs(
+pub(super) fn read_programs(
     paths: &[PathBuf],
     asked: Option<&'static dyn Language>,
 ) -> Result<Vec<Source>, Failure> {
@@ -67,7 +67,7 @@ pub fn read_programs(
 }
 
 /// Files that are read for what they declare only, those left out that are programs of the run.
-pub fn read_context(
+pub(super) fn read_context(
     paths: &[PathBuf],
     asked: Option<&'static dyn Language>,
     programs: &[Source],

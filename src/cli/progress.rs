@@ -13,7 +13,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 const TICK: Duration = Duration::from_millis(100);
 
 /// What is drawn until it is dropped.
-pub struct Progress {
+pub(super) struct Progress {
     bar: ProgressBar,
     /// Closed when the work is done; nothing is drawn without.
     done: Option<(Sender<()>, JoinHandle<()>)>,
@@ -27,7 +27,7 @@ fn styled(bar: &ProgressBar, template: &str) {
 
 impl Progress {
     /// Shows `what` is going on, from a second on, unless output is quiet or nobody sees it.
-    pub fn new(output: Output, what: &'static str) -> Self {
+    pub(super) fn new(output: Output, what: &'static str) -> Self {
         Self::on_terminal(
             !output.quiet && std::io::stderr().is_terminal(),
             ProgressDrawTarget::stderr,
@@ -57,12 +57,12 @@ impl Progress {
     }
 
     /// What is going on now.
-    pub fn say(&self, what: &str) {
+    pub(super) fn say(&self, what: &str) {
         self.bar.set_message(what.to_owned());
     }
 
     /// How much of the work is done.
-    pub fn tell(&self, done: usize, of: usize) {
+    pub(super) fn tell(&self, done: usize, of: usize) {
         if self.bar.length().is_none() {
             styled(&self.bar, "{msg} [{bar:30}] {pos}/{len} {elapsed}");
             self.bar.set_length(of as u64);

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 (outward normal).\nFeatures: FROM with feature (point, sphere, hole, plane), several rows of TO with the same id are its \
 touches.\nWith --frame one file of touches is enough; 3-2-1 takes a column datum (1, 2, 3)."
 )]
-pub struct Register {
+pub(super) struct Register {
     /// Points as they should be (simulation, drawing), or touches with --frame
     #[arg(value_name = "FROM.csv")]
     from: PathBuf,
@@ -68,7 +68,7 @@ enum Construction {
 
 /// How clouds are matched.
 #[derive(Args)]
-pub struct IcpOptions {
+pub(super) struct IcpOptions {
     /// Match points by nearness (iterative closest point): correspondence is unknown
     #[arg(long)]
     icp: bool,
@@ -158,7 +158,7 @@ impl Register {
         })
     }
 
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = self.options()?;
         let read = [&self.from].into_iter().chain(&self.to);
         let outputs = self.output.iter().map(PathBuf::as_path);

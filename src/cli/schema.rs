@@ -7,13 +7,13 @@ use clap::Args;
 
 /// Print the JSON Schema of a file or a report; without a name, the names
 #[derive(Args)]
-pub struct Schema {
+pub(super) struct Schema {
     /// A format: what stands before the `/` of its first key, `poseshift`
     name: Option<String>,
 }
 
 impl Schema {
-    pub fn run(&self) -> Result<Answer, Failure> {
+    pub(super) fn run(&self) -> Result<Answer, Failure> {
         let Some(name) = &self.name else {
             let lines = SCHEMAS
                 .iter()

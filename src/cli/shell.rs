@@ -6,17 +6,17 @@ use clap::{Args, CommandFactory};
 
 /// Print a completion script for a shell
 #[derive(Args)]
-pub struct Completions {
+pub(super) struct Completions {
     /// The shell
     shell: clap_complete::Shell,
 }
 
 /// Print the manual page
 #[derive(Args)]
-pub struct Man {}
+pub(super) struct Man {}
 
 impl Completions {
-    pub fn run(&self) -> Result<Answer, Failure> {
+    pub(super) fn run(&self) -> Result<Answer, Failure> {
         let mut text = Vec::new();
         clap_complete::generate(
             self.shell,
@@ -30,7 +30,7 @@ impl Completions {
 }
 
 impl Man {
-    pub fn run(&self) -> Result<Answer, Failure> {
+    pub(super) fn run(&self) -> Result<Answer, Failure> {
         let mut text = Vec::new();
         let command = CommandLine::command();
         let mut page = |command: clap::Command| {

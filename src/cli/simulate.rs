@@ -23,7 +23,7 @@ enum Kind {
 
 /// Make measurements of the robot that a profile describes
 #[derive(Args)]
-pub struct Simulate {
+pub(super) struct Simulate {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
@@ -108,7 +108,7 @@ impl Simulate {
         })
     }
 
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let session = self.session()?;
         refuse_over(
             [self.profile.as_path(), self.joints.as_path()],

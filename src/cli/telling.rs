@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// The page that is asked for.
 #[derive(Args)]
-pub struct ReportFile {
+pub(super) struct ReportFile {
     /// Write a report to look at: one HTML file with views, charts and tables that needs no network
     #[arg(long = "report", value_name = "FILE.html")]
     file: Option<PathBuf>,
@@ -18,12 +18,12 @@ pub struct ReportFile {
 
 impl ReportFile {
     /// Whether there is one to write.
-    pub fn is_wanted(&self) -> bool {
+    pub(super) fn is_wanted(&self) -> bool {
         self.file.is_some()
     }
 
     /// Neither the report nor another output may take the place of what is read, nor of one another.
-    pub fn refuse_over<'a>(
+    pub(super) fn refuse_over<'a>(
         &'a self,
         inputs: impl IntoIterator<Item = &'a Path>,
         outputs: impl IntoIterator<Item = &'a Path>,
@@ -33,29 +33,29 @@ impl ReportFile {
     }
 
     /// The page as one more output.
-    pub fn output(&self, page: Option<&Page>) -> Option<(PathBuf, Vec<u8>)> {
+    pub(super) fn output(&self, page: Option<&Page>) -> Option<(PathBuf, Vec<u8>)> {
         let file = self.file.as_ref()?;
         Some((file.clone(), page?.html().into_bytes()))
     }
 
     /// Its name.
-    pub fn name(&self) -> Option<String> {
+    pub(super) fn name(&self) -> Option<String> {
         self.file.as_ref().map(|file| file.display().to_string())
     }
 
     /// What is told when it is written.
-    pub fn told(&self) -> String {
+    pub(super) fn told(&self) -> String {
         let told = |file: &PathBuf| format!("report written to {}\n", file.display());
         self.file.as_ref().map_or(String::new(), told)
     }
 }
 
 /// A file to write.
-pub type File = (PathBuf, Vec<u8>);
+pub(super) type File = (PathBuf, Vec<u8>);
 
 /// Which findings are told without `--verbose`.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Told {
+pub(super) enum Told {
     /// Every one.
     All,
     /// Errors and warnings, and of many alike the first.
@@ -64,7 +64,7 @@ pub enum Told {
 
 /// Writes the files and the page, all or none, then prints the JSON alone, or findings to standard error and the text to
 /// standard output. `also` is told after the text.
-pub fn finish(
+pub(super) fn finish(
     found: &impl Report,
     written: Vec<File>,
     report: Option<&ReportFile>,
@@ -85,7 +85,7 @@ pub fn finish(
 }
 
 /// As [`finish`] of a result whose answer is printed alone: everything else goes to standard error.
-pub fn finish_beside(
+pub(super) fn finish_beside(
     found: &impl Report,
     written: Vec<File>,
     report: Option<&ReportFile>,
@@ -129,7 +129,7 @@ fn text(found: &impl Report, output: Output) -> String {
 }
 
 /// Prints a table that is the result itself, whole lines and whatever else is asked for; with `--json` the document.
-pub fn print_table(found: &impl Report, output: Output) -> Result<(), Failure> {
+pub(super) fn print_table(found: &impl Report, output: Output) -> Result<(), Failure> {
     if output.json {
         return print(&found.json());
     }
@@ -140,6 +140,6 @@ pub fn print_table(found: &impl Report, output: Output) -> Result<(), Failure> {
 }
 
 /// Prints a JSON Schema.
-pub fn print_schema(schema: &serde_json::Value) -> Result<(), Failure> {
+pub(super) fn print_schema(schema: &serde_json::Value) -> Result<(), Failure> {
     print(&format!("{schema:#}\n"))
 }

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 /// Print the errors of a profile's models on measurements
 #[derive(Args)]
-pub struct Validate {
+pub(super) struct Validate {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
@@ -32,7 +32,7 @@ pub struct Validate {
 }
 
 impl Validate {
-    pub fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let profile = files::profile(&self.profile)?;
         let read = self.measurements.paths().chain([self.profile.as_path()]);
         self.report.refuse_over(read, [])?;

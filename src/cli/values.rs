@@ -9,7 +9,7 @@ use crate::task::Failure;
 const MOST_ANGLE_DEG: f64 = 720.0;
 
 /// `30mm,3deg`, or the numbers alone.
-pub fn max_shift(text: &str) -> Result<Separation, Failure> {
+pub(super) fn max_shift(text: &str) -> Result<Separation, Failure> {
     let part = |part: &str, unit: &str| {
         let part = part.trim();
         let number = part.strip_suffix(unit).unwrap_or(part).trim_end();
@@ -47,7 +47,7 @@ fn check_angles(option: &str, text: &str, value: &str) -> Result<(), Failure> {
 }
 
 /// Six numbers `x,y,z,rx,ry,rz` in mm and degrees.
-pub fn pose(text: &str) -> Option<Pose> {
+pub(super) fn pose(text: &str) -> Option<Pose> {
     let [x, y, z, rx, ry, rz] = list::<6>(text)?;
     Some(Pose::from_xyz_rxryrz([
         m_from_mm(x),
@@ -60,7 +60,7 @@ pub fn pose(text: &str) -> Option<Pose> {
 }
 
 /// Joints `q1,…,q6` in degrees, as radians.
-pub fn joints(text: &str) -> Result<[f64; 6], Failure> {
+pub(super) fn joints(text: &str) -> Result<[f64; 6], Failure> {
     let numbers: Option<Vec<f64>> = text
         .split(',')
         .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
@@ -83,7 +83,7 @@ pub fn joints(text: &str) -> Result<[f64; 6], Failure> {
 }
 
 /// `[NAME=]VALUE`: the name, if there is one, and the value's text.
-pub fn named(text: &str) -> (Option<String>, &str) {
+pub(super) fn named(text: &str) -> (Option<String>, &str) {
     match text.split_once('=') {
         Some((name, value)) => (Some(name.trim().to_owned()), value.trim()),
         None => (None, text.trim()),
@@ -91,7 +91,7 @@ pub fn named(text: &str) -> (Option<String>, &str) {
 }
 
 /// A tool by name of the profile or by its pose on the flange.
-pub fn tool(text: &str, profile: &Profile) -> Result<(Option<String>, Mounted), Failure> {
+pub(super) fn tool(text: &str, profile: &Profile) -> Result<(Option<String>, Mounted), Failure> {
     let (name, value) = named(text);
     check_angles("--tool", text, value)?;
     let found = profile.tool(value).or_else(|| {
@@ -113,7 +113,7 @@ pub fn tool(text: &str, profile: &Profile) -> Result<(Option<String>, Mounted), 
 }
 
 /// A work frame by its pose in the world.
-pub fn frame(text: &str) -> Result<(Option<String>, Pose), Failure> {
+pub(super) fn frame(text: &str) -> Result<(Option<String>, Pose), Failure> {
     let (name, value) = named(text);
     check_angles("--frame", text, value)?;
     let pose = pose(value).ok_or_else(|| {
@@ -125,7 +125,7 @@ pub fn frame(text: &str) -> Result<(Option<String>, Pose), Failure> {
 }
 
 /// So many finite numbers with commas between, the value of an option.
-pub fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
+pub(super) fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N], Failure> {
     list(text).ok_or_else(|| {
         Failure::new(format!(
             "{option} {text}: expected {N} numbers with commas between"
@@ -140,6 +140,6 @@ fn list<const N: usize>(text: &str) -> Option<[f64; N]> {
 }
 
 /// Three numbers `x,y,z` in mm.
-pub fn point(text: &str) -> Option<Vector> {
+pub(super) fn point(text: &str) -> Option<Vector> {
     list::<3>(text).map(|point| point.map(m_from_mm))
 }

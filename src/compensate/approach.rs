@@ -34,7 +34,7 @@ pub(super) struct Approach {
 
 impl Approach {
     /// Where the simulation wants the tool, in the world.
-    pub fn wanted(&self, job: &Job) -> Pose {
+    pub(super) fn wanted(&self, job: &Job) -> Pose {
         let ground = &job.ground;
         let target = self.target as usize;
         let decoded =
@@ -46,7 +46,7 @@ impl Approach {
     }
 
     /// The conditions of the real arm.
-    pub fn conditions(&self, job: &Job) -> Conditions {
+    pub(super) fn conditions(&self, job: &Job) -> Conditions {
         Conditions {
             direction: self.direction.map(f64::from),
             ..job.ground.arm_with(self.tool as usize).inverse.conditions

@@ -1,16 +1,13 @@
 //! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction along; here is told how far
 //! from their own wanted poses they land.
 
-use super::Job;
 use super::approach::Approach;
+use super::{Job, LIMIT_DERIVED_M};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
 use crate::geometry::{Pose, Rotation, Separation};
 use crate::program::{Displacement, Move, Shift};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Landing farther from the wanted pose than this, by default, metres.
-const LIMIT_M: f64 = 0.05 * MM;
 
 fn is_displaced(motion: &Move) -> bool {
     motion.displacement != Displacement::None
@@ -30,7 +27,7 @@ pub(super) fn check(
     findings: &mut Vec<Finding>,
 ) {
     let ground = &job.ground;
-    let limit_m = job.options.max_derived_error_m.unwrap_or(LIMIT_M);
+    let limit_m = job.options.max_derived_error_m.unwrap_or(LIMIT_DERIVED_M);
     for motion in ground.program.moves.iter().filter(|m| is_displaced(m)) {
         let Some(target) = motion.target else {
             continue;

@@ -36,7 +36,7 @@ pub(super) struct Limits {
 
 impl Limits {
     /// Of a program; `raised` where the user says the limit.
-    pub fn new(ground: &Ground, raised: Option<Separation>) -> Self {
+    pub(super) fn new(ground: &Ground, raised: Option<Separation>) -> Self {
         Self {
             raised,
             of_tools: ground.arms.iter().map(|_| OnceLock::new()).collect(),
@@ -51,7 +51,12 @@ impl Limits {
     }
 
     /// The finding of a correction that shifts its target too far: it is not written.
-    pub fn judge(&self, job: &Job, approach: &Approach, shift: &Separation) -> Option<Finding> {
+    pub(super) fn judge(
+        &self,
+        job: &Job,
+        approach: &Approach,
+        shift: &Separation,
+    ) -> Option<Finding> {
         let limit = self.of(&job.ground, approach.tool as usize);
         if shift.distance_m <= limit.distance_m && shift.angle_rad <= limit.angle_rad {
             return None;

@@ -56,13 +56,13 @@ use rewrite::{Portion, Split};
 pub use written::{Differs, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
-use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
 pub use crate::inverse::Methods;
 use crate::inverse::{Outcome, Unsupported};
 use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
-use crate::motion::walk::{self, Pace};
+use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
 use crate::motion::{doubt, setting};
 pub use crate::program::meaning;
@@ -70,6 +70,8 @@ use crate::program::{Edits, Language, ReadError, Settings, Source};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
+/// How far points that are derived from a target may land off their wanted pose by default, metres.
+const LIMIT_DERIVED_M: f64 = 0.05 * MM;
 /// Targets rewritten by one thread at a time.
 const CHUNK: usize = 512;
 
@@ -107,6 +109,25 @@ pub struct Options {
     /// How far a correction may shift a target; without it ten times what the profile's effects usually do, and at most 20 mm
     /// and 2 degrees.
     pub max_shift: Option<Separation>,
+}
+
+impl Options {
+    /// What differs from the defaults so that a reader of the file should know it.
+    fn decided(&self) -> Vec<String> {
+        let mut decided = Vec::new();
+        if let Some(limit_m) = self
+            .max_derived_error_m
+            .filter(|limit| *limit > LIMIT_DERIVED_M)
+        {
+            decided.push(format!("max-derived-error {}", mm_from_m(limit_m)));
+        }
+        match self.at_singularity {
+            AtSingularity::Refuse => {}
+            AtSingularity::Flip => decided.push("at-singularity flip".into()),
+            AtSingularity::Nearest => decided.push("at-singularity nearest".into()),
+        }
+        decided
+    }
 }
 
 /// What becomes of a target at the wrist's singularity that the real arm does not reach on the meant side.
@@ -221,18 +242,24 @@ pub fn compensate(
         options,
         limits,
     };
-    let pace = Pace {
+    let walk_options = WalkOptions {
         start_joints: options.start_joints,
         directed: solve::is_directed(&job),
-        ..Pace::default()
+        ..WalkOptions::default()
     };
-    let arrivals = walk::walk(&job.ground, &pace, &mut findings);
+    let arrivals = walk::walk(&job.ground, &walk_options, &mut findings);
     let mut approaches = approach::gather(&job, &arrivals, &mut findings);
     refuse_strange_robots(&job, &findings)?;
     if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
         return Err(CompensateError::NothingToCorrect);
     }
-    let mut outcomes = solve::solve(&job, &arrivals, &pace, &mut approaches, &mut findings);
+    let mut outcomes = solve::solve(
+        &job,
+        &arrivals,
+        &walk_options,
+        &mut approaches,
+        &mut findings,
+    );
     singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
     drop(arrivals);
     let Rewritten {
@@ -262,7 +289,8 @@ pub fn compensate(
         decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
         summary,
     };
-    compensation.split(language, sources, splits);
+    compensation.decided.extend(options.decided());
+    compensation.split(language, sources, &splits);
     compensation.judge(sources, &options.accepted);
     Ok(compensation)
 }
@@ -279,7 +307,7 @@ fn raised(max_shift: &Separation) -> String {
 
 impl Compensation {
     /// Gives moves that share a target targets of their own.
-    fn split(&mut self, language: &dyn Language, sources: &[Source], splits: Vec<Split>) {
+    fn split(&mut self, language: &dyn Language, sources: &[Source], splits: &[Split]) {
         if splits.is_empty() {
             return;
         }

@@ -157,7 +157,7 @@ pub(super) struct Tally {
 
 impl Tally {
     /// Nothing is changed yet.
-    pub fn new(job: &Job) -> Self {
+    pub(super) fn new(job: &Job) -> Self {
         let is_own = |target: &&Target| !job.ground.sources[target.file as usize].is_context;
         let targets = || job.ground.program.targets.iter().filter(is_own);
         let is_joints = |target: &&Target| target.layout.shape == Shape::Joints;
@@ -176,7 +176,7 @@ impl Tally {
     }
 
     /// Adds one target.
-    pub fn add(&mut self, job: &Job, target: usize, report: &TargetReport) {
+    pub(super) fn add(&mut self, job: &Job, target: usize, report: &TargetReport) {
         let target = &job.ground.program.targets[target];
         let summary = &mut self.summary;
         if report.changed {
@@ -198,7 +198,7 @@ impl Tally {
     }
 
     /// Which sources have compensated targets, and the numbers of the whole.
-    pub fn finish(self) -> (Vec<bool>, Summary) {
+    pub(super) fn finish(self) -> (Vec<bool>, Summary) {
         let mut summary = self.summary;
         summary.unchanged = summary.targets - summary.compensated;
         if summary.compensated > 0 {

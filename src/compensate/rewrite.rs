@@ -6,7 +6,7 @@ use super::limit;
 use super::outcome::{TargetReport, small};
 use super::shared::{self, Fake};
 use super::singular;
-use crate::finding::{Finding, Severity};
+use crate::finding::{Acceptance, Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::inverse::{Arm, Outcome, Status};
@@ -72,7 +72,7 @@ pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
 
 impl<'a> Portion<'a> {
     /// Nothing yet.
-    pub fn new(bases: &'a BTreeSet<usize>) -> Self {
+    pub(super) fn new(bases: &'a BTreeSet<usize>) -> Self {
         Self {
             bases,
             reports: Vec::new(),
@@ -84,7 +84,7 @@ impl<'a> Portion<'a> {
     }
 
     /// Writes the new text of one target, where it converged from wherever the robot comes, and reports on it.
-    pub fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
+    pub(super) fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
         let (approach, outcome) = &group[0];
         let mut report = TargetReport::new(Some((approach, outcome)));
         let strange = group
@@ -105,8 +105,15 @@ impl<'a> Portion<'a> {
         } else {
             match shared::common(job, group) {
                 Ok(fake) => self.add_converged(job, group, &fake, fractions, &mut report),
-                Err(finding) => {
-                    if !self.split(job, group, fractions, &finding, &mut report) {
+                Err((finding, mean)) => {
+                    let takes = |acceptance: &Acceptance| acceptance.takes(&finding);
+                    if job.options.accepted.iter().any(takes) {
+                        // the numbers that miss least on all ways
+                        self.add_converged(job, group, &mean, fractions, &mut report);
+                        self.findings
+                            .retain(|other| other.id != "rounding" || other.line != finding.line);
+                        self.findings.push(finding);
+                    } else if !self.split(job, group, fractions, &finding, &mut report) {
                         report.status = None;
                         self.findings.push(finding);
                     }
@@ -169,6 +176,9 @@ impl<'a> Portion<'a> {
             {
                 return false;
             }
+            let given =
+                *job.ground.world_from_frame(approach.frame as usize) * fake.frame_from_tool;
+            report.shift = largest(report.shift, approach.wanted(job).separation(&given));
             let before = worst(alone.iter().map(|(approach, _)| uncorrected(job, approach)));
             report.before = largest(report.before, before);
             report.rounding = largest(report.rounding, landed);

@@ -28,7 +28,7 @@ pub(super) struct Fake {
 }
 
 impl Fake {
-    pub fn of(job: &Job, approach: &Approach, outcome: &Outcome) -> Self {
+    pub(super) fn of(job: &Job, approach: &Approach, outcome: &Outcome) -> Self {
         let ground = &job.ground;
         let equipped = ground.arm_with(approach.tool as usize);
         let world_from_tool = equipped
@@ -44,7 +44,7 @@ impl Fake {
 
 impl Fake {
     /// What the numbers of a target mean.
-    pub fn meant(job: &Job, approach: &Approach, numbers: &[f64]) -> Self {
+    pub(super) fn meant(job: &Job, approach: &Approach, numbers: &[f64]) -> Self {
         let ground = &job.ground;
         let layout = ground.program.targets[approach.target as usize].layout;
         match ground
@@ -67,8 +67,8 @@ impl Fake {
 /// One fake target for all approaches of a target, all of them solved.
 ///
 /// # Errors
-/// Where no numbers serve all: what each approach would miss.
-pub(super) fn common(job: &Job, group: &[(Approach, Outcome)]) -> Result<Fake, Finding> {
+/// Where no numbers serve all: what each approach would miss with the mean, and the mean.
+pub(super) fn common(job: &Job, group: &[(Approach, Outcome)]) -> Result<Fake, (Finding, Fake)> {
     let fakes: Vec<Fake> = group.iter().map(|(a, o)| Fake::of(job, a, o)).collect();
     let first = fakes[0];
     if fakes.len() == 1 {
@@ -88,7 +88,7 @@ pub(super) fn common(job: &Job, group: &[(Approach, Outcome)]) -> Result<Fake, F
     if all_alike {
         return Ok(mean);
     }
-    Err(refused(job, group, &mean))
+    Err((refused(job, group, &mean), mean))
 }
 
 /// The mean of fake targets that lie near each other; joints as in the first.
@@ -164,7 +164,11 @@ fn refused(job: &Job, group: &[(Approach, Outcome)], mean: &Fake) -> Finding {
         Severity::Error,
         target,
         message,
-        "give each use a target of its own, or --split-targets",
+        if job.options.split_targets {
+            "give each use a target of its own: the text of one of these moves cannot hold one"
+        } else {
+            "give each use a target of its own, or --split-targets"
+        },
     )
 }
 

@@ -90,6 +90,8 @@ pub(super) fn settle(
                 format!("joint 5 passes zero to {:.3} deg", flipped.q[4] / DEG)
             }),
             AtSingularity::Nearest => ways.nearest.map(|nearest| {
+                let arm = &job.ground.arm_with(approach.tool as usize).arm;
+                approach.branch = arm.posture(&nearest.q).0;
                 *outcome = nearest;
                 format!(
                     "joint 4 stays: {:.6} mm and {:.4} deg off its wanted pose",

@@ -7,7 +7,7 @@ use crate::geometry::units::mm_from_m;
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
-use crate::motion::walk::{self, Arrival, Arrivals, Pace};
+use crate::motion::walk::{self, Arrival, Arrivals, WalkOptions};
 use crate::program::script::short;
 use crate::program::{Motion, Shape};
 use rayon::prelude::*;
@@ -30,16 +30,16 @@ pub(super) fn is_directed(job: &Job) -> bool {
 pub(super) fn solve(
     job: &Job,
     arrivals: &Arrivals,
-    pace: &Pace,
+    walk_options: &WalkOptions,
     approaches: &mut [Approach],
     findings: &mut Vec<Finding>,
 ) -> Vec<Outcome> {
     let all: Vec<u32> = (0..short(approaches.len())).collect();
     let mut outcomes: Vec<Option<Outcome>> = vec![None; approaches.len()];
     solve_some(job, approaches, &all, &mut outcomes);
-    if pace.directed {
+    if walk_options.directed {
         for round in 0.. {
-            let changed = changed_directions(job, arrivals, pace, approaches, &outcomes);
+            let changed = changed_directions(job, arrivals, walk_options, approaches, &outcomes);
             if changed.is_empty() {
                 break;
             }
@@ -56,10 +56,53 @@ pub(super) fn solve(
             solve_some(job, approaches, &again, &mut outcomes);
         }
     }
+    if walk_options.directed {
+        tell_unknown(job, approaches, findings);
+    }
     let outcomes = outcomes.into_iter();
     outcomes
         .map(|outcome| outcome.expect("every approach is solved"))
         .collect()
+}
+
+/// Says where a joint with backlash comes to a target from a side that nobody knows.
+fn tell_unknown(job: &Job, approaches: &[Approach], findings: &mut Vec<Finding>) {
+    let ground = &job.ground;
+    for approach in approaches {
+        let equipped = ground.arm_with(approach.tool as usize);
+        let joints: Vec<String> = (0..6)
+            .filter(|&i| equipped.has_backlash[i] && approach.direction[i] == 0)
+            .map(|i| (i + 1).to_string())
+            .collect();
+        if joints.is_empty() {
+            continue;
+        }
+        let real = &equipped.inverse.real;
+        let from = |side: f64| {
+            let mut conditions = approach.conditions(job);
+            for i in 0..6 {
+                if approach.direction[i] == 0 {
+                    conditions.direction[i] = side;
+                }
+            }
+            real.forward(&approach.nominal_q, &conditions)
+        };
+        let apart = from(-1.0).separation(&from(1.0)).distance_m;
+        let message = format!(
+            "nothing says from which side joint {} with backlash comes to {}: it is taken to stand in the middle, and the tool may \
+             be {:.3} mm off",
+            joints.join(", "),
+            ground.name_of(approach.target as usize),
+            mm_from_m(0.5 * apart)
+        );
+        findings.push(ground.at_target(
+            "direction-uncertain",
+            Severity::Warning,
+            approach.target as usize,
+            message,
+            "--start-joints says where the robot stands when the program starts",
+        ));
+    }
 }
 
 /// Solves some approaches, those with the same tool and conditions side by side, on all processors.
@@ -107,7 +150,7 @@ fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut 
 fn changed_directions(
     job: &Job,
     arrivals: &Arrivals,
-    pace: &Pace,
+    walk_options: &WalkOptions,
     approaches: &[Approach],
     outcomes: &[Option<Outcome>],
 ) -> Vec<(u32, [i8; 6])> {
@@ -140,7 +183,15 @@ fn changed_directions(
             (fakes[arrival.from as usize], None)
         };
         let wanted = equipped.controller.forward(&end, &Conditions::default());
-        let course = walk::course(motion, equipped, &start, via.as_ref(), &wanted, &end, pace);
+        let course = walk::course(
+            motion,
+            equipped,
+            &start,
+            via.as_ref(),
+            &wanted,
+            &end,
+            walk_options,
+        );
         directions[at] =
             walk::arrival_direction(equipped, &course, &start, &end, arrival.branch, carried);
     }

@@ -41,7 +41,7 @@ impl Compensation {
         let is_written: Vec<bool> = sources
             .iter()
             .zip(&self.refused)
-            .map(|(source, refused)| !source.is_context && !(only_good && *refused))
+            .map(|(source, refused)| !(source.is_context || only_good && *refused))
             .collect();
         let mut meant = Vec::with_capacity(sources.len());
         let mut written = Vec::with_capacity(sources.len());
@@ -149,7 +149,7 @@ impl Meant {
         };
         let (mut behind, mut before) = (0, 0);
         for (span, text) in edits.changes() {
-            let start = span.start as u32;
+            let start = crate::program::script::short(span.start);
             while let Some(index) = next.next_if(|i| program.numbers[*i as usize].start < start) {
                 meant.keep(program.numbers[index as usize].value, is_freed(index));
             }

@@ -49,7 +49,7 @@ pub(super) struct Attempt {
 
 impl Attempt {
     /// Nothing speaks against it.
-    pub fn clean(&self) -> bool {
+    pub(super) fn clean(&self) -> bool {
         self.unknown.is_empty()
             && self.rivalled.is_empty()
             && self.likeness.in_order > ALIKE
@@ -59,7 +59,7 @@ impl Attempt {
     }
 
     /// The median of the rows' standard deviations, metres.
-    pub fn sigma_m(&self) -> f64 {
+    pub(super) fn sigma_m(&self) -> f64 {
         let mut sigmas: Vec<f64> = self
             .session
             .problem
@@ -72,7 +72,7 @@ impl Attempt {
     }
 
     /// Its merit with residuals of this variance: less is better.
-    pub fn merit_at(&self, variance: f64) -> f64 {
+    pub(super) fn merit_at(&self, variance: f64) -> f64 {
         let fit = &self.refit.fit;
         self.merit - fit.deviance + fit.deviance / variance
     }

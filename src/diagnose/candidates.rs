@@ -4,7 +4,7 @@ use super::table::{Column, table};
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
 use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
-use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, Place, REGISTRY, Site};
+use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, REGISTRY, Site, SiteKey};
 use crate::model::{JOINTS, Slot};
 
 /// Harmonics are sought up to this many periods a turn.
@@ -77,20 +77,22 @@ fn sites(kind: Kind, tools: &[String]) -> Vec<Site> {
                 site
             };
             match place {
-                Place::Link | Place::Joint => (0..JOINTS).map(|i| with(&|s| s.index = i)).collect(),
-                Place::JointOrBase => (0..=BASE).map(|i| with(&|s| s.index = i)).collect(),
-                Place::On => (0..JOINTS).map(|i| with(&|s| s.on = i)).collect(),
-                Place::Order => (1..=MOST_ORDERS).map(|n| with(&|s| s.order = n)).collect(),
-                Place::Tool if tools.len() > 1 => tools
+                SiteKey::Link | SiteKey::Joint => {
+                    (0..JOINTS).map(|i| with(&|s| s.index = i)).collect()
+                }
+                SiteKey::JointOrBase => (0..=BASE).map(|i| with(&|s| s.index = i)).collect(),
+                SiteKey::On => (0..JOINTS).map(|i| with(&|s| s.on = i)).collect(),
+                SiteKey::Order => (1..=MOST_ORDERS).map(|n| with(&|s| s.order = n)).collect(),
+                SiteKey::Tool if tools.len() > 1 => tools
                     .iter()
                     .map(|t| with(&|s| s.tool = Some(t.clone())))
                     .collect(),
-                Place::Tool | Place::Row => vec![site.clone()],
+                SiteKey::Tool | SiteKey::Row => vec![site.clone()],
             }
         };
         all = all.iter().flat_map(each).collect();
     }
-    let on = kind.definition().site.contains(&Place::On);
+    let on = kind.definition().site.contains(&SiteKey::On);
     all.retain(|site| !on || site.index != site.on);
     all
 }

@@ -156,7 +156,7 @@ fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
     }
     match attempt.repeats {
         Some(repeats) => (repeats.scale * sigma_m, NoiseSource::Repeats, left_m),
-        None => (left_m, NoiseSource::Left, left_m),
+        None => (left_m, NoiseSource::Residuals, left_m),
     }
 }
 

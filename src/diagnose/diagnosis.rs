@@ -113,7 +113,7 @@ pub enum NoiseSource {
     /// Poses measured more than once.
     Repeats,
     /// What every model leaves.
-    Left,
+    Residuals,
 }
 
 /// A row that no model explains.

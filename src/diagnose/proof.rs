@@ -35,7 +35,7 @@ pub(super) struct Proof {
 
 impl Proof {
     /// Nothing was left out.
-    pub fn none(effects: usize) -> Self {
+    pub(super) fn none(effects: usize) -> Self {
         Self {
             lengths: vec![Vec::new(); 2 + effects],
             again: vec![(0, 0); effects],
@@ -43,7 +43,7 @@ impl Proof {
     }
 
     /// Statistics of each step, mm.
-    pub fn spreads(&self) -> Vec<Option<Spread>> {
+    pub(super) fn spreads(&self) -> Vec<Option<Spread>> {
         let of = |lengths: &Vec<f64>| {
             Spread::of(&lengths.iter().map(|l| mm_from_m(*l)).collect::<Vec<_>>())
         };

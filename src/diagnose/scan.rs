@@ -25,7 +25,7 @@ struct Seen {
 
 /// A model with effects, and every candidate beside it.
 #[derive(Debug)]
-pub struct View {
+pub(super) struct View {
     /// Products of the candidates' columns while every row counts fully.
     products: Vec<Products>,
     seen: Seen,
@@ -95,7 +95,7 @@ impl Seen {
 impl View {
     /// Without effects.
     #[must_use]
-    pub fn of(world: &World) -> Self {
+    pub(super) fn of(world: &World) -> Self {
         let columns = world.candidates.columns.par_iter();
         let products: Vec<Products> = columns.map(|c| world.plain.products(c)).collect();
         let (base, full) = world.fits(&[]);
@@ -110,7 +110,7 @@ impl View {
     }
 
     /// Turns to a model with these effects.
-    pub fn show(&mut self, world: &World, chosen: &[Chosen]) {
+    pub(super) fn show(&mut self, world: &World, chosen: &[Chosen]) {
         let same = self.shown.len() == chosen.len();
         if same && (self.shown.iter().zip(chosen)).all(|(s, c)| *s == c.columns) {
             return;
@@ -125,14 +125,14 @@ impl View {
     }
 
     /// Every candidate beside a model with all of these effects, best first.
-    pub fn best(&mut self, world: &World, chosen: &[Chosen]) -> Vec<Scored> {
+    pub(super) fn best(&mut self, world: &World, chosen: &[Chosen]) -> Vec<Scored> {
         self.show(world, chosen);
         self.scan(world, chosen, &vec![true; chosen.len()])
     }
 
     /// How much chi-squared rises without the effects that are not kept.
     #[must_use]
-    pub fn loss(&self, keep: &[bool]) -> f64 {
+    pub(super) fn loss(&self, keep: &[bool]) -> f64 {
         let beside = &self.side.beside;
         let all = beside.kept(&vec![true; keep.len()]);
         (beside.deviance(&beside.kept(keep)) - beside.deviance(&all)) / self.full.scale.powi(2)
@@ -140,13 +140,13 @@ impl View {
 
     /// Every candidate beside those of the effects shown that are kept, best first.
     #[must_use]
-    pub fn scan(&self, world: &World, chosen: &[Chosen], keep: &[bool]) -> Vec<Scored> {
+    pub(super) fn scan(&self, world: &World, chosen: &[Chosen], keep: &[bool]) -> Vec<Scored> {
         self.scan_side(world, &self.side, chosen, keep)
     }
 
     /// Every candidate beside other effects than those shown, with the weights and the scale of those shown.
     #[must_use]
-    pub fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
+    pub(super) fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
         let side = Side::of(world, &self.seen, &self.full, others);
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
@@ -154,7 +154,7 @@ impl View {
     /// What all of a kind gain together beside those of the effects shown that are kept: which candidates, one for each place, and
     /// their gain and values. Values stay physical only if they are `bounded`.
     #[must_use]
-    pub fn set_of(
+    pub(super) fn set_of(
         &self,
         world: &World,
         (chosen, keep): (&[Chosen], &[bool]),
@@ -184,7 +184,7 @@ impl View {
 
     /// What all of a kind would gain together beside the effects shown: one for each place, those at their bound left out.
     #[must_use]
-    pub fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
+    pub(super) fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
         let list = &world.candidates.list;
         let all = vec![true; chosen.len()];
         let Some((own, gain)) = self.set_of(world, (chosen, &all), kind, true) else {

@@ -19,7 +19,7 @@ use crate::identify::parameters::{Level, Pick, Selection, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::robust::Shape;
 use crate::identify::start::{self, base_gap};
-use crate::model::effects::{Effect, Kind, Place};
+use crate::model::effects::{Effect, Kind, SiteKey};
 use crate::model::profile::{ControllerModel, Profile};
 
 /// The device stands where the profile has the base if it is nearer than this, metres.
@@ -86,17 +86,17 @@ fn pick_of(effect: &Effect) -> Pick {
         .site
         .iter()
         .filter_map(|place| match place {
-            Place::Link | Place::Joint | Place::JointOrBase => {
+            SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => {
                 u32::try_from(effect.site.index + 1).ok()
             }
-            Place::On => u32::try_from(effect.site.on + 1).ok(),
-            Place::Order | Place::Row => Some(effect.site.order),
-            Place::Tool => None,
+            SiteKey::On => u32::try_from(effect.site.on + 1).ok(),
+            SiteKey::Order | SiteKey::Row => Some(effect.site.order),
+            SiteKey::Tool => None,
         });
     Pick {
         kind: Some(effect.kind),
         places: numbers
-            .filter(|n| *n <= 6 || effect.definition().site.contains(&Place::Order))
+            .filter(|n| *n <= 6 || effect.definition().site.contains(&SiteKey::Order))
             .map(|n| (n, n))
             .collect(),
         key: None,

@@ -6,7 +6,7 @@ use super::scan::View;
 use super::search::{Chosen, Scored, World};
 use crate::identify::problem::Estimate;
 use crate::model::JOINTS;
-use crate::model::effects::{Effect, Kind, Place, REGISTRY};
+use crate::model::effects::{Effect, Kind, REGISTRY, SiteKey};
 
 /// Others compete where they explain this part of what the group explains.
 const PART: f64 = 0.25;
@@ -58,7 +58,7 @@ fn groups(chosen: &[Chosen]) -> Vec<Vec<usize>> {
         }
         let like = |i: &usize| chosen[*i].candidate.effect.kind == kind;
         push((0..chosen.len()).filter(like).collect());
-        if definition.site.contains(&Place::Joint) {
+        if definition.site.contains(&SiteKey::Joint) {
             for joint in 0..JOINTS {
                 let here = |i: &usize| like(i) && chosen[*i].candidate.effect.site.index == joint;
                 push((0..chosen.len()).filter(here).collect());

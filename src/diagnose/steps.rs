@@ -6,7 +6,7 @@ use super::table::{Column, Layout, add_scaled};
 
 /// Columns that begin at a row, for each first row that is tried: the later first.
 #[derive(Clone, Debug)]
-pub struct Steps {
+pub(super) struct Steps {
     /// Weighted columns from row 1 on.
     columns: Vec<Column>,
     /// First rows.
@@ -28,7 +28,7 @@ fn firsts(fit: &Fit, layout: &Layout, margin: usize) -> Vec<usize> {
 impl Steps {
     /// Of columns, seen from a fit without effects.
     #[must_use]
-    pub fn of(fit: &Fit, layout: &Layout, columns: &[&Column], margin: usize) -> Self {
+    pub(super) fn of(fit: &Fit, layout: &Layout, columns: &[&Column], margin: usize) -> Self {
         let count = columns.len();
         let weighted = |c: &&Column| c.iter().zip(&fit.roots).map(|(c, w)| c * w).collect();
         let columns: Vec<Column> = columns.iter().map(weighted).collect();
@@ -79,7 +79,7 @@ impl Steps {
 
     /// Products of each column with those of the effects, for each first row.
     #[must_use]
-    pub fn cross(&self, layout: &Layout, beside: &Beside) -> Vec<Vec<Vec<f64>>> {
+    pub(super) fn cross(&self, layout: &Layout, beside: &Beside) -> Vec<Vec<Vec<f64>>> {
         let turned = beside.turned();
         let mut sums = vec![vec![0.0; turned.len()]; self.columns.len()];
         let mut end = layout.numbers();

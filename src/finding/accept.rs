@@ -62,10 +62,11 @@ impl FromStr for Acceptance {
 impl std::fmt::Display for Acceptance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.kind.id)?;
-        for part in [self.file.clone(), self.line.map(|line| line.to_string())] {
-            if let Some(part) = part {
-                write!(f, ":{part}")?;
-            }
+        for part in [self.file.clone(), self.line.map(|line| line.to_string())]
+            .into_iter()
+            .flatten()
+        {
+            write!(f, ":{part}")?;
         }
         Ok(())
     }
@@ -79,7 +80,8 @@ impl Acceptance {
     }
 
     /// Whether it takes a finding; a file is named by its path as the user gave it, or by its end.
-    fn takes(&self, finding: &Finding) -> bool {
+    #[must_use]
+    pub fn takes(&self, finding: &Finding) -> bool {
         let in_file = |file: &String| Path::new(&finding.file).ends_with(file);
         finding.id == self.kind.id
             && finding.severity == Severity::Error
@@ -112,6 +114,21 @@ pub fn accept<'a>(
     taken.sort_unstable();
     taken.dedup();
     (idle, taken)
+}
+
+/// [`accept`], and a finding at the first file of each acceptance that took nothing.
+pub fn accept_errors(
+    findings: &mut Vec<Finding>,
+    acceptances: &[Acceptance],
+    file: &str,
+) -> Vec<&'static str> {
+    let (idle, taken) = accept(findings, acceptances);
+    let idle = idle.into_iter().map(|acceptance| {
+        let text = format!("--accept {acceptance} takes no error: there is none");
+        Finding::of_file("acceptance-unused", Severity::Warning, file, text).hint("leave it out")
+    });
+    findings.extend(idle);
+    taken
 }
 
 #[cfg(test)]

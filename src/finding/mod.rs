@@ -14,7 +14,7 @@
 mod accept;
 mod table;
 
-pub use accept::{Acceptance, AcceptanceError, accept};
+pub use accept::{Acceptance, AcceptanceError, accept, accept_errors};
 pub use table::{Kind, TABLE, kind};
 
 use schemars::JsonSchema;

@@ -67,7 +67,7 @@ pub fn kind(id: &str) -> Option<&'static Kind> {
 /// Every finding, by id.
 pub const TABLE: &[Kind] = &[
     row("absolutely-accurate", Error, "S bit 4: the controller corrects the target itself; with `--force` a warning, once a file", "compensate a program that was written without absolute accuracy", &["compensate", "check"], &["krl"]),
-    row("acceptance-unused", Warning, "an error that --accept names is not there", "leave the option out", &["compensate"], &[]),
+    row("acceptance-unused", Warning, "an error that --accept names is not there", "leave the option out", &["compensate", "check"], &[]),
     row("angle-too-large", Error, "an angle of a target, tool or frame is in another unit than the language's", "degrees; radians in URScript: write angles of a few turns at most", &["compensate", "check"], &[]).never_accepted(),
     row("at-singularity", Warning, "a target at the singularity of the wrist, where the real arm has no posture on the meant side, is solved as --at-singularity says", "check the move slowly, or move the target", &["compensate"], &[]),
     row("axes-unlike", Warning, "two measured joint axes lie otherwise to one another than in the profile", "is it this robot? does one joint move at a time?", &["axes"], &[]),
@@ -97,7 +97,7 @@ pub const TABLE: &[Kind] = &[
     row("corners-not-accepted", Warning, "the refinement by corners is left out: left-out corners do not improve", "touch and see more corners", &["handeye"], &[]),
     row("corrected-by-sensor", Warning, "a sensor or an offset corrects the move while it runs", "the correction of the program goes with it: look at the first part", &["compensate", "check"], &["rapid", "fanuc"]).was(&["path-corrected"]),
     row("direction-uncertain", Warning, "the text does not tell in which direction joints with backlash come to the target", "come to the target on a longer move", &["compensate", "check"], &[]),
-    row("displaced-target", Warning, "a point that a move displaces from its target is compensated with the target, not for itself; an error beyond the limit", "give the point a target of its own if it must be exact", &["compensate"], &[]),
+    row("displaced-target", Warning, "a point that a move displaces from its target by known numbers is compensated with the target, not for itself; a note below --max-derived-error", "give the point a target of its own if it must be exact", &["compensate"], &[]),
     row("displacement-active", Error, "a shift of the program may be active at the move", "switch it off in the same routine before the move", &["compensate", "check"], &["rapid", "inform"]),
     row("displacement-unknown", Warning, "a move displaces its target by what the text does not tell", "give the point a target of its own if it must be exact", &["compensate"], &[]),
     row("duplicate-rows", Warning, "rows repeat an earlier one to the last digit: they count twice", "a device never repeats itself exactly: leave copies out", &["calibrate", "validate", "diagnose"], &[]),

@@ -128,11 +128,11 @@ pub(super) mod elementary {
         2.695_151_429_079_059_5e-15,
     ];
     /// Adding and subtracting 1.5·2⁵² rounds to the nearest integer.
-    pub const ROUND: f64 = 6_755_399_441_055_744.0;
+    pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0;
 
     /// Sine and cosine, |x| < 1e5.
     #[inline(always)]
-    pub fn sin_cos(x: f64) -> (f64, f64) {
+    pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
         // x = j·π/2 + z with |z| ≤ π/4
         let shifted = x * std::f64::consts::FRAC_2_PI + ROUND;
         let j = shifted - ROUND;
@@ -175,7 +175,7 @@ pub(super) mod elementary {
 
     /// Angle of the point (x, y) in (−π, π]; zero at the origin.
     #[inline(always)]
-    pub fn atan2(y: f64, x: f64) -> f64 {
+    pub(crate) fn atan2(y: f64, x: f64) -> f64 {
         let (ax, ay) = (x.abs(), y.abs());
         let swap = ay > ax;
         let (low, high) = if swap { (ax, ay) } else { (ay, ax) };

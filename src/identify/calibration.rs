@@ -520,7 +520,7 @@ impl Calibration {
     }
 
     /// What the probe touched and was not wholly known, and where it was found.
-    pub fn features(&self) -> impl Iterator<Item = (&contact::Feature, contact::Place)> {
+    pub fn features(&self) -> impl Iterator<Item = (&contact::Feature, contact::Fitted)> {
         let values = &self.solution.estimate.features;
         let all = self.problem.features.iter().zip(values);
         all.filter(|(feature, _)| feature.unknowns() > 0)

@@ -199,7 +199,7 @@ pub struct Feature {
 
 /// Where a feature is, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Fitted {
     /// Centre of a sphere, a point of a plane, or the point, metres.
     pub centre_m: Vector,
     /// Radius of a sphere, metres.
@@ -259,19 +259,19 @@ impl Feature {
 
     /// Where it is with these numbers.
     #[must_use]
-    pub fn place(&self, values: &[f64; MOST_VALUES]) -> Place {
+    pub fn place(&self, values: &[f64; MOST_VALUES]) -> Fitted {
         let [x, y, z, radius] = *values;
         match self.kind {
             ContactKind::Plane => {
                 let long = self.tilted(values);
                 let normal = scale(1.0 / norm(long), long);
-                Place {
+                Fitted {
                     centre_m: add(self.origin_m, scale(values[0], normal)),
                     radius_m: None,
                     normal: Some(normal),
                 }
             }
-            kind => Place {
+            kind => Fitted {
                 centre_m: [x, y, z],
                 radius_m: (kind == ContactKind::Sphere).then_some(radius),
                 normal: None,
@@ -281,7 +281,7 @@ impl Feature {
 
     /// The numbers that put it there: the inverse of [`Feature::place`].
     #[must_use]
-    pub fn numbers_of(&self, place: &Place) -> [f64; MOST_VALUES] {
+    pub fn numbers_of(&self, place: &Fitted) -> [f64; MOST_VALUES] {
         let [x, y, z] = place.centre_m;
         let radius = place.radius_m.unwrap_or_default();
         let Some(normal) = place.normal else {

@@ -68,7 +68,7 @@ impl Change {
 
 impl<'a> Chooser<'a> {
     /// Of configurations, the first of which are `given`.
-    pub fn new(derivatives: &'a Derivatives, given: usize) -> Self {
+    pub(super) fn new(derivatives: &'a Derivatives, given: usize) -> Self {
         let candidates: Vec<usize> = (given..derivatives.count()).collect();
         let mut base = DMatrix::zeros(derivatives.width, derivatives.width);
         for i in 0..given {
@@ -88,7 +88,7 @@ impl<'a> Chooser<'a> {
     }
 
     /// What the given configurations and these candidates tell.
-    pub fn information(&self, set: &[usize]) -> DMatrix<f64> {
+    pub(super) fn information(&self, set: &[usize]) -> DMatrix<f64> {
         let mut m = self.base.clone();
         for i in set {
             self.derivatives.add_information(self.given + i, &mut m);
@@ -97,7 +97,7 @@ impl<'a> Chooser<'a> {
     }
 
     /// A random set.
-    pub fn draw(&self, count: usize, random: &mut Random) -> Vec<usize> {
+    pub(super) fn draw(&self, count: usize, random: &mut Random) -> Vec<usize> {
         let mut used = vec![false; self.total()];
         let mut set = Vec::with_capacity(count);
         while set.len() < count {
@@ -172,7 +172,7 @@ impl<'a> Chooser<'a> {
     }
 
     /// A set improved by exchanges until none of the candidates that tell most beside it is worth one.
-    pub fn improve(&self, mut set: Vec<usize>, tried: usize) -> Improved {
+    pub(super) fn improve(&self, mut set: Vec<usize>, tried: usize) -> Improved {
         let mut exchanges = 0;
         loop {
             let Some(factor) = self.information(&set).cholesky() else {

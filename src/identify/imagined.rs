@@ -152,7 +152,7 @@ impl pulp::NullaryFnOnce for Pass<'_> {
 impl Derivatives {
     /// Of configurations that are measured as those of a problem are, by its parameters; `sigma_m` is the standard deviation of a
     /// coordinate.
-    pub fn of_joints(
+    pub(super) fn of_joints(
         problem: &Problem,
         estimate: &Estimate,
         joints: &[[f64; 6]],
@@ -186,30 +186,30 @@ impl Derivatives {
     }
 
     /// How many configurations.
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.cells.len() / (self.height * self.width).max(1)
     }
 
     /// Those of one configuration, row by row.
-    pub fn of(&self, configuration: usize) -> &[f64] {
+    pub(super) fn of(&self, configuration: usize) -> &[f64] {
         let size = self.height * self.width;
         &self.cells[configuration * size..][..size]
     }
 
     /// `Jᵀ` of one configuration.
-    pub fn columns(&self, configuration: usize) -> DMatrixView<'_, f64> {
+    pub(super) fn columns(&self, configuration: usize) -> DMatrixView<'_, f64> {
         DMatrixView::from_slice(self.of(configuration), self.width, self.height)
     }
 
     /// Adds `JᵀJ` of one configuration.
-    pub fn add_information(&self, configuration: usize, to: &mut DMatrix<f64>) {
+    pub(super) fn add_information(&self, configuration: usize, to: &mut DMatrix<f64>) {
         for row in self.columns(configuration).column_iter() {
             to.ger(1.0, &row, &row, 1.0);
         }
     }
 
     /// Normal equations of every so manieth configuration without measurements, in standard deviations of so many of these.
-    pub fn normal(&self, every: usize, sigmas: f64, parameters: &[Parameter]) -> Normal {
+    pub(super) fn normal(&self, every: usize, sigmas: f64, parameters: &[Parameter]) -> Normal {
         let cells: Vec<f64> = (0..self.count())
             .step_by(every)
             .flat_map(|i| self.of(i))
@@ -231,7 +231,7 @@ impl Derivatives {
     }
 
     /// By some of the parameters.
-    pub fn by(self, kept: &[usize]) -> Self {
+    pub(super) fn by(self, kept: &[usize]) -> Self {
         if kept.len() == self.width {
             return self;
         }
@@ -245,7 +245,7 @@ impl Derivatives {
 
     /// The same information in fewer rows, where every configuration tells as much in [`POSE_NUMBERS`]: several known points on one
     /// tool say no more than its pose.
-    pub fn in_fewer_rows(self) -> Self {
+    pub(super) fn in_fewer_rows(self) -> Self {
         let (height, width) = (self.height, self.width);
         if height <= POSE_NUMBERS {
             return self;

@@ -1,7 +1,7 @@
 //! Which parameters are identified, in which order they are kept where the data cannot tell them apart.
 
 use super::error::SelectionError;
-use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site, Unit};
+use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey, Unit};
 use crate::model::profile::Profile;
 use crate::model::{JOINTS, Slot};
 
@@ -103,7 +103,7 @@ impl Pick {
         let kind =
             Kind::by_id(id).ok_or_else(|| SelectionError::UnknownEffect { id: id.into() })?;
         let definition = kind.definition();
-        let counted: Vec<Place> = definition
+        let counted: Vec<SiteKey> = definition
             .site
             .iter()
             .copied()
@@ -201,8 +201,8 @@ impl Pick {
             .filter(|p| p.range().is_some());
         for (n, place) in counted.enumerate() {
             let default = match place {
-                Place::Order | Place::Row => (1, 1),
-                Place::JointOrBase => (BASE_NUMBER, BASE_NUMBER),
+                SiteKey::Order | SiteKey::Row => (1, 1),
+                SiteKey::JointOrBase => (BASE_NUMBER, BASE_NUMBER),
                 _ => (1, 6),
             };
             let (low, high) = self.places.get(n).copied().unwrap_or(default);
@@ -211,7 +211,7 @@ impl Pick {
                 .flat_map(|site| (low..=high).map(move |value| with(site, *place, value)))
                 .collect();
         }
-        let on = kind.definition().site.contains(&Place::On);
+        let on = kind.definition().site.contains(&SiteKey::On);
         sites.retain(|site| !on || site.index != site.on);
         let begun = |site| Effect {
             kind,
@@ -243,23 +243,23 @@ fn means_something(effect: &Effect, key: &str) -> bool {
         }
 }
 
-fn number(effect: &Effect, place: Place) -> Option<u32> {
+fn number(effect: &Effect, place: SiteKey) -> Option<u32> {
     let index = match place {
-        Place::Link | Place::Joint | Place::JointOrBase => effect.site.index + 1,
-        Place::On => effect.site.on + 1,
-        Place::Order | Place::Row => return Some(effect.site.order),
-        Place::Tool => return None,
+        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => effect.site.index + 1,
+        SiteKey::On => effect.site.on + 1,
+        SiteKey::Order | SiteKey::Row => return Some(effect.site.order),
+        SiteKey::Tool => return None,
     };
     u32::try_from(index).ok()
 }
 
-fn with(site: &Site, place: Place, value: u32) -> Site {
+fn with(site: &Site, place: SiteKey, value: u32) -> Site {
     let mut site = site.clone();
     match place {
-        Place::Link | Place::Joint | Place::JointOrBase => site.index = value as usize - 1,
-        Place::On => site.on = value as usize - 1,
-        Place::Order | Place::Row => site.order = value,
-        Place::Tool => {}
+        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => site.index = value as usize - 1,
+        SiteKey::On => site.on = value as usize - 1,
+        SiteKey::Order | SiteKey::Row => site.order = value,
+        SiteKey::Tool => {}
     }
     site
 }

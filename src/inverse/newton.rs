@@ -48,7 +48,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    pub fn is_done(&self) -> bool {
+    pub(super) fn is_done(&self) -> bool {
         within(self.residual.distance_m, self.residual.angle_rad)
     }
 

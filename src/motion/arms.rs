@@ -23,7 +23,7 @@ impl Equipped {
     ///
     /// # Errors
     /// An arm without an inverse.
-    pub fn of(profile: &Profile, tool: &Mounted) -> Result<Self, Unsupported> {
+    pub(crate) fn of(profile: &Profile, tool: &Mounted) -> Result<Self, Unsupported> {
         let conditions = Conditions::default();
         let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)?;
         let inverse = Inverse {
@@ -55,7 +55,7 @@ impl Equipped {
     }
 
     /// The joints that the controller computes for `world_from_tool` near others, and whether they reach it.
-    pub fn controller_joints(
+    pub(crate) fn controller_joints(
         &self,
         world_from_tool: &Pose,
         branch: Branch,

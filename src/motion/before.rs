@@ -29,7 +29,7 @@ pub(super) struct Sets {
 const LISTED: u32 = 1 << 31;
 
 impl Sets {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             list: Vec::new(),
             ids: HashMap::new(),
@@ -38,7 +38,7 @@ impl Sets {
     }
 
     /// The set of one stop.
-    pub fn one(&mut self, stop: Stop) -> Before {
+    pub(super) fn one(&mut self, stop: Stop) -> Before {
         if stop < LISTED {
             return Before(stop);
         }
@@ -60,7 +60,7 @@ impl Sets {
     }
 
     /// The stops of a set.
-    pub fn of<'a>(&'a self, before: &'a Before) -> &'a [Stop] {
+    pub(super) fn of<'a>(&'a self, before: &'a Before) -> &'a [Stop] {
         if before.0 < LISTED {
             std::slice::from_ref(&before.0)
         } else {
@@ -69,7 +69,7 @@ impl Sets {
     }
 
     /// Either.
-    pub fn union(&mut self, a: Before, b: Before) -> Before {
+    pub(super) fn union(&mut self, a: Before, b: Before) -> Before {
         if a == b {
             return a;
         }

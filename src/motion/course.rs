@@ -33,7 +33,7 @@ pub enum Turning {
 
 /// A path of the tool in the world.
 #[derive(Clone, Debug)]
-pub enum Course {
+pub(crate) enum Course {
     /// Each joint at a constant rate.
     Joint {
         /// Joints where it begins, radians.
@@ -47,7 +47,7 @@ pub enum Course {
 
 /// A straight or circular path of the tool.
 #[derive(Clone, Debug)]
-pub struct ToolCourse {
+pub(crate) struct ToolCourse {
     line: Line,
     turn: Turn,
 }
@@ -82,7 +82,7 @@ enum Turn {
 impl ToolCourse {
     /// The straight way.
     #[must_use]
-    pub fn straight(from: &Pose, to: &Pose, turning: Turning) -> Self {
+    pub(crate) fn straight(from: &Pose, to: &Pose, turning: Turning) -> Self {
         Self {
             line: Line::Straight {
                 from: from.translation,
@@ -94,7 +94,7 @@ impl ToolCourse {
 
     /// The arc through a point; a straight line where the three are on one.
     #[must_use]
-    pub fn arc(from: &Pose, via: Vector, to: &Pose, turning: Turning) -> Self {
+    pub(crate) fn arc(from: &Pose, via: Vector, to: &Pose, turning: Turning) -> Self {
         let start = from.translation;
         let (u, v) = (sub(via, start), sub(to.translation, start));
         let normal = cross(u, v);
@@ -131,7 +131,7 @@ impl ToolCourse {
 
     /// Length of the tool's way, metres.
     #[must_use]
-    pub fn length_m(&self) -> f64 {
+    pub(crate) fn length_m(&self) -> f64 {
         match &self.line {
             Line::Straight { along, .. } => norm(*along),
             Line::Circle {
@@ -142,7 +142,7 @@ impl ToolCourse {
 
     /// By how much the tool turns, or the arc goes round, radians.
     #[must_use]
-    pub fn angle_rad(&self) -> f64 {
+    pub(crate) fn angle_rad(&self) -> f64 {
         let turned = match &self.turn {
             Turn::Axis { angle_rad, .. } => angle_rad.abs(),
             Turn::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
@@ -155,13 +155,13 @@ impl ToolCourse {
 
     /// Whether it is an arc.
     #[must_use]
-    pub fn is_arc(&self) -> bool {
+    pub(crate) fn is_arc(&self) -> bool {
         matches!(self.line, Line::Circle { .. })
     }
 
     /// The tool at `s`.
     #[must_use]
-    pub fn pose<S: Scalar>(&self, s: S) -> Pose<S> {
+    pub(crate) fn pose<S: Scalar>(&self, s: S) -> Pose<S> {
         let k = S::constant;
         let translation = match &self.line {
             Line::Straight { from, along } => add(constant(*from), scale(s, constant(*along))),
@@ -290,7 +290,7 @@ pub(crate) struct Piece {
 
 impl Piece {
     /// Whether the joints' values and rates have bounds that say something.
-    pub fn is_bounded(&self) -> bool {
+    pub(crate) fn is_bounded(&self) -> bool {
         self.joints.iter().all(|joint| {
             joint.value.radius < 1.0
                 && joint.slope.radius.is_finite()
@@ -299,7 +299,7 @@ impl Piece {
     }
 
     /// Whether these joints lie within the bounds: with those of both ends in one piece the way between them has no leap.
-    pub fn holds(&self, joints: &[f64; 6]) -> bool {
+    pub(crate) fn holds(&self, joints: &[f64; 6]) -> bool {
         let within =
             |(jet, q): (&Jet, &f64)| (q - jet.value.middle).abs() <= jet.value.radius + SLACK_RAD;
         self.joints.iter().zip(joints).all(within)
@@ -308,7 +308,7 @@ impl Piece {
 
 impl Leg<'_> {
     /// The controller's joints at `s`, by whole turns nearest to `near`.
-    pub fn joints(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
+    pub(crate) fn joints(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
         match &self.course {
             Course::Joint { from, to } => std::array::from_fn(|i| from[i] + s * (to[i] - from[i])),
             Course::Tool(course) => {
@@ -322,7 +322,7 @@ impl Leg<'_> {
     }
 
     /// How far beyond reach the controller's nominal arm is asked to go at `s`; 0 within.
-    pub fn beyond(&self, s: f64) -> f64 {
+    pub(crate) fn beyond(&self, s: f64) -> f64 {
         match &self.course {
             Course::Joint { .. } => 0.0,
             Course::Tool(course) => {
@@ -336,7 +336,7 @@ impl Leg<'_> {
     }
 
     /// Where the controller, with this model, believes the tool to be.
-    pub fn controller_pose<S: Scalar>(
+    pub(crate) fn controller_pose<S: Scalar>(
         &self,
         s: S,
         joints: &[S; 6],
@@ -349,7 +349,7 @@ impl Leg<'_> {
     }
 
     /// Bounds of the joints between `from` and `to`, given the joints in the middle.
-    pub fn enclose(&self, from: f64, to: f64, middle: &[f64; 6]) -> Piece {
+    pub(crate) fn enclose(&self, from: f64, to: f64, middle: &[f64; 6]) -> Piece {
         let s = Jet::variable(from, to);
         let (joints, certified) = match &self.course {
             Course::Joint { from, to } => (
@@ -388,7 +388,7 @@ impl Leg<'_> {
 
     /// The whole move in pieces whose bounds are tight enough to work with. A piece in which a joint with backlash may turn
     /// back stands there once for each side from which it may come.
-    pub fn pieces(&self) -> Vec<Piece> {
+    pub(crate) fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut near = self.start;
         self.split(0.0, 1.0, &mut near, &mut pieces);

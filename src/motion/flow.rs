@@ -157,7 +157,7 @@ pub(super) struct Flow<'a> {
 
 impl<'a> Flow<'a> {
     /// Follows a script.
-    pub fn of(script: &'a Script) -> Self {
+    pub(super) fn of(script: &'a Script) -> Self {
         let mut label_places = vec![u32::MAX; script.labels as usize];
         for (at, statement) in script.statements.iter().enumerate() {
             if let Statement::Label(label) = statement {
@@ -225,7 +225,7 @@ impl<'a> Flow<'a> {
     }
 
     /// The value of an identifier, the flow's own included.
-    pub fn value(&self, value: ValueId) -> &Held {
+    pub(super) fn value(&self, value: ValueId) -> &Held {
         let at = value as usize;
         let own = self.script.values.len();
         if at < own {
@@ -312,20 +312,17 @@ impl<'a> Flow<'a> {
                 }
                 _ => None,
             };
-            match once {
-                Some((value, site)) => {
-                    let holding = self.constant(value, site);
-                    self.fixed.push(holding);
-                    self.slots.push(None);
-                }
-                None => {
-                    self.fixed.push(NOTHING);
-                    let slot = short(self.tracked.len());
-                    self.slots.push(Some(slot));
-                    self.tracked.push(short(variable));
-                    if let Some(routine) = self.script.variables[variable].routine {
-                        self.locals.entry(routine).or_default().push(slot);
-                    }
+            if let Some((value, site)) = once {
+                let holding = self.constant(value, site);
+                self.fixed.push(holding);
+                self.slots.push(None);
+            } else {
+                self.fixed.push(NOTHING);
+                let slot = short(self.tracked.len());
+                self.slots.push(Some(slot));
+                self.tracked.push(short(variable));
+                if let Some(routine) = self.script.variables[variable].routine {
+                    self.locals.entry(routine).or_default().push(slot);
                 }
             }
         }
@@ -335,12 +332,11 @@ impl<'a> Flow<'a> {
     fn constant(&mut self, value: Expr, site: Site) -> Holding {
         match value {
             Expr::Variable(variable) if (variable as usize) < self.fixed.len() => {
-                match self.slots[variable as usize] {
-                    None => self.fixed[variable as usize],
-                    Some(_) => {
-                        let declared = self.script.variables[variable as usize].declared;
-                        self.constant(declared, site)
-                    }
+                if self.slots[variable as usize].is_none() {
+                    self.fixed[variable as usize]
+                } else {
+                    let declared = self.script.variables[variable as usize].declared;
+                    self.constant(declared, site)
                 }
             }
             Expr::Variable(variable) => {
@@ -790,7 +786,7 @@ impl<'a> Flow<'a> {
     }
 
     /// What a variable holds at a stop that goes to one of several positions.
-    pub fn chosen_at(&mut self, stop: Stop, variable: VariableId) -> Holding {
+    pub(super) fn chosen_at(&mut self, stop: Stop, variable: VariableId) -> Holding {
         let held = match (self.slots[variable as usize], self.chosen.get(&stop)) {
             (Some(slot), Some(holds)) => holds[slot as usize],
             _ => self.fixed[variable as usize],
@@ -1008,7 +1004,7 @@ impl<'a> Flow<'a> {
     }
 
     /// The parts of a record.
-    pub fn parts_of(&self, parts: &std::ops::Range<u32>) -> Vec<Part> {
+    pub(super) fn parts_of(&self, parts: &std::ops::Range<u32>) -> Vec<Part> {
         let own = short(self.script.parts.len());
         let (list, by) = if parts.start < own || parts.is_empty() {
             (&self.script.parts, 0)
@@ -1070,7 +1066,7 @@ impl<'a> Flow<'a> {
             let Some(exit) = self.instances[callee as usize].exit.clone() else {
                 continue;
             };
-            let back = self.back_from(&start, exit, call, routine, instance);
+            let back = self.back_from(&start, &exit, call, routine, instance);
             behind = Some(match behind {
                 Some(other) => self.join(&other, &back),
                 None => back,
@@ -1109,7 +1105,7 @@ impl<'a> Flow<'a> {
     fn back_from(
         &mut self,
         start: &State,
-        exit: State,
+        exit: &State,
         call: &Call,
         routine: RoutineId,
         instance: u32,
@@ -1129,7 +1125,7 @@ impl<'a> Flow<'a> {
                 && self.script.variables[parameter as usize].routine == Some(routine)
                 && self.slots[parameter as usize].is_some()
             {
-                let held = self.variable(&exit, parameter);
+                let held = self.variable(exit, parameter);
                 let written = self.come_back(held, variable);
                 self.set(&mut back, variable, written);
             }
@@ -1359,7 +1355,7 @@ impl<'a> Flow<'a> {
     }
 
     /// Where a write stands, or the declaration of what a variable holds.
-    pub fn place_of(&self, site: Site) -> Option<crate::program::script::Place> {
+    pub(super) fn place_of(&self, site: Site) -> Option<crate::program::script::Place> {
         let script = self.script;
         Some(match script.statements.get(site as usize)? {
             Statement::Move(at) => script.instructions[*at as usize].place,

@@ -32,7 +32,7 @@ impl<'a> Ground<'a> {
     ///
     /// # Errors
     /// All tools and frames that are needed and that nobody knows; an arm without an inverse.
-    pub fn new<E: From<PlacementError> + From<Unsupported>>(
+    pub(crate) fn new<E: From<PlacementError> + From<Unsupported>>(
         language: &'a dyn Language,
         settings: &'a Settings,
         program: &'a Program,
@@ -95,7 +95,7 @@ impl<'a> Ground<'a> {
     }
 
     /// The work frame of a move; joints stand in the world.
-    pub fn frame_of(&self, motion: &Move) -> FrameId {
+    pub(crate) fn frame_of(&self, motion: &Move) -> FrameId {
         if self.program.goes_to_pose(motion) {
             motion.frame
         } else {
@@ -103,36 +103,36 @@ impl<'a> Ground<'a> {
         }
     }
 
-    pub fn equipped(&self, tool: ToolId) -> Option<&Equipped> {
+    pub(crate) fn equipped(&self, tool: ToolId) -> Option<&Equipped> {
         self.arms[tool].as_ref()
     }
 
     /// The arm with a tool that a move needs.
-    pub fn arm_with(&self, tool: ToolId) -> &Equipped {
+    pub(crate) fn arm_with(&self, tool: ToolId) -> &Equipped {
         self.arms[tool]
             .as_ref()
             .expect("an arm was made for each tool that a move needs")
     }
 
-    pub fn world_from_frame(&self, frame: FrameId) -> &Pose {
+    pub(crate) fn world_from_frame(&self, frame: FrameId) -> &Pose {
         self.setting.frames[frame]
             .as_ref()
             .expect("the work frame of a move that needs it is known")
     }
 
     /// A pose that the program means, where the part as it stands has it.
-    pub fn on_part(&self, wanted: Pose) -> Pose {
+    pub(crate) fn on_part(&self, wanted: Pose) -> Pose {
         self.work_offset.map_or(wanted, |offset| offset * wanted)
     }
 
     /// The reverse of [`Self::on_part`].
-    pub fn off_part(&self, wanted: Pose) -> Pose {
+    pub(crate) fn off_part(&self, wanted: Pose) -> Pose {
         self.work_offset
             .map_or(wanted, |offset| offset.inverse() * wanted)
     }
 
     /// Where a target's numbers want the tool, in the world.
-    pub fn wanted(&self, value: &Value, tool: ToolId, frame: FrameId) -> Pose {
+    pub(crate) fn wanted(&self, value: &Value, tool: ToolId, frame: FrameId) -> Pose {
         let controller = &self.arm_with(tool).controller;
         self.on_part(match value {
             Value::Joints(q) => controller.forward(q, &Conditions::default()),
@@ -141,7 +141,7 @@ impl<'a> Ground<'a> {
     }
 
     /// The posture at a target that the robot comes to from nowhere.
-    pub fn posture_alone(
+    pub(crate) fn posture_alone(
         &self,
         arm: &Arm,
         target: TargetId,
@@ -161,12 +161,12 @@ impl<'a> Ground<'a> {
     }
 
     /// Whether a target is given in joints.
-    pub fn is_joints(&self, target: TargetId) -> bool {
+    pub(crate) fn is_joints(&self, target: TargetId) -> bool {
         self.program.targets[target].layout.shape == Shape::Joints
     }
 
     /// A target's name for messages.
-    pub fn name_of(&self, target: TargetId) -> String {
+    pub(crate) fn name_of(&self, target: TargetId) -> String {
         let target = &self.program.targets[target];
         target
             .name
@@ -175,13 +175,13 @@ impl<'a> Ground<'a> {
     }
 
     /// The line of a move.
-    pub fn line_of(&self, motion: &Move) -> usize {
+    pub(crate) fn line_of(&self, motion: &Move) -> usize {
         let source = &self.sources[motion.file as usize];
         source.line_column(motion.offset as usize).0
     }
 
     /// A finding at a byte of a source.
-    pub fn finding(
+    pub(crate) fn finding(
         &self,
         id: &'static str,
         severity: Severity,
@@ -195,7 +195,7 @@ impl<'a> Ground<'a> {
     }
 
     /// A finding at a move.
-    pub fn at_move(
+    pub(crate) fn at_move(
         &self,
         id: &'static str,
         severity: Severity,
@@ -207,7 +207,7 @@ impl<'a> Ground<'a> {
     }
 
     /// A finding at a target.
-    pub fn at_target(
+    pub(crate) fn at_target(
         &self,
         id: &'static str,
         severity: Severity,

@@ -51,7 +51,7 @@ pub(super) struct Holdings {
 }
 
 impl Holdings {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let nothing: Box<[(Atom, Site)]> = Box::default();
         Self {
             list: vec![nothing.clone()],
@@ -61,17 +61,17 @@ impl Holdings {
         }
     }
 
-    pub fn of(&self, holding: Holding) -> &[(Atom, Site)] {
+    pub(super) fn of(&self, holding: Holding) -> &[(Atom, Site)] {
         &self.list[holding.0 as usize]
     }
 
     /// One thing.
-    pub fn one(&mut self, atom: Atom, site: Site) -> Holding {
+    pub(super) fn one(&mut self, atom: Atom, site: Site) -> Holding {
         self.intern(vec![(atom, site)])
     }
 
     /// Any of these.
-    pub fn intern(&mut self, mut atoms: Vec<(Atom, Site)>) -> Holding {
+    pub(super) fn intern(&mut self, mut atoms: Vec<(Atom, Site)>) -> Holding {
         atoms.sort_unstable();
         atoms.dedup_by_key(|(atom, _)| *atom);
         let is_target = |atom: &Atom| matches!(atom, Atom::Target { .. } | Atom::Changed { .. });
@@ -107,7 +107,7 @@ impl Holdings {
     }
 
     /// Nothing is told apart any more.
-    pub fn lose_all(&mut self) {
+    pub(super) fn lose_all(&mut self) {
         let atoms = self.list.iter().flatten();
         self.lost.extend(atoms.filter_map(|(atom, _)| match atom {
             Atom::Target { target, .. } | Atom::Changed { target } => Some(*target),
@@ -116,7 +116,7 @@ impl Holdings {
     }
 
     /// What either may hold.
-    pub fn join(&mut self, a: Holding, b: Holding) -> Holding {
+    pub(super) fn join(&mut self, a: Holding, b: Holding) -> Holding {
         if a == b || b == NOTHING {
             return a;
         }

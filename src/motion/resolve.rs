@@ -675,7 +675,7 @@ impl Resolver<'_, '_> {
             displacement,
             configured,
             near: instruction.near.clone(),
-            pace: instruction.pace,
+            speed_zone: instruction.speed_zone,
             free_orientation: listed.free_orientation,
             instruction: *at,
             before: Before::Start,
@@ -694,15 +694,14 @@ impl Resolver<'_, '_> {
                 continue;
             };
             let (first, end) = self.stops[stop];
-            let before = match lists.get(&reached.before.0) {
-                Some(before) => *before,
-                None => {
-                    let before = self.moves_of(&reached);
-                    if !matches!(before, Before::One(_)) {
-                        lists.insert(reached.before.0, before);
-                    }
-                    before
+            let before = if let Some(before) = lists.get(&reached.before.0) {
+                *before
+            } else {
+                let before = self.moves_of(&reached);
+                if !matches!(before, Before::One(_)) {
+                    lists.insert(reached.before.0, before);
                 }
+                before
             };
             for motion in &mut self.report.program.moves[first as usize..end as usize] {
                 motion.before = before;

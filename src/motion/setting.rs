@@ -321,7 +321,7 @@ pub(crate) struct Setting {
 
 impl Setting {
     /// What a move needs and nobody knows: `tool` or `work frame`, and its name.
-    pub fn unknown<'p>(
+    pub(crate) fn unknown<'p>(
         &self,
         program: &'p Program,
         motion: &Move,
@@ -335,7 +335,7 @@ impl Setting {
         tool.into_iter().chain(frame)
     }
 
-    pub fn of(
+    pub(crate) fn of(
         language: &dyn Language,
         program: &Program,
         profile: &Profile,
@@ -361,7 +361,7 @@ impl Setting {
     }
 
     /// Whether two tools are of the same values.
-    pub fn same_tool(&self, a: ToolId, b: ToolId) -> bool {
+    pub(crate) fn same_tool(&self, a: ToolId, b: ToolId) -> bool {
         a == b
             || match (&self.tools[a], &self.tools[b]) {
                 (Some(a), Some(b)) => {
@@ -372,7 +372,7 @@ impl Setting {
     }
 
     /// Whether two work frames are of the same values.
-    pub fn same_frame(&self, a: FrameId, b: FrameId) -> bool {
+    pub(crate) fn same_frame(&self, a: FrameId, b: FrameId) -> bool {
         a == b
             || match (&self.frames[a], &self.frames[b]) {
                 (Some(a), Some(b)) => same_pose(a, b),
@@ -381,7 +381,7 @@ impl Setting {
     }
 
     /// The work frame that stands for the world.
-    pub fn world(&self) -> FrameId {
+    pub(crate) fn world(&self) -> FrameId {
         self.frames.len() - 1
     }
 }

@@ -22,6 +22,8 @@ const STANDSTILL_RAD: f64 = 1e-6;
 const READABLE: f64 = 1e6;
 /// Arrivals at one move that are told apart.
 const MOST_ARRIVALS: usize = 64;
+/// Joints of one posture that differ by less but for whole rotations, radians.
+const SAME_POSTURE_RAD: f64 = 0.01;
 /// Joints that differ by less are the same, radians.
 const SAME_RAD: f64 = 1e-7;
 /// A joint that moves more in a step of a path may have gone round: the step is halved.
@@ -77,7 +79,7 @@ pub(crate) struct Arrivals {
 
 impl Arrivals {
     /// Indices of the arrivals at a move.
-    pub fn at(&self, motion: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn at(&self, motion: usize) -> impl Iterator<Item = usize> + '_ {
         let first = self.first.get(motion).copied().unwrap_or(NOWHERE);
         let mut next = (first != NOWHERE).then_some(first as usize);
         std::iter::from_fn(move || {
@@ -89,7 +91,7 @@ impl Arrivals {
     }
 
     /// Where an arrival comes from, where its joints are known.
-    pub fn start_of(&self, arrival: &Arrival) -> Option<&Arrival> {
+    pub(crate) fn start_of(&self, arrival: &Arrival) -> Option<&Arrival> {
         let from = self.all.get(arrival.from as usize)?;
         from.known.then_some(from)
     }
@@ -104,7 +106,7 @@ impl Arrivals {
 
 /// How a program is walked.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Pace {
+pub(crate) struct WalkOptions {
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
     /// Joints are those of a controller that computes with a calibrated chain of its own, where it does; else those of the
@@ -119,11 +121,15 @@ pub(crate) struct Pace {
 }
 
 /// Goes through all moves of a program.
-pub(crate) fn walk(ground: &Ground, pace: &Pace, findings: &mut Vec<Finding>) -> Arrivals {
+pub(crate) fn walk(
+    ground: &Ground,
+    walk_options: &WalkOptions,
+    findings: &mut Vec<Finding>,
+) -> Arrivals {
     let count = ground.program.moves.len();
     let mut walker = Walker {
         ground,
-        pace,
+        walk_options,
         findings,
         arrivals: Arrivals {
             all: Vec::with_capacity(count),
@@ -196,7 +202,7 @@ impl Behind {
 
 struct Walker<'a, 'f> {
     ground: &'a Ground<'a>,
-    pace: &'a Pace,
+    walk_options: &'a WalkOptions,
     findings: &'f mut Vec<Finding>,
     arrivals: Arrivals,
     /// Moves to arrive at, and from which arrival: the first of the text first.
@@ -260,13 +266,9 @@ impl Walker<'_, '_> {
         let motion = &ground.program.moves[at as usize];
         let before = self.arrivals.all.get(from as usize).copied();
         let start = before.filter(|before| before.known).map(|before| before.q);
-        let is_first = ground
-            .program
-            .before(motion)
-            .iter()
-            .any(|before| *before == Before::Start);
+        let is_first = ground.program.before(motion).contains(&Before::Start);
         let start = match (start, from) {
-            (None, NOWHERE) if is_first => self.pace.start_joints,
+            (None, NOWHERE) if is_first => self.walk_options.start_joints,
             _ => start,
         };
         let honoured = motion.configured && motion.near.is_none();
@@ -330,12 +332,12 @@ impl Walker<'_, '_> {
         };
         let equipped = ground.arm_with(motion.tool);
         let q = match &equipped.calibrated_controller {
-            Some(controller) if self.pace.exact => {
+            Some(controller) if self.walk_options.exact => {
                 controller.solve(&wanted, posture.branch, &posture.q).q
             }
             _ => posture.q,
         };
-        let direction = match start.filter(|_| self.pace.directed) {
+        let direction = match start.filter(|_| self.walk_options.directed) {
             Some(start) => {
                 let course = course(
                     motion,
@@ -344,7 +346,7 @@ impl Walker<'_, '_> {
                     via.as_ref(),
                     &wanted,
                     &q,
-                    self.pace,
+                    self.walk_options,
                 );
                 arrival_direction(equipped, &course, &start, &q, posture.branch, direction)
             }
@@ -394,7 +396,15 @@ impl Walker<'_, '_> {
             motion.motion != Motion::Joint && !motion.free_orientation && near.is_none()
         });
         if let Some(start) = along {
-            let course = course(motion, equipped, &start, via, wanted, &start, self.pace);
+            let course = course(
+                motion,
+                equipped,
+                &start,
+                via,
+                wanted,
+                &start,
+                self.walk_options,
+            );
             if let Some((branch, q)) = follow(equipped, &course, &start) {
                 return Some(self.compared(motion, target, wanted, configuration, branch, q));
             }
@@ -429,7 +439,7 @@ impl Walker<'_, '_> {
                 ground.name_of(target)
             );
             let hint = "check the configuration data, and that robot, tool and frame are those of the program";
-            let (id, severity) = if self.pace.strict {
+            let (id, severity) = if self.walk_options.strict {
                 (CONFIGURATION_CHANGE, Severity::Error)
             } else {
                 ("configuration-mismatch", Severity::Warning)
@@ -481,7 +491,7 @@ impl Walker<'_, '_> {
         configuration: &Configuration,
         q: &[f64; 6],
     ) -> Option<Posture> {
-        if self.pace.strict {
+        if self.walk_options.strict {
             return None;
         }
         let asked = Asked {
@@ -492,7 +502,12 @@ impl Walker<'_, '_> {
             honoured: true,
             start: Some(*q),
         };
-        posture::choose(self.ground, &asked, &mut Vec::new()).filter(|posture| posture.configured)
+        // whole rotations go by continuity
+        let turn = std::f64::consts::TAU;
+        let is_rotation = |by: f64| (by - turn * (by / turn).round()).abs() < SAME_POSTURE_RAD;
+        let is_other = |posture: &Posture| (0..6).any(|i| !is_rotation(posture.q[i] - q[i]));
+        posture::choose(self.ground, &asked, &mut Vec::new())
+            .filter(|posture| posture.configured && is_other(posture))
     }
 
     /// A part of the target's orientation so large that its angle is lost in rounding.
@@ -553,7 +568,7 @@ pub(crate) fn course(
     via: Option<&Pose>,
     wanted: &Pose,
     q: &[f64; 6],
-    pace: &Pace,
+    walk_options: &WalkOptions,
 ) -> Course {
     if motion.motion == Motion::Joint {
         return Course::Joint {
@@ -563,8 +578,8 @@ pub(crate) fn course(
     }
     let from = equipped.controller.forward(start, &Conditions::default());
     Course::Tool(match via {
-        Some(via) => ToolCourse::arc(&from, via.translation, wanted, pace.turning),
-        None => ToolCourse::straight(&from, wanted, pace.turning),
+        Some(via) => ToolCourse::arc(&from, via.translation, wanted, walk_options.turning),
+        None => ToolCourse::straight(&from, wanted, walk_options.turning),
     })
 }
 

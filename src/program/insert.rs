@@ -155,7 +155,7 @@ pub(super) struct Repeated<'a> {
 impl Repeated<'_> {
     /// The instruction for each target, in lines before it; `written` makes a target of its numbers. `None` where one cannot
     /// be written, or a line becomes too long.
-    pub fn insert(
+    pub(super) fn insert(
         &self,
         insertion: &Insertion,
         written: impl Fn(&[Vec<u8>]) -> Option<Vec<u8>>,

@@ -47,7 +47,7 @@ const SHOWN: usize = 40;
 
 impl Fault {
     /// The error with file, line and column; `whole` is what is read at a time, such as "the line".
-    pub fn in_source(self, source: &Source, whole: &str) -> ReadError {
+    pub(super) fn in_source(self, source: &Source, whole: &str) -> ReadError {
         let file = source.name.clone();
         let shown = |start: u32, end: u32| {
             let end = (end as usize).min(start as usize + SHOWN);

@@ -194,13 +194,6 @@ pub trait Language: Sync {
         out.extend_from_slice(format!("{value}").as_bytes());
     }
 
-    /// How fast a move is and how near it must come to its target, as far as its text tells. By default what
-    /// [`Language::read`] told.
-    fn pace(&self, source: &Source, motion: &Move) -> Pace {
-        let _ = source;
-        motion.pace
-    }
-
     /// Text that puts moves between those of one file, which is the `file`-th of the sources. A move that cannot be
     /// repeated, because its text does more than go to its target, is refused; by default all are.
     fn insert(
@@ -398,7 +391,7 @@ impl Shift {
 
 /// How fast a move is, and how far from its target the next one may begin, where the program tells.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Pace {
+pub struct SpeedZone {
     /// Programmed speed of the tool, m/s.
     pub speed_m_s: Option<f64>,
     /// Radius of the corner, metres; 0 where the robot stops.
@@ -407,7 +400,7 @@ pub struct Pace {
     pub blends: bool,
 }
 
-impl Pace {
+impl SpeedZone {
     /// Whether the robot may pass its target by.
     #[must_use]
     pub fn cuts_corner(&self) -> bool {
@@ -437,7 +430,7 @@ pub struct Move {
     /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
     pub near: Option<Box<[f64; 6]>>,
     /// How fast, and with which corner.
-    pub pace: Pace,
+    pub speed_zone: SpeedZone,
     /// On the way the orientation is free: only the end counts.
     pub free_orientation: bool,
     /// Index in [`Program::instructions`].
@@ -463,7 +456,7 @@ impl Default for Move {
             displacement: Displacement::None,
             configured: false,
             near: None,
-            pace: Pace::default(),
+            speed_zone: SpeedZone::default(),
             free_orientation: false,
             instruction: 0,
             before: Before::Start,

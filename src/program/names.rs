@@ -9,11 +9,11 @@ use std::hash::{BuildHasher, BuildHasherDefault, Hasher, RandomState};
 
 /// A name without its case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Symbol(pub u32);
+pub(super) struct Symbol(pub u32);
 
 /// Every name that was read, with its first spelling.
 #[derive(Debug)]
-pub struct Symbols {
+pub(super) struct Symbols {
     ids: HashMap<Box<[u8]>, u32, Seed>,
     spellings: Vec<Box<str>>,
     /// The last name of each of some checksums: most names are met again soon.
@@ -49,7 +49,7 @@ impl Default for Symbols {
 
 impl Symbols {
     /// The symbol of a name.
-    pub fn intern(&mut self, name: &[u8]) -> Symbol {
+    pub(super) fn intern(&mut self, name: &[u8]) -> Symbol {
         let at = checksum(name);
         let recent = self.recent[at];
         let spelling = self.spellings.get(recent as usize);
@@ -85,12 +85,12 @@ impl Symbols {
     }
 
     /// The symbol of a name that was read; `name` in lower case.
-    pub fn find(&self, name: &[u8]) -> Option<Symbol> {
+    pub(super) fn find(&self, name: &[u8]) -> Option<Symbol> {
         self.ids.get(name).copied().map(Symbol)
     }
 
     /// How it was spelled first.
-    pub fn spelling(&self, symbol: Symbol) -> &str {
+    pub(super) fn spelling(&self, symbol: Symbol) -> &str {
         &self.spellings[symbol.0 as usize]
     }
 }
@@ -105,7 +105,7 @@ fn checksum(name: &[u8]) -> usize {
 
 /// Where something stands: its module and, inside a routine, that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Context {
+pub(super) struct Context {
     /// Index of the module.
     pub module: u32,
     /// Index of the routine.
@@ -165,7 +165,7 @@ impl Hasher for Spread {
 
 /// What a name means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Meaning {
+pub(super) enum Meaning {
     /// This declaration.
     One(u32),
     /// Several declarations, and nothing tells which; index for [`Scopes::several`].
@@ -192,7 +192,7 @@ enum Slot {
 
 /// Declarations by scope and name.
 #[derive(Debug, Default)]
-pub struct Scopes {
+pub(super) struct Scopes {
     /// By symbol.
     slots: Vec<Slot>,
     found: HashMap<u64, Meaning, BuildHasherDefault<Spread>>,
@@ -201,7 +201,7 @@ pub struct Scopes {
 
 impl Scopes {
     /// Adds a declaration; one outside routines that is not LOCAL is seen everywhere.
-    pub fn add(&mut self, name: Symbol, context: Context, local: bool, declaration: u32) {
+    pub(super) fn add(&mut self, name: Symbol, context: Context, local: bool, declaration: u32) {
         let at = name.0 as usize;
         if self.slots.len() <= at {
             self.slots.resize(at + 1, Slot::Free);
@@ -257,12 +257,12 @@ impl Scopes {
     }
 
     /// The declarations that an ambiguous name may mean.
-    pub fn several(&self, list: u32) -> &[u32] {
+    pub(super) fn several(&self, list: u32) -> &[u32] {
         &self.several[list as usize]
     }
 
     /// What a name means at a place.
-    pub fn meaning(&self, name: Symbol, context: Context) -> Meaning {
+    pub(super) fn meaning(&self, name: Symbol, context: Context) -> Meaning {
         match self.slots.get(name.0 as usize) {
             None | Some(Slot::Free) => Meaning::Nothing,
             Some(&Slot::Once {

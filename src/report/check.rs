@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 /// The text for people, without the findings.
 #[must_use]
-pub fn text(found: &Checked) -> String {
+pub(crate) fn text(found: &Checked) -> String {
     let Summary {
         moves,
         unknown,
@@ -99,7 +99,7 @@ pub fn text(found: &Checked) -> String {
 
 /// `JUnit` XML: one suite a file, one case a move; error findings and what got worse are failures.
 #[must_use]
-pub fn junit(found: &Checked, comparison: Option<&Comparison>) -> String {
+pub(crate) fn junit(found: &Checked, comparison: Option<&Comparison>) -> String {
     let mut failures: BTreeMap<(&str, usize), Vec<String>> = BTreeMap::new();
     let errors = found
         .findings

@@ -5,7 +5,7 @@ use crate::task::compensate::{Compensated, Summary};
 
 /// The text for people, without the findings.
 #[must_use]
-pub fn text(found: &Compensated, language: &dyn Language) -> String {
+pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
     let Summary {
         targets,
         compensated,
@@ -34,23 +34,16 @@ pub fn text(found: &Compensated, language: &dyn Language) -> String {
     }
     if compensated > 0 {
         lines.push(format!(
-            "  real tool off by  mean {:.3} mm, largest {:.3} mm before; mean {:.4} mm, largest {:.4} mm after",
-            before_mm,
-            max_before_mm,
-            after_mm,
-            max_rounding_mm
+            "  real tool off by  mean {before_mm:.3} mm, largest {max_before_mm:.3} mm before; mean {after_mm:.4} mm, largest {max_rounding_mm:.4} mm after"
         ));
         lines.push(format!(
-            "  shift     mean {:.3} mm, largest {:.3} mm",
-            mean_shift_mm, max_shift_mm
+            "  shift     mean {mean_shift_mm:.3} mm, largest {max_shift_mm:.3} mm"
         ));
         lines.push(format!(
-            "  residual  largest {:.1e} mm (what the search left)",
-            max_residual_mm
+            "  residual  largest {max_residual_mm:.1e} mm (what the search left)"
         ));
         lines.push(format!(
-            "  rounding  largest {:.4} mm, {:.4} deg (what the file's decimals cost)",
-            max_rounding_mm, max_rounding_deg
+            "  rounding  largest {max_rounding_mm:.4} mm, {max_rounding_deg:.4} deg (what the file's decimals cost)"
         ));
     }
     if added > 0 {

@@ -10,7 +10,7 @@ const SHOWN: usize = 5;
 /// One line a finding, `file:line:column: severity[id]: message`, with its hint once a name. Where `every` is false, notes
 /// are left out and of many findings of one name the first are shown and the rest is counted.
 #[must_use]
-pub fn text(findings: &[Finding], every: bool) -> String {
+pub(crate) fn text(findings: &[Finding], every: bool) -> String {
     let mut out = String::new();
     let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
     let shown = |finding: &&Finding| every || finding.severity > Severity::Note;

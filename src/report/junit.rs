@@ -7,7 +7,7 @@ use super::escaped;
 use std::fmt::Write;
 
 /// The cases of one file.
-pub struct Suite<'a> {
+pub(super) struct Suite<'a> {
     /// The file.
     pub name: &'a str,
     /// Name of each case, and why it failed: nothing where it did not.
@@ -20,7 +20,7 @@ fn failed(suite: &Suite) -> usize {
 }
 
 /// The document.
-pub fn xml(name: &str, suites: &[Suite]) -> String {
+pub(super) fn xml(name: &str, suites: &[Suite]) -> String {
     let ok = "a string takes all text";
     let tests: usize = suites.iter().map(|suite| suite.cases.len()).sum();
     let failures: usize = suites.iter().map(failed).sum();

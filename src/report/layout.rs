@@ -29,7 +29,7 @@ fn indent_of_rest(line: &str, width: usize) -> usize {
 }
 
 /// A line broken at spaces where it is wider than `width`. A space that does not break (U+00A0) is told as a space.
-pub fn wrapped(line: &str, width: usize) -> String {
+pub(crate) fn wrapped(line: &str, width: usize) -> String {
     broken(line, width, indent_of_rest(line, width)) + "\n"
 }
 
@@ -64,19 +64,19 @@ fn broken(line: &str, width: usize, rest: usize) -> String {
 }
 
 /// A text broken at spaces, every line from the margin.
-pub fn flush(text: &str, width: usize) -> String {
+pub(crate) fn flush(text: &str, width: usize) -> String {
     let lines: Vec<String> = text.lines().map(|line| broken(line, width, 0)).collect();
     lines.join("\n")
 }
 
 /// Every line of a text broken.
-pub fn wrapped_lines(text: &str, width: usize) -> String {
+pub(crate) fn wrapped_lines(text: &str, width: usize) -> String {
     text.lines().map(|line| wrapped(line, width)).collect()
 }
 
 /// Columns of text, the first to the left and the others to the right. Columns for which there is no room follow below, again
 /// behind the first.
-pub fn aligned(rows: &[Vec<String>], width: usize) -> String {
+pub(crate) fn aligned(rows: &[Vec<String>], width: usize) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let widths: Vec<usize> = (0..count)
         .map(|column| {
@@ -136,15 +136,16 @@ fn block(rows: &[Vec<String>], widths: &[usize], columns: &[usize]) -> String {
 }
 
 /// A row of a table.
-pub fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
+pub(crate) fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
     cells.map(str::to_owned).to_vec()
 }
 
 /// Header of a table of statistics.
-pub const SPREAD_HEADER: [&str; 8] = ["error", "n", "mean", "std", "rms", "95 %", "99.7 %", "max"];
+pub(crate) const SPREAD_HEADER: [&str; 8] =
+    ["error", "n", "mean", "std", "rms", "95 %", "99.7 %", "max"];
 
 /// Statistics as a row of such a table.
-pub fn spread_row(name: &str, of: &dyn Statistics) -> Vec<String> {
+pub(crate) fn spread_row(name: &str, of: &dyn Statistics) -> Vec<String> {
     let s = of.numbers();
     let mut row = vec![name.to_owned(), s.n.to_string()];
     // small errors have digits too

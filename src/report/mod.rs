@@ -1,11 +1,11 @@
 //! What commands tell people: texts and pages, made of the structures of [`task`](crate::task) whose JSON is for programs.
 
-pub mod check;
-pub mod compensation;
-pub mod findings;
-pub mod html;
+pub(crate) mod check;
+pub(crate) mod compensation;
+pub(crate) mod findings;
+pub(crate) mod html;
 mod junit;
-pub mod layout;
+pub(crate) mod layout;
 mod text;
 
 use crate::finding::Finding;
@@ -14,7 +14,7 @@ use html::page::Page;
 
 /// How a text is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Style {
+pub(crate) struct Style {
     /// Columns that a line may have.
     pub width: usize,
     /// Tell everything, not only the first of many.
@@ -22,7 +22,7 @@ pub struct Style {
 }
 
 /// A result that people read: its text and, where there is something to look at, its page.
-pub trait Report: Document {
+pub(crate) trait Report: Document {
     /// The text.
     fn text(&self, style: Style) -> String;
 

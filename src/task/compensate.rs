@@ -270,12 +270,10 @@ impl Targets<'_> {
             name: text.name.as_ref().map(ToString::to_string),
             file: name.clone(),
             line,
-            tool: t
-                .tool
-                .map(|tool| program.tools[tool as usize].name.to_string()),
+            tool: t.tool.map(|tool| program.tools[tool as usize].name.clone()),
             frame: t
                 .frame
-                .map(|frame| program.frames[frame as usize].name.to_string()),
+                .map(|frame| program.frames[frame as usize].name.clone()),
             wanted,
             wanted_joints_deg,
             fake: t.fake.as_ref().map(Into::into),

@@ -357,7 +357,7 @@ pub fn diagnose(
             .unknown
             .iter()
             .map(|u| Unregistered {
-                function: u.name.to_string(),
+                function: u.name.clone(),
                 chi_squared_fall: finite(u.gain),
             })
             .collect(),
@@ -388,7 +388,7 @@ pub fn diagnose(
         noise_source: match d.noise_source {
             NoiseSource::Given => "sigma_mm",
             NoiseSource::Repeats => "repeats",
-            NoiseSource::Left => "residuals",
+            NoiseSource::Residuals => "residuals",
         },
         left_mm: finite(mm_from_m(d.left_m)),
         outliers: d

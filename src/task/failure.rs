@@ -22,14 +22,14 @@ pub struct Failure {
     /// The way out; empty where there is none.
     pub hint: String,
     /// The place in a text that is to blame.
-    pub place: Option<Place>,
+    pub place: Option<Excerpt>,
     /// Whose fault it is.
     pub blame: Blame,
 }
 
 /// One line of a text and what in it is to blame.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct Excerpt {
     /// The file as the user named it.
     pub file: String,
     /// Line, from 1.
@@ -124,7 +124,7 @@ impl Failure {
         };
         let span = byte(at)..byte(end);
         Self {
-            place: Some(Place {
+            place: Some(Excerpt {
                 file,
                 line,
                 column: at + 1,

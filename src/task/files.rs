@@ -28,6 +28,9 @@ fn place(path: &Path) -> PathBuf {
 }
 
 /// An output must not take the place of what is read, nor of another output.
+///
+/// # Errors
+/// One would.
 pub fn refuse_over<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Path>,
@@ -53,6 +56,9 @@ pub fn refuse_over<'a>(
 }
 
 /// Writes all files or none: each is written beside its place, and only when all are on disk they are renamed into it.
+///
+/// # Errors
+/// One cannot be written.
 pub fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
     let mut waiting = Vec::with_capacity(files.len());
     for (path, bytes) in files {

@@ -69,9 +69,9 @@ pub struct Row {
     pub residual_mm: f64,
     /// In the fit.
     pub residual_deg: f64,
-    /// Left out of it.
+    /// `PoseResidual` out of it.
     pub left_out_mm: f64,
-    /// Left out of it.
+    /// `PoseResidual` out of it.
     pub left_out_deg: f64,
     /// Where the flange was in the robot's base.
     pub place_mm: [f64; 3],

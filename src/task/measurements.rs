@@ -63,7 +63,7 @@ impl Rows {
 }
 
 /// A failed identification with its way out.
-pub fn identify_failure(name: &str, error: &IdentifyError) -> Failure {
+pub(super) fn identify_failure(name: &str, error: &IdentifyError) -> Failure {
     let several = matches!(error, IdentifyError::Missing { .. }) && name.contains(", ");
     let hint = if several {
         "of several files, each must have the columns that an effect needs".into()

@@ -45,7 +45,7 @@ pub mod simulate;
 mod table;
 pub mod validate;
 
-pub use failure::{Blame, Failure, Place};
+pub use failure::{Blame, Excerpt, Failure};
 pub use measurements::Rows;
 pub use profile_file::{ProfileFile, frame, text};
 pub use schema::{SCHEMAS, schema};

@@ -60,7 +60,7 @@ impl ProfileFile {
                 )
             }),
             (None, []) => Ok(Mounted::flange()),
-            (None, [only]) => Ok(profile.tool(only).expect("a key of the map")),
+            (None, [only]) => Ok(profile.tool(only).unwrap_or_else(Mounted::flange)),
             (None, _) => Err(Failure::with_hint(
                 "the profile has several tools",
                 format!("choose one with --tool: {}", names.join(", ")),

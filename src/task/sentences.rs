@@ -15,7 +15,7 @@ fn digits(value: f64) -> String {
 
 /// An effect in one sentence a person understands.
 #[must_use]
-pub fn sentence(effect: &Effect) -> String {
+pub(super) fn sentence(effect: &Effect) -> String {
     let (p, site) = (&effect.parameters, &effect.site);
     let joint = format!("J{}", site.index + 1);
     let deg = |value: f64| digits(value / DEG);

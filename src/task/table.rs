@@ -7,14 +7,14 @@ use crate::identify::doubt::csv::not_csv;
 use crate::program::Source;
 
 /// A table read whole.
-pub struct Table<'a> {
+pub(super) struct Table<'a> {
     source: &'a Source,
     header: Vec<String>,
     rows: Vec<(usize, csv::StringRecord)>,
 }
 
 /// One row of a table.
-pub struct Row<'a> {
+pub(super) struct Row<'a> {
     table: &'a Table<'a>,
     /// Line in the file, from 1.
     pub line: usize,
@@ -26,7 +26,7 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     /// Text that is no table, with line and column.
-    pub fn read(source: &'a Source) -> Result<Self, Failure> {
+    pub(super) fn read(source: &'a Source) -> Result<Self, Failure> {
         if let Some(doubt) = not_csv(&source.bytes) {
             let (line, column) = (doubt.line, doubt.column);
             return Err(Failure::at(
@@ -77,7 +77,7 @@ impl<'a> Table<'a> {
     }
 
     /// Whether it has this column.
-    pub fn has(&self, column: &str) -> bool {
+    pub(super) fn has(&self, column: &str) -> bool {
         self.header.iter().any(|name| name == column)
     }
 
@@ -85,7 +85,7 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     /// One of them is missing or stands twice.
-    pub fn require(&self, columns: &[&str]) -> Result<(), Failure> {
+    pub(super) fn require(&self, columns: &[&str]) -> Result<(), Failure> {
         let count = |column: &str| self.header.iter().filter(|name| *name == column).count();
         let missing: Vec<_> = columns
             .iter()
@@ -113,7 +113,7 @@ impl<'a> Table<'a> {
     }
 
     /// The rows in the order of the file.
-    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         self.rows.iter().map(|(line, cells)| Row {
             table: self,
             line: *line,
@@ -124,7 +124,7 @@ impl<'a> Table<'a> {
 
 impl Row<'_> {
     /// A cell's text; `None` where there is no such column.
-    pub fn text(&self, column: &str) -> Option<&str> {
+    pub(super) fn text(&self, column: &str) -> Option<&str> {
         let index = self.table.header.iter().position(|name| name == column)?;
         self.cells.get(index)
     }
@@ -133,7 +133,7 @@ impl Row<'_> {
     ///
     /// # Errors
     /// The cell is none.
-    pub fn number(&self, column: &str) -> Result<f64, Failure> {
+    pub(super) fn number(&self, column: &str) -> Result<f64, Failure> {
         let text = self.text(column).unwrap_or_default();
         let number = text.parse().ok().filter(|n: &f64| n.is_finite());
         number.ok_or_else(|| {
@@ -158,7 +158,7 @@ impl Row<'_> {
     ///
     /// # Errors
     /// One of the cells is none.
-    pub fn numbers<const N: usize>(&self, columns: [&str; N]) -> Result<[f64; N], Failure> {
+    pub(super) fn numbers<const N: usize>(&self, columns: [&str; N]) -> Result<[f64; N], Failure> {
         let mut out = [0.0; N];
         for (slot, column) in out.iter_mut().zip(columns) {
             *slot = self.number(column)?;
@@ -170,17 +170,17 @@ impl Row<'_> {
     ///
     /// # Errors
     /// One of the cells is no finite number.
-    pub fn joints(&self) -> Result<[f64; 6], Failure> {
+    pub(super) fn joints(&self) -> Result<[f64; 6], Failure> {
         Ok(self.numbers(JOINTS)?.map(|q| q * DEG))
     }
 
     /// A failure at this row.
-    pub fn failure(&self, message: String) -> Failure {
+    pub(super) fn failure(&self, message: String) -> Failure {
         Failure::at(self.table.source, self.line, 1, None, message, "")
     }
 
     /// The `id` column, else the row's number from 1.
-    pub fn id(&self, number: usize) -> String {
+    pub(super) fn id(&self, number: usize) -> String {
         self.text("id")
             .map_or_else(|| number.to_string(), str::to_owned)
     }
@@ -207,14 +207,14 @@ impl Row<'_> {
 }
 
 /// How far a quaternion of a table may be from length 1.
-pub const UNIT_TOLERANCE: f64 = 1e-3;
+pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
 /// Joint columns.
-pub const JOINTS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
+pub(super) const JOINTS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
 /// Pose columns.
-pub const POSE: [&str; 7] = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"];
+pub(super) const POSE: [&str; 7] = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"];
 
 /// A number for output tables: every digit that a reader needs to get the same number back.
-pub fn cell(value: f64) -> String {
+pub(super) fn cell(value: f64) -> String {
     format!("{}", if value == 0.0 { 0.0 } else { value })
 }
 
@@ -222,7 +222,7 @@ pub fn cell(value: f64) -> String {
 ///
 /// # Errors
 /// A cell that is no number; another length of the quaternion.
-pub fn pose(row: &Row) -> Result<Pose, Failure> {
+pub(super) fn pose(row: &Row) -> Result<Pose, Failure> {
     let [x, y, z, w, i, j, k] = row.numbers(POSE)?;
     Ok(Pose::from_parts(
         [x, y, z].map(m_from_mm),
@@ -234,7 +234,7 @@ pub fn pose(row: &Row) -> Result<Pose, Failure> {
 ///
 /// # Errors
 /// Its length differs from 1 by more than [`UNIT_TOLERANCE`].
-pub fn unit(row: &Row, quaternion: Quaternion) -> Result<Quaternion, Failure> {
+pub(super) fn unit(row: &Row, quaternion: Quaternion) -> Result<Quaternion, Failure> {
     let norm = quaternion.norm();
     if (norm - 1.0).abs() > UNIT_TOLERANCE {
         return Err(row.failure(format!(

@@ -14,7 +14,7 @@ const PARALLEL: f64 = 1e-9;
 const MEETING_M: f64 = 1e-9;
 
 /// The rows, with what is before and behind them.
-pub struct Rows {
+pub(super) struct Rows {
     /// The frame in which the rows begin, in the URDF's base link.
     pub base: Pose,
     pub links: [Link; 6],
@@ -95,7 +95,7 @@ fn normal(p: Vector, z: Vector, q: Vector, w: Vector, beside: Vector) -> Option<
 }
 
 /// Derives the rows.
-pub fn rows(arm: &UrdfArm) -> Result<Rows, UrdfError> {
+pub(super) fn rows(arm: &UrdfArm) -> Result<Rows, UrdfError> {
     let joints = arm.frames();
     let points: [Vector; 6] = std::array::from_fn(|i| joints[i + 1].translation);
     let axes: [Vector; 6] =

@@ -7,6 +7,22 @@
 //! # Source
 //! ROS, "URDF/XML" (joint, link, origin: roll, pitch, yaw about fixed axes); J. J. Craig, "Introduction to Robotics" for the
 //! rows.
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::urdf::{Choice, UrdfArm};
+//!
+//! let joint = |k: usize, axis: &str| format!(
+//!     "<link name='l{k}'/><joint name='j{k}' type='revolute'><parent link='l{}'/><child link='l{k}'/>\
+//!      <origin xyz='0.1 0 0.2'/><axis xyz='{axis}'/><limit lower='-2' upper='2'/></joint>", k - 1);
+//! let axes = ["0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"];
+//! let joints: String = axes.iter().enumerate().map(|(k, axis)| joint(k + 1, axis)).collect();
+//! let arm = UrdfArm::read(&format!("<robot name='r'><link name='l0'/>{joints}</robot>"), &Choice::default())?;
+//! assert_eq!(arm.joints.len(), 6);
+//! assert!((arm.forward(&[0.0; 6]).translation[2] - 1.2).abs() < 1e-12);
+//! # Ok::<(), poseshift::urdf::UrdfError>(())
+//! ```
 
 mod chain;
 mod error;

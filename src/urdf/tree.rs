@@ -52,7 +52,7 @@ struct Tree<'a> {
     above: BTreeMap<&'a str, &'a Joint>,
 }
 
-pub fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
+pub(super) fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
     let code = without_comments(text);
     if code.contains("<xacro:") || (code.contains("xmlns:xacro") && code.contains("${")) {
         return Err(UrdfError::Xacro);

@@ -1,7 +1,7 @@
 //! What is hidden in a robot: effects of every kind, of typical proportions.
 
 use super::Start;
-use poseshift::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site};
+use poseshift::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey};
 use rand::RngExt;
 use rand::rngs::StdRng;
 
@@ -28,23 +28,23 @@ pub fn hidden(
     };
     for place in definition.site {
         match place {
-            Place::Link if kind == Kind::LinkGeometry => site.index = random.random_range(1..5),
-            Place::Link | Place::Joint => site.index = random.random_range(0..6),
-            Place::JointOrBase => site.index = random.random_range(0..=BASE),
-            Place::On => {
+            SiteKey::Link if kind == Kind::LinkGeometry => site.index = random.random_range(1..5),
+            SiteKey::Link | SiteKey::Joint => site.index = random.random_range(0..6),
+            SiteKey::JointOrBase => site.index = random.random_range(0..=BASE),
+            SiteKey::On => {
                 while site.on == site.index {
                     site.on = random.random_range(0..6);
                 }
             }
-            Place::Order => site.order = random.random_range(1..5),
-            Place::Row => {
+            SiteKey::Order => site.order = random.random_range(1..5),
+            SiteKey::Row => {
                 site.order =
                     u32::try_from(random.random_range(rows / 5..rows * 4 / 5)).expect("small");
             }
-            Place::Tool => {}
+            SiteKey::Tool => {}
         }
     }
-    if definition.needs_masses() && definition.site.contains(&Place::Joint) {
+    if definition.needs_masses() && definition.site.contains(&SiteKey::Joint) {
         // a joint that carries a torque
         while torques[site.index] < 0.02 * torques.iter().fold(0.0, |m, t| f64::max(m, *t)) {
             site.index = random.random_range(0..6);

@@ -6,7 +6,7 @@ pub mod truth;
 use crate::physics::{Fault, Moment, Robot, tool_pose};
 use hidden::{hidden, kinds, scaled};
 use poseshift::identify::measurements::Measurements;
-use poseshift::model::effects::{Effect, Kind, MOST_PARAMETERS, Place, Site};
+use poseshift::model::effects::{Effect, Kind, MOST_PARAMETERS, Site, SiteKey};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model};
 use rand::rngs::StdRng;
@@ -132,7 +132,7 @@ pub struct Case {
 
 /// An effect without its values: rows from which on it holds are rounded away.
 pub fn label(effect: &Effect) -> String {
-    if effect.definition().site.contains(&Place::Row) {
+    if effect.definition().site.contains(&SiteKey::Row) {
         effect.definition().id.to_owned()
     } else {
         let mut plain = effect.clone();

@@ -133,8 +133,8 @@ impl Job<'_> {
         let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
         let part = self.parts.and_then(|parts| parts[index]);
         if let (Some(original), Some(part)) = (self.original, part) {
-            let stop = original.stops[part.motion]?;
-            let arriving = original.leg(part.motion, self.options.turning);
+            let stop = original.stops[part.stop]?;
+            let arriving = original.leg(part.stop, self.options.turning);
             let leg = arriving.unwrap_or_else(|| original.standing(&stop));
             let mover = original.arms(&stop).mover(Which::Controller);
             let pieces = leg.pieces();

@@ -24,7 +24,7 @@ pub(super) struct Job<'a> {
 
 impl Job<'_> {
     /// What the move does, and what a person should look at.
-    pub fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
+    pub(super) fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
         let mut findings = Vec::new();
         let program = &self.walk.program;
         let motion = self.walk.motion(index);
@@ -36,7 +36,7 @@ impl Job<'_> {
         }
         let arms = self.walk.arms(&stop);
         let source = &self.subject.sources[motion.file as usize];
-        let pace = self.subject.language.pace(source, motion);
+        let speed_zone = motion.speed_zone;
         let part = self.parts.and_then(|parts| parts[index]);
         let wanted_end = match (self.original, part) {
             (Some(original), Some(part)) => part.end_pose(original, self.options),
@@ -67,8 +67,8 @@ impl Job<'_> {
             clearance: None,
             nominal_clearance: None,
             limits: None,
-            zone_m: pace.zone_m,
-            cuts_corner: pace.cuts_corner(),
+            zone_m: speed_zone.zone_m,
+            cuts_corner: speed_zone.cuts_corner(),
         };
         let arriving = self.walk.leg(index, self.options.turning);
         let comes = arriving.is_some();
@@ -76,7 +76,7 @@ impl Job<'_> {
         let pieces = leg.pieces();
         if comes {
             report.path = Some(self.path_error(&leg, &pieces, arms, index));
-            let limits = limits::limits(&leg, &pieces, pace.speed_m_s);
+            let limits = limits::limits(&leg, &pieces, speed_zone.speed_m_s);
             self.judge_limits(index, &leg, &stop, &limits, &mut findings);
             report.limits = Some(limits);
         }
@@ -97,9 +97,9 @@ impl Job<'_> {
     fn path_error(&self, leg: &Leg, pieces: &[Piece], arms: &Arms, index: usize) -> PathError {
         let part = self.parts.and_then(|parts| parts[index]);
         if let (Some(original), Some(part)) = (self.original, part)
-            && let Some(wanted) = original.leg(part.motion, self.options.turning)
+            && let Some(wanted) = original.leg(part.stop, self.options.turning)
         {
-            let stop = original.stops[part.motion].expect("a leg ends at a stop");
+            let stop = original.stops[part.stop].expect("a leg ends at a stop");
             let of_original = original.arms(&stop);
             let wanted = Wanted {
                 leg: &wanted,

@@ -19,7 +19,7 @@ struct File<'a> {
 }
 
 /// Triangles of all nodes of the scene, in the file's units.
-pub fn read(
+pub(super) fn read(
     bytes: &[u8],
     beside: &dyn Fn(&str) -> Option<Vec<u8>>,
 ) -> Result<Vec<[Vector; 3]>, String> {

@@ -49,7 +49,7 @@ fn usual(sizes: impl Iterator<Item = f64>) -> Option<f64> {
 ///
 /// # Errors
 /// The measurements are not of this robot.
-pub fn doubt_fit(
+pub(crate) fn doubt_fit(
     problem: &Problem,
     after: &[Miss],
     frames_only: &[Miss],
@@ -105,7 +105,7 @@ fn times_sigma(misses: &[Miss]) -> Option<f64> {
 ///
 /// # Errors
 /// They fit if the radius is a diameter, or a normal points the other way.
-pub fn doubt_touches(
+pub(crate) fn doubt_touches(
     measurements: &Measurements,
     after: &[Miss],
     again: impl Fn(&Measurements) -> Result<Vec<Miss>, IdentifyError>,
@@ -177,7 +177,7 @@ pub fn doubt_touches(
 
 /// Doubts that the measurements tell of the arm elsewhere.
 #[must_use]
-pub fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
+pub(crate) fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
     let missed = usual(after.iter().map(|miss| miss.length_m))?;
     let expected = expected_m.filter(|e| *e > FAR_OFF_M && *e > super::SIGMA_FACTOR * missed)?;
     let message = format!(
@@ -191,7 +191,7 @@ pub fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
 
 /// Rows that do not fit the others: they are told, whatever the loss makes of them.
 #[must_use]
-pub fn doubt_rows(outliers: &[Outlier]) -> Option<Remark> {
+pub(crate) fn doubt_rows(outliers: &[Outlier]) -> Option<Remark> {
     let worst = outliers.iter().max_by(|a, b| a.times.total_cmp(&b.times))?;
     let message = format!(
         "{} row{} not fit the others, the worst misses by {:.3} mm, {:.1} times the typical residual (limit {:.1})",
@@ -209,7 +209,7 @@ pub fn doubt_rows(outliers: &[Outlier]) -> Option<Remark> {
 ///
 /// # Errors
 /// A value a hundred times its typical size.
-pub fn doubt_values(
+pub(crate) fn doubt_values(
     parameters: &[Parameter],
     estimate: &Estimate,
     sigma: &[f64],

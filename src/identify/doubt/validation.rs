@@ -20,7 +20,7 @@ const HOPELESS_MM: f64 = 20.0;
 ///
 /// # Errors
 /// Another reading of the file fits much better; a point far from all others.
-pub fn before(
+pub(crate) fn before(
     profile: &Profile,
     measurements: &Measurements,
     refit: Refit,
@@ -55,7 +55,7 @@ pub fn before(
 }
 
 /// What the errors say.
-pub fn after(
+pub(crate) fn after(
     real: &Quality,
     frames: &Quality,
     normalised: Option<f64>,

@@ -1,6 +1,6 @@
 //! All answers at a pose, the one nearest to a posture, and their names.
 
-use super::offset::Way;
+use super::offset::ArmSigns;
 use super::{Arm, Solution, Turned, Wrist};
 use crate::geometry::{Pose, Turn, wrap};
 use crate::inverse::Branch;
@@ -189,7 +189,7 @@ impl Arm {
     }
 
     /// The way to the meeting point that a posture takes.
-    fn way(&self, posture: &[Turn; 6]) -> Way {
+    fn way(&self, posture: &[Turn; 6]) -> ArmSigns {
         let [front, before, _] = self.stance(posture).branch().signs();
         [front, before]
     }
@@ -199,7 +199,7 @@ impl Arm {
         &self,
         world_from_tool: &Pose,
         posture: &[Turn; 6],
-        way: Way,
+        way: ArmSigns,
     ) -> Option<[Turn; 6]> {
         let target = self.last_row(world_from_tool);
         let start = self.row(5, posture[5]);

@@ -113,7 +113,7 @@ pub(super) struct Stance<S = f64> {
 }
 
 impl Stance {
-    pub fn branch(&self) -> Branch {
+    pub(super) fn branch(&self) -> Branch {
         Branch {
             behind_axis_1: self.shoulder_m < 0.0,
             behind_lower_arm: self.elbow_rad < 0.0,
@@ -121,7 +121,7 @@ impl Stance {
         }
     }
 
-    pub fn margins(&self) -> Margins {
+    pub(super) fn margins(&self) -> Margins {
         Margins {
             wrist_rad: self.wrist_rad.abs(),
             elbow_rad: self.elbow_rad.abs(),

@@ -1,6 +1,6 @@
 //! Play between gears.
 
-use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for Backlash {
         summary: "a joint stands half the width before or after its command, by the direction in which it last moved (negative width: it lags)",
         equation: "δq = width/2 · direction",
         source: "A. Nubiola, thesis, table 2.3",
-        site: &[Place::Joint],
+        site: &[SiteKey::Joint],
         parameters: &[Parameter { key: "width_deg", unit: Unit::Degree, prior_sigma: 0.02 }],
         needs: &[Need::Directions],
         deflects: true,

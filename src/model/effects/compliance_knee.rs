@@ -1,6 +1,6 @@
 //! A gearbox that is softer near zero load.
 
-use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for ComplianceKnee {
         summary: "a gearbox is softer near zero load: an additional compliance up to the torque of the knee",
         equation: "δq = rad_per_n_m · clamp(τ, −torque_n_m, +torque_n_m), on top of joint_compliance",
         source: "A. Nubiola, thesis, sec. 2.5; the piecewise linear torsional stiffness K1, K2 of strain wave gears' data sheets",
-        site: &[Place::Joint],
+        site: &[SiteKey::Joint],
         parameters: &[
             Parameter { key: "torque_n_m", unit: Unit::NewtonMetre, prior_sigma: 20.0 },
             Parameter { key: "rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 1e-4 },

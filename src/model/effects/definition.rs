@@ -14,7 +14,7 @@ pub struct Definition {
     /// Where the equation comes from.
     pub source: &'static str,
     /// What it belongs to.
-    pub site: &'static [Place],
+    pub site: &'static [SiteKey],
     /// Its parameters.
     pub parameters: &'static [Parameter],
     /// What must be known for it to show.
@@ -30,7 +30,7 @@ impl Definition {
     /// analysis and never enters a profile.
     #[must_use]
     pub fn of_data(&self) -> bool {
-        self.site.contains(&Place::Row)
+        self.site.contains(&SiteKey::Row)
     }
 
     /// Whether torques or moments enter.
@@ -42,7 +42,7 @@ impl Definition {
 
 /// A key that says what an effect belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum SiteKey {
     /// `link: 1…6`
     Link,
     /// `joint: 1…6`
@@ -59,7 +59,7 @@ pub enum Place {
     Tool,
 }
 
-impl Place {
+impl SiteKey {
     /// Its key in profiles.
     #[must_use]
     pub const fn key(self) -> &'static str {

@@ -1,6 +1,6 @@
 //! An effect as an entry of a profile: `{effect: ID, joint: 2, rad_per_n_m: 3.2e-5}`.
 
-use super::definition::{Definition, Parameter, Place, Unit};
+use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
 use serde_json::{Map, Value, json};
 
@@ -62,7 +62,7 @@ impl EntryError {
             Self::NoEffect | Self::MissingKey { .. } => None,
             Self::UnknownEffect { .. } => Some("effect"),
             Self::UnknownKey { key, .. } | Self::BadValue { key, .. } => Some(key),
-            Self::SameJoint { .. } => Some(Place::On.key()),
+            Self::SameJoint { .. } => Some(SiteKey::On.key()),
         }
     }
 
@@ -141,27 +141,27 @@ impl Effect {
         for place in definition.site {
             let value = entry.get(place.key());
             match (place, value) {
-                (Place::Tool, None) => {}
-                (Place::JointOrBase, None) => site.index = BASE,
+                (SiteKey::Tool, None) => {}
+                (SiteKey::JointOrBase, None) => site.index = BASE,
                 (_, None) => {
                     return Err(EntryError::MissingKey {
                         id: definition.id,
                         key: place.key(),
                     });
                 }
-                (Place::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
-                (Place::Link | Place::Joint | Place::JointOrBase, Some(value)) => {
+                (SiteKey::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
+                (SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase, Some(value)) => {
                     site.index = whole(definition, *place, value)? as usize - 1;
                 }
-                (Place::On, Some(value)) => {
+                (SiteKey::On, Some(value)) => {
                     site.on = whole(definition, *place, value)? as usize - 1;
                 }
-                (Place::Order | Place::Row, Some(value)) => {
+                (SiteKey::Order | SiteKey::Row, Some(value)) => {
                     site.order = whole(definition, *place, value)?;
                 }
             }
         }
-        if definition.site.contains(&Place::On) && site.index == site.on {
+        if definition.site.contains(&SiteKey::On) && site.index == site.on {
             return Err(EntryError::SameJoint {
                 id: definition.id,
                 joint: site.index + 1,
@@ -196,13 +196,13 @@ impl Effect {
         let mut entry = vec![("effect", json!(definition.id))];
         for place in definition.site {
             match place {
-                Place::JointOrBase if self.site.index == BASE => {}
-                Place::Link | Place::Joint | Place::JointOrBase => {
+                SiteKey::JointOrBase if self.site.index == BASE => {}
+                SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => {
                     entry.push((place.key(), json!(self.site.index + 1)));
                 }
-                Place::On => entry.push((place.key(), json!(self.site.on + 1))),
-                Place::Order | Place::Row => entry.push((place.key(), json!(self.site.order))),
-                Place::Tool => entry.extend(
+                SiteKey::On => entry.push((place.key(), json!(self.site.on + 1))),
+                SiteKey::Order | SiteKey::Row => entry.push((place.key(), json!(self.site.order))),
+                SiteKey::Tool => entry.extend(
                     self.site
                         .tool
                         .as_ref()
@@ -268,11 +268,11 @@ impl Effect {
     #[must_use]
     pub fn same_place(&self, other: &Self) -> bool {
         let (mine, others) = (&self.site, &other.site);
-        let same = |place: &Place| match place {
-            Place::Link | Place::Joint | Place::JointOrBase => mine.index == others.index,
-            Place::On => mine.on == others.on,
-            Place::Order | Place::Row => mine.order == others.order,
-            Place::Tool => mine.tool == others.tool,
+        let same = |place: &SiteKey| match place {
+            SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => mine.index == others.index,
+            SiteKey::On => mine.on == others.on,
+            SiteKey::Order | SiteKey::Row => mine.order == others.order,
+            SiteKey::Tool => mine.tool == others.tool,
         };
         self.kind == other.kind && self.definition().site.iter().all(same)
     }
@@ -293,13 +293,13 @@ fn bad(definition: &Definition, key: &str, found: &Value, expected: String) -> E
     }
 }
 
-fn name(definition: &Definition, place: Place, value: &Value) -> Result<String, EntryError> {
+fn name(definition: &Definition, place: SiteKey, value: &Value) -> Result<String, EntryError> {
     let text = value.as_str().filter(|text| !text.is_empty());
     text.map(str::to_owned)
         .ok_or_else(|| bad(definition, place.key(), value, "a name".into()))
 }
 
-fn whole(definition: &Definition, place: Place, value: &Value) -> Result<u32, EntryError> {
+fn whole(definition: &Definition, place: SiteKey, value: &Value) -> Result<u32, EntryError> {
     let (low, high) = place.range().expect("a place that is counted");
     let number = value
         .as_u64()

@@ -1,6 +1,6 @@
 //! A step of the measuring device or the base during the session.
 
-use super::definition::{Definition, Need, Place, frame_parameters};
+use super::definition::{Definition, Need, SiteKey, frame_parameters};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for FrameShift {
         summary: "the measuring device or the base moved during the session: a step from one row on (an effect of the data)",
         equation: "rows from `row` on: Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz) · world_from_tool",
         source: "A. Nubiola, thesis, eq. I.2, from a change point on",
-        site: &[Place::Row],
+        site: &[SiteKey::Row],
         parameters: &frame_parameters(0.5, 0.05),
         needs: &[Need::Order],
         deflects: true,

@@ -1,6 +1,6 @@
 //! A gearbox that is not stiff.
 
-use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for JointCompliance {
         summary: "a gearbox twists under the torque of gravity and external force",
         equation: "δq = rad_per_n_m · τ",
         source: "A. Nubiola, thesis, eqs. I.5–I.10",
-        site: &[Place::Joint],
+        site: &[SiteKey::Joint],
         parameters: &[Parameter { key: "rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 1e-4 }],
         needs: &[Need::Masses],
         deflects: true,

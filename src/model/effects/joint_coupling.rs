@@ -1,6 +1,6 @@
 //! A joint that another one turns along.
 
-use super::definition::{Definition, Parameter, Place, Unit};
+use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for JointCoupling {
         summary: "motion of one joint leaks into another",
         equation: "δq(joint) = ratio · q(on)",
         source: "A. Nubiola, thesis, ch. 1 (wrist gearing)",
-        site: &[Place::Joint, Place::On],
+        site: &[SiteKey::Joint, SiteKey::On],
         parameters: &[Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 5e-4 }],
         needs: &[],
         deflects: true,

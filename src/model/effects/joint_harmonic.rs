@@ -1,6 +1,6 @@
 //! A joint whose error repeats with its angle.
 
-use super::definition::{Definition, Parameter, Place, Unit};
+use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for JointHarmonic {
         summary: "an eccentric gear or encoder adds a wave of whole periods in one turn",
         equation: "δq = cos · cos(order · q) + sin · sin(order · q)",
         source: "A. Nubiola, thesis, sec. 1.8",
-        site: &[Place::Joint, Place::Order],
+        site: &[SiteKey::Joint, SiteKey::Order],
         parameters: &[
             Parameter { key: "cos_deg", unit: Unit::Degree, prior_sigma: 0.02 },
             Parameter { key: "sin_deg", unit: Unit::Degree, prior_sigma: 0.02 },],

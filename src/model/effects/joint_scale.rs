@@ -1,6 +1,6 @@
 //! A joint that turns in proportion to its command, but not one to one.
 
-use super::definition::{Definition, Parameter, Place, Unit};
+use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for JointScale {
         summary: "a joint turns more or less than commanded, in proportion",
         equation: "δq = ratio · q",
         source: "A. Nubiola, thesis, level-1 models",
-        site: &[Place::Joint],
+        site: &[SiteKey::Joint],
         parameters: &[Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 5e-4 }],
         needs: &[],
         deflects: true,

@@ -1,6 +1,6 @@
 //! What holds for every effect of the registry.
 
-use super::{Effect, Kind, MOST_PARAMETERS, Place, REGISTRY, Site};
+use super::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey};
 use crate::geometry::{Dual, Pose, Scalar};
 use crate::model::profile::Profile;
 use crate::model::{Conditions, Model, Motion, Sensitivity, Slot};
@@ -228,10 +228,10 @@ fn an_entry_written_is_read_as_the_same_effect() {
         let mut site = Site::default();
         for place in d.site {
             match place {
-                Place::Link | Place::Joint | Place::JointOrBase => site.index = 3,
-                Place::On => site.on = 4,
-                Place::Order | Place::Row => site.order = 2,
-                Place::Tool => site.tool = Some("gripper".into()),
+                SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => site.index = 3,
+                SiteKey::On => site.on = 4,
+                SiteKey::Order | SiteKey::Row => site.order = 2,
+                SiteKey::Tool => site.tool = Some("gripper".into()),
             }
         }
         let mut parameters = [0.0; MOST_PARAMETERS];

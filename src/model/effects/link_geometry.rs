@@ -1,6 +1,6 @@
 //! Manufacturing and assembly errors of one link.
 
-use super::definition::{Definition, Parameter, Place, Unit};
+use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Equation, MOST_PARAMETERS, Site};
 use crate::geometry::Scalar;
 use crate::model::{Conditions, Geometry};
@@ -14,7 +14,7 @@ impl Equation for LinkGeometry {
         summary: "one link is longer, twisted or mounted at another angle than drawn; theta is the joint offset",
         equation: "A = Rx(α + alpha) · Trans(a + a) · Ry(beta) · Rz(θ + theta + q) · Trans(0, 0, d + d)",
         source: "J. J. Craig (modified Denavit–Hartenberg); S. Hayati (1985) for beta; A. Nubiola, thesis, Annex I",
-        site: &[Place::Link],
+        site: &[SiteKey::Link],
         parameters: &[
             Parameter { key: "alpha_deg", unit: Unit::Degree, prior_sigma: 0.1 },
             Parameter { key: "a_mm", unit: Unit::Millimetre, prior_sigma: 0.5 },

@@ -12,7 +12,7 @@ mod entry;
 #[cfg(test)]
 mod laws;
 
-pub use definition::{Definition, Need, Parameter, Place, Unit};
+pub use definition::{Definition, Need, Parameter, SiteKey, Unit};
 pub use entry::{EntryError, entry_schema};
 
 use super::chain::Frames;

@@ -1,6 +1,6 @@
 //! The load on the flange is not the one in the profile.
 
-use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Equation, MOST_PARAMETERS, Site};
 use crate::geometry::{Scalar, add};
 use crate::model::{Conditions, Geometry};
@@ -14,7 +14,7 @@ impl Equation for PayloadError {
         summary: "the tool on the flange is heavier, or its centre of gravity elsewhere, than the profile says; shows only through compliance",
         equation: "real mass = mass + mass_kg, real cog = cog + (cog_x, cog_y, cog_z), in the flange frame; enters every torque and moment",
         source: "A. Nubiola, thesis, eqs. I.5–I.10",
-        site: &[Place::Tool],
+        site: &[SiteKey::Tool],
         parameters: &[
             Parameter { key: "mass_kg", unit: Unit::Kilogram, prior_sigma: 5.0 },
             Parameter { key: "cog_x_mm", unit: Unit::Millimetre, prior_sigma: 50.0 },

@@ -1,6 +1,6 @@
 //! What the tool really is.
 
-use super::definition::{Definition, Place, frame_parameters};
+use super::definition::{Definition, SiteKey, frame_parameters};
 use super::{Equation, MOST_PARAMETERS, Site};
 use crate::geometry::{Pose, Scalar};
 use crate::model::{Conditions, Geometry};
@@ -14,7 +14,7 @@ impl Equation for ToolFrame {
         summary: "the tool's tip is elsewhere on the flange than the program or profile says",
         equation: "real flange_from_tool = flange_from_tool · Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz)",
         source: "A. Nubiola, thesis, eq. I.2",
-        site: &[Place::Tool],
+        site: &[SiteKey::Tool],
         parameters: &frame_parameters(1.0, 0.2),
         needs: &[],
         deflects: false,

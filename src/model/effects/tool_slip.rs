@@ -1,6 +1,6 @@
 //! A step of the tool or the reflector on the flange during the session.
 
-use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -13,7 +13,7 @@ impl Equation for ToolSlip {
         summary: "the tool or reflector slipped on the flange during the session: a step from one row on (an effect of the data)",
         equation: "rows from `row` on: world_from_tool · Trans(x, y, z)",
         source: "A. Nubiola, thesis, eq. I.2, from a change point on",
-        site: &[Place::Row],
+        site: &[SiteKey::Row],
         parameters: &[
             Parameter { key: "x_mm", unit: Unit::Millimetre, prior_sigma: 0.5 },
             Parameter { key: "y_mm", unit: Unit::Millimetre, prior_sigma: 0.5 },

@@ -1,6 +1,6 @@
 //! Drift while the robot warms up.
 
-use super::definition::{Definition, Need, Parameter, Place, Unit};
+use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
@@ -16,7 +16,7 @@ impl Equation for WarmUpDrift {
         summary: "a joint drifts to its warm place while the robot warms up; without `joint` the base does",
         equation: "δq = angle_deg · (1 − exp(−time_s / time_constant_s)); the base by (x_mm, y_mm, z_mm) along the world's axes likewise",
         source: "first-order heating (Newton's law of cooling)",
-        site: &[Place::JointOrBase],
+        site: &[SiteKey::JointOrBase],
         parameters: &[
             Parameter { key: "angle_deg", unit: Unit::Degree, prior_sigma: 0.02 },
             Parameter { key: "x_mm", unit: Unit::Millimetre, prior_sigma: 0.1 },

@@ -230,7 +230,7 @@ pub struct ToolFile {
 
 /// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them; beside them `large: true` with
 /// a `reason` where a value is beyond the usual.
-pub type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
+pub(crate) type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
 
 /// What was identified.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
@@ -256,7 +256,7 @@ fn effects_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
 
 /// The JSON Schema of a file format whose first key names it.
 #[must_use]
-pub fn schema<F: JsonSchema>(format: &str) -> serde_json::Value {
+pub(crate) fn schema<F: JsonSchema>(format: &str) -> serde_json::Value {
     let mut schema = schemars::schema_for!(F).to_value();
     schema["title"] = format!("poseshift {format}").into();
     schema["properties"]["poseshift"] = serde_json::json!({"const": format});

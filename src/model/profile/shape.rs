@@ -128,7 +128,7 @@ pub(crate) struct Keys<'a> {
 }
 
 impl Keys<'_> {
-    pub fn shape(self, place: Location) -> Result<Shape, ProfileError> {
+    pub(crate) fn shape(self, place: Location) -> Result<Shape, ProfileError> {
         let length = |key: &'static str, number: Number| {
             if number.0 > 0.0 {
                 Ok(m_from_mm(number.0))

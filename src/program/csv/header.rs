@@ -18,7 +18,7 @@ const NEAR: [&[u8]; 6] = [
 
 /// Which column is what.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Header {
+pub(super) struct Header {
     pub shape: Shape,
     /// The columns of a target's numbers.
     pub numbers: Vec<usize>,
@@ -33,7 +33,7 @@ pub struct Header {
 
 /// Why a header is not one.
 #[derive(Debug, PartialEq, Eq)]
-pub enum Wrong {
+pub(super) enum Wrong {
     /// It has neither all columns of poses nor all of joints.
     Missing,
     /// It has both.
@@ -46,7 +46,7 @@ pub enum Wrong {
 
 impl Header {
     /// The columns that names tell.
-    pub fn of(names: &[&[u8]]) -> Result<Self, Wrong> {
+    pub(super) fn of(names: &[&[u8]]) -> Result<Self, Wrong> {
         let find = |name: &[u8]| names.iter().position(|found| *found == name);
         let pose: Option<Vec<usize>> = POSE.into_iter().map(find).collect();
         let joints: Option<Vec<usize>> = JOINTS.into_iter().map(find).collect();
@@ -85,7 +85,7 @@ impl Header {
     }
 
     /// The layout of a target on a branch, 0 to 7.
-    pub fn layout(&self, branch: Option<u8>) -> Layout {
+    pub(super) fn layout(&self, branch: Option<u8>) -> Layout {
         Layout {
             shape: self.shape,
             variant: branch.map_or(0, |branch| branch + 1),
@@ -94,7 +94,7 @@ impl Header {
 }
 
 /// Whether the first record names the columns of poses or of joints.
-pub fn recognises(source: &Source) -> bool {
+pub(super) fn recognises(source: &Source) -> bool {
     let mut cells = Vec::new();
     let is_text = memchr::memchr(0, &source.bytes).is_none();
     is_text
@@ -103,7 +103,7 @@ pub fn recognises(source: &Source) -> bool {
 }
 
 /// The text of the cells.
-pub fn names<'a>(source: &'a Source, cells: &[Cell]) -> Vec<&'a [u8]> {
+pub(super) fn names<'a>(source: &'a Source, cells: &[Cell]) -> Vec<&'a [u8]> {
     cells
         .iter()
         .map(|cell| &source.bytes[cell.start..cell.end])
@@ -111,7 +111,7 @@ pub fn names<'a>(source: &'a Source, cells: &[Cell]) -> Vec<&'a [u8]> {
 }
 
 /// What the variant of a layout says: the branch, where the table has one.
-pub fn configuration(variant: u8) -> Configuration {
+pub(super) fn configuration(variant: u8) -> Configuration {
     let Some(branch) = variant.checked_sub(1) else {
         return Configuration::default();
     };

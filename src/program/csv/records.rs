@@ -5,7 +5,7 @@
 
 /// Where a cell's text stands, without its quotes and the blanks around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cell {
+pub(super) struct Cell {
     pub start: usize,
     pub end: usize,
     pub quoted: bool,
@@ -13,14 +13,14 @@ pub struct Cell {
 
 /// Reads one record after the other.
 #[derive(Debug)]
-pub struct Records<'a> {
+pub(super) struct Records<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl<'a> Records<'a> {
     /// The records behind a byte order mark.
-    pub fn of(bytes: &'a [u8]) -> Self {
+    pub(super) fn of(bytes: &'a [u8]) -> Self {
         let at = content_start(bytes);
         Self { bytes, at }
     }
@@ -29,7 +29,7 @@ impl<'a> Records<'a> {
     ///
     /// # Errors
     /// The place of a quote that is not closed.
-    pub fn next(&mut self, cells: &mut Vec<Cell>) -> Result<bool, usize> {
+    pub(super) fn next(&mut self, cells: &mut Vec<Cell>) -> Result<bool, usize> {
         cells.clear();
         while let Some(&byte) = self.bytes.get(self.at) {
             if byte == b'#' {
@@ -114,7 +114,7 @@ impl<'a> Records<'a> {
 }
 
 /// The first byte behind a byte order mark.
-pub fn content_start(bytes: &[u8]) -> usize {
+pub(super) fn content_start(bytes: &[u8]) -> usize {
     if bytes.starts_with(b"\xef\xbb\xbf") {
         3
     } else {

@@ -7,13 +7,13 @@ use crate::geometry::units::DEG;
 const BEYOND_DEG: f64 = 0.0005;
 
 /// The rotation of W, P, R.
-pub fn rotation([w, p, r]: [f64; 3]) -> Rotation {
+pub(super) fn rotation([w, p, r]: [f64; 3]) -> Rotation {
     Rotation::from_rzryrx([r * DEG, p * DEG, w * DEG])
 }
 
 /// W, P, R of a rotation, written as near to the present ones as they can: of the two triples that every rotation has, and
 /// of the turns of each angle, those that the file uses.
-pub fn nearest(rotation: &Rotation, present: [f64; 3]) -> [f64; 3] {
+pub(super) fn nearest(rotation: &Rotation, present: [f64; 3]) -> [f64; 3] {
     let [r, p, w] = rotation.rzryrx(present[0] * DEG).map(|a| a / DEG);
     let usual = unwound([w, p, r], present);
     let other = unwound([w + 180.0, 180.0 - p, r + 180.0], present);

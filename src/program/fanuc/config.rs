@@ -30,12 +30,12 @@ const BORDER_DEG: f64 = 0.01;
 /// Turns that joints can make.
 const MOST_TURNS: f64 = 100.0;
 /// Letters of the flags, by place, then by number.
-pub const LETTERS: [[u8; 2]; 3] = [*b"NF", *b"UD", *b"TB"];
+pub(super) const LETTERS: [[u8; 2]; 3] = [*b"NF", *b"UD", *b"TB"];
 /// Joints of the turns.
 const JOINTS: [usize; 3] = [0, 3, 5];
 
 /// The six numbers of a posture.
-pub fn data(posture: &Posture) -> [f64; 6] {
+pub(super) fn data(posture: &Posture) -> [f64; 6] {
     let bit = |set: bool| if set { 1.0 } else { 0.0 };
     let turn = |joint: usize| ((posture.joints_rad[joint] + PI) / TAU).floor();
     [
@@ -49,7 +49,7 @@ pub fn data(posture: &Posture) -> [f64; 6] {
 }
 
 /// The inverse solutions that configuration data allow.
-pub fn configuration(data: &[f64; 6]) -> Configuration {
+pub(super) fn configuration(data: &[f64; 6]) -> Configuration {
     let flag = |at: usize| match data[at] {
         0.0 => Some(false),
         1.0 => Some(true),
@@ -69,7 +69,7 @@ pub fn configuration(data: &[f64; 6]) -> Configuration {
 }
 
 /// Changes each of the present numbers that was right before and is not after; leaves the others.
-pub fn update(before: &Posture, after: &Posture, present: &mut [f64]) {
+pub(super) fn update(before: &Posture, after: &Posture, present: &mut [f64]) {
     let new = data(after);
     for (k, number) in present.iter_mut().enumerate().take(new.len()) {
         if allowed(k, *number, before) && !allowed(k, *number, after) {
@@ -99,7 +99,7 @@ fn same(a: f64, b: f64) -> bool {
 }
 
 /// Writes one of the numbers: a letter, or a whole number with the blanks before it that it had.
-pub fn write(k: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
+pub(super) fn write(k: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
     if let Some([zero, one]) = LETTERS.get(k) {
         out.push(if same(value, 0.0) { *zero } else { *one });
     } else {

@@ -25,13 +25,13 @@ const PLAIN: &[&[u8]] = &[
 
 /// The numbers of registers of group 1, from the last branch, label or call on.
 #[derive(Debug, Default)]
-pub struct Constants {
+pub(super) struct Constants {
     written: BTreeMap<u32, [Option<f64>; 6]>,
 }
 
 impl Constants {
     /// The pose of a register all of whose numbers are known.
-    pub fn pose(&self, register: u32) -> Option<Pose> {
+    pub(super) fn pose(&self, register: u32) -> Option<Pose> {
         let mut values = [0.0; 6];
         for (value, known) in values.iter_mut().zip(self.written.get(&register)?) {
             *value = (*known)?;
@@ -40,7 +40,7 @@ impl Constants {
     }
 
     /// What is known behind an instruction that is no move.
-    pub fn follow(&mut self, text: &[u8]) {
+    pub(super) fn follow(&mut self, text: &[u8]) {
         let (name, rest) = text.split_at(word_length(text));
         if text.starts_with(b"!") || text.starts_with(b"--") {
             return;

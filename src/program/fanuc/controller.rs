@@ -15,23 +15,23 @@ const MOST_FRAMES: u32 = 255;
 
 /// Tool or user frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(super) enum Kind {
     Tool,
     Frame,
 }
 
 /// The one, or with a word of another dictionary either.
-pub type Which = Option<Kind>;
+pub(super) type Which = Option<Kind>;
 
 /// Both, or the one.
-pub fn kinds(which: Which) -> impl Iterator<Item = Kind> {
+pub(super) fn kinds(which: Which) -> impl Iterator<Item = Kind> {
     let is_meant = move |kind: &Kind| which.is_none_or(|which| which == *kind);
     [Kind::Tool, Kind::Frame].into_iter().filter(is_meant)
 }
 
 /// The tools or user frames of a controller.
 #[derive(Debug)]
-pub struct Numbered {
+pub(super) struct Numbered {
     /// Which the program has selected.
     pub selected: VariableId,
     /// Which is active: what is selected, or what a point was taught with that the robot went to.
@@ -48,7 +48,7 @@ pub struct Numbered {
 
 /// A state in which a sensor or an earlier search corrects moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub(super) enum Mode {
     TouchOffset,
     Search,
     Track,
@@ -56,7 +56,7 @@ pub enum Mode {
 
 /// What is said of points and moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Why {
+pub(super) enum Why {
     /// `INC`. The first four speak against moves, see [`Controller::guards`].
     Incremental,
     /// `RTCP`
@@ -79,7 +79,7 @@ pub enum Why {
 
 impl Why {
     /// The finding, what is wrong, and the way out.
-    pub fn remark(self) -> Remark {
+    pub(super) fn remark(self) -> Remark {
         let six = "only arms with six joints and a spherical wrist are compensated";
         let moving = "moves in a moving frame are not compensated";
         let (id, text, hint) = match self {
@@ -166,7 +166,7 @@ impl Why {
 
 /// What all programs share.
 #[derive(Debug)]
-pub struct Controller {
+pub(super) struct Controller {
     kinds: [Numbered; 2],
     /// Position registers.
     pub registers: TableId,
@@ -188,7 +188,7 @@ pub struct Controller {
 }
 
 impl Controller {
-    pub fn new(script: &mut Script, values: Frames) -> Self {
+    pub(super) fn new(script: &mut Script, values: Frames) -> Self {
         let numbered = |script: &mut Script, [what, name, active]: [&'static str; 3], poses| {
             // what is active before a program selects any is called as points call it
             let declared = frame(script, "F", None);
@@ -243,12 +243,12 @@ impl Controller {
         }
     }
 
-    pub fn of(&self, kind: Kind) -> &Numbered {
+    pub(super) fn of(&self, kind: Kind) -> &Numbered {
         &self.kinds[kind as usize]
     }
 
     /// The variable of a tool or frame.
-    pub fn entry(&mut self, script: &mut Script, kind: Kind, number: u32) -> VariableId {
+    pub(super) fn entry(&mut self, script: &mut Script, kind: Kind, number: u32) -> VariableId {
         let of = &mut self.kinds[kind as usize];
         if let Some(&known) = of.variables.get(&number) {
             return known;
@@ -268,7 +268,12 @@ impl Controller {
     }
 
     /// The tool or frame that a point names.
-    pub fn selected(&mut self, script: &mut Script, kind: Kind, selected: Option<u32>) -> Expr {
+    pub(super) fn selected(
+        &mut self,
+        script: &mut Script,
+        kind: Kind,
+        selected: Option<u32>,
+    ) -> Expr {
         match selected {
             Some(number) => Expr::Variable(self.entry(script, kind, number)),
             None => self.active(kind),
@@ -276,7 +281,7 @@ impl Controller {
     }
 
     /// The tool or frame that is selected when the robot goes there.
-    pub fn active(&self, kind: Kind) -> Expr {
+    pub(super) fn active(&self, kind: Kind) -> Expr {
         let of = self.of(kind);
         Expr::Element {
             table: of.all,
@@ -285,7 +290,7 @@ impl Controller {
     }
 
     /// A number that selects a tool or frame.
-    pub fn number(&mut self, script: &mut Script, which: Which, number: u32) -> Expr {
+    pub(super) fn number(&mut self, script: &mut Script, which: Which, number: u32) -> Expr {
         for kind in kinds(which).filter(|_| number <= MOST_FRAMES) {
             self.entry(script, kind, number);
         }
@@ -294,7 +299,12 @@ impl Controller {
     }
 
     /// The controller stops at moves to points where other numbers are selected than the points were taught with.
-    pub fn expected(&mut self, script: &mut Script, tool: Option<u32>, frame: Option<u32>) -> u32 {
+    pub(super) fn expected(
+        &mut self,
+        script: &mut Script,
+        tool: Option<u32>,
+        frame: Option<u32>,
+    ) -> u32 {
         let key = (tool, frame);
         if let Some(&known) = self.expected.get(&key) {
             return known;
@@ -327,7 +337,7 @@ impl Controller {
     }
 
     /// The variable of a position register.
-    pub fn register(&mut self, script: &mut Script, number: u32) -> VariableId {
+    pub(super) fn register(&mut self, script: &mut Script, number: u32) -> VariableId {
         let (table, entry) = (self.registers as usize, i64::from(number));
         if let Some(&known) = script.tables[table].entries.get(&entry) {
             return known;
@@ -339,7 +349,7 @@ impl Controller {
     }
 
     /// What may speak against a move, by the first four of [`Why`].
-    pub fn guards(&mut self, script: &mut Script, against: [bool; 4]) -> u32 {
+    pub(super) fn guards(&mut self, script: &mut Script, against: [bool; 4]) -> u32 {
         let bits = against
             .iter()
             .fold(0, |bits, is| 2 * bits + usize::from(*is));
@@ -353,7 +363,7 @@ impl Controller {
 
     /// The mode that `Touch Offset PR[1]`, `Search Start[1] PR[1]`, `Track TAST[1]` and their ends switch: its variable, and
     /// what it holds then.
-    pub fn mode(&self, name: &[u8], rest: &[u8]) -> Option<(Mode, VariableId, Expr)> {
+    pub(super) fn mode(&self, name: &[u8], rest: &[u8]) -> Option<(Mode, VariableId, Expr)> {
         let mut words = words(rest);
         let mode = match name {
             b"TOUCH" => words
@@ -376,7 +386,7 @@ impl Controller {
 }
 
 /// A tool or frame of this name.
-pub fn frame(script: &mut Script, name: &str, pose: Option<Pose>) -> ValueId {
+pub(super) fn frame(script: &mut Script, name: &str, pose: Option<Pose>) -> ValueId {
     script.value(Held::Frame(NamedFrame {
         name: name.into(),
         pose,

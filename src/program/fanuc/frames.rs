@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Tools and work frames of group 1, by number.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[allow(clippy::struct_field_names)]
-pub struct Frames {
+pub(super) struct Frames {
     /// `flange_from_tool`
     pub tools: BTreeMap<u32, Pose>,
     /// `world_from_frame`
@@ -20,7 +20,7 @@ pub struct Frames {
 
 impl Frames {
     /// Takes in the frames of another file: those of variables are exact and go before those of a list.
-    pub fn add(&mut self, mut other: Self) {
+    pub(super) fn add(&mut self, mut other: Self) {
         if !other.rounded {
             std::mem::swap(self, &mut other);
             self.rounded = false;
@@ -38,7 +38,7 @@ impl Frames {
 
 /// A number that no robot can use.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BadNumber {
+pub(super) struct BadNumber {
     pub at: usize,
     pub length: usize,
 }
@@ -50,7 +50,7 @@ const MOST_ANGLE: f64 = 720.0;
 
 /// The kinds of files that show frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(super) enum Kind {
     /// Variables as text.
     Variables,
     /// The list of frames.
@@ -58,7 +58,7 @@ pub enum Kind {
 }
 
 /// Which kind the bytes are; `None` where they show no frames.
-pub fn kind(bytes: &[u8]) -> Option<Kind> {
+pub(super) fn kind(bytes: &[u8]) -> Option<Kind> {
     let variable = |name: &[u8]| {
         memchr::memmem::find_iter(bytes, name).any(|at| {
             let rest = &bytes[at + name.len()..];
@@ -83,7 +83,7 @@ fn starts(line: Option<(usize, &[u8])>, word: &[u8]) -> bool {
 }
 
 /// The frames of a file of this kind.
-pub fn read(bytes: &[u8], kind: Kind) -> Result<Frames, BadNumber> {
+pub(super) fn read(bytes: &[u8], kind: Kind) -> Result<Frames, BadNumber> {
     match kind {
         Kind::Variables => variables(bytes),
         Kind::List => Ok(list(bytes)),
@@ -251,7 +251,7 @@ fn row(line: &[u8]) -> Option<Option<[f64; 6]>> {
 }
 
 /// The pose of these numbers, millimetres and degrees.
-pub fn pose([x, y, z, w, p, r]: [f64; 6]) -> Pose {
+pub(super) fn pose([x, y, z, w, p, r]: [f64; 6]) -> Pose {
     Pose {
         rotation: angles::rotation([w, p, r]),
         translation: [x, y, z].map(m_from_mm),

@@ -8,7 +8,7 @@ use std::ops::Range;
 const MOST_TEXT: usize = 1 << 16;
 
 /// The instructions of a section.
-pub struct Lines<'a> {
+pub(super) struct Lines<'a> {
     bytes: &'a [u8],
     at: usize,
     end: usize,
@@ -16,7 +16,7 @@ pub struct Lines<'a> {
 
 /// The text of one instruction, over several lines where a colon continues it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Line {
+pub(super) struct Line {
     /// From its first byte to behind its last, without the semicolon.
     pub text: Range<usize>,
     /// A semicolon ends it.
@@ -25,7 +25,7 @@ pub struct Line {
 
 impl<'a> Lines<'a> {
     /// The instructions in this range.
-    pub fn new(bytes: &'a [u8], range: Range<usize>) -> Self {
+    pub(super) fn new(bytes: &'a [u8], range: Range<usize>) -> Self {
         Self {
             bytes,
             at: range.start,

@@ -7,7 +7,7 @@ use super::words::{Named, position, word_length};
 use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::script::{DISPLACED_SOMEHOW, Expr, Instruction, NOT_DISPLACED, Span, short};
-use crate::program::{Motion, Pace, number};
+use crate::program::{Motion, SpeedZone, number};
 use std::ops::Range;
 
 /// What stands behind the positions of a move.
@@ -22,7 +22,7 @@ struct Words {
     wrist_joint: bool,
     /// `Skip`, `Search[…]`: the robot may stop on the way.
     may_stop: bool,
-    pace: Pace,
+    speed_zone: SpeedZone,
     /// Nothing but how fast and how near to go.
     is_plain: bool,
     /// What happens at the end: calls, jumps, writes.
@@ -41,7 +41,7 @@ struct Goal {
 
 /// The row of arcs that `A` moves belong to.
 #[derive(Debug)]
-pub struct Row {
+pub(super) struct Row {
     /// The instructions of its last point.
     last: Range<usize>,
     /// It has no other point.
@@ -50,7 +50,7 @@ pub struct Row {
 
 impl Reader<'_> {
     /// A move; its position starts at `at` of its text.
-    pub fn go(&mut self, line: &Line, letter: u8, at: usize) {
+    pub(super) fn go(&mut self, line: &Line, letter: u8, at: usize) {
         let text = &self.bytes[line.text.clone()];
         let start = line.text.start;
         let Some((first, length)) = position(&text[at..]) else {
@@ -76,10 +76,10 @@ impl Reader<'_> {
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
-            configured: if !words.wrist_joint {
-                Expr::Value(self.controller.honoured)
-            } else {
+            configured: if words.wrist_joint {
                 Expr::Absent
+            } else {
+                Expr::Value(self.controller.honoured)
             },
             displacement: if words.displaced {
                 DISPLACED_SOMEHOW
@@ -89,7 +89,7 @@ impl Reader<'_> {
             guards: self
                 .controller
                 .guards(&mut self.builder.script, words.against),
-            pace: words.pace,
+            speed_zone: words.speed_zone,
             ..Instruction::at(self.place)
         };
         let listed = self.builder.script.instructions.len();
@@ -215,14 +215,15 @@ impl Reader<'_> {
                 None => Expr::Unknown(self.controller.missing),
             },
             Named::AnyPoint => return self.any_point(),
-            Named::Register(register) => match self.reads(register) {
-                Some(number) => Expr::Variable(self.register(number)),
-                None => {
+            Named::Register(register) => {
+                if let Some(number) = self.reads(register) {
+                    Expr::Variable(self.register(number))
+                } else {
                     let at = self.builder.script.instructions.len();
                     self.to_any_register.push(at);
                     Expr::Unknown(self.controller.computed)
                 }
-            },
+            }
             Named::Computed => Expr::Unknown(self.controller.computed),
         };
         vec![self.goal(target, None, None, false)]
@@ -321,7 +322,7 @@ impl Words {
                 continue;
             }
             words.is_plain &= is_plain(text);
-            is_called = !words.pace_of(text) && words.take(text, token);
+            is_called = !words.speed_zone_of(text) && words.take(text, token);
         }
         words
     }
@@ -348,16 +349,16 @@ impl Words {
     }
 
     /// Whether a word tells how fast or how near to go.
-    fn pace_of(&mut self, text: &[u8]) -> bool {
+    fn speed_zone_of(&mut self, text: &[u8]) -> bool {
         let numbered = |prefix: &[u8]| text.strip_prefix(prefix).and_then(number::parse);
         if matches!(text, b"FINE" | b"FEIN") || numbered(b"CNT") == Some(0.0) {
-            self.pace.zone_m = Some(0.0);
+            self.speed_zone.zone_m = Some(0.0);
         } else if let Some(radius_mm) = numbered(b"CR") {
-            self.pace.zone_m = Some(radius_mm * MM);
+            self.speed_zone.zone_m = Some(radius_mm * MM);
         } else if text.starts_with(b"CNT") {
-            self.pace.blends = true;
+            self.speed_zone.blends = true;
         } else if text[0].is_ascii_digit() {
-            self.pace.speed_m_s = self.pace.speed_m_s.or(speed(text));
+            self.speed_zone.speed_m_s = self.speed_zone.speed_m_s.or(speed(text));
         } else {
             return false;
         }
@@ -420,13 +421,13 @@ mod tests {
 
     #[test]
     fn speed_and_corner_stand_behind_the_points() {
-        let fine = words("250mm/sec FINE").pace;
+        let fine = words("250mm/sec FINE").speed_zone;
         assert_eq!((fine.speed_m_s, fine.zone_m), (Some(0.25), Some(0.0)));
-        let blended = words("150cm/min CNT50").pace;
+        let blended = words("150cm/min CNT50").speed_zone;
         assert!(blended.speed_m_s.is_some_and(|v| (v - 0.025).abs() < 1e-15));
         assert_eq!((blended.zone_m, blended.blends), (None, true));
-        assert_eq!(words("100mm/sec CR10").pace.zone_m, Some(10.0 * MM));
-        let joint = words("50% CNT0").pace;
+        assert_eq!(words("100mm/sec CR10").speed_zone.zone_m, Some(10.0 * MM));
+        let joint = words("50% CNT0").speed_zone;
         assert_eq!((joint.speed_m_s, joint.zone_m), (None, Some(0.0)));
     }
 

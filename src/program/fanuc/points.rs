@@ -12,11 +12,11 @@ const WIDEST_FIELD: usize = 4096;
 /// Millimetres or degrees.
 const LARGEST: f64 = 1e6;
 /// The numbers of a pose: X Y Z W P R, three flags, three turns.
-pub const POSE_NUMBERS: usize = 12;
+pub(super) const POSE_NUMBERS: usize = 12;
 
 /// What group 1 of a point holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Content {
+pub(super) enum Content {
     /// X Y Z W P R, and configuration data where there are any.
     Pose { configured: bool },
     /// J1 to J6.
@@ -27,7 +27,7 @@ pub enum Content {
 
 /// One point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub(super) struct Point {
     /// Its number.
     pub number: u32,
     /// First byte.
@@ -46,7 +46,7 @@ pub struct Point {
 
 /// What is wrong with the text.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Fault {
+pub(super) enum Fault {
     /// Something is not closed.
     Unclosed { at: usize, what: &'static str },
     /// Something else stands here.
@@ -56,7 +56,7 @@ pub enum Fault {
 }
 
 /// Reads the points of a section.
-pub struct Points<'a> {
+pub(super) struct Points<'a> {
     bytes: &'a [u8],
     at: usize,
     /// The numbers of all points so far.
@@ -65,7 +65,7 @@ pub struct Points<'a> {
 
 impl<'a> Points<'a> {
     /// The points from `at` on.
-    pub fn new(bytes: &'a [u8], at: usize) -> Self {
+    pub(super) fn new(bytes: &'a [u8], at: usize) -> Self {
         Self {
             bytes,
             at,
@@ -106,7 +106,7 @@ impl<'a> Points<'a> {
     }
 
     /// The next point; `None` at the end of the section.
-    pub fn next(&mut self) -> Result<Option<Point>, Fault> {
+    pub(super) fn next(&mut self) -> Result<Option<Point>, Fault> {
         loop {
             self.skip_blanks();
             match self.byte() {

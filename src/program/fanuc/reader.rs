@@ -17,9 +17,12 @@ use crate::program::{Layout, ReadError, Shape, Source, Target, TargetId};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
+/// A tool, a frame, and any of the points taught with them.
+type Group = (Option<u32>, Option<u32>, Expr);
+
 /// One program.
 #[derive(Debug, Default)]
-pub struct Listing {
+pub(super) struct Listing {
     pub routine: RoutineId,
     /// Index of its file.
     pub file: u32,
@@ -29,7 +32,7 @@ pub struct Listing {
     /// The last point of each number.
     pub by_number: HashMap<u32, u32>,
     /// The points of one tool and frame, for moves to any of them.
-    pub any: Option<Vec<(Option<u32>, Option<u32>, Expr)>>,
+    pub any: Option<Vec<Group>>,
     /// It follows a conveyor.
     pub tracks_line: bool,
     /// Which tool and frame are selected matters to some of its moves.
@@ -46,7 +49,7 @@ pub struct Listing {
 
 /// A point as moves need it.
 #[derive(Clone, Copy, Debug)]
-pub struct Taught {
+pub(super) struct Taught {
     /// `None` where it has no group 1.
     pub target: Option<TargetId>,
     pub tool: Option<u32>,
@@ -57,7 +60,7 @@ pub struct Taught {
 }
 
 /// Reads programs into one script.
-pub struct Reader<'a> {
+pub(super) struct Reader<'a> {
     pub builder: Builder,
     sources: &'a [Source],
     /// The present program, its file, where it is while it is read, and the present instruction.
@@ -85,7 +88,7 @@ pub struct Reader<'a> {
 }
 
 /// The statements of all files.
-pub fn script(sources: &[Source]) -> Result<Script, ReadError> {
+pub(super) fn script(sources: &[Source]) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
     let (mut values, mut listings) = (Frames::default(), Vec::new());
     for (file, source) in sources.iter().enumerate() {
@@ -240,7 +243,7 @@ fn program_name(text: &[u8]) -> Box<str> {
 }
 
 /// A program's name, in capitals.
-pub fn called(name: &[u8]) -> Box<str> {
+pub(super) fn called(name: &[u8]) -> Box<str> {
     Source::text(&name.to_ascii_uppercase()).into()
 }
 
@@ -298,7 +301,7 @@ impl Reader<'_> {
     }
 
     /// The targets that a position may be.
-    pub fn targets(&self, named: Named) -> Vec<TargetId> {
+    pub(super) fn targets(&self, named: Named) -> Vec<TargetId> {
         let points = &self.listing.points;
         match named {
             Named::Point(number) => {
@@ -314,7 +317,7 @@ impl Reader<'_> {
     }
 
     /// The variable of a point that the program writes.
-    pub fn written(&mut self, target: TargetId) -> VariableId {
+    pub(super) fn written(&mut self, target: TargetId) -> VariableId {
         let script = &mut self.builder.script;
         *self.listing.written.entry(target).or_insert_with(|| {
             let Target {
@@ -332,7 +335,7 @@ impl Reader<'_> {
     }
 
     /// The variable of an argument of a routine's call, `AR[n]`.
-    pub fn argument(&mut self, routine: RoutineId, number: u32) -> VariableId {
+    pub(super) fn argument(&mut self, routine: RoutineId, number: u32) -> VariableId {
         let (script, chosen) = (&mut self.builder.script, self.controller.chosen);
         *self.arguments.entry((routine, number)).or_insert_with(|| {
             script.variable(Variable {
@@ -347,12 +350,12 @@ impl Reader<'_> {
     }
 
     /// The variable of a position register.
-    pub fn register(&mut self, number: u32) -> VariableId {
+    pub(super) fn register(&mut self, number: u32) -> VariableId {
         self.controller.register(&mut self.builder.script, number)
     }
 
     /// Notes that a register is read; its number where it is one, as a whole.
-    pub fn reads(&mut self, register: Register) -> Option<u32> {
+    pub(super) fn reads(&mut self, register: Register) -> Option<u32> {
         match register.number {
             Some(number) => _ = self.read.insert(number),
             None => self.reads_any = true,
@@ -361,7 +364,7 @@ impl Reader<'_> {
     }
 
     /// A finding of the reader.
-    pub fn say(
+    pub(super) fn say(
         &mut self,
         place: Place,
         id: &'static str,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// Where the sections of a listing are.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Sections {
+pub(super) struct Sections {
     /// The name behind `/PROG`.
     pub name: Range<usize>,
     /// From behind the `/PROG` line to the first byte of `/MN`: attributes and application data.
@@ -17,7 +17,7 @@ pub struct Sections {
 
 impl Sections {
     /// The sections; `None` where the text is not a program: a log, an error list.
-    pub fn of(bytes: &[u8]) -> Option<Self> {
+    pub(super) fn of(bytes: &[u8]) -> Option<Self> {
         let start = content_start(bytes);
         let name = keyword(bytes, start, b"/PROG")?;
         let first_line = line_end(bytes, name);
@@ -53,7 +53,7 @@ impl Sections {
 }
 
 /// The first byte behind a byte order mark and blanks.
-pub fn content_start(bytes: &[u8]) -> usize {
+pub(super) fn content_start(bytes: &[u8]) -> usize {
     let mark = if bytes.starts_with(b"\xef\xbb\xbf") {
         3
     } else {
@@ -93,7 +93,7 @@ fn trimmed(bytes: &[u8], range: Range<usize>) -> Range<usize> {
 }
 
 /// The first byte behind the line of `at`, its end included.
-pub fn line_end(bytes: &[u8], at: usize) -> usize {
+pub(super) fn line_end(bytes: &[u8], at: usize) -> usize {
     let Some(end) = memchr::memchr2(b'\n', b'\r', &bytes[at..]).map(|k| at + k) else {
         return bytes.len();
     };

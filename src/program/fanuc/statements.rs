@@ -23,7 +23,7 @@ const ANY_LABEL: u64 = u64::MAX;
 
 /// Where one program is while it is read.
 #[derive(Debug, Default)]
-pub struct State {
+pub(super) struct State {
     /// A SELECT is open.
     selects: bool,
     /// The row of arcs that is open.
@@ -36,7 +36,7 @@ pub struct State {
 
 impl Reader<'_> {
     /// One instruction.
-    pub fn line(&mut self, line: &Line) {
+    pub(super) fn line(&mut self, line: &Line) {
         let bytes = self.bytes;
         let text = bytes[line.text.clone()].trim_ascii_end();
         // taken out
@@ -61,7 +61,7 @@ impl Reader<'_> {
     }
 
     /// The end of a program's text.
-    pub fn end(&mut self) {
+    pub(super) fn end(&mut self) {
         let state = std::mem::take(&mut self.state);
         if state.selects {
             self.builder.end_choice();
@@ -76,7 +76,7 @@ impl Reader<'_> {
     }
 
     /// An instruction that is no move. At a depth it stands behind a condition.
-    pub fn statement(&mut self, text: &[u8], depth: u32) {
+    pub(super) fn statement(&mut self, text: &[u8], depth: u32) {
         let (word, rest) = text.split_at(word_length(text));
         let name = word.to_ascii_uppercase();
         let rest = rest.trim_ascii();
@@ -156,7 +156,7 @@ impl Reader<'_> {
     // ---- calls and jumps
 
     /// `[2]` of a label; the program may go there, or goes.
-    pub fn jump(&mut self, index: &[u8], may: bool) {
+    pub(super) fn jump(&mut self, index: &[u8], may: bool) {
         let Some(number) = indexed(index) else { return };
         self.state.goes_anywhere |= number.is_none();
         let key = number.map_or(ANY_LABEL, u64::from);
@@ -168,7 +168,7 @@ impl Reader<'_> {
     }
 
     /// `PROGRAM(1,R[2])`
-    pub fn call(&mut self, text: &[u8]) {
+    pub(super) fn call(&mut self, text: &[u8]) {
         let name = called(&text[..word_length(text)]);
         let given = text[word_length(text)..].trim_ascii_start();
         let given = given.strip_prefix(b"(").unwrap_or_default();
@@ -243,7 +243,7 @@ impl Reader<'_> {
         });
     }
 
-    pub fn set(&mut self, variable: VariableId, value: Expr) {
+    pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
         self.write(Written::One(variable), How::Whole(value));
     }
 

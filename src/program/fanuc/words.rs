@@ -5,7 +5,7 @@ const MOST_INDEX: usize = 256;
 
 /// A position that an instruction names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Named {
+pub(super) enum Named {
     /// `P[3]`, `P[3:name]`
     Point(u32),
     /// `P[R[1]]`: any point of the program.
@@ -18,24 +18,24 @@ pub enum Named {
 
 /// A position register, or one number of it: `PR[4]`, `PR[4,2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Register {
+pub(super) struct Register {
     /// `None` where another register says which: `PR[R[1]]`.
     pub number: Option<u32>,
     pub is_element: bool,
 }
 
 /// Letters of instructions, of any dictionary.
-pub fn is_word(b: u8) -> bool {
+pub(super) fn is_word(b: u8) -> bool {
     b.is_ascii_alphanumeric() || matches!(b, b'_' | b'$' | b'.') || !b.is_ascii()
 }
 
 /// How many bytes of a word a text starts with.
-pub fn word_length(text: &[u8]) -> usize {
+pub(super) fn word_length(text: &[u8]) -> usize {
     text.iter().take_while(|b| is_word(**b)).count()
 }
 
 /// The letter of a move, and where the text of its position starts: `J P[`, `L PR[`.
-pub fn motion(text: &[u8]) -> Option<(u8, usize)> {
+pub(super) fn motion(text: &[u8]) -> Option<(u8, usize)> {
     let letter = text.first()?.to_ascii_uppercase();
     if !b"JLSCA".contains(&letter) {
         return None;
@@ -49,7 +49,7 @@ pub fn motion(text: &[u8]) -> Option<(u8, usize)> {
 }
 
 /// The position that a text starts with, and its length.
-pub fn position(text: &[u8]) -> Option<(Named, usize)> {
+pub(super) fn position(text: &[u8]) -> Option<(Named, usize)> {
     if !text.first()?.eq_ignore_ascii_case(&b'P') {
         return None;
     }
@@ -70,7 +70,7 @@ pub fn position(text: &[u8]) -> Option<(Named, usize)> {
 }
 
 /// `4`, `4:name`, `GP1:4`, `4,2:name`, `R[1]`
-pub fn register(index: &[u8]) -> Register {
+pub(super) fn register(index: &[u8]) -> Register {
     let index = behind_group(index);
     let colon = memchr::memchr(b':', index).unwrap_or(index.len());
     // a comma may be a part of the name
@@ -83,7 +83,7 @@ pub fn register(index: &[u8]) -> Register {
 }
 
 /// The length of what stands before the `]` that closes a bracket.
-pub fn bracket_end(inside: &[u8]) -> Option<usize> {
+pub(super) fn bracket_end(inside: &[u8]) -> Option<usize> {
     let mut depth = 0_u32;
     inside.iter().take(MOST_INDEX).position(|&b| {
         match b {
@@ -97,7 +97,7 @@ pub fn bracket_end(inside: &[u8]) -> Option<usize> {
 }
 
 /// A whole number, and nothing else but the name behind its colon.
-pub fn whole(text: &[u8]) -> Option<u32> {
+pub(super) fn whole(text: &[u8]) -> Option<u32> {
     let digits = text.iter().take_while(|b| b.is_ascii_digit()).count();
     let rest = text[digits..].trim_ascii_start();
     let plain = rest.is_empty() || rest[0] == b':';
@@ -107,13 +107,13 @@ pub fn whole(text: &[u8]) -> Option<u32> {
 
 /// The number between the brackets behind a word: 2 of `LBL[2:name]`; `None` where something else says it.
 #[allow(clippy::option_option)]
-pub fn indexed(text: &[u8]) -> Option<Option<u32>> {
+pub(super) fn indexed(text: &[u8]) -> Option<Option<u32>> {
     let inside = text.trim_ascii_start().strip_prefix(b"[")?;
     Some(whole(inside[..bracket_end(inside)?].trim_ascii()))
 }
 
 /// Index and value of `[index]=value`.
-pub fn assigned(rest: &[u8]) -> Option<(&[u8], &[u8])> {
+pub(super) fn assigned(rest: &[u8]) -> Option<(&[u8], &[u8])> {
     let inside = rest.strip_prefix(b"[")?;
     let length = bracket_end(inside)?;
     let value = inside[length + 1..].trim_ascii_start().strip_prefix(b"=")?;
@@ -121,14 +121,14 @@ pub fn assigned(rest: &[u8]) -> Option<(&[u8], &[u8])> {
 }
 
 /// Whether `GP1`, `GP1,GP2` or a text that names no group concerns group 1.
-pub fn concerns_group_1(text: &[u8]) -> bool {
+pub(super) fn concerns_group_1(text: &[u8]) -> bool {
     let group = |word: &&[u8]| word.len() > 2 && word[..2].eq_ignore_ascii_case(b"GP");
     let mut groups = text.split(|&b| !is_word(b)).filter(group).peekable();
     groups.peek().is_none() || groups.any(|group| &group[2..] == b"1")
 }
 
 /// `6` of `GP1:6`.
-pub fn behind_group(index: &[u8]) -> &[u8] {
+pub(super) fn behind_group(index: &[u8]) -> &[u8] {
     let is_group = index.len() > 2 && index[..2].eq_ignore_ascii_case(b"GP");
     match memchr::memchr(b':', index) {
         Some(colon) if is_group => index[colon + 1..].trim_ascii(),
@@ -137,12 +137,12 @@ pub fn behind_group(index: &[u8]) -> &[u8] {
 }
 
 /// The words of a text.
-pub fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|&b| !is_word(b)).filter(|word| !word.is_empty())
 }
 
 /// Hands over the positions of a text that stand outside strings.
-pub fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
+pub(super) fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
     let (mut counted, mut quotes) = (0, 0_usize);
     for open in memchr::memchr2_iter(b'P', b'p', text) {
         quotes += memchr::memchr_iter(b'\'', &text[counted..open]).count();
@@ -158,7 +158,7 @@ pub fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
 }
 
 /// The first comma that stands outside brackets and strings.
-pub fn comma(text: &[u8]) -> Option<usize> {
+pub(super) fn comma(text: &[u8]) -> Option<usize> {
     let (mut depth, mut quoted) = (0_i32, false);
     text.iter().position(|&b| {
         match b {
@@ -173,7 +173,7 @@ pub fn comma(text: &[u8]) -> Option<usize> {
 }
 
 /// The parts of a text between its commas.
-pub fn parts(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+pub(super) fn parts(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     let mut rest = Some(text);
     std::iter::from_fn(move || {
         let text = rest?;

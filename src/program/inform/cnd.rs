@@ -15,13 +15,13 @@ const MOST_ANGLE: f64 = 720.0;
 
 /// What condition files tell, by number; `None` where files differ.
 #[derive(Debug, Default)]
-pub struct Conditions {
+pub(super) struct Conditions {
     pub tools: HashMap<u32, Option<(Pose, Option<Load>)>>,
     pub frames: HashMap<u32, Option<Pose>>,
 }
 
 /// Whether a file is one of these.
-pub fn recognises(bytes: &[u8]) -> bool {
+pub(super) fn recognises(bytes: &[u8]) -> bool {
     let mut lines = Lines::of(bytes).filter(|line| !line.text.is_empty());
     lines.next().is_some_and(|line| {
         let number = after(line.text, b"//TOOL").or_else(|| after(line.text, b"//UFRAME"));
@@ -37,7 +37,7 @@ enum Open {
 }
 
 /// Reads such a file.
-pub fn read(source: &Source, conditions: &mut Conditions) -> Result<(), ReadError> {
+pub(super) fn read(source: &Source, conditions: &mut Conditions) -> Result<(), ReadError> {
     let mut open = Open::None;
     for line in Lines::of(&source.bytes) {
         let number = |text| {

@@ -4,7 +4,7 @@ use super::lines::whole;
 
 /// A position of the robot that an instruction names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operand {
+pub(super) enum Operand {
     /// `C00012`
     C(u32),
     /// `P012` or `PX012`
@@ -19,7 +19,7 @@ pub enum Operand {
 
 impl Operand {
     /// The position that a word names.
-    pub fn of(word: &[u8]) -> Option<Self> {
+    pub(super) fn of(word: &[u8]) -> Option<Self> {
         let (is_local, word) = match word {
             [b'L', rest @ ..] => (true, rest),
             _ => (false, word),
@@ -43,7 +43,7 @@ impl Operand {
 
 /// What a move does beside going to its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(super) enum Kind {
     Joint,
     Linear,
     Circular,
@@ -60,7 +60,7 @@ pub enum Kind {
 
 impl Kind {
     /// The kind that a verb alone tells.
-    pub fn of(verb: &[u8]) -> Self {
+    pub(super) fn of(verb: &[u8]) -> Self {
         match verb {
             b"MOVJ" => Self::Joint,
             b"MOVL" | b"MOVS" => Self::Linear,
@@ -76,7 +76,7 @@ impl Kind {
 const LONGEST_VERB: usize = 8;
 
 /// Whether a word is MOVJ, SMOVL, +MOVC, IMOV or any other kind of move, known or not.
-pub fn is_move(word: &[u8]) -> bool {
+pub(super) fn is_move(word: &[u8]) -> bool {
     let verb = word.strip_prefix(b"+").unwrap_or(word);
     verb.len() <= LONGEST_VERB
         && verb.iter().all(u8::is_ascii_alphabetic)
@@ -85,7 +85,7 @@ pub fn is_move(word: &[u8]) -> bool {
 
 /// What an instruction does to the first thing that it names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effect {
+pub(super) enum Effect {
     /// It becomes the second; `CNVRT` tells the same place in other coordinates.
     Copy,
     /// It becomes a system variable.
@@ -126,14 +126,14 @@ const EFFECTS: &[(&[u8], Effect)] = &[
 ];
 
 /// What an instruction does to the position variable in front.
-pub fn effect(word: &[u8]) -> Effect {
+pub(super) fn effect(word: &[u8]) -> Effect {
     let known = EFFECTS.iter().find(|(name, _)| *name == word);
     known.map_or(Effect::Perhaps, |(_, effect)| *effect)
 }
 
 /// System variables that hold where the robot is: `$PX000` in pulses, `$PX001` in coordinates. The others are results of
 /// searches.
-pub fn is_actual(word: &[u8]) -> bool {
+pub(super) fn is_actual(word: &[u8]) -> bool {
     let number = word
         .strip_prefix(b"$PX")
         .or_else(|| word.strip_prefix(b"$P"));
@@ -141,7 +141,7 @@ pub fn is_actual(word: &[u8]) -> bool {
 }
 
 /// The n of `UF#(n)`; `None` where only the running program knows.
-pub fn numbered(word: &[u8], prefix: &[u8]) -> Option<u32> {
+pub(super) fn numbered(word: &[u8], prefix: &[u8]) -> Option<u32> {
     let inside = word.strip_prefix(prefix)?.strip_prefix(b"(")?;
     whole(inside.strip_suffix(b")")?)
 }

@@ -17,7 +17,7 @@ const POST: &[u8] = b"RoboDK";
 
 /// What the numbers of a position are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coordinates {
+pub(super) enum Coordinates {
     Pulses,
     Degrees,
     Rectangular,
@@ -25,7 +25,7 @@ pub enum Coordinates {
 
 /// Where the coordinates of a position count from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Origin {
+pub(super) enum Origin {
     Base,
     Robot,
     User(u32),
@@ -36,16 +36,16 @@ pub enum Origin {
 
 /// `C` positions belong to the job, `P` are variables of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Letter {
+pub(super) enum Letter {
     C,
     P,
 }
 
 /// A name such as `BC00001`, `BP001`, `EC00001` or `EX001`: a position of the base or of a station.
-pub type External = ([u8; 2], u32);
+pub(super) type External = ([u8; 2], u32);
 
 /// The position of other axes that a name means; `None` where only the running program knows.
-pub fn external(name: &[u8]) -> Option<External> {
+pub(super) fn external(name: &[u8]) -> Option<External> {
     let (letters, digits) = name.split_first_chunk()?;
     let is_known = matches!(letters, b"BC" | b"BP" | b"EC" | b"EX");
     whole(digits)
@@ -54,10 +54,10 @@ pub fn external(name: &[u8]) -> Option<External> {
 }
 
 /// An axis that does not stand at zero, from 1, and where it stands.
-pub type Moved = Option<(usize, f64)>;
+pub(super) type Moved = Option<(usize, f64)>;
 
 /// Header lines that hold for the positions below them, in the order in which jobs have them.
-pub const HEADERS: usize = 5;
+pub(super) const HEADERS: usize = 5;
 
 /// Which of those a header line is.
 fn header_line(key: &[u8]) -> Option<usize> {
@@ -73,7 +73,7 @@ fn header_line(key: &[u8]) -> Option<usize> {
 
 /// What the header lines above a position say.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Header<'a> {
+pub(super) struct Header<'a> {
     pub tool: Option<u32>,
     user: Option<u32>,
     type_: &'a [u8],
@@ -85,7 +85,7 @@ pub struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    pub fn coordinates(&self) -> Option<Coordinates> {
+    pub(super) fn coordinates(&self) -> Option<Coordinates> {
         self.told.or(match self.type_ {
             b"PULSE" => Some(Coordinates::Pulses),
             b"ANGLE" => Some(Coordinates::Degrees),
@@ -95,7 +95,7 @@ impl<'a> Header<'a> {
     }
 
     /// Where rectangular coordinates count from; joints count from nowhere.
-    pub fn origin(&self) -> Origin {
+    pub(super) fn origin(&self) -> Origin {
         if self.coordinates() != Some(Coordinates::Rectangular) {
             return Origin::Base;
         }
@@ -109,7 +109,7 @@ impl<'a> Header<'a> {
     }
 
     /// Whether positions below both have the same meaning.
-    pub fn means_the_same(&self, other: &Self) -> bool {
+    pub(super) fn means_the_same(&self, other: &Self) -> bool {
         let of = |header: &Self| {
             let coordinates = header.coordinates();
             (coordinates, header.tool, header.origin(), header.variant)
@@ -146,7 +146,7 @@ impl<'a> Header<'a> {
 
 /// What is known of a target beside its numbers.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub(super) struct Point {
     pub letter: Letter,
     pub number: u32,
     /// Index in [`Positions::headers`].
@@ -155,7 +155,7 @@ pub struct Point {
 
 /// One job.
 #[derive(Debug)]
-pub struct Job<'a> {
+pub(super) struct Job<'a> {
     pub file: u32,
     /// First byte of `/JOB`.
     pub offset: u32,
@@ -205,7 +205,7 @@ enum Section {
 
 /// The jobs of files and their positions, each of which is a target.
 #[derive(Debug, Default)]
-pub struct Positions<'a> {
+pub(super) struct Positions<'a> {
     pub jobs: Vec<Job<'a>>,
     pub targets: Vec<Target>,
     /// Of each target.
@@ -218,12 +218,12 @@ pub struct Positions<'a> {
 
 impl<'a> Positions<'a> {
     /// What the header above a target says.
-    pub fn header(&self, target: TargetId) -> &Header<'a> {
+    pub(super) fn header(&self, target: TargetId) -> &Header<'a> {
         &self.headers[self.points[target].header as usize]
     }
 
     /// Adds the jobs of a file; `false` where it has none.
-    pub fn read(&mut self, source: &'a Source, file: u32) -> Result<bool, ReadError> {
+    pub(super) fn read(&mut self, source: &'a Source, file: u32) -> Result<bool, ReadError> {
         let first = self.jobs.len();
         let mut section = Section::Outside;
         for line in Lines::of(&source.bytes) {

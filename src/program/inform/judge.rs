@@ -9,7 +9,7 @@ use crate::program::script::Place;
 use std::collections::{HashMap, HashSet};
 
 impl Reader<'_> {
-    pub fn say(
+    pub(super) fn say(
         &mut self,
         id: &'static str,
         severity: Severity,
@@ -47,7 +47,7 @@ impl Reader<'_> {
     }
 
     /// Positions that moves name and that cannot be understood, and what each job has of them.
-    pub fn judge_positions(&mut self) {
+    pub(super) fn judge_positions(&mut self) {
         let differing = self.differing();
         for at in 0..self.positions.jobs.len() {
             let (mut unknown_pulses, mut variables, mut positions) = (None, 0, 0);
@@ -143,7 +143,7 @@ impl Reader<'_> {
     }
 
     /// Jobs that no other calls begin where nobody knows: a pose without its wrist may be reached in two ways.
-    pub fn say_starts(&mut self) {
+    pub(super) fn say_starts(&mut self) {
         for (routine, place) in std::mem::take(&mut self.starts) {
             if self.called.contains(&routine) {
                 continue;
@@ -157,7 +157,7 @@ impl Reader<'_> {
     }
 
     /// Values that are computed from positions to which moves go.
-    pub fn say_copied(&mut self) {
+    pub(super) fn say_copied(&mut self) {
         let points = self.positions.points.iter().zip(&self.named);
         let named: HashSet<u32> = points
             .filter(|(point, named)| **named && point.letter == Letter::P)

@@ -5,32 +5,32 @@ use crate::program::{Number, ReadError, Source, number};
 
 /// A line without its end and the blanks around it, and its first byte's place.
 #[derive(Clone, Copy, Debug)]
-pub struct Line<'a> {
+pub(super) struct Line<'a> {
     pub start: usize,
     pub text: &'a [u8],
 }
 
 /// The lines of a text; they end with LF, CR LF or CR.
 #[derive(Clone, Debug)]
-pub struct Lines<'a> {
+pub(super) struct Lines<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl<'a> Lines<'a> {
     /// The lines from a byte on.
-    pub fn from(bytes: &'a [u8], at: usize) -> Self {
+    pub(super) fn from(bytes: &'a [u8], at: usize) -> Self {
         Self { bytes, at }
     }
 
     /// The lines behind a byte order mark.
-    pub fn of(bytes: &'a [u8]) -> Self {
+    pub(super) fn of(bytes: &'a [u8]) -> Self {
         let mark = bytes.starts_with(b"\xef\xbb\xbf");
         Self::from(bytes, if mark { 3 } else { 0 })
     }
 
     /// First byte of the line that comes next.
-    pub fn position(&self) -> usize {
+    pub(super) fn position(&self) -> usize {
         self.at
     }
 }
@@ -59,12 +59,12 @@ fn is_blank(byte: u8) -> bool {
 }
 
 /// The words of a line: what stands between blanks.
-pub fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     placed_words(text).map(|(_, word)| word)
 }
 
 /// The words of a line, and where in it they start.
-pub fn placed_words(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+pub(super) fn placed_words(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let mut at = 0;
     let all = text.split(|&b| is_blank(b)).map(move |word| {
         let start = at;
@@ -75,7 +75,7 @@ pub fn placed_words(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
 }
 
 /// What follows `prefix` and a blank or nothing; `None` where the text starts otherwise.
-pub fn after<'a>(text: &'a [u8], prefix: &[u8]) -> Option<&'a [u8]> {
+pub(super) fn after<'a>(text: &'a [u8], prefix: &[u8]) -> Option<&'a [u8]> {
     let rest = text.strip_prefix(prefix)?;
     match rest.first() {
         None => Some(rest),
@@ -85,7 +85,7 @@ pub fn after<'a>(text: &'a [u8], prefix: &[u8]) -> Option<&'a [u8]> {
 }
 
 /// The whole number that is all of a text.
-pub fn whole(text: &[u8]) -> Option<u32> {
+pub(super) fn whole(text: &[u8]) -> Option<u32> {
     let digits = !text.is_empty() && text.len() <= 9 && text.iter().all(u8::is_ascii_digit);
     digits.then(|| {
         text.iter()
@@ -94,14 +94,14 @@ pub fn whole(text: &[u8]) -> Option<u32> {
 }
 
 /// The numbers between commas of a part of a line.
-pub fn numbers(source: &Source, from: usize, to: usize) -> Result<Vec<Number>, ReadError> {
+pub(super) fn numbers(source: &Source, from: usize, to: usize) -> Result<Vec<Number>, ReadError> {
     let mut found = Vec::with_capacity(8);
     add_numbers(source, from, to, &mut found)?;
     Ok(found)
 }
 
 /// Adds these numbers to others.
-pub fn add_numbers(
+pub(super) fn add_numbers(
     source: &Source,
     from: usize,
     to: usize,
@@ -128,7 +128,12 @@ pub fn add_numbers(
 }
 
 /// What stands at a place is not what belongs there.
-pub fn unexpected(source: &Source, at: usize, found: &[u8], expected: &'static str) -> ReadError {
+pub(super) fn unexpected(
+    source: &Source,
+    at: usize,
+    found: &[u8],
+    expected: &'static str,
+) -> ReadError {
     let (line, column) = source.line_column(at);
     let shown = &found[..found.len().min(40)];
     let found = match shown {

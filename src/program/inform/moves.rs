@@ -9,7 +9,7 @@ use super::remarks::Cause;
 use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::script::{Expr, Instruction, Script, Span, VariableId, Written, short};
-use crate::program::{Motion, Pace, Place, Shape, TargetId, number};
+use crate::program::{Motion, Place, Shape, SpeedZone, TargetId, number};
 use std::collections::{HashMap, HashSet};
 
 /// Tags that say how fast and how near to go.
@@ -28,7 +28,7 @@ struct Words<'a> {
     station: Option<&'a [u8]>,
     /// Behind the last word that does no more than go to the position.
     end: usize,
-    pace: Pace,
+    speed_zone: SpeedZone,
 }
 
 impl<'a> Words<'a> {
@@ -40,7 +40,7 @@ impl<'a> Words<'a> {
             base: None,
             station: None,
             end: start + verb.len(),
-            pace: Pace::default(),
+            speed_zone: SpeedZone::default(),
         }
     }
 
@@ -68,23 +68,23 @@ impl<'a> Words<'a> {
         if *is_plain {
             self.end = end;
         }
-        tag(word, &mut self.pace);
+        tag(word, &mut self.speed_zone);
     }
 }
 
 /// Speeds are in mm/s, as controllers are set up unless they are changed.
-fn tag(word: &[u8], pace: &mut Pace) {
+fn tag(word: &[u8], speed_zone: &mut SpeedZone) {
     let value = |tag: &[u8]| word.strip_prefix(tag).and_then(number::parse);
     match word {
-        [b'V', b'=', ..] => pace.speed_m_s = value(b"V=").map(|speed_mm_s| speed_mm_s * MM),
+        [b'V', b'=', ..] => speed_zone.speed_m_s = value(b"V=").map(|speed_mm_s| speed_mm_s * MM),
         [b'P', b'L', b'=', ..] => match value(b"PL=") {
             // positioning level 0 is exact
-            Some(0.0) => pace.zone_m = Some(0.0),
-            Some(_) => pace.blends = true,
+            Some(0.0) => speed_zone.zone_m = Some(0.0),
+            Some(_) => speed_zone.blends = true,
             None => {}
         },
         [b'C', b'R', b'=', ..] => {
-            pace.zone_m = value(b"CR=").map(|radius_mm| radius_mm * MM);
+            speed_zone.zone_m = value(b"CR=").map(|radius_mm| radius_mm * MM);
         }
         _ => {}
     }
@@ -92,7 +92,7 @@ fn tag(word: &[u8], pace: &mut Pace) {
 
 impl<'a> Reader<'a> {
     /// A line with one or more moves: `MOVL C00001 EC00001 V=100.0 +MOVJ EC00002`.
-    pub fn moves(&mut self, line: Line<'a>) {
+    pub(super) fn moves(&mut self, line: Line<'a>) {
         let mut searches = false;
         let mut coordinated = false;
         let mut found: Vec<Words> = Vec::with_capacity(1);
@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         let mut instruction = Instruction {
             end: short(words.end),
             motion: self.motion(kind),
-            pace: words.pace,
+            speed_zone: words.speed_zone,
             ..Instruction::at(place)
         };
         instruction.target = match words.robot {
@@ -195,7 +195,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The last point of an arc is its end.
-    pub fn end_arc(&mut self) {
+    pub(super) fn end_arc(&mut self) {
         let arc = std::mem::take(&mut self.here.arc);
         if let Arc { points: 2.., last } = arc {
             self.builder.script.instructions[last].motion = Motion::ArcEnd;
@@ -266,7 +266,7 @@ impl<'a> Reader<'a> {
     // ---- when all jobs are read
 
     /// The script, with what can only be said at the end.
-    pub fn finish(mut self) -> Script {
+    pub(super) fn finish(mut self) -> Script {
         if !self.shifts {
             let shift = self.variables.shift;
             for set in &mut self.builder.script.guards {
@@ -359,16 +359,16 @@ mod tests {
     #[test]
     fn speed_and_corner_are_tags_of_the_line() {
         let of = |text: &str| {
-            let mut pace = Pace::default();
+            let mut speed_zone = SpeedZone::default();
             for (_, word) in placed_words(text.as_bytes()) {
-                tag(word, &mut pace);
+                tag(word, &mut speed_zone);
             }
-            pace
+            speed_zone
         };
         let exact = of("MOVL C00001 V=30.0 PL=0");
         assert_eq!((exact.speed_m_s, exact.zone_m), (Some(0.03), Some(0.0)));
         assert!(of("MOVJ C00001 VJ=5.00 PL=2").cuts_corner());
-        assert_eq!(of("MOVJ C00001 VJ=5.00 V=I004"), Pace::default());
+        assert_eq!(of("MOVJ C00001 VJ=5.00 V=I004"), SpeedZone::default());
         assert_eq!(of("MOVL C00001 V=5 CR=12.5").zone_m, Some(12.5 * MM));
     }
 }

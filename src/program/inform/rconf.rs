@@ -40,7 +40,7 @@ const R_FORWARD: u8 = 192;
 const FEW_FIELDS: usize = 8;
 
 /// What an RCONF line tells, as the variant of a layout; 0 where it tells nothing.
-pub fn variant(text: &[u8]) -> u8 {
+pub(super) fn variant(text: &[u8]) -> u8 {
     let mut fields: [&[u8]; 6] = [b""; 6];
     let mut count = 0;
     for field in text.split(|&b| b == b',') {
@@ -70,12 +70,12 @@ pub fn variant(text: &[u8]) -> u8 {
 }
 
 /// Whether a variant tells which of the two ways of the wrist is meant.
-pub fn tells_wrist(variant: u8) -> bool {
+pub(super) fn tells_wrist(variant: u8) -> bool {
     variant & WRIST != 0
 }
 
 /// The inverse solutions that a variant allows.
-pub fn configuration(variant: u8) -> Configuration {
+pub(super) fn configuration(variant: u8) -> Configuration {
     let mut joints = [None; 6];
     for (bit, joint) in WITHIN {
         if variant & bit != 0 {

@@ -15,7 +15,7 @@ use crate::program::{Source, TargetId};
 use std::collections::{HashMap, HashSet};
 
 /// The statements of all jobs.
-pub fn script<'a>(
+pub(super) fn script<'a>(
     sources: &'a [Source],
     positions: Positions<'a>,
     conditions: &Conditions,
@@ -128,11 +128,11 @@ impl<'a> Reader<'a> {
         self.builder.close();
     }
 
-    pub fn routine(&self) -> RoutineId {
+    pub(super) fn routine(&self) -> RoutineId {
         short(self.here.job)
     }
 
-    pub fn place(&self, offset: usize) -> Place {
+    pub(super) fn place(&self, offset: usize) -> Place {
         Place {
             file: self.here.file,
             offset: short(offset),
@@ -285,7 +285,7 @@ impl<'a> Reader<'a> {
     // ---- writes
 
     /// Something that nobody knows.
-    pub fn unknown(&mut self, cause: Cause) -> Expr {
+    pub(super) fn unknown(&mut self, cause: Cause) -> Expr {
         Expr::Unknown(self.builder.script.remark(cause.remark()))
     }
 
@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What a position that an instruction names is when it is written.
-    pub fn written_by(&mut self, operand: Operand, place: Place) -> Option<Written> {
+    pub(super) fn written_by(&mut self, operand: Operand, place: Place) -> Option<Written> {
         let routine = self.routine();
         let (builder, variables) = (&mut self.builder, &mut self.variables);
         Some(match operand {
@@ -411,7 +411,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Why positions of a job with other axes must stay: the first of base or station axes that does not stand at zero.
-    pub fn external(&mut self, name: &[u8]) -> Option<VariableId> {
+    pub(super) fn external(&mut self, name: &[u8]) -> Option<VariableId> {
         let is_station = name.starts_with(b"E") || name.starts_with(b"LE");
         let known = &self.positions.jobs[self.here.job].external;
         let moved = super::job::external(name).and_then(|external| known.get(&external));
@@ -438,7 +438,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A `C` position of the present job.
-    pub fn target(&self, number: u32) -> Option<TargetId> {
+    pub(super) fn target(&self, number: u32) -> Option<TargetId> {
         let job = &self.positions.jobs[self.here.job];
         job.named.get(&(Letter::C, number)).copied()
     }

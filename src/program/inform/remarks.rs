@@ -5,7 +5,7 @@ use crate::program::script::Remark;
 
 /// Why a position has to stay, or a move runs without correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Cause {
+pub(super) enum Cause {
     Ambiguous,
     FrameAssigned,
     FrameCopied,
@@ -25,7 +25,7 @@ pub enum Cause {
 
 impl Cause {
     /// Identifier, what is wrong, and the way out.
-    pub fn words(self) -> (&'static str, &'static str, &'static str) {
+    pub(super) fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Self::Ambiguous => (
                 "target-name-ambiguous",
@@ -107,7 +107,7 @@ impl Cause {
     }
 
     /// An error, but for what the running program computes: that the move stays is right or not, and said.
-    pub fn remark(self) -> Remark {
+    pub(super) fn remark(self) -> Remark {
         let (id, text, hint) = self.words();
         Remark {
             id,

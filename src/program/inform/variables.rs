@@ -17,7 +17,7 @@ const NO_TOOL: &str = "none";
 const NOWHERE: Place = Place { file: 0, offset: 0 };
 
 /// The variables of all jobs.
-pub struct Variables {
+pub(super) struct Variables {
     /// Shifted or not.
     pub shift: VariableId,
     /// `P[…]`
@@ -77,7 +77,11 @@ fn entry(
 
 impl Variables {
     /// Those that the headers and positions of all jobs name.
-    pub fn of(builder: &mut Builder, positions: &Positions, conditions: &Conditions) -> Self {
+    pub(super) fn of(
+        builder: &mut Builder,
+        positions: &Positions,
+        conditions: &Conditions,
+    ) -> Self {
         let mut variables = Self {
             shift: constant(builder, Held::Flag(false)),
             positions: table(builder, "P"),
@@ -153,20 +157,25 @@ impl Variables {
     }
 
     /// A P variable; one that the files do not hold is unknown until it is written.
-    pub fn position(&mut self, builder: &mut Builder, number: u32, place: Place) -> VariableId {
+    pub(super) fn position(
+        &mut self,
+        builder: &mut Builder,
+        number: u32,
+        place: Place,
+    ) -> VariableId {
         entry(builder, self.positions, number, None, place, |builder| {
             Expr::Unknown(builder.script.remark(Cause::NotInFiles.remark()))
         })
     }
 
     /// `LP[…]` and the arguments of a job.
-    pub fn locals(&mut self, builder: &mut Builder, routine: RoutineId) -> [TableId; 2] {
+    pub(super) fn locals(&mut self, builder: &mut Builder, routine: RoutineId) -> [TableId; 2] {
         let made = || [table(builder, "LP"), table(builder, "IARG#")];
         *self.locals.entry(routine).or_insert_with(made)
     }
 
     /// An LP variable of a job.
-    pub fn local(
+    pub(super) fn local(
         &mut self,
         builder: &mut Builder,
         routine: RoutineId,
@@ -178,7 +187,7 @@ impl Variables {
     }
 
     /// What the callers of a job give as its argument of this number.
-    pub fn parameter(
+    pub(super) fn parameter(
         &mut self,
         builder: &mut Builder,
         routine: RoutineId,
@@ -190,13 +199,13 @@ impl Variables {
     }
 
     /// A variable that always holds a reason against moves.
-    pub fn reason(&mut self, builder: &mut Builder, cause: Cause) -> VariableId {
+    pub(super) fn reason(&mut self, builder: &mut Builder, cause: Cause) -> VariableId {
         let made = || always(builder, cause.remark());
         *self.reasons.entry(cause).or_insert_with(made)
     }
 
     /// The index of reasons against a move.
-    pub fn guards(&mut self, builder: &mut Builder, set: &[VariableId]) -> u32 {
+    pub(super) fn guards(&mut self, builder: &mut Builder, set: &[VariableId]) -> u32 {
         if let Some(&known) = self.sets.get(set) {
             return known;
         }
@@ -213,7 +222,7 @@ fn computed(builder: &mut Builder) -> Expr {
 }
 
 /// A variable that holds a reason against moves, and that nothing writes.
-pub fn always(builder: &mut Builder, remark: Remark) -> VariableId {
+pub(super) fn always(builder: &mut Builder, remark: Remark) -> VariableId {
     let remark = builder.script.remark(remark);
     constant(builder, Held::Remark(remark))
 }

@@ -6,7 +6,7 @@ use crate::program::script::short;
 use crate::program::{Number, number};
 
 /// Coordinates and angles beyond this are no robot's.
-pub const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 /// From here on the value of an external axis says that there is none.
 const UNUSED: f64 = 8.9e9;
 /// S and T have fewer bits than this number needs.
@@ -14,7 +14,7 @@ const MOST_STATUS: f64 = 65_535.0;
 
 /// The value of one component.
 #[derive(Clone, Copy, Debug)]
-pub enum Field {
+pub(super) enum Field {
     /// A number, or a bit literal.
     Number(Number),
     /// `#NAME`; the name.
@@ -29,7 +29,7 @@ pub enum Field {
 ///
 /// # Errors
 /// Where the aggregate is broken or `visit` says so.
-pub fn each(
+pub(super) fn each(
     cursor: &mut Cursor,
     mut visit: impl FnMut(&[u8], Token, Field) -> Result<(), Fault>,
 ) -> Result<Option<Token>, Fault> {
@@ -148,7 +148,7 @@ const NOTHING: Number = Number {
 
 /// The components of a position or of axes.
 #[derive(Clone, Copy, Debug)]
-pub struct Aggregate {
+pub(super) struct Aggregate {
     /// X Y Z A B C S T.
     pub position: [Number; 8],
     /// Which of them stand there, by bit.
@@ -164,26 +164,26 @@ pub struct Aggregate {
 }
 
 /// Bits of X Y Z A B C.
-pub const WHOLE: u8 = 0b11_1111;
+pub(super) const WHOLE: u8 = 0b11_1111;
 /// Bit of S in [`Aggregate::has`].
-pub const STATUS: u8 = 1 << 6;
+pub(super) const STATUS: u8 = 1 << 6;
 /// Bit of T.
-pub const TURN: u8 = 1 << 7;
+pub(super) const TURN: u8 = 1 << 7;
 
 impl Aggregate {
     /// Whether its components are axes.
-    pub fn is_axes(&self) -> bool {
+    pub(super) fn is_axes(&self) -> bool {
         self.has_axes != 0
     }
 
     /// X Y Z A B C, where all stand there as numbers.
-    pub fn frame(&self) -> Option<[Number; 6]> {
+    pub(super) fn frame(&self) -> Option<[Number; 6]> {
         let whole = self.has & WHOLE == WHOLE && !self.computed;
         whole.then(|| std::array::from_fn(|i| self.position[i]))
     }
 
     /// The first external axis that is driven, and where to: absent, 0 and 9E+09 are axes that are not used.
-    pub fn driven(&self) -> Option<(usize, f64)> {
+    pub(super) fn driven(&self) -> Option<(usize, f64)> {
         let mut axes = (1..).zip(self.external);
         axes.find_map(|(axis, value)| {
             let value =
@@ -197,7 +197,7 @@ impl Aggregate {
 ///
 /// # Errors
 /// Where it is broken.
-pub fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
+pub(super) fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
     let mut found = Aggregate {
         position: [NOTHING; 8],
         has: 0,

@@ -205,7 +205,7 @@ impl Reader {
 }
 
 /// What a load says.
-pub enum Carried {
+pub(super) enum Carried {
     Load(Load),
     /// That of the tool: its mass is zero or below.
     OfTool,
@@ -214,7 +214,7 @@ pub enum Carried {
 }
 
 /// `{M 10.0,CM {X 0,Y 0,Z 100,...},J {...}}`
-pub fn load(cursor: &mut Cursor) -> Read<Carried> {
+pub(super) fn load(cursor: &mut Cursor) -> Read<Carried> {
     let (mut mass, mut inside) = (None, None);
     aggregate::each(cursor, |key, _, field| {
         match (key, field) {
@@ -240,7 +240,7 @@ pub fn load(cursor: &mut Cursor) -> Read<Carried> {
 }
 
 /// `{TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,...}`
-pub fn fdat(cursor: &mut Cursor) -> Read<Fdat> {
+pub(super) fn fdat(cursor: &mut Cursor) -> Read<Fdat> {
     let bytes = cursor.bytes;
     let mut found = Fdat {
         is_external: Some(false),
@@ -266,7 +266,7 @@ pub fn fdat(cursor: &mut Cursor) -> Read<Fdat> {
 }
 
 /// Whether the robot holds the work piece in the mode of a name behind `#`.
-pub fn is_external(name: &[u8]) -> Option<bool> {
+pub(super) fn is_external(name: &[u8]) -> Option<bool> {
     match name.to_ascii_uppercase().as_slice() {
         b"BASE" | b"NONE" => Some(false),
         b"TCP" => Some(true),

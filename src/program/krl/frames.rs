@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 
 /// A table of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Table {
+pub(super) enum Table {
     Tool,
     Base,
     Load,
@@ -24,7 +24,7 @@ pub enum Table {
 
 impl Table {
     /// The table of a name in capitals.
-    pub fn named(word: &[u8]) -> Option<Self> {
+    pub(super) fn named(word: &[u8]) -> Option<Self> {
         Some(match word {
             b"TOOL_DATA" => Self::Tool,
             b"BASE_DATA" => Self::Base,
@@ -33,7 +33,7 @@ impl Table {
         })
     }
 
-    pub fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         ["TOOL_DATA", "BASE_DATA", "LOAD_DATA"][self as usize]
     }
 }
@@ -49,7 +49,7 @@ enum Entry {
 
 /// Tools, bases and loads of data lists.
 #[derive(Debug, Default)]
-pub struct Declared {
+pub(super) struct Declared {
     entries: HashMap<(Table, u32), Entry>,
     pub loads: HashMap<u32, Load>,
     /// Bases that hang on another kinematic.
@@ -57,7 +57,7 @@ pub struct Declared {
 }
 
 impl Declared {
-    pub fn add(&mut self, table: Table, at: u32, frame: Option<[Number; 6]>, file: u32) {
+    pub(super) fn add(&mut self, table: Table, at: u32, frame: Option<[Number; 6]>, file: u32) {
         let new = frame.map(|numbers| numbers.map(|number| part(number, file)));
         let entry = self.entries.entry((table, at)).or_insert(Entry::Missing);
         *entry = match (&*entry, new) {
@@ -69,7 +69,7 @@ impl Declared {
     }
 }
 
-pub fn part(number: Number, file: u32) -> Part {
+pub(super) fn part(number: Number, file: u32) -> Part {
     Part {
         value: PartValue::Number(number.value),
         place: Place {
@@ -91,7 +91,7 @@ fn is_same(a: &[Part; 6], b: &[Part; 6]) -> bool {
 
 /// A state of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
+pub(super) enum State {
     Tool,
     Base,
     Load,
@@ -117,7 +117,7 @@ impl State {
     ];
 
     /// The state of a name in capitals.
-    pub fn named(word: &[u8]) -> Option<Self> {
+    pub(super) fn named(word: &[u8]) -> Option<Self> {
         Some(match word {
             b"$TOOL" => Self::Tool,
             b"$BASE" => Self::Base,
@@ -132,7 +132,7 @@ impl State {
 
 /// A number that chooses an entry of a table.
 #[derive(Clone, Copy, Debug)]
-pub enum Choice {
+pub(super) enum Choice {
     Entry(u32),
     /// The number that a variable holds.
     By(VariableId),
@@ -140,7 +140,7 @@ pub enum Choice {
 
 /// States of the controller in the script, and values that are needed often.
 #[derive(Debug)]
-pub struct Modal {
+pub(super) struct Modal {
     pub states: [VariableId; 9],
     pub tables: [TableId; 3],
     entries: HashMap<(Table, u32), VariableId>,
@@ -159,7 +159,7 @@ pub struct Modal {
     chosen_guards: u32,
 }
 
-pub fn record(script: &mut Script, name: &str, parts: &[Part]) -> ValueId {
+pub(super) fn record(script: &mut Script, name: &str, parts: &[Part]) -> ValueId {
     let first = short(script.parts.len());
     script.parts.extend_from_slice(parts);
     let parts = first..short(script.parts.len());
@@ -171,7 +171,7 @@ pub fn record(script: &mut Script, name: &str, parts: &[Part]) -> ValueId {
 
 const NOWHERE: Place = Place { file: 0, offset: 0 };
 
-pub fn parts_of(value: PartValue) -> [Part; 6] {
+pub(super) fn parts_of(value: PartValue) -> [Part; 6] {
     [Part {
         value,
         place: NOWHERE,
@@ -180,7 +180,7 @@ pub fn parts_of(value: PartValue) -> [Part; 6] {
 }
 
 impl Modal {
-    pub fn new(script: &mut Script) -> Self {
+    pub(super) fn new(script: &mut Script) -> Self {
         let missing = parts_of(PartValue::Missing);
         let initial = ["$TOOL", "$BASE"].map(|name| record(script, name, &missing));
         let [on, off] = [true, false].map(|flag| script.value(Held::Flag(flag)));
@@ -254,12 +254,12 @@ impl Modal {
     }
 
     /// What a state holds.
-    pub fn expr(&self, state: State) -> Expr {
+    pub(super) fn expr(&self, state: State) -> Expr {
         Expr::Variable(self.states[state as usize])
     }
 
     /// What speaks against a move with a mode of its own.
-    pub fn guards_of(&self, mode: Expr) -> u32 {
+    pub(super) fn guards_of(&self, mode: Expr) -> u32 {
         match mode {
             Expr::Value(value) if value == self.on => 0,
             Expr::Value(_) => self.fixed_guards,
@@ -269,7 +269,7 @@ impl Modal {
 }
 
 /// `X Y Z A B C` in mm and degrees as a pose.
-pub fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
+pub(super) fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
     Pose {
         rotation: Rotation::from_rzryrx([a * DEG, b * DEG, c * DEG]),
         translation: [x, y, z].map(m_from_mm),
@@ -280,7 +280,7 @@ pub fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
 const MOST_ANGLE: f64 = 720.0;
 
 /// See [`crate::program::Language::frame_of`]: X Y Z A B C, and of a tool of the table its load.
-pub fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark> {
+pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark> {
     let mut numbers = [0.0; 10];
     let (mut missing, mut given) = (0, 0);
     for (at, part) in parts.iter().enumerate().take(10) {

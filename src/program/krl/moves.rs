@@ -8,18 +8,18 @@ use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
 use crate::program::script::{Expr, Instruction, Place, short};
-use crate::program::{Displacement, Motion, Pace, Shape, Shift, number};
+use crate::program::{Displacement, Motion, Shape, Shift, SpeedZone, number};
 
 /// How the robot goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Path {
+pub(super) enum Path {
     Joint,
     Linear,
     Arc,
 }
 
 /// A motion keyword in capitals, and whether the move is relative.
-pub fn motion(word: &[u8]) -> Option<(Path, bool)> {
+pub(super) fn motion(word: &[u8]) -> Option<(Path, bool)> {
     Some(match word {
         b"PTP" | b"SPTP" => (Path::Joint, false),
         b"LIN" | b"SLIN" | b"SPL" => (Path::Linear, false),
@@ -33,7 +33,7 @@ pub fn motion(word: &[u8]) -> Option<(Path, bool)> {
 
 /// What a move or a spline block sets for itself.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct With {
+pub(super) struct With {
     tool: Option<Expr>,
     base: Option<Expr>,
     load: Option<Expr>,
@@ -42,7 +42,7 @@ pub struct With {
 
 /// Where the robot is, for moves relative to it.
 #[derive(Clone, Copy, Debug)]
-pub struct Last {
+pub(super) struct Last {
     target: Expr,
     shift: Shift,
 }
@@ -51,7 +51,7 @@ pub struct Last {
 #[derive(Clone, Copy, Debug, Default)]
 struct Rest {
     with: With,
-    pace: Pace,
+    speed_zone: SpeedZone,
     /// An arc goes on beyond its end, or stops short.
     has_angle: bool,
     end: u32,
@@ -130,7 +130,7 @@ impl Reader {
             },
             // axes are the same whoever holds the tool
             guards: if is_joints { 0 } else { is_external },
-            pace: rest.pace,
+            speed_zone: rest.speed_zone,
             ..Instruction::at(place)
         }
     }
@@ -141,7 +141,7 @@ impl Reader {
             end: short(cursor.at),
             ..Rest::default()
         };
-        rest.pace.zone_m = Some(0.0);
+        rest.speed_zone.zone_m = Some(0.0);
         let mut before = b' ';
         loop {
             let token = cursor.next();
@@ -153,11 +153,11 @@ impl Reader {
                 let mut buffer = [0; 24];
                 match capitals(cursor.text(token), &mut buffer) {
                     b"C_DIS" | b"C_VEL" | b"C_ORI" | b"C_PTP" | b"C_SPL" => {
-                        (rest.pace.zone_m, rest.pace.blends) = (None, true);
+                        (rest.speed_zone.zone_m, rest.speed_zone.blends) = (None, true);
                     }
                     b"CA" if before == b',' => rest.has_angle = true,
                     b"WITH" => {
-                        rest.with = self.with(&mut cursor, &mut rest.pace)?;
+                        rest.with = self.with(&mut cursor, &mut rest.speed_zone)?;
                         rest.end = short(cursor.at);
                     }
                     _ => {}
@@ -171,7 +171,7 @@ impl Reader {
     }
 
     /// What stands behind WITH.
-    pub(super) fn with(&mut self, cursor: &mut Cursor, pace: &mut Pace) -> Read<With> {
+    pub(super) fn with(&mut self, cursor: &mut Cursor, speed_zone: &mut SpeedZone) -> Read<With> {
         let mut with = With::default();
         loop {
             let name = cursor.next();
@@ -192,7 +192,7 @@ impl Reader {
                 (b"$IPO_MODE", None) => with.mode = Some(self.state_value(State::Ipo, cursor)?),
                 (b"$TOOL", Some(_)) => with.tool = Some(self.chosen()),
                 (b"$BASE", Some(_)) => with.base = Some(self.chosen()),
-                (b"$VEL", _) => pace.speed_m_s = speed(cursor, part)?,
+                (b"$VEL", _) => speed_zone.speed_m_s = speed(cursor, part)?,
                 _ => skip_value(cursor),
             }
             if !cursor.take(b',') {
@@ -290,7 +290,7 @@ fn speed(cursor: &mut Cursor, part: Option<Token>) -> Read<Option<f64>> {
 }
 
 /// Skips a value of WITH: up to a comma, or a word behind it such as `C_DIS`.
-pub fn skip_value(cursor: &mut Cursor) {
+pub(super) fn skip_value(cursor: &mut Cursor) {
     let mut depth = 0_u32;
     let mut ends = false;
     loop {

@@ -8,7 +8,7 @@ use std::collections::{BTreeSet, HashSet};
 
 /// Which element of an array is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Index {
+pub(super) enum Index {
     /// The variable itself.
     Whole,
     /// This element.
@@ -19,7 +19,7 @@ pub enum Index {
 
 impl Index {
     /// The element between brackets.
-    pub fn of(at: Option<(usize, usize)>, cursor: &Cursor) -> Self {
+    pub(super) fn of(at: Option<(usize, usize)>, cursor: &Cursor) -> Self {
         let Some((start, end)) = at else {
             return Self::Whole;
         };
@@ -40,7 +40,7 @@ impl Index {
 }
 
 /// A whole number of a table.
-pub fn whole(value: Option<f64>) -> Option<u32> {
+pub(super) fn whole(value: Option<f64>) -> Option<u32> {
     let value = value.filter(|v| v.fract() == 0.0 && (0.0..1e9).contains(v))?;
     // 0 to 1e9 is checked
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -49,7 +49,7 @@ pub fn whole(value: Option<f64>) -> Option<u32> {
 
 /// What a variable holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DataKind {
+pub(super) enum DataKind {
     /// FRAME: a target where a move goes to it, else an offset or a work frame.
     Frame,
     /// POS, E3POS, E6POS.
@@ -66,7 +66,7 @@ pub enum DataKind {
 
 impl DataKind {
     /// The kind of a type in capitals.
-    pub fn named(word: &[u8]) -> Self {
+    pub(super) fn named(word: &[u8]) -> Self {
         match word {
             b"FRAME" => Self::Frame,
             b"POS" | b"E3POS" | b"E6POS" => Self::Position,
@@ -78,14 +78,14 @@ impl DataKind {
     }
 
     /// Whether it is somewhere to go to.
-    pub fn is_place(self) -> bool {
+    pub(super) fn is_place(self) -> bool {
         matches!(self, Self::Frame | Self::Position | Self::Axes)
     }
 }
 
 /// A declared variable.
 #[derive(Clone, Copy, Debug)]
-pub struct Datum {
+pub(super) struct Datum {
     pub name: Symbol,
     pub context: Context,
     pub kind: DataKind,
@@ -96,7 +96,7 @@ pub struct Datum {
 
 /// The value of a variable.
 #[derive(Clone, Copy, Debug)]
-pub enum Stored {
+pub(super) enum Stored {
     /// A position or axes.
     Target(TargetId),
     /// Numbers of a tool and a base.
@@ -109,7 +109,7 @@ pub enum Stored {
 
 /// What FDAT tells; `None` is: it does not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub struct Fdat {
+pub(super) struct Fdat {
     pub tool: Option<u32>,
     pub base: Option<u32>,
     /// The robot holds the work piece and the tool stands still.
@@ -118,7 +118,7 @@ pub struct Fdat {
 
 /// A routine, beside what the script has of it.
 #[derive(Clone, Debug)]
-pub struct Head {
+pub(super) struct Head {
     pub module: u32,
     /// Its parameters, and whether it may write what they are given.
     pub parameters: Vec<(u32, bool)>,
@@ -126,7 +126,7 @@ pub struct Head {
 
 /// A module: the files of one name.
 #[derive(Clone, Debug)]
-pub struct Module {
+pub(super) struct Module {
     pub key: String,
     pub has_routine: bool,
     /// The data list is one of the controller: only what moves use is a target.
@@ -135,7 +135,7 @@ pub struct Module {
 
 /// What is declared in all files.
 #[derive(Debug, Default)]
-pub struct Names {
+pub(super) struct Names {
     pub symbols: Symbols,
     pub modules: Vec<Module>,
     pub heads: Vec<Head>,
@@ -156,7 +156,7 @@ pub struct Names {
 
 impl Names {
     /// The module of a file.
-    pub fn module(&mut self, file: &str) -> u32 {
+    pub(super) fn module(&mut self, file: &str) -> u32 {
         let key = module_key(file);
         let known = self.modules.iter().rposition(|module| module.key == key);
         short(known.unwrap_or_else(|| {
@@ -170,7 +170,7 @@ impl Names {
     }
 
     /// Adds a variable; one of a routine may be a parameter whose type was not told yet.
-    pub fn declare(&mut self, datum: Datum, global: bool) -> u32 {
+    pub(super) fn declare(&mut self, datum: Datum, global: bool) -> u32 {
         let at = datum.name.0 as usize;
         if self.last.len() <= at {
             self.last.resize(at + 1, u32::MAX);
@@ -190,14 +190,14 @@ impl Names {
     }
 
     /// The last variable of a name, where that is one of a module.
-    pub fn last_of(&self, name: Symbol, module: u32) -> Option<u32> {
+    pub(super) fn last_of(&self, name: Symbol, module: u32) -> Option<u32> {
         let last = *self.last.get(name.0 as usize)?;
         let datum = self.data.get(last as usize)?;
         (datum.context.module == module).then_some(last)
     }
 
     /// Adds a routine, the next of the script; the first of a file is seen everywhere.
-    pub fn add_routine(&mut self, name: Symbol, head: Head, global: bool) {
+    pub(super) fn add_routine(&mut self, name: Symbol, head: Head, global: bool) {
         let module = head.module;
         let known = &mut self.modules[module as usize].has_routine;
         let first = !std::mem::replace(known, true);
@@ -211,12 +211,12 @@ impl Names {
     }
 
     /// Puts values in order, once all are read.
-    pub fn settle(&mut self) {
+    pub(super) fn settle(&mut self) {
         self.values.sort_by_key(|&(datum, index, _)| (datum, index));
     }
 
     /// The routine of a name.
-    pub fn routine(&self, name: Symbol, context: Context) -> Option<u32> {
+    pub(super) fn routine(&self, name: Symbol, context: Context) -> Option<u32> {
         match self.routines.meaning(name, context) {
             Meaning::One(routine) => Some(routine),
             _ => None,
@@ -224,30 +224,30 @@ impl Names {
     }
 
     /// What a name means.
-    pub fn meaning(&self, name: Symbol, context: Context) -> Meaning {
+    pub(super) fn meaning(&self, name: Symbol, context: Context) -> Meaning {
         self.scopes.meaning(name, context)
     }
 
     /// The declarations that an ambiguous name may mean.
-    pub fn several(&self, list: u32) -> &[u32] {
+    pub(super) fn several(&self, list: u32) -> &[u32] {
         self.scopes.several(list)
     }
 
     /// The one declaration of a name.
-    pub fn datum(&self, name: Symbol, context: Context) -> Option<u32> {
+    pub(super) fn datum(&self, name: Symbol, context: Context) -> Option<u32> {
         match self.meaning(name, context) {
             Meaning::One(datum) => Some(datum),
             _ => None,
         }
     }
 
-    pub fn kind(&self, name: Symbol, context: Context) -> Option<DataKind> {
+    pub(super) fn kind(&self, name: Symbol, context: Context) -> Option<DataKind> {
         let datum = self.datum(name, context)?;
         Some(self.data[datum as usize].kind)
     }
 
     /// The values of a declaration, or of one element of it.
-    pub fn values(&self, datum: u32, at: Index) -> &[(u32, Index, Stored)] {
+    pub(super) fn values(&self, datum: u32, at: Index) -> &[(u32, Index, Stored)] {
         let first = self.values.partition_point(|&(d, ..)| d < datum);
         let rest = &self.values[first..];
         if at == Index::Variable {
@@ -265,7 +265,7 @@ impl Names {
     }
 
     /// The only value of an element, where nothing writes it.
-    pub fn constant(&self, name: Symbol, at: Index, context: Context) -> Option<Stored> {
+    pub(super) fn constant(&self, name: Symbol, at: Index, context: Context) -> Option<Stored> {
         let datum = self.datum(name, context)?;
         match self.values(datum, at) {
             [(_, _, value)] if !self.touched.contains(&name) => Some(*value),

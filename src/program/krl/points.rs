@@ -13,7 +13,7 @@ use crate::program::{Displacement, Shape, Shift, TargetId};
 
 /// A position as it is written.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub(super) struct Point {
     pub target: Expr,
     pub displacement: DisplacementId,
     /// Where the robot is: it stays there.
@@ -105,7 +105,8 @@ impl Reader {
         if name.kind == Kind::Name {
             let mut buffer = [0; 24];
             match capitals(cursor.text(name), &mut buffer) {
-                b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MES" | b"$POS_ACT_MES" => {
+                b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MEAS" | b"$AXIS_ACT_MES"
+                | b"$POS_ACT_MES" => {
                     cursor.brackets()?;
                     return Ok(if cursor.blanks() == b'.' {
                         cursor.skip();

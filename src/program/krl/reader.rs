@@ -12,7 +12,7 @@ use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, Var
 use std::collections::{HashMap, HashSet};
 
 /// Reads files into one script.
-pub struct Reader {
+pub(super) struct Reader {
     pub(super) builder: Builder,
     pub(super) names: Names,
     pub(super) modal: Modal,
@@ -66,7 +66,7 @@ enum Line<'a> {
 }
 
 impl Reader {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let mut builder = Builder::default();
         Self {
             modal: Modal::new(&mut builder.script),
@@ -95,7 +95,7 @@ impl Reader {
     ///
     /// # Errors
     /// Where it is broken.
-    pub fn declarations(&mut self, source: &Source, file: u32) -> Read<()> {
+    pub(super) fn declarations(&mut self, source: &Source, file: u32) -> Read<()> {
         self.begin(source, file);
         let is_submit = source.name.to_ascii_lowercase().ends_with(".sub");
         let mut open = None;
@@ -155,7 +155,7 @@ impl Reader {
     }
 
     /// Once the declarations of all files are read.
-    pub fn settle(&mut self) {
+    pub(super) fn settle(&mut self) {
         self.names.settle();
         self.mark_concurrent();
     }
@@ -164,7 +164,7 @@ impl Reader {
     ///
     /// # Errors
     /// Where it is broken.
-    pub fn statements(&mut self, source: &Source, file: u32) -> Read<()> {
+    pub(super) fn statements(&mut self, source: &Source, file: u32) -> Read<()> {
         self.begin(source, file);
         for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {
             match self.line(&source.bytes, start, end) {

@@ -4,7 +4,7 @@ use crate::finding::Severity;
 use crate::program::script::Remark;
 
 /// Why a target has to stay: a sentence without its subject.
-pub fn refusal(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Remark {
+pub(super) fn refusal(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Remark {
     Remark {
         id,
         severity: Severity::Error,
@@ -13,7 +13,7 @@ pub fn refusal(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) 
     }
 }
 
-pub fn partial() -> Remark {
+pub(super) fn partial() -> Remark {
     refusal(
         "partial-target",
         "components are missing, which keep the value of the position before",
@@ -21,7 +21,7 @@ pub fn partial() -> Remark {
     )
 }
 
-pub fn expressions() -> Remark {
+pub(super) fn expressions() -> Remark {
     refusal(
         "target-has-expressions",
         "parts of this target are expressions, not numbers",
@@ -29,7 +29,7 @@ pub fn expressions() -> Remark {
     )
 }
 
-pub fn external(axis: usize, value: f64) -> Remark {
+pub(super) fn external(axis: usize, value: f64) -> Remark {
     let to = if value.is_nan() {
         "an expression".to_owned()
     } else {
@@ -42,7 +42,7 @@ pub fn external(axis: usize, value: f64) -> Remark {
     )
 }
 
-pub fn assigned() -> Remark {
+pub(super) fn assigned() -> Remark {
     refusal(
         "target-assigned-at-run-time",
         "the running program changes elements of this array, and which only it knows",
@@ -50,7 +50,7 @@ pub fn assigned() -> Remark {
     )
 }
 
-pub fn passed() -> Remark {
+pub(super) fn passed() -> Remark {
     refusal(
         "target-passed-to-routine",
         "elements of this array are given to a routine that is not in the files, which may use them with any tool and base",
@@ -58,7 +58,7 @@ pub fn passed() -> Remark {
     )
 }
 
-pub fn ambiguous() -> Remark {
+pub(super) fn ambiguous() -> Remark {
     refusal(
         "target-name-ambiguous",
         "this name is declared more than once, and a use does not tell which one is meant",
@@ -66,7 +66,7 @@ pub fn ambiguous() -> Remark {
     )
 }
 
-pub fn accurate() -> Remark {
+pub(super) fn accurate() -> Remark {
     refusal(
         "absolutely-accurate",
         "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets itself",
@@ -75,7 +75,7 @@ pub fn accurate() -> Remark {
 }
 
 /// A position that only the running program knows.
-pub fn computed() -> Remark {
+pub(super) fn computed() -> Remark {
     Remark {
         id: "computed-target",
         severity: Severity::Warning,
@@ -87,7 +87,7 @@ pub fn computed() -> Remark {
 }
 
 /// A position that a function makes of positions that may be rewritten.
-pub fn copied() -> Remark {
+pub(super) fn copied() -> Remark {
     Remark {
         id: "target-copied",
         severity: Severity::Error,
@@ -97,7 +97,7 @@ pub fn copied() -> Remark {
 }
 
 /// A joint target without numbers in the files.
-pub fn home(name: &str) -> Remark {
+pub(super) fn home(name: &str) -> Remark {
     Remark {
         id: "joint-target-not-in-files",
         severity: Severity::Note,
@@ -107,7 +107,7 @@ pub fn home(name: &str) -> Remark {
 }
 
 /// Only the running program knows the tool or base.
-pub fn chosen() -> Remark {
+pub(super) fn chosen() -> Remark {
     refusal(
         "frame-chosen-at-run-time",
         "only the running program knows the tool or base",
@@ -115,7 +115,7 @@ pub fn chosen() -> Remark {
     )
 }
 
-pub fn frame_assigned() -> Remark {
+pub(super) fn frame_assigned() -> Remark {
     refusal(
         "frame-assigned-at-run-time",
         "the running program changes the tool or base",
@@ -123,7 +123,7 @@ pub fn frame_assigned() -> Remark {
     )
 }
 
-pub fn moving() -> Remark {
+pub(super) fn moving() -> Remark {
     refusal(
         "moving-frame",
         "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
@@ -131,7 +131,7 @@ pub fn moving() -> Remark {
     )
 }
 
-pub fn turned() -> Remark {
+pub(super) fn turned() -> Remark {
     Remark {
         id: "relative-joint-move",
         severity: Severity::Note,
@@ -140,7 +140,7 @@ pub fn turned() -> Remark {
     }
 }
 
-pub fn from_nowhere() -> Remark {
+pub(super) fn from_nowhere() -> Remark {
     Remark {
         id: "relative-move",
         severity: Severity::Error,
@@ -150,7 +150,7 @@ pub fn from_nowhere() -> Remark {
 }
 
 /// Against arcs with an angle.
-pub fn angle() -> Remark {
+pub(super) fn angle() -> Remark {
     Remark {
         id: "circular-angle",
         severity: Severity::Error,
@@ -160,7 +160,7 @@ pub fn angle() -> Remark {
 }
 
 /// A load that the text does not tell.
-pub fn carried() -> Remark {
+pub(super) fn carried() -> Remark {
     Remark {
         id: "load-chosen-at-run-time",
         severity: Severity::Warning,

@@ -12,7 +12,7 @@ const LOOKED_AT: usize = 1 << 16;
 ///
 /// A header line such as `&ACCESS`, a data list, a declaration of a position or a move says so; `DEF name(...)` alone is
 /// other languages' too, so something else of KRL's has to come with it.
-pub fn recognises(bytes: &[u8]) -> bool {
+pub(super) fn recognises(bytes: &[u8]) -> bool {
     let bytes = &bytes[..bytes.len().min(LOOKED_AT)];
     if memchr::memchr(0, bytes).is_some() {
         return false;
@@ -81,7 +81,7 @@ pub fn recognises(bytes: &[u8]) -> bool {
 }
 
 /// Where the marker goes, and its text: behind the line that opens the first routine or the data list, else at the top.
-pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
+pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
     let end = source.line_end();
     let mut text = Vec::new();

@@ -9,10 +9,10 @@ use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::script::{Expr, How, Write, Written};
-use crate::program::{Pace, number};
+use crate::program::{SpeedZone, number};
 
 /// Whether a word in capitals starts a move.
-pub fn is_motion(word: &[u8]) -> bool {
+pub(super) fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
 }
 
@@ -128,7 +128,7 @@ impl Reader {
                 self.spline = With::default();
                 let with = cursor.next();
                 if cursor.text(with).eq_ignore_ascii_case(b"WITH") {
-                    self.spline = self.with(&mut cursor, &mut Pace::default())?;
+                    self.spline = self.with(&mut cursor, &mut SpeedZone::default())?;
                 }
                 return Ok(());
             }

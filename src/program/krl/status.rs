@@ -17,24 +17,24 @@ use crate::program::{Configuration, Posture};
 /// So near to zero, in degrees, either sign of an axis is right.
 const BORDER_DEG: f64 = 0.01;
 /// Bit of S that an absolutely accurate robot sets.
-pub const ABSOLUTELY_ACCURATE: u32 = 16;
+pub(super) const ABSOLUTELY_ACCURATE: u32 = 16;
 
 /// S of a posture.
-pub fn status(posture: &Posture) -> u32 {
+pub(super) fn status(posture: &Posture) -> u32 {
     u32::from(posture.behind_axis_1)
         | u32::from(!posture.behind_lower_arm) << 1
         | u32::from(posture.joints_rad[4].sin() < 0.0) << 2
 }
 
 /// T of a posture.
-pub fn turn(posture: &Posture) -> u32 {
+pub(super) fn turn(posture: &Posture) -> u32 {
     (0..6).fold(0, |bits, joint| {
         bits | u32::from(posture.joints_rad[joint] < 0.0) << joint
     })
 }
 
 /// The inverse solutions that S and T allow.
-pub fn configuration(status: Option<u32>, turn: Option<u32>) -> Configuration {
+pub(super) fn configuration(status: Option<u32>, turn: Option<u32>) -> Configuration {
     let bit = |at: u32| status.map(|bits| bits >> at & 1 == 1);
     let window = |joint: u32| {
         turn.map(|bits| {
@@ -55,7 +55,7 @@ pub fn configuration(status: Option<u32>, turn: Option<u32>) -> Configuration {
 }
 
 /// S with the bits changed that were right before and are not after.
-pub fn update_status(before: &Posture, after: &Posture, present: u32) -> u32 {
+pub(super) fn update_status(before: &Posture, after: &Posture, present: u32) -> u32 {
     (0..3).fold(present, |bits, at| {
         let right = |posture: &Posture| {
             near(posture, 4).any(|posture| (status(&posture) ^ present) >> at & 1 == 0)
@@ -69,7 +69,7 @@ pub fn update_status(before: &Posture, after: &Posture, present: u32) -> u32 {
 }
 
 /// T likewise.
-pub fn update_turn(before: &Posture, after: &Posture, present: u32) -> u32 {
+pub(super) fn update_turn(before: &Posture, after: &Posture, present: u32) -> u32 {
     (0..6).fold(present, |bits, at| {
         let right = |posture: &Posture| {
             near(posture, at).any(|posture| (turn(&posture) ^ present) >> at & 1 == 0)
@@ -95,7 +95,7 @@ fn near(posture: &Posture, joint: usize) -> impl Iterator<Item = Posture> {
 }
 
 /// Writes S or T as whole number or as the bits that stood there, at least as many.
-pub fn write(value: u32, old: &[u8], out: &mut Vec<u8>) {
+pub(super) fn write(value: u32, old: &[u8], out: &mut Vec<u8>) {
     let text = match old {
         [
             b'\'',

@@ -16,7 +16,7 @@ const MOST_ELEMENTS: usize = 32;
 
 /// Whose variable it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Owner {
+pub(super) enum Owner {
     /// Of a declaration.
     Datum(u32),
     /// The files do not declare the name.

@@ -7,11 +7,11 @@ use crate::program::kit::Fault;
 use crate::program::script::short;
 
 /// What reading gives where it fails.
-pub type Read<T> = Result<T, Fault>;
+pub(super) type Read<T> = Result<T, Fault>;
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(super) enum Kind {
     /// A name or keyword, `$` included.
     Name,
     /// Something that starts like a number, with everything that clings to it: `12`, `.5`, `1.5E-12`, `12.3.4`.
@@ -28,7 +28,7 @@ pub enum Kind {
 
 /// A token at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Token {
+pub(super) struct Token {
     pub kind: Kind,
     pub start: u32,
     pub end: u32,
@@ -36,12 +36,12 @@ pub struct Token {
 
 impl Token {
     /// Whether it is this sign.
-    pub fn is(self, sign: u8) -> bool {
+    pub(super) fn is(self, sign: u8) -> bool {
         self.kind == Kind::Sign(sign)
     }
 
     /// It stands where something else belongs.
-    pub fn unexpected(self, expected: &'static str) -> Fault {
+    pub(super) fn unexpected(self, expected: &'static str) -> Fault {
         Fault::Unexpected {
             start: self.start,
             end: self.end,
@@ -79,7 +79,7 @@ fn class(byte: u8) -> u8 {
 
 /// Reads the tokens of one line, one after another.
 #[derive(Clone, Copy, Debug)]
-pub struct Cursor<'a> {
+pub(super) struct Cursor<'a> {
     pub bytes: &'a [u8],
     pub at: usize,
     /// The end of the line.
@@ -88,12 +88,12 @@ pub struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     /// The bytes of a token.
-    pub fn text(&self, token: Token) -> &'a [u8] {
+    pub(super) fn text(&self, token: Token) -> &'a [u8] {
         &self.bytes[token.start as usize..token.end as usize]
     }
 
     /// Skips blanks; the byte behind them, 0 at the end of the line.
-    pub fn blanks(&mut self) -> u8 {
+    pub(super) fn blanks(&mut self) -> u8 {
         while self.at < self.end {
             match self.bytes[self.at] {
                 // a control character is a blank, too
@@ -105,7 +105,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Skips an expression, up to a comma or colon outside brackets, a bracket that closes, or the end of the line.
-    pub fn skip(&mut self) {
+    pub(super) fn skip(&mut self) {
         let mut depth = 0_u32;
         loop {
             let before = self.at;
@@ -124,7 +124,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next token; a comment ends the line.
-    pub fn next(&mut self) -> Token {
+    pub(super) fn next(&mut self) -> Token {
         let first = self.blanks();
         let start = self.at;
         if start >= self.end || first == b';' {
@@ -159,13 +159,13 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next token, left where it is.
-    pub fn peek(&self) -> Token {
+    pub(super) fn peek(&self) -> Token {
         let mut copy = *self;
         copy.next()
     }
 
     /// The line from a byte to another.
-    pub fn part(&self, at: usize, end: usize) -> Self {
+    pub(super) fn part(&self, at: usize, end: usize) -> Self {
         Self {
             bytes: self.bytes,
             at,
@@ -174,7 +174,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Takes the next token where it is this sign.
-    pub fn take(&mut self, sign: u8) -> bool {
+    pub(super) fn take(&mut self, sign: u8) -> bool {
         let is = self.blanks() == sign;
         self.at += usize::from(is);
         is
@@ -228,7 +228,7 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     /// Where it is not closed.
-    pub fn brackets(&mut self) -> Result<Option<(usize, usize)>, Fault> {
+    pub(super) fn brackets(&mut self) -> Result<Option<(usize, usize)>, Fault> {
         if self.blanks() != b'[' {
             return Ok(None);
         }
@@ -255,7 +255,7 @@ impl<'a> Cursor<'a> {
 }
 
 /// A word in capitals; empty where it is longer than any keyword.
-pub fn capitals<'b>(word: &[u8], buffer: &'b mut [u8; 24]) -> &'b [u8] {
+pub(super) fn capitals<'b>(word: &[u8], buffer: &'b mut [u8; 24]) -> &'b [u8] {
     match buffer.get_mut(..word.len()) {
         Some(copy) => {
             copy.copy_from_slice(word);
@@ -267,7 +267,7 @@ pub fn capitals<'b>(word: &[u8], buffer: &'b mut [u8; 24]) -> &'b [u8] {
 }
 
 /// The value of `'B0101'` or `'HFF'`.
-pub fn bits_value(text: &[u8]) -> Option<u32> {
+pub(super) fn bits_value(text: &[u8]) -> Option<u32> {
     let inner = text.strip_prefix(b"'")?.strip_suffix(b"'")?;
     let (&kind, digits) = inner.split_first()?;
     let radix = match kind.to_ascii_uppercase() {
@@ -279,7 +279,7 @@ pub fn bits_value(text: &[u8]) -> Option<u32> {
 }
 
 /// The lines of a file: first byte and the byte behind the last, line end not included. Empty ones may be left out.
-pub fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = (usize, usize)> {
+pub(super) fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = (usize, usize)> {
     let mut at = start;
     let mut ends = memchr::memchr2_iter(b'\n', b'\r', &bytes[start.min(bytes.len())..]);
     std::iter::from_fn(move || {
@@ -294,7 +294,7 @@ pub fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = (usize, usize)>
 }
 
 /// Where the text starts: behind a byte order mark.
-pub fn content_start(bytes: &[u8]) -> usize {
+pub(super) fn content_start(bytes: &[u8]) -> usize {
     if bytes.starts_with(b"\xef\xbb\xbf") {
         3
     } else {

@@ -7,29 +7,29 @@ use super::reader::Reader;
 use super::tokens::{Fault, Kind, Token};
 use crate::program::number;
 
-pub const ROBTARGET: &[u8] = b"[[nnn][nnnn][nnnn][nnnnnn]]";
-pub const JOINTTARGET: &[u8] = b"[[nnnnnn][nnnnnn]]";
+pub(super) const ROBTARGET: &[u8] = b"[[nnn][nnnn][nnnn][nnnnnn]]";
+pub(super) const JOINTTARGET: &[u8] = b"[[nnnnnn][nnnnnn]]";
 /// robhold, tframe, tload.
-pub const TOOLDATA: &[u8] = b"[b[[nnn][nnnn]][n[nnn][nnnn]nnn]]";
+pub(super) const TOOLDATA: &[u8] = b"[b[[nnn][nnnn]][n[nnn][nnnn]nnn]]";
 /// robhold, ufprog, ufmec, uframe, oframe.
-pub const WOBJDATA: &[u8] = b"[bbs[[nnn][nnnn]][[nnn][nnnn]]]";
-pub const LOADDATA: &[u8] = b"[n[nnn][nnnn]nnn]";
-pub const POSE: &[u8] = b"[[nnn][nnnn]]";
-pub const POS: &[u8] = b"[nnn]";
-pub const ORIENT: &[u8] = b"[nnnn]";
-pub const NUM: &[u8] = b"n";
-pub const BOOL: &[u8] = b"b";
-pub const STRING: &[u8] = b"s";
+pub(super) const WOBJDATA: &[u8] = b"[bbs[[nnn][nnnn]][[nnn][nnnn]]]";
+pub(super) const LOADDATA: &[u8] = b"[n[nnn][nnnn]nnn]";
+pub(super) const POSE: &[u8] = b"[[nnn][nnnn]]";
+pub(super) const POS: &[u8] = b"[nnn]";
+pub(super) const ORIENT: &[u8] = b"[nnnn]";
+pub(super) const NUM: &[u8] = b"n";
+pub(super) const BOOL: &[u8] = b"b";
+pub(super) const STRING: &[u8] = b"s";
 
 /// What a quaternion must be.
-pub const UNIT_LIMIT: &str = "its length may differ from 1 by 0.01 at most";
+pub(super) const UNIT_LIMIT: &str = "its length may differ from 1 by 0.01 at most";
 
 /// Most leaves of a template.
-pub const MOST: usize = 20;
+pub(super) const MOST: usize = 20;
 
 /// One part of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Leaf {
+pub(super) enum Leaf {
     /// A number with its field.
     Number { value: f64, start: u32, length: u16 },
     /// TRUE or FALSE.
@@ -44,7 +44,7 @@ pub enum Leaf {
 
 impl Leaf {
     /// The number, where it is one.
-    pub fn number(self) -> Option<f64> {
+    pub(super) fn number(self) -> Option<f64> {
         match self {
             Self::Number { value, .. } => Some(value),
             _ => None,
@@ -54,20 +54,20 @@ impl Leaf {
 
 /// The leaves of a value.
 #[derive(Clone, Copy, Debug)]
-pub struct Leaves {
+pub(super) struct Leaves {
     leaves: [Leaf; MOST],
     count: usize,
 }
 
 impl Leaves {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             leaves: [Leaf::Missing; MOST],
             count: 0,
         }
     }
 
-    pub fn as_slice(&self) -> &[Leaf] {
+    pub(super) fn as_slice(&self) -> &[Leaf] {
         &self.leaves[..self.count]
     }
 

@@ -12,11 +12,11 @@ use crate::program::{Layout, Number, Shape, Target, number};
 const DEEPEST: usize = 16;
 
 /// Coordinates (mm) and angles (degrees) of targets are smaller: 9E9 means "not connected".
-pub const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 /// External axes from here on are not connected: 9E9, or what is left of it in 32 bits.
 const NOT_CONNECTED: f64 = 8e9;
 /// Deviation of a quaternion's length from 1 that rounding explains.
-pub const UNIT_TOLERANCE: f64 = 0.01;
+pub(super) const UNIT_TOLERANCE: f64 = 0.01;
 
 /// Numbers of a pose that targets keep: the external axes stay as they are.
 const POSE_NUMBERS: usize = 11;
@@ -35,10 +35,10 @@ impl Reader<'_> {
             return self.expression().map(Expression::Computed);
         }
         let mark = self.mark();
-        let steps = short(self.notes.steps.len());
+        let steps = short(self.parsed.steps.len());
         match self.point(of, 0)? {
             Some(Written::Base(base)) => {
-                let steps = (steps, short(self.notes.steps.len()));
+                let steps = (steps, short(self.parsed.steps.len()));
                 let is_name = matches!(base, Base::Named { .. }) && steps.0 == steps.1;
                 if is_name && self.token.is(b'.') {
                     self.members()?;
@@ -103,12 +103,12 @@ impl Reader<'_> {
             let function = self.alone.map(Base::Function);
             return Ok(function.map(Written::Base));
         }
-        let name = self.notes.symbols.intern(self.text(first));
+        let name = self.parsed.symbols.intern(self.text(first));
         let index = match self.index()? {
             Index::Whole => 0,
             other => {
-                self.notes.indices.push(other);
-                short(self.notes.indices.len())
+                self.parsed.indices.push(other);
+                short(self.parsed.indices.len())
             }
         };
         Ok(Some(Written::Base(Base::Named { name, index })))
@@ -153,7 +153,7 @@ impl Reader<'_> {
         }
         self.advance()?;
         let [x, y, z, ..] = amounts;
-        self.notes.steps.push(if relative {
+        self.parsed.steps.push(if relative {
             Step::RelTool(amounts)
         } else {
             Step::Offs([x, y, z])
@@ -172,7 +172,7 @@ impl Reader<'_> {
         let amount = match token.kind {
             Kind::Number => number::parse(self.text(token))
                 .map_or(Amount::Computed, |value| Amount::Number(sign * value)),
-            Kind::Name => Amount::Named(self.notes.symbols.intern(self.text(token)), sign),
+            Kind::Name => Amount::Named(self.parsed.symbols.intern(self.text(token)), sign),
             _ => Amount::Computed,
         };
         if amount != Amount::Computed {
@@ -191,7 +191,7 @@ impl Reader<'_> {
         if !self.token.is(b'{') {
             return Ok(Index::Whole);
         }
-        let (mark, mentions) = (self.mark(), self.notes.mentions.len());
+        let (mark, mentions) = (self.mark(), self.parsed.mentions.len());
         self.advance()?;
         let mut constants = [0; 3];
         for constant in &mut constants {
@@ -215,7 +215,7 @@ impl Reader<'_> {
         }
         self.rewind(mark);
         self.braces()?;
-        self.notes.mentions.truncate(mentions);
+        self.parsed.mentions.truncate(mentions);
         Ok(Index::Variable)
     }
 
@@ -263,7 +263,7 @@ impl Reader<'_> {
             return Ok(None);
         }
         let mark = self.mark();
-        let mentions = short(self.notes.mentions.len());
+        let mentions = short(self.parsed.mentions.len());
         let leaves = match self.aggregate(template) {
             Ok(leaves) => leaves,
             // a value of another type, unless it stands where only a target can
@@ -282,7 +282,7 @@ impl Reader<'_> {
         )))
     }
 
-    /// Notes a target with its numbers. One with expressions in it has none; the names in them begin at `mentions`.
+    /// Parsed a target with its numbers. One with expressions in it has none; the names in them begin at `mentions`.
     pub(super) fn target(
         &mut self,
         shape: Shape,
@@ -291,12 +291,12 @@ impl Reader<'_> {
         leaves: &[Leaf],
         mentions: u32,
     ) -> Written {
-        let target = self.notes.targets.len();
+        let target = self.parsed.targets.len();
         let kept = match shape {
             Shape::Pose => POSE_NUMBERS,
             Shape::Joints => JOINT_NUMBERS,
         };
-        let start = self.notes.numbers.len();
+        let start = self.parsed.numbers.len();
         for leaf in &leaves[..kept] {
             let Leaf::Number {
                 value,
@@ -304,36 +304,36 @@ impl Reader<'_> {
                 length,
             } = *leaf
             else {
-                self.notes.numbers.truncate(start);
-                return Written::Composed((mentions, short(self.notes.mentions.len())));
+                self.parsed.numbers.truncate(start);
+                return Written::Composed((mentions, short(self.parsed.mentions.len())));
             };
-            self.notes.numbers.push(Number {
+            self.parsed.numbers.push(Number {
                 start: at,
                 length,
                 value,
             });
         }
-        self.notes.mentions.truncate(mentions as usize);
-        if let Some(fault) = bad_value(shape, &self.notes.numbers[start..]) {
-            self.notes.bad_values.push(BadValue { target, fault });
+        self.parsed.mentions.truncate(mentions as usize);
+        if let Some(fault) = bad_value(shape, &self.parsed.numbers[start..]) {
+            self.parsed.bad_values.push(BadValue { target, fault });
         }
         let mut zeros = 0;
         for (axis, leaf) in (0..6).zip(&leaves[leaves.len() - 6..]) {
             match leaf.number() {
                 Some(0.0) => zeros |= 1 << axis,
                 Some(value) if value.abs() < NOT_CONNECTED => {
-                    self.notes.external.push((target, axis, value));
+                    self.parsed.external.push((target, axis, value));
                 }
                 _ => {}
             }
         }
-        self.notes.external_zeros.push(zeros);
-        self.notes.targets.push(Target {
+        self.parsed.external_zeros.push(zeros);
+        self.parsed.targets.push(Target {
             name,
             file: self.file,
             offset,
             layout: Layout { shape, variant: 0 },
-            numbers: short(start)..short(self.notes.numbers.len()),
+            numbers: short(start)..short(self.parsed.numbers.len()),
             blocked: false,
         });
         Written::Base(Base::Target(short(target)))
@@ -388,7 +388,7 @@ fn bad_value(shape: Shape, numbers: &[Number]) -> Option<Fault> {
 }
 
 /// Whether a quaternion's length is 1 but for rounding.
-pub fn is_unit(parts: [f64; 4]) -> bool {
+pub(super) fn is_unit(parts: [f64; 4]) -> bool {
     (Quaternion(parts).norm() - 1.0).abs() <= UNIT_TOLERANCE
 }
 

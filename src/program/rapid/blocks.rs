@@ -68,7 +68,7 @@ impl Reader<'_> {
             b"error" | b"undo" | b"backward" => self.handler(start)?,
             b"goto" => {
                 if self.token.kind == Kind::Name {
-                    let label = self.notes.symbols.intern(self.text(self.token));
+                    let label = self.parsed.symbols.intern(self.text(self.token));
                     self.note(start, StatementKind::Goto(label));
                 }
                 self.finish_statement()?;
@@ -106,7 +106,7 @@ impl Reader<'_> {
     /// `WHILE condition DO`; functions in the condition are called each time round.
     fn while_loop(&mut self, start: u32) -> Result<(), Fault> {
         let forever = self.is_word(b"true");
-        let at = self.notes.statements.len();
+        let at = self.parsed.statements.len();
         self.note(start, StatementKind::Loop { may_pass: false });
         let first = self.token;
         self.condition()?;
@@ -115,13 +115,13 @@ impl Reader<'_> {
                 .trim_ascii_start()
                 .get(..2)
                 .is_some_and(|word| word.eq_ignore_ascii_case(b"do"));
-        let calls = self.notes.statements.len() > at + 1;
+        let calls = self.parsed.statements.len() > at + 1;
         if calls {
             self.note(start, StatementKind::If);
             self.note(start, StatementKind::Leave);
             self.note(start, StatementKind::EndChoice);
         } else if !forever {
-            self.notes.statements[at].kind = StatementKind::Loop { may_pass: true };
+            self.parsed.statements[at].kind = StatementKind::Loop { may_pass: true };
         }
         self.loops.push(forever || calls);
         Ok(())
@@ -133,7 +133,7 @@ impl Reader<'_> {
             self.expression()?;
         }
         if let Some(routine) = self.context.routine {
-            self.notes.routines[routine as usize].has_handler = true;
+            self.parsed.routines[routine as usize].has_handler = true;
         }
         self.note(start, StatementKind::Handler);
         Ok(())

@@ -1,11 +1,11 @@
 //! Calls: routines of the files with their parameters, others, and instructions that write their arguments.
 
 use super::builtins::Known;
+use super::resolved::{Callees, Entity, named};
 use super::syntax::{
     Argument, Base, Callee, Expression, Index, Part, Path, Storage, Type, Verb, indices,
 };
 use super::translate::Translator;
-use super::world::{Callees, Entity, named};
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Call, Expr, How, Place, VariableId, Write, Written, short};
 
@@ -19,8 +19,8 @@ const UNKNOWN_MOVE: Verb = Verb::Move {
 impl Translator<'_> {
     /// An instruction or a procedure call.
     pub(super) fn call(&mut self, callee: Callee, verb: Verb, arguments: Part, end: u32) {
-        let world = self.world;
-        let all = &world.notes.arguments[indices(arguments)];
+        let resolved = self.resolved;
+        let all = &resolved.parsed.arguments[indices(arguments)];
         match self.meant(callee, verb, arguments) {
             Verb::Mode(mode, set) => self.mode(mode, set, arguments),
             Verb::Wander { back } => self.wander(back, end),
@@ -43,18 +43,18 @@ impl Translator<'_> {
             Verb::CallByVar => {
                 let callees = match all.first().map(|argument| argument.expression) {
                     Some(Expression::Text(start, end)) => {
-                        let bytes = &world.sources[self.here.file as usize].bytes;
+                        let bytes = &resolved.sources[self.here.file as usize].bytes;
                         let prefix = &bytes[start as usize..end as usize];
-                        world.any_routine((0, 0), &crate::program::Source::text(prefix))
+                        resolved.any_routine((0, 0), &crate::program::Source::text(prefix))
                     }
-                    _ => world.any_routine((0, 0), ""),
+                    _ => resolved.any_routine((0, 0), ""),
                 };
                 self.goes_to(&callees, &[], "CallByVar".into());
             }
             Verb::Harmless | Verb::Other => {
-                let callees = world.callees(callee, arguments, self.context, self.here.file);
+                let callees = resolved.callees(callee, arguments, self.context, self.here.file);
                 let name = match callee {
-                    Callee::Named(name) => world.spelling(name).into(),
+                    Callee::Named(name) => resolved.spelling(name).into(),
                     Callee::Text(..) | Callee::Late => "a late-bound call".into(),
                 };
                 self.goes_to(&callees, all, name);
@@ -68,27 +68,31 @@ impl Translator<'_> {
             return verb;
         };
         match verb {
-            Verb::Move { .. } if self.world.is_routine(name, self.context) => Verb::Other,
+            Verb::Move { .. } if self.resolved.is_routine(name, self.context) => Verb::Other,
             Verb::Other if self.is_like_move(name, arguments) => UNKNOWN_MOVE,
             _ => verb,
         }
     }
 
     fn is_like_move(&self, name: Symbol, arguments: Part) -> bool {
-        let all = &self.world.notes.arguments[indices(arguments)];
+        let all = &self.resolved.parsed.arguments[indices(arguments)];
         let wobj = self.words.wobj;
         let is_frame = |argument: &Argument| {
             wobj.is_some() && argument.option == wobj || self.is_tool(argument)
         };
         all.iter().any(is_frame)
             && all.iter().any(|argument| self.leads_to_target(argument))
-            && !self.world.is_routine(name, self.context)
+            && !self.resolved.is_routine(name, self.context)
     }
 
     /// Whether an argument gives a target away.
     fn leads_to_target(&self, argument: &Argument) -> bool {
-        let world = self.world;
-        let is_target = |name: Symbol| world.kind(name, self.context).is_some_and(Type::is_target);
+        let resolved = self.resolved;
+        let is_target = |name: Symbol| {
+            resolved
+                .kind(name, self.context)
+                .is_some_and(Type::is_target)
+        };
         match argument.expression {
             Expression::Point { base, .. } => match base {
                 Base::Target(_) => true,
@@ -96,7 +100,7 @@ impl Translator<'_> {
                 Base::Function(_) => false,
             },
             Expression::Member { name, .. } => is_target(name),
-            Expression::Composed(part) | Expression::Computed(part) => world.notes.mentions
+            Expression::Composed(part) | Expression::Computed(part) => resolved.parsed.mentions
                 [indices(part)]
             .iter()
             .any(|&name| is_target(name)),
@@ -106,7 +110,7 @@ impl Translator<'_> {
 
     /// Names that an instruction uses as targets or frames.
     pub(super) fn wants(&self, callee: Callee, verb: Verb, arguments: Part) -> Vec<(Symbol, Type)> {
-        let all = &self.world.notes.arguments[indices(arguments)];
+        let all = &self.resolved.parsed.arguments[indices(arguments)];
         match self.meant(callee, verb, arguments) {
             Verb::Move {
                 path,
@@ -114,13 +118,13 @@ impl Translator<'_> {
                 tool_inside,
             } => self.wants_of_move(all, path, first, tool_inside),
             Verb::Other => {
-                let callees = self
-                    .world
-                    .callees(callee, arguments, self.context, self.here.file);
+                let callees =
+                    self.resolved
+                        .callees(callee, arguments, self.context, self.here.file);
                 let mut wants = Vec::new();
                 for routine in callees.routines {
-                    for (datum, argument) in self.world.parameters(routine, all) {
-                        let kind = self.world.datum(datum).kind;
+                    for (datum, argument) in self.resolved.parameters(routine, all) {
+                        let kind = self.resolved.datum(datum).kind;
                         if kind.is_target() || kind.is_frame() {
                             let name = argument.and_then(|argument| named(&argument.expression));
                             wants.extend(name.map(|name| (name, kind)));
@@ -135,11 +139,11 @@ impl Translator<'_> {
 
     /// A function that the present statement calls; the last of them where `is_last`.
     pub(super) fn function(&mut self, function: u32, is_last: bool) {
-        let world = self.world;
-        let of = world.notes.functions[function as usize];
-        let all = &world.notes.given[indices(of.arguments)];
+        let resolved = self.resolved;
+        let of = resolved.parsed.functions[function as usize];
+        let all = &resolved.parsed.given[indices(of.arguments)];
         self.here.offset = of.offset;
-        if let Known::Writes(position) = world.known(&of) {
+        if let Known::Writes(position) = resolved.known(&of) {
             let mut positional = all.iter().filter(|argument| argument.option.is_none());
             if let Some(argument) = positional.nth(usize::from(position)) {
                 self.becomes_unknown(argument);
@@ -147,11 +151,11 @@ impl Translator<'_> {
             return;
         }
         let callee = Callee::Named(of.name);
-        let callees = world.callees(callee, of.arguments, self.context, self.here.file);
-        self.goes_to(&callees, all, world.spelling(of.name).into());
+        let callees = resolved.callees(callee, of.arguments, self.context, self.here.file);
+        self.goes_to(&callees, all, resolved.spelling(of.name).into());
         // the next call of it writes over what it gives
         if !is_last && let Some(result) = self.result_of(function) {
-            let apart = self.temporary(world.spelling(of.name), Expr::Absent);
+            let apart = self.temporary(resolved.spelling(of.name), Expr::Absent);
             self.set(apart, Expr::Variable(result));
             self.kept_results.insert(function, apart);
         }
@@ -162,15 +166,15 @@ impl Translator<'_> {
         if let Some(&apart) = self.kept_results.get(&function) {
             return Some(apart);
         }
-        let of = self.world.notes.functions[function as usize];
+        let of = self.resolved.parsed.functions[function as usize];
         let callee = Callee::Named(of.name);
         let callees = self
-            .world
+            .resolved
             .callees(callee, of.arguments, self.context, self.here.file);
         let [routine] = callees.routines[..] else {
             return None;
         };
-        let gives = self.world.notes.routines[routine as usize].gives;
+        let gives = self.resolved.parsed.routines[routine as usize].gives;
         (gives.is_target() || gives.is_frame()).then(|| self.result(routine))
     }
 
@@ -210,9 +214,9 @@ impl Translator<'_> {
         all: &[Argument],
         given: &mut Vec<crate::program::script::Argument>,
     ) {
-        let world = self.world;
-        for (datum, argument) in world.parameters(routine, all) {
-            let parameter = *world.datum(datum);
+        let resolved = self.resolved;
+        for (datum, argument) in resolved.parameters(routine, all) {
+            let parameter = *resolved.datum(datum);
             let kind = parameter.kind;
             if !kind.is_target() && !kind.is_frame() {
                 continue;
@@ -232,7 +236,7 @@ impl Translator<'_> {
             );
             let back = match value {
                 Expr::Variable(variable)
-                    if by_reference && world.is_written(Entity::Declared(datum)) =>
+                    if by_reference && resolved.is_written(Entity::Declared(datum)) =>
                 {
                     Some(variable)
                 }
@@ -252,7 +256,7 @@ impl Translator<'_> {
         if let Some(&known) = self.variables.get(&(entity, 0)) {
             return known;
         }
-        let kind = self.world.datum(datum).kind;
+        let kind = self.resolved.datum(datum).kind;
         let holds = self.unknown(kind);
         self.variable(entity, 0, holds)
     }
@@ -274,11 +278,11 @@ impl Translator<'_> {
                     steps: (a, b),
                 } if a == b
                     && self
-                        .world
+                        .resolved
                         .kind(name, self.context)
                         .is_some_and(Type::is_frame) =>
                 {
-                    Some(self.frame(name, self.world.notes.index(index)))
+                    Some(self.frame(name, self.resolved.parsed.index(index)))
                 }
                 _ => None,
             };
@@ -286,7 +290,7 @@ impl Translator<'_> {
                 Some(value) => value,
                 None if self.leads_to_target(argument) => match argument.expression {
                     Expression::Member { name, index } => {
-                        let index = self.world.notes.index(index);
+                        let index = self.resolved.parsed.index(index);
                         self.position(name, index, Type::Robtarget)
                     }
                     expression => self.position_from(expression, Type::Robtarget),
@@ -309,22 +313,22 @@ impl Translator<'_> {
 
     /// Arrays that a routine writes through its parameter: which elements is known at run time only.
     fn written_arrays(&mut self, routine: u32, all: &[Argument]) {
-        let world = self.world;
-        for (datum, argument) in world.parameters(routine, all) {
+        let resolved = self.resolved;
+        for (datum, argument) in resolved.parameters(routine, all) {
             let Some(argument) = argument else {
                 continue;
             };
-            let kind = world.datum(datum).kind;
-            if !kind.is_target() || !world.is_written(Entity::Declared(datum)) {
+            let kind = resolved.datum(datum).kind;
+            if !kind.is_target() || !resolved.is_written(Entity::Declared(datum)) {
                 continue;
             }
             if let Expression::Point {
                 base: Base::Named { name, index: 0 },
                 ..
             } = argument.expression
-                && let Meaning::One(of) = world.meaning(name, self.context)
+                && let Meaning::One(of) = resolved.meaning(name, self.context)
                 && matches!(self.position_of_datum(of, Index::Whole), Expr::Any { .. })
-                && world.is_written(Entity::Declared(of))
+                && resolved.is_written(Entity::Declared(of))
             {
                 let how = How::PartSomehow(self.changed());
                 let table = self.table(of);
@@ -339,7 +343,8 @@ impl Translator<'_> {
 
     /// An instruction writes its argument.
     fn becomes_unknown(&mut self, argument: &Argument) {
-        let kind = named(&argument.expression).and_then(|name| self.world.kind(name, self.context));
+        let kind =
+            named(&argument.expression).and_then(|name| self.resolved.kind(name, self.context));
         let value = self.unknown(kind.unwrap_or(Type::Robtarget));
         let value = if kind.is_some_and(Type::is_frame) {
             self.frame_assigned()
@@ -351,19 +356,22 @@ impl Translator<'_> {
 
     /// `SetDataVal`, `SetAllDataVal`: writes data whose names or types it is given.
     fn writes_named(&mut self, all: &[Argument]) {
-        let world = self.world;
+        let resolved = self.resolved;
         let text = all.iter().find_map(|argument| match argument.expression {
             Expression::Text(start, end) => Some((start as usize, end as usize)),
             _ => None,
         });
-        let bytes = &world.sources[self.here.file as usize].bytes;
+        let bytes = &resolved.sources[self.here.file as usize].bytes;
         let text = text.map(|(start, end)| bytes[start..end].to_ascii_lowercase());
-        for at in 0..short(world.notes.data.len()) {
-            let datum = world.datum(at);
-            if !world.is_written(Entity::Declared(at)) || datum.context.routine.is_some() {
+        for at in 0..short(resolved.parsed.data.len()) {
+            let datum = resolved.datum(at);
+            if !resolved.is_written(Entity::Declared(at)) || datum.context.routine.is_some() {
                 continue;
             }
-            let name = world.spelling(datum.name).as_bytes().to_ascii_lowercase();
+            let name = resolved
+                .spelling(datum.name)
+                .as_bytes()
+                .to_ascii_lowercase();
             let names_type = text
                 .as_ref()
                 .is_some_and(|text| Type::named(text) != Type::Other);

@@ -21,7 +21,7 @@ const MOST_QUARTERS: f64 = 100.0;
 const JOINTS: [usize; 3] = [0, 3, 5];
 
 /// cf1, cf4, cf6, cfx of a posture.
-pub fn confdata(posture: &Posture) -> [f64; 4] {
+pub(super) fn confdata(posture: &Posture) -> [f64; 4] {
     let quarter = |joint: usize| (posture.joints_rad[joint] / FRAC_PI_2).floor();
     let bit = |set: bool, value: f64| if set { value } else { 0.0 };
     let cfx = bit(posture.behind_axis_1, 4.0)
@@ -31,7 +31,7 @@ pub fn confdata(posture: &Posture) -> [f64; 4] {
 }
 
 /// The inverse solutions that configuration data allow.
-pub fn configuration([cf1, cf4, cf6, cfx]: [f64; 4]) -> Configuration {
+pub(super) fn configuration([cf1, cf4, cf6, cfx]: [f64; 4]) -> Configuration {
     let mut joints = [None; 6];
     for (joint, cf) in JOINTS.into_iter().zip([cf1, cf4, cf6]) {
         let whole = cf.fract() == 0.0 && cf.abs() <= MOST_QUARTERS;
@@ -50,7 +50,7 @@ pub fn configuration([cf1, cf4, cf6, cfx]: [f64; 4]) -> Configuration {
 }
 
 /// Changes each of the present numbers that was right before and is not after; leaves the others.
-pub fn update(before: &Posture, after: &Posture, present: &mut [f64]) {
+pub(super) fn update(before: &Posture, after: &Posture, present: &mut [f64]) {
     let new = confdata(after);
     for (k, number) in present.iter_mut().enumerate().take(new.len()) {
         if allowed(k, *number, before) && !allowed(k, *number, after) {

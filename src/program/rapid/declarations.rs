@@ -49,9 +49,9 @@ impl Reader<'_> {
                 }
                 Type::Num if storage == Storage::Constant && dimensions == 0 => self.constant()?,
                 _ => {
-                    let mentions = self.notes.mentions.len();
+                    let mentions = self.parsed.mentions.len();
                     self.expression()?;
-                    self.notes.mentions.truncate(mentions);
+                    self.parsed.mentions.truncate(mentions);
                     Stored::Computed
                 }
             };
@@ -63,7 +63,7 @@ impl Reader<'_> {
             file: self.file,
             offset: start,
         };
-        self.notes.data.push(Datum {
+        self.parsed.data.push(Datum {
             name,
             kind,
             context: self.context,
@@ -127,7 +127,7 @@ impl Reader<'_> {
         if dimensions > DIMENSIONS || dimensions > 0 && !self.token.is(b'[') {
             return self.expression().map(|_| Stored::Computed);
         }
-        let start = short(self.notes.elements.len());
+        let start = short(self.parsed.elements.len());
         let mut position = [0; DIMENSIONS];
         let mut sizes = [0; DIMENSIONS];
         let mut level = 0;
@@ -167,7 +167,7 @@ impl Reader<'_> {
             self.advance()?;
             position[level - 1] += 1;
         }
-        let elements = (start, short(self.notes.elements.len()));
+        let elements = (start, short(self.parsed.elements.len()));
         Ok(Stored::Elements { elements, sizes })
     }
 
@@ -178,9 +178,9 @@ impl Reader<'_> {
                 Type::Jointtarget => (JOINTTARGET, Shape::Joints),
                 _ => (ROBTARGET, Shape::Pose),
             };
-            let mentions = short(self.notes.mentions.len());
+            let mentions = short(self.parsed.mentions.len());
             let leaves = self.aggregate(template)?;
-            let spelled = self.notes.symbols.spelling(name);
+            let spelled = self.parsed.symbols.spelling(name);
             let full: Box<str> = match position {
                 [] => spelled.into(),
                 [i] => format!("{spelled}{{{i}}}").into(),
@@ -195,23 +195,23 @@ impl Reader<'_> {
         } else {
             let first = self.token;
             let mentions = self.expression()?;
-            match self.notes.mentions[mentions.0 as usize..mentions.1 as usize] {
-                [other] if self.text(first).len() == self.notes.symbols.spelling(other).len() => {
+            match self.parsed.mentions[mentions.0 as usize..mentions.1 as usize] {
+                [other] if self.text(first).len() == self.parsed.symbols.spelling(other).len() => {
                     Element::Named(other)
                 }
                 _ if self.token.start == first.start => return Err(self.unexpected("a target")),
                 _ => Element::Computed,
             }
         };
-        self.notes.elements.push(element);
+        self.parsed.elements.push(element);
         Ok(())
     }
 
     fn leaves(&mut self, template: &[u8]) -> Result<Part, Fault> {
         let leaves = self.aggregate(template)?;
-        let start = short(self.notes.leaves.len());
-        self.notes.leaves.extend_from_slice(leaves.as_slice());
-        Ok((start, short(self.notes.leaves.len())))
+        let start = short(self.parsed.leaves.len());
+        self.parsed.leaves.extend_from_slice(leaves.as_slice());
+        Ok((start, short(self.parsed.leaves.len())))
     }
 
     /// `(robtarget p, \switch on | num x, PERS tooldata t)`
@@ -257,12 +257,12 @@ impl Reader<'_> {
     }
 
     fn parameter(&mut self, kind: Type, token: Token, storage: Storage) {
-        let name = self.notes.symbols.intern(self.text(token));
+        let name = self.parsed.symbols.intern(self.text(token));
         let place = Place {
             file: self.file,
             offset: token.start,
         };
-        self.notes.data.push(Datum {
+        self.parsed.data.push(Datum {
             name,
             kind,
             context: self.context,
@@ -310,7 +310,7 @@ impl Reader<'_> {
             .filter(|template| !template.is_empty())
         {
             let offset = self.token.start;
-            let mentions = short(self.notes.mentions.len());
+            let mentions = short(self.parsed.mentions.len());
             let leaves = match self.aggregate(template) {
                 Ok(leaves) if self.token.is(b';') || template.len() > 1 => leaves,
                 Ok(_) | Err(Fault::Unexpected { .. }) => {
@@ -323,9 +323,9 @@ impl Reader<'_> {
                 ROBTARGET => Shape::Pose,
                 JOINTTARGET => Shape::Joints,
                 _ => {
-                    let start = short(self.notes.leaves.len());
-                    self.notes.leaves.extend_from_slice(leaves.as_slice());
-                    let end = short(self.notes.leaves.len());
+                    let start = short(self.parsed.leaves.len());
+                    self.parsed.leaves.extend_from_slice(leaves.as_slice());
+                    let end = short(self.parsed.leaves.len());
                     return Ok((component, Assigned::Leaves((start, end))));
                 }
             };

@@ -24,6 +24,17 @@ impl Reader<'_> {
         }
     }
 
+    /// Skips a statement whose words are none of an expression.
+    pub(super) fn skip_statement(&mut self) -> Result<(), Fault> {
+        while !matches!(self.token.kind, Kind::Sign(b';') | Kind::End) {
+            self.advance()?;
+        }
+        if self.token.kind == Kind::End {
+            return Ok(());
+        }
+        self.advance()
+    }
+
     /// Passes over the rest of a statement.
     pub(super) fn finish_statement(&mut self) -> Result<(), Fault> {
         loop {
@@ -41,11 +52,11 @@ impl Reader<'_> {
 
     /// Reads the arguments of an instruction, to the end of the statement.
     pub(super) fn arguments(&mut self, verb: Verb) -> Result<Part, Fault> {
-        let start = self.notes.arguments.len();
+        let start = self.parsed.arguments.len();
         let mut expecting = true;
         let mut positional = 0;
         loop {
-            let first_of_all = self.notes.arguments.len() == start;
+            let first_of_all = self.parsed.arguments.len() == start;
             match self.token.kind {
                 Kind::Sign(b',') => {
                     expecting = true;
@@ -61,7 +72,7 @@ impl Reader<'_> {
                     } else {
                         Expression::Nothing
                     };
-                    self.notes.arguments.push(Argument {
+                    self.parsed.arguments.push(Argument {
                         option,
                         expression,
                         span: (begin, self.behind),
@@ -81,7 +92,7 @@ impl Reader<'_> {
                     if self.token.start == before {
                         self.advance()?;
                     }
-                    self.notes.arguments.push(Argument {
+                    self.parsed.arguments.push(Argument {
                         option: None,
                         expression,
                         span: (before, self.behind),
@@ -92,9 +103,9 @@ impl Reader<'_> {
             }
         }
         if verb == Verb::Harmless {
-            self.notes.arguments.truncate(start);
+            self.parsed.arguments.truncate(start);
         }
-        Ok((short(start), short(self.notes.arguments.len())))
+        Ok((short(start), short(self.parsed.arguments.len())))
     }
 
     /// Whether the present word starts a statement: the semicolon before it is missing. Data may be called like a move; what
@@ -121,10 +132,10 @@ impl Reader<'_> {
             || BLOCK_WORDS.contains(&word)
     }
 
-    /// Passes over an expression, to what ends it or to a name that follows an operand; notes the names in it and the
+    /// Passes over an expression, to what ends it or to a name that follows an operand; parsed the names in it and the
     /// functions that it calls.
     pub(super) fn expression(&mut self) -> Result<Part, Fault> {
-        let start = short(self.notes.mentions.len());
+        let start = short(self.parsed.mentions.len());
         self.brackets.clear();
         self.calls.clear();
         self.given.clear();
@@ -180,9 +191,9 @@ impl Reader<'_> {
                     } else if operand && self.brackets.is_empty() {
                         break;
                     } else {
-                        let symbol = self.notes.symbols.intern(self.text(token));
+                        let symbol = self.parsed.symbols.intern(self.text(token));
                         if !component {
-                            self.notes.mentions.push(symbol);
+                            self.parsed.mentions.push(symbol);
                             name = Some((symbol, token.start));
                         }
                         self.given_name(symbol);
@@ -197,7 +208,7 @@ impl Reader<'_> {
             last_name = name;
             self.advance()?;
         }
-        Ok((start, short(self.notes.mentions.len())))
+        Ok((start, short(self.parsed.mentions.len())))
     }
 
     // ---- functions in an expression
@@ -216,14 +227,14 @@ impl Reader<'_> {
                 argument: Given::Nothing,
                 option: None,
                 after_backslash: false,
-                mentions: short(self.notes.mentions.len()),
+                mentions: short(self.parsed.mentions.len()),
             });
         }
     }
 
     /// A name in an expression.
     fn given_name(&mut self, symbol: Symbol) {
-        let (depth, mentions) = (self.brackets.len(), self.notes.mentions.len());
+        let (depth, mentions) = (self.brackets.len(), self.parsed.mentions.len());
         let Some(call) = self.calls.last_mut() else {
             return;
         };
@@ -274,7 +285,7 @@ impl Reader<'_> {
 
     /// The present argument of the innermost call is complete.
     fn give(&mut self) {
-        let end = short(self.notes.mentions.len());
+        let end = short(self.parsed.mentions.len());
         let Some(call) = self.calls.last_mut() else {
             return;
         };
@@ -286,8 +297,8 @@ impl Reader<'_> {
             Given::Nothing => Expression::Nothing,
             Given::Name(name) => named(name, 0),
             Given::Element(name) => {
-                self.notes.indices.push(Index::Variable);
-                named(name, short(self.notes.indices.len()))
+                self.parsed.indices.push(Index::Variable);
+                named(name, short(self.parsed.indices.len()))
             }
             Given::Member(name) => Expression::Member { name, index: 0 },
             Given::Other => Expression::Computed((call.mentions, end)),
@@ -310,13 +321,13 @@ impl Reader<'_> {
         }
         self.give();
         let call = self.calls.pop().expect("a call is open");
-        let start = short(self.notes.given.len());
-        self.notes.given.extend(self.given.drain(call.first..));
-        let function = short(self.notes.functions.len());
-        self.notes.functions.push(Function {
+        let start = short(self.parsed.given.len());
+        self.parsed.given.extend(self.given.drain(call.first..));
+        let function = short(self.parsed.functions.len());
+        self.parsed.functions.push(Function {
             name: call.name,
             offset: call.offset,
-            arguments: (start, short(self.notes.given.len())),
+            arguments: (start, short(self.parsed.given.len())),
         });
         if call.known != Known::Actual {
             self.note(call.offset, StatementKind::Function(function));

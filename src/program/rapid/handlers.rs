@@ -35,7 +35,7 @@ impl Translator<'_> {
             found.matters.push(acts || leaves);
             found.go_on |= acts && retries;
         };
-        for statement in &self.world.notes.statements[first..] {
+        for statement in &self.resolved.parsed.statements[first..] {
             match statement.kind {
                 StatementKind::Text { .. } => break,
                 StatementKind::Handler => {
@@ -47,7 +47,7 @@ impl Translator<'_> {
                 }
                 _ if !inside => {}
                 StatementKind::Assign { name, .. } => {
-                    let kind = self.world.kind(name, self.context);
+                    let kind = self.resolved.kind(name, self.context);
                     acts |= kind.is_none_or(|kind| kind.is_target() || kind.is_frame());
                     leaves = true;
                 }
@@ -135,7 +135,7 @@ impl Translator<'_> {
         let Some(routine) = self.context.routine else {
             return;
         };
-        let gives = self.world.notes.routines[routine as usize].gives;
+        let gives = self.resolved.parsed.routines[routine as usize].gives;
         let value = if gives.is_target() {
             self.position_from(value, gives)
         } else if gives.is_frame() {
@@ -152,13 +152,13 @@ impl Translator<'_> {
         if let Some(&known) = self.results.get(&routine) {
             return known;
         }
-        let of = self.world.notes.routines[routine as usize];
+        let of = self.resolved.parsed.routines[routine as usize];
         let declared = if of.gives.is_frame() {
             self.frame_chosen()
         } else {
             self.computed()
         };
-        let made = self.temporary(self.world.spelling(of.name), declared);
+        let made = self.temporary(self.resolved.spelling(of.name), declared);
         self.results.insert(routine, made);
         made
     }

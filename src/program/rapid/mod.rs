@@ -24,13 +24,13 @@ mod insert;
 mod moves;
 mod reader;
 mod records;
+mod resolved;
 mod sniff;
 mod syntax;
 mod tokens;
 mod translate;
 mod values;
 mod verbs;
-mod world;
 
 use super::kit::check_bytes;
 use super::script::{NamedFrame, Part, Remark, Script, short};
@@ -42,10 +42,10 @@ use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
 use crate::program::{Configuration, Inserted, Insertion};
 use reader::Reader;
+use resolved::Resolved;
 use std::collections::HashSet;
-use syntax::Notes;
+use syntax::Parsed;
 use verbs::Verbs;
-use world::World;
 
 /// ABB RAPID.
 #[derive(Debug)]
@@ -191,12 +191,12 @@ impl Language for Rapid {
     }
 }
 
-/// Notes what all files say, then puts it together.
+/// Parsed what all files say, then puts it together.
 fn script(sources: &[Source]) -> Result<Script, ReadError> {
-    let (mut notes, mut verbs) = (Notes::default(), Verbs::default());
+    let (mut parsed, mut verbs) = (Parsed::default(), Verbs::default());
     for (file, source) in sources.iter().enumerate() {
         check_bytes(source)?;
-        let recognised = Reader::read(source, short(file), &mut notes, &mut verbs)
+        let recognised = Reader::read(source, short(file), &mut parsed, &mut verbs)
             .map_err(|fault| fault.in_source(source))?;
         if !recognised {
             return Err(ReadError::NotThisLanguage {
@@ -207,22 +207,22 @@ fn script(sources: &[Source]) -> Result<Script, ReadError> {
         }
     }
     let mut script = Script {
-        targets: std::mem::take(&mut notes.targets),
-        numbers: std::mem::take(&mut notes.numbers),
+        targets: std::mem::take(&mut parsed.targets),
+        numbers: std::mem::take(&mut parsed.numbers),
         ..Script::default()
     };
-    let world = World::new(notes, verbs, sources);
+    let resolved = Resolved::new(parsed, verbs, sources);
     let mut dead = HashSet::new();
-    for bad in &world.notes.bad_values {
+    for bad in &resolved.parsed.bad_values {
         let target = &mut script.targets[bad.target];
-        if !world.is_written_target(bad.target) {
+        if !resolved.is_written_target(bad.target) {
             return Err(bad.fault.in_source(&sources[target.file as usize]));
         }
         // its value is that of the last run, or none yet
         (target.numbers, target.blocked) = (0..0, true);
         dead.insert(bad.target);
     }
-    Ok(translate::translate(&world, script, dead))
+    Ok(translate::translate(&resolved, script, dead))
 }
 
 #[cfg(test)]

@@ -1,15 +1,15 @@
 //! Instructions that move: what each goes to, with which tool, in which work object.
 
+use super::resolved::Entity;
 use super::syntax::{Argument, Base, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
-use super::world::Entity;
 use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{
     Expr, Held, How, Instruction, NOT_DISPLACED, Remark, Span, Write, Written,
 };
-use crate::program::{Motion, Pace};
+use crate::program::{Motion, SpeedZone};
 
 /// The parts of a move instruction, as indices of its arguments.
 struct Parts {
@@ -23,7 +23,7 @@ struct Parts {
     /// A sensor corrects its path.
     corrected: bool,
     /// Speed and zone where they are predefined ones.
-    pace: Pace,
+    speed_zone: SpeedZone,
 }
 
 /// Millimetres that a predefined name ends on: `v100`, `z10`.
@@ -34,14 +34,14 @@ fn predefined(name: &str, letter: char) -> Option<f64> {
 }
 
 /// What a predefined name says of a move's speed and zone.
-fn read_pace(name: &str, pace: &mut Pace) {
+fn read_pace(name: &str, speed_zone: &mut SpeedZone) {
     if let Some(mm) = predefined(name, 'v') {
-        pace.speed_m_s = pace.speed_m_s.or(Some(mm * MM));
+        speed_zone.speed_m_s = speed_zone.speed_m_s.or(Some(mm * MM));
     } else if let Some(mm) = predefined(name, 'z') {
         // z0 is 0.3 mm
-        pace.zone_m = pace.zone_m.or(Some(mm.max(0.3) * MM));
+        speed_zone.zone_m = speed_zone.zone_m.or(Some(mm.max(0.3) * MM));
     } else if name.eq_ignore_ascii_case("fine") {
-        pace.zone_m = pace.zone_m.or(Some(0.0));
+        speed_zone.zone_m = speed_zone.zone_m.or(Some(0.0));
     }
 }
 
@@ -63,7 +63,7 @@ impl Translator<'_> {
             Expression::Point { steps, base } => match base {
                 Base::Target(_) => true,
                 Base::Named { name, .. } => {
-                    let kind = self.world.kind(name, self.context);
+                    let kind = self.resolved.kind(name, self.context);
                     steps.0 < steps.1 || kind.is_some_and(Type::is_target)
                 }
                 Base::Function(_) => steps.0 < steps.1,
@@ -75,7 +75,7 @@ impl Translator<'_> {
 
     pub(super) fn is_tool(&self, argument: &Argument) -> bool {
         plain(argument)
-            .is_some_and(|name| self.world.kind(name, self.context) == Some(Type::Tooldata))
+            .is_some_and(|name| self.resolved.kind(name, self.context) == Some(Type::Tooldata))
     }
 
     /// Takes a move instruction apart; `None` where it has no argument for a target.
@@ -105,11 +105,11 @@ impl Translator<'_> {
         let words = &self.words;
         let wobj = option(words.wobj);
         let (mut declared, mut last, mut before_wobj, mut inside) = (None, None, None, None);
-        let mut pace = Pace::default();
+        let mut speed_zone = SpeedZone::default();
         for (place, (at, argument)) in positional().filter(|(at, _)| *at >= end).enumerate() {
             last = Some(at);
             if let Some(name) = plain(argument) {
-                read_pace(self.world.spelling(name), &mut pace);
+                read_pace(self.resolved.spelling(name), &mut speed_zone);
             }
             if place == 2 {
                 inside = Some(at);
@@ -135,7 +135,7 @@ impl Translator<'_> {
             load: option(words.tload),
             synchronised: option(words.id).is_some(),
             corrected: option(words.corr).is_some(),
-            pace,
+            speed_zone,
         })
     }
 
@@ -181,8 +181,8 @@ impl Translator<'_> {
         else {
             return;
         };
-        let world = self.world;
-        let all = &world.notes.arguments[indices(arguments)];
+        let resolved = self.resolved;
+        let all = &resolved.parsed.arguments[indices(arguments)];
         let absolute = path == Path::Absolute;
         let Some(parts) = self.parts(all, path, first, tool_inside) else {
             let target = self.computed();
@@ -248,7 +248,7 @@ impl Translator<'_> {
                 displacement: NOT_DISPLACED,
                 guards,
                 expected: 0,
-                pace: parts.pace,
+                speed_zone: parts.speed_zone,
                 target_span: Span { start, end: behind },
             });
         }
@@ -259,8 +259,8 @@ impl Translator<'_> {
 
     /// A search writes where the robot was when the signal came.
     fn found(&mut self, all: &[Argument]) {
-        let found = all.iter().filter(|argument| argument.option.is_none());
-        if let Some(argument) = found.skip(1).next() {
+        let mut found = all.iter().filter(|argument| argument.option.is_none());
+        if let Some(argument) = found.nth(1) {
             let actual = Expr::Value(self.actual);
             self.write_argument(argument, How::Whole(actual));
         }
@@ -276,33 +276,30 @@ impl Translator<'_> {
             return Expr::Absent;
         };
         // load0 stands for none: the tool's own counts
-        if self.world.spelling(name).eq_ignore_ascii_case("load0") {
+        if self.resolved.spelling(name).eq_ignore_ascii_case("load0") {
             return Expr::Absent;
         }
-        match self.load(name) {
-            Some(load) => {
-                let value = self.loads.get(&name).copied();
-                Expr::Value(value.unwrap_or_else(|| {
-                    let value = self.builder.script.value(Held::Load(Some(load)));
-                    self.loads.insert(name, value);
-                    value
-                }))
-            }
-            None => {
-                self.other_load(name);
-                Expr::Absent
-            }
+        if let Some(load) = self.load(name) {
+            let value = self.loads.get(&name).copied();
+            Expr::Value(value.unwrap_or_else(|| {
+                let value = self.builder.script.value(Held::Load(Some(load)));
+                self.loads.insert(name, value);
+                value
+            }))
+        } else {
+            self.other_load(name);
+            Expr::Absent
         }
     }
 
     /// `GripLoad`
     pub(super) fn grip_load(&mut self, arguments: Part) {
-        let world = self.world;
-        let load = world.notes.arguments[indices(arguments)]
+        let resolved = self.resolved;
+        let load = resolved.parsed.arguments[indices(arguments)]
             .iter()
             .find_map(plain);
         if let Some(load) = load
-            && !world.spelling(load).eq_ignore_ascii_case("load0")
+            && !resolved.spelling(load).eq_ignore_ascii_case("load0")
         {
             self.other_load(load);
         }
@@ -311,7 +308,7 @@ impl Translator<'_> {
     fn other_load(&mut self, load: Symbol) {
         let message = format!(
             "{} is carried here; its mass is not in the tool's load",
-            self.world.spelling(load)
+            self.resolved.spelling(load)
         );
         let hint = "where joints bend under load, give the profile a tool with this load";
         self.say("grip-load", Severity::Note, message, hint);
@@ -364,7 +361,7 @@ impl Translator<'_> {
         } else {
             how
         };
-        let index: Index = self.world.notes.index(index);
+        let index: Index = self.resolved.parsed.index(index);
         for variable in self.written(name, index) {
             let place = self.here;
             let how = how.clone();
@@ -384,8 +381,8 @@ impl Translator<'_> {
 
     /// What a write of a name concerns.
     pub(super) fn written(&mut self, name: Symbol, index: Index) -> Vec<Written> {
-        let world = self.world;
-        let data = match world.meaning(name, self.context) {
+        let resolved = self.resolved;
+        let data = match resolved.meaning(name, self.context) {
             Meaning::Nothing => {
                 if !self.wanted.contains_key(&name) {
                     return Vec::new();
@@ -399,12 +396,12 @@ impl Translator<'_> {
                 return vec![Written::One(variable)];
             }
             Meaning::One(datum) => vec![datum],
-            Meaning::Several(list) => world.several(list).to_vec(),
+            Meaning::Several(list) => resolved.several(list).to_vec(),
         };
         let several = data.len() > 1;
         let mut all = Vec::new();
         for datum in data {
-            let kind = world.datum(datum).kind;
+            let kind = resolved.datum(datum).kind;
             let value = if kind.is_target() {
                 self.position_of_datum(datum, index)
             } else if kind.is_frame() && !several {
@@ -415,7 +412,7 @@ impl Translator<'_> {
             match value {
                 Expr::Variable(variable) if !several => all.push(Written::One(variable)),
                 Expr::Variable(_) | Expr::Any { .. }
-                    if world.is_written(Entity::Declared(datum)) =>
+                    if resolved.is_written(Entity::Declared(datum)) =>
                 {
                     all.push(Written::AnyOf(self.table(datum)));
                 }

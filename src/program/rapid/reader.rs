@@ -6,7 +6,7 @@
 use super::blocks::BLOCK_WORDS;
 use super::expressions::OpenCall;
 use super::syntax::{
-    Argument, Callee, Component, Lengths, Notes, Routine, Statement, StatementKind, Storage, Type,
+    Argument, Callee, Component, Lengths, Parsed, Routine, Statement, StatementKind, Storage, Type,
     Verb,
 };
 use super::tokens::{Fault, Kind, Scanner, Token};
@@ -19,7 +19,7 @@ use crate::program::script::{Place, short};
 #[derive(Clone, Copy)]
 pub(super) struct Mark<'a>(Scanner<'a>, Token, u32, Lengths);
 
-/// Reads one file into the notes of all.
+/// Reads one file into the parsed of all.
 pub(super) struct Reader<'a> {
     pub(super) bytes: &'a [u8],
     scanner: Scanner<'a>,
@@ -27,7 +27,7 @@ pub(super) struct Reader<'a> {
     pub(super) token: Token,
     /// Behind the token before it.
     pub(super) behind: u32,
-    pub(super) notes: &'a mut Notes,
+    pub(super) parsed: &'a mut Parsed,
     pub(super) verbs: &'a mut Verbs,
     pub(super) file: u32,
     pub(super) context: Context,
@@ -67,12 +67,12 @@ impl<'a> Reader<'a> {
     pub(super) fn read(
         source: &'a Source,
         file: u32,
-        notes: &'a mut Notes,
+        parsed: &'a mut Parsed,
         verbs: &'a mut Verbs,
     ) -> Result<bool, Fault> {
         let bytes = &source.bytes;
         let start = content_start(bytes)?;
-        notes.reserve(bytes.len());
+        parsed.reserve(bytes.len());
         let scanner = Scanner::new(bytes, start);
         let mut reader = Self {
             bytes,
@@ -82,9 +82,9 @@ impl<'a> Reader<'a> {
                 start: 0,
                 end: 0,
             },
-            context: outside(notes),
+            context: outside(parsed),
             behind: 0,
-            notes,
+            parsed,
             verbs,
             file,
             module: None,
@@ -118,13 +118,13 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn mark(&self) -> Mark<'a> {
-        Mark(self.scanner, self.token, self.behind, self.notes.lengths())
+        Mark(self.scanner, self.token, self.behind, self.parsed.lengths())
     }
 
     /// Goes back, and takes back what was noted since.
     pub(super) fn rewind(&mut self, mark: Mark<'a>) {
         (self.scanner, self.token, self.behind) = (mark.0, mark.1, mark.2);
-        self.notes.shorten(mark.3);
+        self.parsed.shorten(mark.3);
     }
 
     pub(super) fn text(&self, token: Token) -> &'a [u8] {
@@ -148,7 +148,7 @@ impl<'a> Reader<'a> {
         if self.token.kind != Kind::Name {
             return Err(self.unexpected(expected));
         }
-        let name = self.notes.symbols.intern(self.text(self.token));
+        let name = self.parsed.symbols.intern(self.text(self.token));
         self.advance()?;
         Ok(name)
     }
@@ -222,7 +222,8 @@ impl<'a> Reader<'a> {
                 }
                 self.advance()
             }
-            b"alias" | b"connect" => self.finish_statement(),
+            // `CONNECT i1 WITH trap;` calls nothing: traps run at any time as it is
+            b"alias" | b"connect" => self.skip_statement(),
             word if BLOCK_WORDS.contains(&word) => self.block(first.start, word),
             _ => self.assignment_or_call(),
         }
@@ -255,7 +256,7 @@ impl<'a> Reader<'a> {
         if self.token.is(b'(') {
             self.expression()?;
         }
-        self.context = outside(self.notes);
+        self.context = outside(self.parsed);
         self.text_begins(self.token.start);
         self.recognised = true;
         Ok(())
@@ -271,7 +272,7 @@ impl<'a> Reader<'a> {
         if self.module.take().is_none() {
             return Err(self.unexpected("a statement"));
         }
-        self.context = outside(self.notes);
+        self.context = outside(self.parsed);
         self.text_begins(self.token.end);
         self.advance()
     }
@@ -296,9 +297,9 @@ impl<'a> Reader<'a> {
             self.name("the type of a function")?;
         }
         let name = self.name("the name of a routine")?;
-        let routine = short(self.notes.routines.len());
-        let first = short(self.notes.data.len());
-        self.notes.routines.push(Routine {
+        let routine = short(self.parsed.routines.len());
+        let first = short(self.parsed.data.len());
+        self.parsed.routines.push(Routine {
             name,
             module: self.context.module,
             place,
@@ -314,8 +315,8 @@ impl<'a> Reader<'a> {
         self.text_begins(place.offset);
         if self.token.is(b'(') {
             self.parameters()?;
-            let end = short(self.notes.data.len());
-            self.notes.routines[routine as usize].parameters = (first, end);
+            let end = short(self.parsed.data.len());
+            self.parsed.routines[routine as usize].parameters = (first, end);
         }
         Ok(())
     }
@@ -378,7 +379,7 @@ impl<'a> Reader<'a> {
 
     fn assignment_or_call(&mut self) -> Result<(), Fault> {
         let first = self.token;
-        let name = self.notes.symbols.intern(self.text(first));
+        let name = self.parsed.symbols.intern(self.text(first));
         self.advance()?;
         match self.token.kind {
             Kind::Sign(b':') => {
@@ -395,7 +396,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn note(&mut self, offset: u32, kind: StatementKind) {
-        self.notes.statements.push(Statement { offset, kind });
+        self.parsed.statements.push(Statement { offset, kind });
     }
 
     /// `name{i}.part := value`; the present token is what follows the name.
@@ -422,10 +423,10 @@ impl<'a> Reader<'a> {
 }
 
 /// A context outside routines, of its own.
-fn outside(notes: &mut Notes) -> Context {
-    notes.modules += 1;
+fn outside(parsed: &mut Parsed) -> Context {
+    parsed.modules += 1;
     Context {
-        module: notes.modules - 1,
+        module: parsed.modules - 1,
         routine: None,
     }
 }

@@ -38,7 +38,7 @@ fn word(bytes: &[u8], token: Token) -> String {
 }
 
 /// Whether the bytes look like RAPID.
-pub fn recognises(bytes: &[u8]) -> bool {
+pub(super) fn recognises(bytes: &[u8]) -> bool {
     let bytes_ok = memchr::memchr(0, &bytes[..bytes.len().min(1 << 16)]).is_none();
     let all: Vec<Token> = tokens(bytes).take(TOKENS).collect();
     let is = |at: usize, words: &[&str]| {
@@ -73,7 +73,7 @@ pub fn recognises(bytes: &[u8]) -> bool {
 }
 
 /// Where the marker goes, and its text: behind the line that opens the module, else at the top.
-pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
+pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
     let end = source.line_end();
     let mut text = Vec::new();

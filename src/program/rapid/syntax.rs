@@ -1,4 +1,4 @@
-//! What the reader notes of a text before names are resolved.
+//! What the reader parsed of a text before names are resolved.
 
 use super::aggregate::Leaf;
 use crate::program::names::{Context, Symbol, Symbols};
@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// Everything noted of all files.
 #[derive(Debug, Default)]
-pub struct Notes {
+pub(super) struct Parsed {
     /// Names.
     pub symbols: Symbols,
     /// How many modules there are; text between modules counts as one.
@@ -49,12 +49,12 @@ pub struct Notes {
 
 /// Lengths of the lists that an argument adds to, to take it back.
 #[derive(Clone, Copy)]
-pub struct Lengths([usize; 12]);
+pub(super) struct Lengths([usize; 12]);
 
-impl Notes {
+impl Parsed {
     /// Makes room for what a file of this size may hold, so that lists need not move while they grow: a target with its
     /// numbers takes some 150 bytes, a statement 40.
-    pub fn reserve(&mut self, bytes: usize) {
+    pub(super) fn reserve(&mut self, bytes: usize) {
         self.targets.reserve(bytes / 150);
         self.numbers.reserve(bytes / 14);
         self.data.reserve(bytes / 150);
@@ -64,7 +64,7 @@ impl Notes {
     }
 
     /// The index of a name in an argument; 0 is none.
-    pub fn index(&self, index: u32) -> Index {
+    pub(super) fn index(&self, index: u32) -> Index {
         match index {
             0 => Index::Whole,
             _ => self.indices[index as usize - 1],
@@ -72,7 +72,7 @@ impl Notes {
     }
 
     /// How long the lists are.
-    pub fn lengths(&self) -> Lengths {
+    pub(super) fn lengths(&self) -> Lengths {
         Lengths([
             self.mentions.len(),
             self.steps.len(),
@@ -90,7 +90,7 @@ impl Notes {
     }
 
     /// Takes back what was added since.
-    pub fn shorten(&mut self, to: Lengths) {
+    pub(super) fn shorten(&mut self, to: Lengths) {
         let to = to.0;
         self.mentions.truncate(to[0]);
         self.steps.truncate(to[1]);
@@ -107,17 +107,17 @@ impl Notes {
     }
 }
 
-/// A part of a list of [`Notes`].
-pub type Part = (u32, u32);
+/// A part of a list of [`Parsed`].
+pub(super) type Part = (u32, u32);
 
 /// A part as a range of indices.
-pub fn indices(part: Part) -> Range<usize> {
+pub(super) fn indices(part: Part) -> Range<usize> {
     part.0 as usize..part.1 as usize
 }
 
 /// A number that makes its target unusable.
 #[derive(Clone, Copy, Debug)]
-pub struct BadValue {
+pub(super) struct BadValue {
     /// The target.
     pub target: TargetId,
     /// What is wrong.
@@ -126,7 +126,7 @@ pub struct BadValue {
 
 /// A procedure, function or trap.
 #[derive(Clone, Copy, Debug)]
-pub struct Routine {
+pub(super) struct Routine {
     /// Its name.
     pub name: Symbol,
     /// Its module.
@@ -141,7 +141,7 @@ pub struct Routine {
     pub is_procedure: bool,
     /// An interrupt starts it.
     pub is_trap: bool,
-    /// Its parameters, part of [`Notes::data`].
+    /// Its parameters, part of [`Parsed::data`].
     pub parameters: Part,
     /// It has an error handler, or an undo or backward handler.
     pub has_handler: bool,
@@ -149,7 +149,7 @@ pub struct Routine {
 
 /// The types of data that matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Type {
+pub(super) enum Type {
     Robtarget,
     Jointtarget,
     Tooldata,
@@ -162,7 +162,7 @@ pub enum Type {
 
 impl Type {
     /// The type of this name, in lower case.
-    pub fn named(name: &[u8]) -> Self {
+    pub(super) fn named(name: &[u8]) -> Self {
         match name {
             b"robtarget" => Self::Robtarget,
             b"jointtarget" => Self::Jointtarget,
@@ -175,19 +175,19 @@ impl Type {
     }
 
     /// Whether a robot can go to it.
-    pub fn is_target(self) -> bool {
+    pub(super) fn is_target(self) -> bool {
         matches!(self, Self::Robtarget | Self::Jointtarget)
     }
 
     /// Whether it is a tool or a work object.
-    pub fn is_frame(self) -> bool {
+    pub(super) fn is_frame(self) -> bool {
         matches!(self, Self::Tooldata | Self::Wobjdata)
     }
 }
 
 /// How long data keep what is written into them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Storage {
+pub(super) enum Storage {
     /// CONST: nothing can be written.
     Constant,
     /// PERS: from run to run.
@@ -200,7 +200,7 @@ pub enum Storage {
 
 /// A declaration or a parameter.
 #[derive(Clone, Copy, Debug)]
-pub struct Datum {
+pub(super) struct Datum {
     pub name: Symbol,
     pub kind: Type,
     pub context: Context,
@@ -212,12 +212,12 @@ pub struct Datum {
 
 /// What a declaration gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stored {
+pub(super) enum Stored {
     /// No value.
     Nothing,
-    /// Targets: a single one where `sizes` is all zero, else an array; part of [`Notes::elements`].
+    /// Targets: a single one where `sizes` is all zero, else an array; part of [`Parsed::elements`].
     Elements { elements: Part, sizes: [u32; 3] },
-    /// A tool, frame or load, part of [`Notes::leaves`].
+    /// A tool, frame or load, part of [`Parsed::leaves`].
     Leaves(Part),
     /// An array of tools or frames, or a value that is not written out.
     Computed,
@@ -227,12 +227,12 @@ pub enum Stored {
 
 /// An element of declared targets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Element {
+pub(super) enum Element {
     /// A target with its own numbers.
     Target(TargetId),
     /// A copy of another one.
     Named(Symbol),
-    /// Parts of it are expressions with these names: part of [`Notes::mentions`].
+    /// Parts of it are expressions with these names: part of [`Parsed::mentions`].
     Composed(Part),
     /// Anything else.
     Computed,
@@ -240,7 +240,7 @@ pub enum Element {
 
 /// The index in braces after a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Index {
+pub(super) enum Index {
     /// None.
     Whole,
     /// Constants, from 1; 0 where there is no further one.
@@ -251,17 +251,17 @@ pub enum Index {
 
 /// What stands in an argument.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Expression {
+pub(super) enum Expression {
     /// Nothing: an option without value.
     Nothing,
     /// A name, a target written out or what a function gives, displaced by `steps` from the innermost out: part of
-    /// [`Notes::steps`].
+    /// [`Parsed::steps`].
     Point { base: Base, steps: Part },
     /// A component of data.
     Member { name: Symbol, index: u32 },
-    /// A target some of whose parts are expressions, with the names in it: part of [`Notes::mentions`].
+    /// A target some of whose parts are expressions, with the names in it: part of [`Parsed::mentions`].
     Composed(Part),
-    /// Anything else, with the names in it: part of [`Notes::mentions`].
+    /// Anything else, with the names in it: part of [`Parsed::mentions`].
     Computed(Part),
     /// A string, without its quotes: its bytes.
     Text(u32, u32),
@@ -269,25 +269,25 @@ pub enum Expression {
 
 /// What Offs and `RelTool` start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Base {
-    /// A name, perhaps with an index: see [`Notes::index`].
+pub(super) enum Base {
+    /// A name, perhaps with an index: see [`Parsed::index`].
     Named { name: Symbol, index: u32 },
     /// A target written out.
     Target(u32),
-    /// One of [`Notes::functions`].
+    /// One of [`Parsed::functions`].
     Function(u32),
 }
 
 /// One call of Offs or `RelTool`: amounts x, y, z in mm and about x, y, z in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
+pub(super) enum Step {
     Offs([Amount; 3]),
     RelTool([Amount; 6]),
 }
 
 /// A number in a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Amount {
+pub(super) enum Amount {
     Number(f64),
     /// A name, which may be a constant, times 1 or -1.
     Named(Symbol, f64),
@@ -297,7 +297,7 @@ pub enum Amount {
 
 /// An argument of an instruction or function.
 #[derive(Clone, Copy, Debug)]
-pub struct Argument {
+pub(super) struct Argument {
     /// Name after the backslash.
     pub option: Option<Symbol>,
     /// What stands there.
@@ -308,16 +308,16 @@ pub struct Argument {
 
 /// A function that an expression calls.
 #[derive(Clone, Copy, Debug)]
-pub struct Function {
+pub(super) struct Function {
     pub name: Symbol,
     pub offset: u32,
-    /// Part of [`Notes::given`].
+    /// Part of [`Parsed::given`].
     pub arguments: Part,
 }
 
 /// A statement that matters.
 #[derive(Clone, Copy, Debug)]
-pub struct Statement {
+pub(super) struct Statement {
     /// First byte.
     pub offset: u32,
     pub kind: StatementKind,
@@ -325,7 +325,7 @@ pub struct Statement {
 
 /// The part of a datum that an assignment sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Component {
+pub(super) enum Component {
     /// All of it.
     Whole,
     /// So many leaves of a tool or frame from the first on (see [`super::aggregate`]).
@@ -336,8 +336,8 @@ pub enum Component {
 
 /// What an assignment sets it to.
 #[derive(Clone, Copy, Debug)]
-pub enum Assigned {
-    /// Parts of a tool, frame or load that are written out: part of [`Notes::leaves`].
+pub(super) enum Assigned {
+    /// Parts of a tool, frame or load that are written out: part of [`Parsed::leaves`].
     Leaves(Part),
     /// Anything else.
     To(Expression),
@@ -345,7 +345,7 @@ pub enum Assigned {
 
 /// Which statement.
 #[derive(Clone, Copy, Debug)]
-pub enum StatementKind {
+pub(super) enum StatementKind {
     /// What follows stands in this file and context.
     Text {
         file: u32,
@@ -365,7 +365,7 @@ pub enum StatementKind {
         arguments: Part,
         end: u32,
     },
-    /// A function of the files, or one that may write its arguments: one of [`Notes::functions`].
+    /// A function of the files, or one that may write its arguments: one of [`Parsed::functions`].
     Function(u32),
     If,
     /// `ELSEIF`, `CASE`; `ELSE`, `DEFAULT` where it is the last.
@@ -395,7 +395,7 @@ pub enum StatementKind {
 
 /// What a call names.
 #[derive(Clone, Copy, Debug)]
-pub enum Callee {
+pub(super) enum Callee {
     Named(Symbol),
     /// `%"Module:Routine"%`: the bytes of the name.
     Text(u32, u32),
@@ -405,7 +405,7 @@ pub enum Callee {
 
 /// What an instruction does, as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verb {
+pub(super) enum Verb {
     /// Goes to its targets.
     Move {
         path: Path,
@@ -436,7 +436,7 @@ pub enum Verb {
 
 /// What the controller keeps in mind from one statement to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub(super) enum Mode {
     ConfJ,
     ConfL,
     Wrist,
@@ -446,7 +446,7 @@ pub enum Mode {
 
 /// How a mode is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Set {
+pub(super) enum Set {
     /// By the options of the instruction.
     ByOption,
     On,
@@ -455,7 +455,7 @@ pub enum Set {
 
 /// How a move goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Path {
+pub(super) enum Path {
     Joint,
     /// To a joint target.
     Absolute,

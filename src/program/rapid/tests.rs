@@ -290,7 +290,7 @@ fn a_target_holds_what_was_written_last() {
     let program = path("p3:=Offs(p1,0,0,7);\nMoveL p3,v5,z5,t;\np3.trans.x:=1;\nMoveL p3,v5,z5,t;");
     assert_eq!(to(&program), ["p1", "p1"]);
     assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
-    assert_eq!(program.moves[1].displacement, Displacement::Unknown);
+    assert_eq!(program.moves[1].displacement, Displacement::Overwritten);
 }
 
 #[test]
@@ -771,7 +771,7 @@ fn broken_text_is_an_error_with_its_place() {
         assert!(error.to_string().contains(word), "{error}");
     }
     assert!(matches!(
-        read_files(&["hello world"]),
+        read_files(&["hello resolved"]),
         Err(ReadError::NotThisLanguage { .. })
     ));
     assert!(matches!(

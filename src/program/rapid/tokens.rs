@@ -7,7 +7,7 @@ use crate::program::{ReadError, Source};
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(super) enum Kind {
     /// A name or keyword.
     Name,
     /// Something that starts like a number, with everything that clings to it: `12`, `.5`, `9E+09`, `1.#QNAN`.
@@ -24,7 +24,7 @@ pub enum Kind {
 
 /// A token at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Token {
+pub(super) struct Token {
     /// What it is.
     pub kind: Kind,
     /// Its first byte.
@@ -35,14 +35,14 @@ pub struct Token {
 
 impl Token {
     /// Whether it is this sign.
-    pub fn is(self, sign: u8) -> bool {
+    pub(super) fn is(self, sign: u8) -> bool {
         self.kind == Kind::Sign(sign)
     }
 }
 
 /// Why the text cannot be read, by offsets; becomes a [`ReadError`] with the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub(super) enum Fault {
     /// What opens here is not closed.
     Unclosed { at: u32, what: &'static str },
     /// Something else stands where one thing belongs.
@@ -67,7 +67,7 @@ const SHOWN: usize = 40;
 
 impl Fault {
     /// The error with file, line and column.
-    pub fn in_source(self, source: &Source) -> ReadError {
+    pub(super) fn in_source(self, source: &Source) -> ReadError {
         let file = source.name.clone();
         let place = |at: u32| source.line_column(at as usize);
         let shown = |start: u32, end: u32| {
@@ -162,19 +162,19 @@ fn class(byte: u8) -> Class {
 
 /// Reads tokens one after another.
 #[derive(Clone, Copy, Debug)]
-pub struct Scanner<'a> {
+pub(super) struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl<'a> Scanner<'a> {
     /// Starts at a byte.
-    pub fn new(bytes: &'a [u8], at: usize) -> Self {
+    pub(super) fn new(bytes: &'a [u8], at: usize) -> Self {
         Self { bytes, at }
     }
 
     /// The next token; blanks and comments are passed over.
-    pub fn next(&mut self) -> Result<Token, Fault> {
+    pub(super) fn next(&mut self) -> Result<Token, Fault> {
         let bytes = self.bytes;
         let mut at = self.at;
         let first = loop {

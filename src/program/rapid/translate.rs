@@ -2,10 +2,10 @@
 
 use super::handlers::Handlers;
 use super::records::refused;
+use super::resolved::{Entity, Resolved};
 use super::syntax::{
     Assigned, Component, Expression, Index, Mode, Part, Set, StatementKind, Storage, Type, indices,
 };
-use super::world::{Entity, World};
 use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
@@ -44,7 +44,7 @@ pub(super) struct Modes {
 
 /// Puts a script together.
 pub(super) struct Translator<'a> {
-    pub world: &'a World<'a>,
+    pub resolved: &'a Resolved<'a>,
     pub builder: Builder,
     /// Where the present statement stands.
     pub here: Place,
@@ -78,11 +78,11 @@ pub(super) struct Translator<'a> {
 }
 
 /// The script of what was noted. `dead` are targets that are written over and have no numbers of their own.
-pub(super) fn translate(world: &World, script: Script, dead: HashSet<TargetId>) -> Script {
+pub(super) fn translate(resolved: &Resolved, script: Script, dead: HashSet<TargetId>) -> Script {
     let mut builder = Builder::default();
     builder.script = script;
-    for routine in &world.notes.routines {
-        let name = world.spelling(routine.name);
+    for routine in &resolved.parsed.routines {
+        let name = resolved.spelling(routine.name);
         let start = if routine.is_trap {
             Start::Concurrent
         } else if name.eq_ignore_ascii_case("main") {
@@ -92,11 +92,11 @@ pub(super) fn translate(world: &World, script: Script, dead: HashSet<TargetId>) 
         };
         builder.declare(name, routine.place, start);
     }
-    let find = |word: &[u8]| world.notes.symbols.find(word);
+    let find = |word: &[u8]| resolved.parsed.symbols.find(word);
     let modes = Modes::new(&mut builder.script);
     let script = &mut builder.script;
     let mut translator = Translator {
-        world,
+        resolved,
         here: Place { file: 0, offset: 0 },
         context: Context {
             module: 0,
@@ -137,7 +137,7 @@ pub(super) fn translate(world: &World, script: Script, dead: HashSet<TargetId>) 
     translator.find_own();
     translator.find_wanted();
     translator.external_axes();
-    for at in 0..world.notes.statements.len() {
+    for at in 0..resolved.parsed.statements.len() {
         translator.statement(at);
     }
     translator.close();
@@ -197,37 +197,43 @@ impl Modes {
 }
 
 impl Translator<'_> {
-    pub fn place(&self, offset: u32) -> Place {
+    pub(super) fn place(&self, offset: u32) -> Place {
         Place {
             offset,
             ..self.here
         }
     }
 
-    pub fn say(&mut self, id: &'static str, severity: Severity, message: String, hint: &str) {
-        let source = &self.world.sources[self.here.file as usize];
+    pub(super) fn say(
+        &mut self,
+        id: &'static str,
+        severity: Severity,
+        message: String,
+        hint: &str,
+    ) {
+        let source = &self.resolved.sources[self.here.file as usize];
         let at = self.here.offset as usize;
         let finding = source.finding(at, id, severity, message, hint);
         self.builder.script.findings.push(finding);
     }
 
-    pub fn is_dead(&self, target: TargetId) -> bool {
+    pub(super) fn is_dead(&self, target: TargetId) -> bool {
         self.dead.contains(&target)
     }
 
     // ---- what statements become
 
-    pub fn emit_move(&mut self, instruction: Instruction) {
+    pub(super) fn emit_move(&mut self, instruction: Instruction) {
         self.may_fail();
         self.builder.go(instruction);
     }
 
-    pub fn emit_write(&mut self, write: Write) {
+    pub(super) fn emit_write(&mut self, write: Write) {
         self.may_fail();
         self.builder.write(write);
     }
 
-    pub fn emit_call(&mut self, call: Call) {
+    pub(super) fn emit_call(&mut self, call: Call) {
         self.may_fail();
         self.builder.call(call);
     }
@@ -242,7 +248,7 @@ impl Translator<'_> {
         };
         self.builder.open(routine);
         self.is_open = true;
-        let of = &self.world.notes.routines[routine as usize];
+        let of = &self.resolved.parsed.routines[routine as usize];
         if of.has_handler {
             self.handlers = self.handlers_of(at + 1);
         }
@@ -261,7 +267,7 @@ impl Translator<'_> {
     }
 
     fn statement(&mut self, at: usize) {
-        let statement = self.world.notes.statements[at];
+        let statement = self.resolved.parsed.statements[at];
         self.here.offset = statement.offset;
         if let StatementKind::Text { file, context } = statement.kind {
             self.text(at, file, context);
@@ -291,7 +297,7 @@ impl Translator<'_> {
                 end,
             } => self.call(callee, verb, arguments, end),
             StatementKind::Function(function) => {
-                let next = self.world.notes.statements.get(at + 1);
+                let next = self.resolved.parsed.statements.get(at + 1);
                 let is_last = !next.is_some_and(|n| matches!(n.kind, StatementKind::Function(_)));
                 self.function(function, is_last);
             }
@@ -318,10 +324,10 @@ impl Translator<'_> {
     }
 
     /// A mode of the controller is set.
-    pub fn mode(&mut self, mode: Mode, set: Set, arguments: Part) {
-        let world = self.world;
+    pub(super) fn mode(&mut self, mode: Mode, set: Set, arguments: Part) {
+        let resolved = self.resolved;
         let has = |word: Option<Symbol>| {
-            let all = &world.notes.arguments[indices(arguments)];
+            let all = &resolved.parsed.arguments[indices(arguments)];
             word.is_some() && all.iter().any(|argument| argument.option == word)
         };
         let (modes, words) = (&self.modes, &self.words);
@@ -347,7 +353,7 @@ impl Translator<'_> {
         self.set(variable, Expr::Value(value));
     }
 
-    pub fn set(&mut self, variable: VariableId, value: Expr) {
+    pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
         let place = self.here;
         self.emit_write(Write {
             place,
@@ -358,7 +364,7 @@ impl Translator<'_> {
 
     /// `name{i}.part := value`
     fn assign(&mut self, name: Symbol, index: Index, component: Component, value: Assigned) {
-        let kind = self.world.kind(name, self.context);
+        let kind = self.resolved.kind(name, self.context);
         let is_frame = match kind {
             Some(kind) => kind.is_frame(),
             None => {
@@ -415,7 +421,7 @@ impl Translator<'_> {
         } = expression
         {
             let named = &mut self.builder.script.targets[target as usize].name;
-            *named = Some(self.world.spelling(name).into());
+            *named = Some(self.resolved.spelling(name).into());
         }
         How::Whole(self.position_from(expression, wanted))
     }
@@ -439,7 +445,7 @@ impl Translator<'_> {
             }
             (Component::Whole, Assigned::Leaves(leaves)) => {
                 let parts = self.record_parts(leaves, self.here);
-                let name = self.world.spelling(name).into();
+                let name = self.resolved.spelling(name).into();
                 let record = self.builder.script.value(Held::Record { name, parts });
                 How::Whole(Expr::Value(record))
             }
@@ -455,13 +461,13 @@ impl Translator<'_> {
 
     /// Data of routines' own begin with what they are declared with each time.
     fn find_own(&mut self) {
-        let world = self.world;
-        for (at, datum) in (0..).zip(&world.notes.data) {
+        let resolved = self.resolved;
+        for (at, datum) in (0..).zip(&resolved.parsed.data) {
             let matters = datum.kind.is_target() || datum.kind.is_frame();
             if let Some(routine) = datum.context.routine
                 && matters
                 && datum.storage == Storage::Variable
-                && world.is_written(Entity::Declared(at))
+                && resolved.is_written(Entity::Declared(at))
             {
                 self.own.entry(routine).or_default().push(at);
             }
@@ -469,10 +475,10 @@ impl Translator<'_> {
     }
 
     fn begin_own(&mut self, datum: u32) {
-        let value = if self.world.datum(datum).kind.is_target() {
+        let value = if self.resolved.datum(datum).kind.is_target() {
             self.position_of_datum(datum, Index::Whole)
         } else {
-            self.frame(self.world.datum(datum).name, Index::Whole)
+            self.frame(self.resolved.datum(datum).name, Index::Whole)
         };
         if let Expr::Variable(variable) = value {
             let declared = self.builder.script.variables[variable as usize].declared;
@@ -482,12 +488,12 @@ impl Translator<'_> {
 
     /// What the names are for that are written and not declared.
     fn find_wanted(&mut self) {
-        let world = self.world;
-        if !world.has_undeclared() {
+        let resolved = self.resolved;
+        if !resolved.has_undeclared() {
             return;
         }
-        for at in 0..world.notes.statements.len() {
-            match world.notes.statements[at].kind {
+        for at in 0..resolved.parsed.statements.len() {
+            match resolved.parsed.statements[at].kind {
                 StatementKind::Text { file, context } => {
                     self.here.file = file;
                     self.context = context;
@@ -499,7 +505,7 @@ impl Translator<'_> {
                     ..
                 } => {
                     for (name, kind) in self.wants(callee, verb, arguments) {
-                        if world.kind(name, self.context).is_none() {
+                        if resolved.kind(name, self.context).is_none() {
                             self.wanted.entry(name).or_insert(kind);
                         }
                     }
@@ -511,16 +517,16 @@ impl Translator<'_> {
 
     /// External axes say where the robot or the work piece is carried, which the files do not describe.
     fn external_axes(&mut self) {
-        let notes = &self.world.notes;
-        let moving = notes
+        let parsed = &self.resolved.parsed;
+        let moving = parsed
             .external
             .iter()
             .fold(0, |axes, (_, axis, _)| axes | 1 << axis);
         if moving == 0 {
             return;
         }
-        let mut all: Vec<(TargetId, u8, f64)> = notes.external.clone();
-        for (target, zeros) in notes.external_zeros.iter().enumerate() {
+        let mut all: Vec<(TargetId, u8, f64)> = parsed.external.clone();
+        for (target, zeros) in parsed.external_zeros.iter().enumerate() {
             let standing = (0..6).filter(|axis| zeros & moving & 1 << axis != 0);
             all.extend(standing.map(|axis| (target, axis, 0.0)));
         }

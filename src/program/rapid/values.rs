@@ -2,11 +2,11 @@
 
 use super::builtins::Known;
 use super::records::{assigned, load_of, part_of, refused};
+use super::resolved::Entity;
 use super::syntax::{
     Amount, Base, Element, Expression, Index, Part, Step, Storage, Stored, Type, indices,
 };
 use super::translate::Translator;
-use super::world::Entity;
 use crate::finding::Severity;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
@@ -28,7 +28,7 @@ impl Translator<'_> {
 
     /// A remark about a name, the same for every use of it.
     fn remark(&mut self, name: Symbol, make: impl FnOnce(&str) -> Remark) -> RemarkId {
-        let remark = make(self.world.spelling(name));
+        let remark = make(self.resolved.spelling(name));
         let key = (remark.id, name);
         if let Some(&known) = self.remarks.get(&key) {
             return known;
@@ -106,19 +106,19 @@ impl Translator<'_> {
         context: Context,
         depth: u32,
     ) -> Expr {
-        match self.world.meaning(name, context) {
-            Meaning::Nothing if self.world.is_written(Entity::Undeclared(name)) => {
+        match self.resolved.meaning(name, context) {
+            Meaning::Nothing if self.resolved.is_written(Entity::Undeclared(name)) => {
                 let declared = self.not_in_files(name, wanted);
                 Expr::Variable(self.variable(Entity::Undeclared(name), 0, declared))
             }
             Meaning::Nothing => self.not_in_files(name, wanted),
             Meaning::One(datum) => self.position_of(datum, index, wanted, depth),
             Meaning::Several(list) => {
-                let world = self.world;
-                let all: Vec<Expr> = world
+                let resolved = self.resolved;
+                let all: Vec<Expr> = resolved
                     .several(list)
                     .iter()
-                    .filter(|&&datum| world.datum(datum).kind.is_target())
+                    .filter(|&&datum| resolved.datum(datum).kind.is_target())
                     .map(|&datum| self.position_of(datum, index, wanted, depth))
                     .collect();
                 if all.is_empty() {
@@ -131,14 +131,14 @@ impl Translator<'_> {
     }
 
     fn position_of(&mut self, datum: u32, index: Index, wanted: Type, depth: u32) -> Expr {
-        let declared = *self.world.datum(datum);
+        let declared = *self.resolved.datum(datum);
         if !declared.kind.is_target() {
             return self.not_in_files(declared.name, wanted);
         }
         let Stored::Elements { elements, sizes } = declared.value else {
             let holds = self.computed_name(declared.name);
             let parameter = matches!(declared.storage, Storage::Parameter { .. });
-            if parameter || self.world.is_written(Entity::Declared(datum)) {
+            if parameter || self.resolved.is_written(Entity::Declared(datum)) {
                 return Expr::Variable(self.variable(Entity::Declared(datum), 0, holds));
             }
             return holds;
@@ -170,7 +170,7 @@ impl Translator<'_> {
 
     /// The position that a declaration with an index means.
     pub(super) fn position_of_datum(&mut self, datum: u32, index: Index) -> Expr {
-        let wanted = self.world.datum(datum).kind;
+        let wanted = self.resolved.datum(datum).kind;
         self.position_of(datum, index, wanted, 0)
     }
 
@@ -183,16 +183,16 @@ impl Translator<'_> {
         }
     }
 
-    /// An element of a declaration, by its index in the notes.
+    /// An element of a declaration, by its index in the parsed.
     fn element(&mut self, datum: u32, element: u32, depth: u32) -> Expr {
-        let declared = *self.world.datum(datum);
+        let declared = *self.resolved.datum(datum);
         let entity = Entity::Declared(datum);
-        let is_written = self.world.is_written(entity);
+        let is_written = self.resolved.is_written(entity);
         let key = (entity, element);
         if is_written && let Some(&known) = self.variables.get(&key) {
             return Expr::Variable(known);
         }
-        let holds = match self.world.notes.elements[element as usize] {
+        let holds = match self.resolved.parsed.elements[element as usize] {
             Element::Target(target) if self.is_dead(target) => self.computed_name(declared.name),
             Element::Target(target) => Expr::Target(target),
             Element::Named(_) | Element::Composed(_) if depth > DEEPEST => self.computed(),
@@ -227,10 +227,10 @@ impl Translator<'_> {
 
     /// A position that is worked out from the targets with these names; `None` where there is none.
     fn somewhere_near(&mut self, names: Part) -> Option<Expr> {
-        let world = self.world;
+        let resolved = self.resolved;
         let mut all = Vec::new();
-        for &name in &world.notes.mentions[indices(names)] {
-            let kind = world.kind(name, self.context);
+        for &name in &resolved.parsed.mentions[indices(names)] {
+            let kind = resolved.kind(name, self.context);
             if kind.is_some_and(Type::is_target) {
                 let base = self.position(name, Index::Whole, Type::Robtarget);
                 all.push(self.builder.script.displaced(base, DISPLACED_SOMEHOW));
@@ -246,7 +246,7 @@ impl Translator<'_> {
             Expression::Point { base, steps } => {
                 let base = match base {
                     Base::Named { name, index } => {
-                        let index = self.world.notes.index(index);
+                        let index = self.resolved.parsed.index(index);
                         self.position(name, index, wanted)
                     }
                     Base::Target(target) => Expr::Target(target as usize),
@@ -268,20 +268,20 @@ impl Translator<'_> {
 
     /// The position that a function gives.
     fn given_by(&mut self, function: u32, wanted: Type) -> Expr {
-        let of = self.world.notes.functions[function as usize];
-        if self.world.known(&of) != Known::Actual {
+        let of = self.resolved.parsed.functions[function as usize];
+        if self.resolved.known(&of) != Known::Actual {
             return match self.result_of(function) {
                 Some(result) => Expr::Variable(result),
                 None => self.computed(),
             };
         }
-        let world = self.world;
+        let resolved = self.resolved;
         let mut near = Vec::new();
-        for argument in &world.notes.given[indices(of.arguments)] {
-            let Some(name) = super::world::named(&argument.expression) else {
+        for argument in &resolved.parsed.given[indices(of.arguments)] {
+            let Some(name) = super::resolved::named(&argument.expression) else {
                 continue;
             };
-            match world.kind(name, self.context) {
+            match resolved.kind(name, self.context) {
                 Some(Type::Robtarget) if wanted == Type::Robtarget => {
                     let base = self.position(name, Index::Whole, wanted);
                     near.push(self.builder.script.displaced(base, DISPLACED_SOMEHOW));
@@ -307,7 +307,7 @@ impl Translator<'_> {
                 base: Base::Named { name, index },
                 steps: (a, b),
             } if a == b => {
-                let index = self.world.notes.index(index);
+                let index = self.resolved.parsed.index(index);
                 self.frame(name, index)
             }
             Expression::Point {
@@ -323,7 +323,7 @@ impl Translator<'_> {
 
     /// The tool or work object that a name with an index means.
     pub(super) fn frame(&mut self, name: Symbol, index: Index) -> Expr {
-        let entity = match self.world.meaning(name, self.context) {
+        let entity = match self.resolved.meaning(name, self.context) {
             Meaning::One(datum) => Entity::Declared(datum),
             Meaning::Nothing => Entity::Undeclared(name),
             Meaning::Several(_) => {
@@ -334,7 +334,7 @@ impl Translator<'_> {
                 ));
             }
         };
-        let is_written = self.world.is_written(entity);
+        let is_written = self.resolved.is_written(entity);
         match index {
             Index::Variable => return self.frame_chosen(),
             Index::At(_) if is_written => return self.frame_assigned(),
@@ -342,7 +342,10 @@ impl Translator<'_> {
             Index::Whole => {}
         }
         if let Entity::Declared(datum) = entity
-            && matches!(self.world.datum(datum).storage, Storage::Parameter { .. })
+            && matches!(
+                self.resolved.datum(datum).storage,
+                Storage::Parameter { .. }
+            )
         {
             let chosen = self.frame_chosen();
             return Expr::Variable(self.variable(entity, 0, chosen));
@@ -356,7 +359,7 @@ impl Translator<'_> {
 
     /// An element of an array of tools or work objects.
     fn frame_element(&mut self, name: Symbol, place: [u32; 3]) -> Expr {
-        let name = self.world.spelling(name);
+        let name = self.resolved.spelling(name);
         let name = match place {
             [i, 0, _] => format!("{name}{{{i}}}"),
             [i, j, 0] => format!("{name}{{{i},{j}}}"),
@@ -382,7 +385,7 @@ impl Translator<'_> {
         let (name, place, leaves) = match entity {
             Entity::Undeclared(name) => (name, self.place(0), Stored::Nothing),
             Entity::Declared(datum) => {
-                let datum = self.world.datum(datum);
+                let datum = self.resolved.datum(datum);
                 (datum.name, datum.place, datum.value)
             }
         };
@@ -394,7 +397,7 @@ impl Translator<'_> {
             }
             _ => 0..0,
         };
-        let name = self.world.spelling(name).into();
+        let name = self.resolved.spelling(name).into();
         let value = self.builder.script.value(Held::Record { name, parts });
         self.records.insert(entity, value);
         Expr::Value(value)
@@ -402,7 +405,7 @@ impl Translator<'_> {
 
     /// Leaves as parts of records.
     pub(super) fn record_parts(&mut self, leaves: Part, place: Place) -> std::ops::Range<u32> {
-        let leaves = &self.world.notes.leaves[indices(leaves)];
+        let leaves = &self.resolved.parsed.leaves[indices(leaves)];
         let parts = leaves.iter().map(|&leaf| part_of(leaf, place)).collect();
         self.add_parts(parts)
     }
@@ -419,15 +422,15 @@ impl Translator<'_> {
 
     /// The load of a name that nothing writes, where its numbers are in the files.
     pub(super) fn load(&self, name: Symbol) -> Option<crate::program::Load> {
-        let Meaning::One(datum) = self.world.meaning(name, self.context) else {
+        let Meaning::One(datum) = self.resolved.meaning(name, self.context) else {
             return None;
         };
-        let Stored::Leaves(leaves) = self.world.datum(datum).value else {
+        let Stored::Leaves(leaves) = self.resolved.datum(datum).value else {
             return None;
         };
-        let is_load = self.world.datum(datum).kind == Type::Loaddata;
-        let fixed = is_load && !self.world.is_written(Entity::Declared(datum));
-        fixed.then(|| load_of(&self.world.notes.leaves[indices(leaves)]))?
+        let is_load = self.resolved.datum(datum).kind == Type::Loaddata;
+        let fixed = is_load && !self.resolved.is_written(Entity::Declared(datum));
+        fixed.then(|| load_of(&self.resolved.parsed.leaves[indices(leaves)]))?
     }
 
     // ---- variables
@@ -440,13 +443,13 @@ impl Translator<'_> {
         let script = &mut self.builder.script;
         let variable = match entity {
             Entity::Declared(datum) => {
-                let datum = self.world.datum(datum);
+                let datum = self.resolved.datum(datum);
                 let name = match holds {
                     Expr::Target(target) => script.targets[target].name.clone(),
                     _ => None,
                 };
                 Variable {
-                    name: name.unwrap_or_else(|| self.world.spelling(datum.name).into()),
+                    name: name.unwrap_or_else(|| self.resolved.spelling(datum.name).into()),
                     place: datum.place,
                     declared: holds,
                     kept: datum.storage == Storage::Persistent,
@@ -455,7 +458,7 @@ impl Translator<'_> {
                 }
             }
             Entity::Undeclared(name) => Variable {
-                name: self.world.spelling(name).into(),
+                name: self.resolved.spelling(name).into(),
                 place: self.here,
                 declared: holds,
                 kept: true,
@@ -473,9 +476,9 @@ impl Translator<'_> {
         if let Some(&known) = self.tables.get(&datum) {
             return known;
         }
-        let declared = *self.world.datum(datum);
+        let declared = *self.resolved.datum(datum);
         let mut table = Table {
-            name: self.world.spelling(declared.name).into(),
+            name: self.resolved.spelling(declared.name).into(),
             ..Table::default()
         };
         if let Stored::Elements { elements, .. } = declared.value {
@@ -500,7 +503,7 @@ impl Translator<'_> {
         if steps.0 == steps.1 {
             return NOT_DISPLACED;
         }
-        let found = self.steps(&self.world.notes.steps[indices(steps)]);
+        let found = self.steps(&self.resolved.parsed.steps[indices(steps)]);
         let displacement = match found {
             None => Displacement::Unknown,
             Some(Shift {
@@ -537,8 +540,8 @@ impl Translator<'_> {
         for (value, amount) in values.iter_mut().zip(amounts) {
             *value = match *amount {
                 Amount::Number(number) => number,
-                Amount::Named(name, sign) => match self.world.meaning(name, self.context) {
-                    Meaning::One(datum) => match self.world.datum(datum).value {
+                Amount::Named(name, sign) => match self.resolved.meaning(name, self.context) {
+                    Meaning::One(datum) => match self.resolved.datum(datum).value {
                         Stored::Number(number) => sign * number,
                         _ => return None,
                     },

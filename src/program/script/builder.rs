@@ -58,7 +58,7 @@ impl Builder {
     /// Ends the present routine; blocks that are open end there.
     pub fn close(&mut self) {
         while let Some(block) = self.open.pop() {
-            self.end(block);
+            self.end(&block);
         }
         self.named.clear();
         if let Some((routine, statements, instructions)) = self.routine.take() {
@@ -165,9 +165,9 @@ impl Builder {
 
     /// `ENDIF`, `ENDTEST`, `ENDSWITCH`.
     pub fn end_choice(&mut self) {
-        if matches!(self.open.last(), Some(Block::Choice { .. })) {
-            let block = self.open.pop().expect("a block is open");
-            self.end(block);
+        let is_choice = |block: &mut Block| matches!(block, Block::Choice { .. });
+        if let Some(block) = self.open.pop_if(is_choice) {
+            self.end(&block);
         }
     }
 
@@ -197,8 +197,8 @@ impl Builder {
     }
 
     /// Ends what is open: a loop as one that may be left, or a choice.
-    fn end(&mut self, block: Block) {
-        match block {
+    fn end(&mut self, block: &Block) {
+        match *block {
             Block::Choice { next, end } => {
                 if let Some(next) = next {
                     self.put(next);

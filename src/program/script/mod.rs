@@ -8,7 +8,7 @@ mod builder;
 
 pub use builder::Builder;
 
-use super::{Displacement, Load, Motion, Number, Pace, Target, TargetId};
+use super::{Displacement, Load, Motion, Number, SpeedZone, Target, TargetId};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use std::collections::BTreeMap;
@@ -361,7 +361,7 @@ pub struct Instruction {
     /// Index in [`Script::expected`]: numbers that variables should hold at this move.
     pub expected: u32,
     /// Speed and corner.
-    pub pace: Pace,
+    pub speed_zone: SpeedZone,
     /// Where its target stands in it.
     pub target_span: Span,
 }
@@ -385,7 +385,7 @@ impl Instruction {
             displacement: NOT_DISPLACED,
             guards: 0,
             expected: 0,
-            pace: Pace::default(),
+            speed_zone: SpeedZone::default(),
             target_span: Span::default(),
         }
     }
@@ -470,7 +470,9 @@ impl How {
     /// A part of a position becomes what a text says: a number, or what the running program computes.
     #[must_use]
     pub fn part(text: &[u8], remark: RemarkId) -> Self {
-        if super::number::parse(text.trim_ascii()).is_some() {
+        let text = text.trim_ascii();
+        let text = text.strip_prefix(b"=").unwrap_or(text).trim_ascii();
+        if super::number::parse(text).is_some() {
             Self::PartNumber(remark)
         } else {
             Self::PartSomehow(remark)

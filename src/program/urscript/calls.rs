@@ -6,7 +6,7 @@ use super::syntax::{Called, Event, Expr, ExprId, OTHER, Step, Symbol};
 use super::tokens::{Kind, Token};
 use super::verbs::{self, Verb};
 use crate::program::script::short;
-use crate::program::{Load, Motion, Pace, number};
+use crate::program::{Load, Motion, SpeedZone, number};
 
 /// Calls of moves and poses inside each other that a program may have.
 const MOST_CALLS: u32 = 16;
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
             // `get_forward_kin()` is of the present joints
             verbs::PoseCall::Actual => arguments.is_empty().then_some(Expr::Actual),
         };
-        Ok(expression.map_or(OTHER, |expression| self.notes.add(expression)))
+        Ok(expression.map_or(OTHER, |expression| self.parsed.add(expression)))
     }
 
     /// A call whose name was just read, with its arguments; its value.
@@ -129,7 +129,7 @@ impl<'a> Reader<'a> {
             Verb::Other if self.depth < MOST_LOOKED_INTO && !text.contains(&b'.') => {
                 let arguments = self.arguments()?;
                 let named = |reader: &mut Self, argument: &Argument<'a>| {
-                    let name = argument.name.map(|name| reader.notes.symbol(name));
+                    let name = argument.name.map(|name| reader.parsed.symbol(name));
                     (name, argument.value)
                 };
                 let arguments = arguments.iter().map(|one| named(self, one)).collect();
@@ -152,7 +152,7 @@ impl<'a> Reader<'a> {
             Verb::Force => {
                 let open = self.next()?;
                 self.brackets(open)?;
-                self.notes.forces.push(offset);
+                self.parsed.forces.push(offset);
             }
             Verb::Tool => {
                 let arguments = self.arguments()?;
@@ -208,18 +208,18 @@ impl<'a> Reader<'a> {
         name: Token,
         arguments: Vec<(Option<Symbol>, ExprId)>,
     ) -> ExprId {
-        let first = short(self.notes.arguments.len());
-        self.notes.arguments.extend(arguments);
-        let symbol = self.notes.symbol(self.text(name));
-        self.notes.calls.push(Called {
+        let first = short(self.parsed.arguments.len());
+        self.parsed.arguments.extend(arguments);
+        let symbol = self.parsed.symbol(self.text(name));
+        self.parsed.calls.push(Called {
             name: symbol,
             function: self.function,
             offset: short(name.start),
-            arguments: first..short(self.notes.arguments.len()),
+            arguments: first..short(self.parsed.arguments.len()),
         });
-        let call = short(self.notes.calls.len() - 1);
+        let call = short(self.parsed.calls.len() - 1);
         self.event(Event::Call(call));
-        self.notes.add(Expr::Call(call))
+        self.parsed.add(Expr::Call(call))
     }
 
     fn step_at(
@@ -240,16 +240,15 @@ impl<'a> Reader<'a> {
         };
         let speed = places.speed.and_then(|_| find(places.speed, b"v"));
         let radius = places.radius.and_then(|_| find(places.radius, b"r"));
-        let pace = match places.radius {
-            None => Pace::default(),
-            Some(_) => {
-                // not given is none: the robot stops; a variable says how far
-                let zone_m = radius.map_or(Some(0.0), Argument::number);
-                Pace {
-                    speed_m_s: speed.and_then(Argument::number),
-                    zone_m,
-                    blends: zone_m.is_none(),
-                }
+        let speed_zone = if places.radius.is_none() {
+            SpeedZone::default()
+        } else {
+            // not given is none: the robot stops; a variable says how far
+            let zone_m = radius.map_or(Some(0.0), Argument::number);
+            SpeedZone {
+                speed_m_s: speed.and_then(Argument::number),
+                zone_m,
+                blends: zone_m.is_none(),
             }
         };
         // with a time for the whole way the speed is not obeyed
@@ -264,14 +263,14 @@ impl<'a> Reader<'a> {
             motion,
             target: Some(target.unwrap_or(OTHER)),
             streamed: false,
-            pace,
+            speed_zone,
             repeatable: !is_timed && !is_broken,
         }
     }
 
     fn step(&mut self, step: Step) {
-        self.notes.steps.push(step);
-        let step = short(self.notes.steps.len() - 1);
+        self.parsed.steps.push(step);
+        let step = short(self.parsed.steps.len() - 1);
         self.event(Event::Step(step));
     }
 
@@ -279,10 +278,10 @@ impl<'a> Reader<'a> {
     fn load(&self, arguments: &[Argument]) -> Option<Load> {
         let (mass, cog) = (arguments.first()?, arguments.get(1)?);
         let mass_kg = mass.number().filter(|mass| *mass > 0.0)?;
-        let Expr::Literal(id) = self.notes.expression(cog.value) else {
+        let Expr::Literal(id) = self.parsed.expression(cog.value) else {
             return None;
         };
-        let literal = self.notes.literal(id);
+        let literal = self.parsed.literal(id);
         let start = literal.offset as usize + 1;
         let rest = &self.scanner.bytes[start..];
         let inside = &rest[..memchr::memchr(b']', &rest[..rest.len().min(400)])?];

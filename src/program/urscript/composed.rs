@@ -5,7 +5,7 @@
 
 use super::goals::{Feature, Goal, Goals};
 use super::reader::Reader;
-use super::syntax::{Expr, ExprId, FunctionId, Literal, LiteralId, Notes, Shifted, Symbol};
+use super::syntax::{Expr, ExprId, FunctionId, Literal, LiteralId, Parsed, Shifted, Symbol};
 use super::tokens::{Kind, Scanner, Token};
 use super::variables::{VarId, Variables};
 use super::verbs;
@@ -27,8 +27,8 @@ impl Reader<'_> {
         let mut ahead = self.scanner;
         ahead.at = open.end;
         let is_pose = literal.pose && literal.elements == 6;
-        literal.shifted = shifted(ahead, &mut self.notes).filter(|_| is_pose);
-        let first = self.notes.composed.len();
+        literal.shifted = shifted(ahead, &mut self.parsed).filter(|_| is_pose);
+        let first = self.parsed.composed.len();
         while ahead.at < end
             && let Ok(token) = ahead.next()
         {
@@ -39,19 +39,19 @@ impl Reader<'_> {
             literal.computed = is_pose;
             if !ahead.peek().is(b'(') {
                 let dot = memchr::memchr(b'.', text);
-                let symbol = self.notes.symbol(&text[..dot.unwrap_or(text.len())]);
-                let known = &self.notes.composed[first..];
+                let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
+                let known = &self.parsed.composed[first..];
                 if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
-                    self.notes.composed.push(symbol);
+                    self.parsed.composed.push(symbol);
                 }
             }
         }
-        literal.names = short(first)..short(self.notes.composed.len());
+        literal.names = short(first)..short(self.parsed.composed.len());
     }
 }
 
 /// The elements of another pose in their order, with numbers added to the first three.
-fn shifted<'a>(mut ahead: Scanner<'a>, notes: &mut Notes<'a>) -> Option<Shifted> {
+fn shifted<'a>(mut ahead: Scanner<'a>, parsed: &mut Parsed<'a>) -> Option<Shifted> {
     let bytes = ahead.bytes;
     let text = |token: Token| &bytes[token.start..token.end];
     let mut of: Option<Token> = None;
@@ -83,7 +83,7 @@ fn shifted<'a>(mut ahead: Scanner<'a>, notes: &mut Notes<'a>) -> Option<Shifted>
     }
     let of = of?;
     Some(Shifted {
-        name: notes.symbol(text(of)),
+        name: parsed.symbol(text(of)),
         offset: short(of.start),
         by_m,
     })
@@ -92,15 +92,15 @@ fn shifted<'a>(mut ahead: Scanner<'a>, notes: &mut Notes<'a>) -> Option<Shifted>
 impl Variables<'_, '_> {
     /// Variables whose values are computed from others, with those.
     pub(super) fn find_mentions(&mut self) {
-        let notes = self.notes;
-        if notes.composed.is_empty() {
+        let parsed = self.parsed;
+        if parsed.composed.is_empty() {
             return;
         }
-        let assignments = notes.assignments.iter().zip(&self.assigned);
+        let assignments = parsed.assignments.iter().zip(&self.assigned);
         let at: HashMap<u32, VarId> = assignments
             .map(|(assignment, variable)| (assignment.offset, *variable))
             .collect();
-        for &(name, function, offset) in &notes.mentions {
+        for &(name, function, offset) in &parsed.mentions {
             if let (Some(to), Some(from)) = (at.get(&offset), self.meaning(name, function)) {
                 self.mentioned.entry(*to).or_default().push(from);
             }
@@ -134,27 +134,27 @@ impl Variables<'_, '_> {
 
     /// The variables in a value.
     fn add_behind(&self, value: ExprId, function: FunctionId, open: &mut Vec<VarId>) {
-        let notes = self.notes;
+        let parsed = self.parsed;
         let mut values = vec![value];
         // values inside each other come one after the other, and are not many
         while let Some(value) = values.pop() {
-            match notes.expression(value) {
+            match parsed.expression(value) {
                 Expr::Name(name, _) | Expr::Element(name, _) => {
                     open.extend(self.meaning(name, function));
                 }
                 Expr::Literal(id) => {
-                    let names = notes.names_in(id).iter();
+                    let names = parsed.names_in(id).iter();
                     open.extend(names.filter_map(|name| self.meaning(*name, function)));
                 }
                 Expr::List(list) => {
-                    let names = notes.names_in(notes.lists[list as usize].literal).iter();
+                    let names = parsed.names_in(parsed.lists[list as usize].literal).iter();
                     open.extend(names.filter_map(|name| self.meaning(*name, function)));
                 }
                 Expr::Trans(a, b) | Expr::Add(a, b) => values.extend([a, b]),
                 Expr::Inverse(a) | Expr::Kinematics { pose: a, .. } => values.push(a),
                 Expr::Call(call) => {
                     open.extend(self.result(call));
-                    let given = notes.arguments_of(&notes.calls[call as usize]);
+                    let given = parsed.arguments_of(&parsed.calls[call as usize]);
                     values.extend(given.iter().map(|(_, value)| *value));
                 }
                 Expr::Actual | Expr::Other => {}
@@ -166,8 +166,8 @@ impl Variables<'_, '_> {
 impl Goals<'_, '_, '_> {
     /// Where a pose with expressions is.
     pub(super) fn composed(&mut self, id: LiteralId, function: FunctionId, steps: u32) -> Goal {
-        let notes = self.notes;
-        let literal = notes.literal(id);
+        let parsed = self.parsed;
+        let literal = parsed.literal(id);
         let known = literal.shifted.filter(|shifted| {
             let of = self.variables.meaning(shifted.name, function);
             of.is_some_and(|of| self.variables.list[of as usize].is_position)
@@ -185,7 +185,7 @@ impl Goals<'_, '_, '_> {
         let mut goals = Vec::new();
         for variable in self
             .variables
-            .positions_behind(notes.names_in(id), function)
+            .positions_behind(parsed.names_in(id), function)
         {
             let goal = match self.variables.fixed(variable) {
                 Some(source) => self.goal_within(source.value, source.function, steps),

@@ -117,8 +117,8 @@ impl Reader<'_> {
                             None => waiting.push((b']', next.start)),
                         }
                     } else if looks && !text.contains(&b'.') && !verbs::is_operator(text) {
-                        let symbol = self.notes.symbol(text);
-                        value = self.notes.add(Expr::Name(symbol, short(token.start)));
+                        let symbol = self.parsed.symbol(text);
+                        value = self.parsed.add(Expr::Name(symbol, short(token.start)));
                     }
                 }
                 Kind::End => {
@@ -148,9 +148,9 @@ impl Reader<'_> {
     }
 
     fn mention(&mut self, value: ExprId, statement: usize) {
-        if let Expr::Name(name, _) = self.notes.expression(value) {
+        if let Expr::Name(name, _) = self.parsed.expression(value) {
             let entry = (name, self.function, short(statement));
-            self.notes.mentions.push(entry);
+            self.parsed.mentions.push(entry);
         }
     }
 
@@ -159,9 +159,9 @@ impl Reader<'_> {
         let mut token = first;
         loop {
             if token.kind == Kind::Word && !self.scanner.peek().is(b'(') {
-                let symbol = self.notes.symbol(self.text(token));
+                let symbol = self.parsed.symbol(self.text(token));
                 let entry = (symbol, self.function, short(statement));
-                self.notes.mentions.push(entry);
+                self.parsed.mentions.push(entry);
             }
             match token.kind {
                 Kind::Line | Kind::End => return Ok(()),
@@ -208,21 +208,21 @@ impl Reader<'_> {
                     self.next()?;
                     let number = self.constant_index();
                     self.brackets(next)?;
-                    let symbol = self.notes.symbol(text);
+                    let symbol = self.parsed.symbol(text);
                     if let Some(statement) = statement {
                         let entry = (symbol, self.function, short(statement));
-                        self.notes.mentions.push(entry);
+                        self.parsed.mentions.push(entry);
                     }
                     if self.scanner.peek().is(b'[') || text.contains(&b'.') {
                         return Ok(OTHER);
                     }
-                    return Ok(self.notes.add(Expr::Element(symbol, number)));
+                    return Ok(self.parsed.add(Expr::Element(symbol, number)));
                 }
                 if text.contains(&b'.') || verbs::is_operator(text) {
                     return Ok(OTHER);
                 }
-                let symbol = self.notes.symbol(text);
-                Ok(self.notes.add(Expr::Name(symbol, short(token.start))))
+                let symbol = self.parsed.symbol(text);
+                Ok(self.parsed.add(Expr::Name(symbol, short(token.start))))
             }
             _ => Ok(OTHER),
         }
@@ -245,27 +245,27 @@ impl Reader<'_> {
         let elements = self.elements(open, (!pose).then_some(&mut values))?;
         let mut literal = literals::other(start, self.scanner.at, pose, elements);
         self.look_into(&mut literal, open);
-        self.notes.literals.push(literal);
-        let literal = short(self.notes.literals.len() - 1);
+        self.parsed.literals.push(literal);
+        let literal = short(self.parsed.literals.len() - 1);
         if values.iter().all(|value| *value == OTHER) {
-            return Ok(self.notes.add(Expr::Literal(literal)));
+            return Ok(self.parsed.add(Expr::Literal(literal)));
         }
-        self.notes.lists.push(List {
+        self.parsed.lists.push(List {
             literal,
             elements: values,
         });
-        let list = short(self.notes.lists.len() - 1);
-        Ok(self.notes.add(Expr::List(list)))
+        let list = short(self.parsed.lists.len() - 1);
+        Ok(self.parsed.add(Expr::List(list)))
     }
 
     /// A literal of six numbers behind a bracket that was just read; nothing more is read where it is none.
     fn six(&mut self, open: Token, start: usize, pose: bool) -> Read<Option<ExprId>> {
-        let first = short(self.notes.numbers.len());
+        let first = short(self.parsed.numbers.len());
         let bytes = self.scanner.bytes;
-        match literals::six(bytes, open.end, pose, &mut self.notes.numbers) {
+        match literals::six(bytes, open.end, pose, &mut self.parsed.numbers) {
             Found::Six(content, end) => {
                 self.scanner.at = end;
-                self.notes.literals.push(Literal {
+                self.parsed.literals.push(Literal {
                     offset: short(start),
                     end: short(end),
                     pose,
@@ -276,8 +276,8 @@ impl Reader<'_> {
                     names: 0..0,
                     shifted: None,
                 });
-                let id = short(self.notes.literals.len() - 1);
-                Ok(Some(self.notes.add(Expr::Literal(id))))
+                let id = short(self.parsed.literals.len() - 1);
+                Ok(Some(self.parsed.add(Expr::Literal(id))))
             }
             Found::TooLarge(from, to) => {
                 let (file, line, column) = self.place(from);

@@ -1,6 +1,6 @@
 //! What values mean as positions, features and tools.
 
-use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Notes, Symbol};
+use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol};
 use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
 use crate::finding::Severity;
 use crate::geometry::units::DEG;
@@ -18,7 +18,7 @@ const TOOL: &str = "tcp";
 const BASE: &str = "base";
 
 /// Where a move goes.
-pub struct Goal {
+pub(super) struct Goal {
     pub target: script::Expr,
     pub feature: Feature,
     /// The tool that the inverse is given, where it is not the one that is set.
@@ -31,7 +31,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    pub fn to(target: script::Expr) -> Self {
+    pub(super) fn to(target: script::Expr) -> Self {
         Self {
             target,
             feature: Feature::Base,
@@ -44,7 +44,7 @@ impl Goal {
 }
 
 /// The feature that a position is in.
-pub enum Feature {
+pub(super) enum Feature {
     Base,
     Known(Pose, String),
     Held(script::Expr),
@@ -52,7 +52,7 @@ pub enum Feature {
 
 /// The script's variables for one of the program's.
 #[derive(Clone, Copy, Default)]
-pub struct Facets {
+pub(super) struct Facets {
     /// The position.
     pub position: Option<VariableId>,
     /// The feature that the position is in.
@@ -64,7 +64,7 @@ pub struct Facets {
 }
 
 /// Values and remarks that several places name.
-pub struct Common {
+pub(super) struct Common {
     pub base: ValueId,
     actual: ValueId,
     pub computed: RemarkId,
@@ -77,7 +77,7 @@ pub struct Common {
 }
 
 impl Common {
-    pub fn new(script: &mut Script) -> Self {
+    pub(super) fn new(script: &mut Script) -> Self {
         let base = script.value(Held::Frame(NamedFrame {
             name: BASE.into(),
             pose: Some(Pose::identity()),
@@ -141,12 +141,17 @@ impl Common {
     }
 
     /// What the parameters of a function hold that nothing in the file calls.
-    pub fn from_outside(&self) -> script::Expr {
+    pub(super) fn given_outside(&self) -> script::Expr {
         script::Expr::Unknown(self.not_called)
     }
 
     /// A tool or feature, the same for the same name and pose.
-    pub fn frame(&mut self, script: &mut Script, name: &str, pose: Option<Pose>) -> script::Expr {
+    pub(super) fn frame(
+        &mut self,
+        script: &mut Script,
+        name: &str,
+        pose: Option<Pose>,
+    ) -> script::Expr {
         let key = (name.to_owned(), pose.as_ref().map_or([u64::MAX; 7], bits));
         let value = *self.frames.entry(key).or_insert_with(|| {
             script.value(Held::Frame(NamedFrame {
@@ -159,7 +164,7 @@ impl Common {
     }
 
     /// The tool of a file that sets none.
-    pub fn no_tool(&mut self, script: &mut Script) -> script::Expr {
+    pub(super) fn no_tool(&mut self, script: &mut Script) -> script::Expr {
         self.frame(script, TOOL, None)
     }
 }
@@ -173,8 +178,8 @@ fn bits(pose: &Pose) -> [u64; 7] {
 }
 
 /// Understands the values of one file.
-pub struct Goals<'m, 'n, 'a> {
-    pub notes: &'n Notes<'a>,
+pub(super) struct Goals<'m, 'n, 'a> {
+    pub parsed: &'n Parsed<'a>,
     pub variables: &'m Variables<'n, 'a>,
     pub builder: &'m mut Builder,
     pub common: &'m mut Common,
@@ -192,7 +197,7 @@ pub struct Goals<'m, 'n, 'a> {
 
 impl Goals<'_, '_, '_> {
     /// Follows a position to its numbers.
-    pub fn goal(&mut self, value: ExprId, function: FunctionId) -> Goal {
+    pub(super) fn goal(&mut self, value: ExprId, function: FunctionId) -> Goal {
         self.goal_within(value, function, MOST_STEPS)
     }
 
@@ -204,8 +209,8 @@ impl Goals<'_, '_, '_> {
         let Some(steps) = steps.checked_sub(1) else {
             return self.unknown();
         };
-        match self.notes.expression(value) {
-            Expr::Literal(id) if self.notes.literal(id).computed => {
+        match self.parsed.expression(value) {
+            Expr::Literal(id) if self.parsed.literal(id).computed => {
                 self.composed(id, function, steps)
             }
             Expr::Literal(id) => self.literal(id),
@@ -282,7 +287,7 @@ impl Goals<'_, '_, '_> {
         let goal = self.goal_within(source.value, source.function, steps);
         let span = Span {
             start: offset,
-            end: offset + script::short(self.notes.bytes(name).len()),
+            end: offset + script::short(self.parsed.bytes(name).len()),
         };
         Goal {
             span: if goal.is_plain { span } else { Span::default() },
@@ -308,7 +313,7 @@ impl Goals<'_, '_, '_> {
     }
 
     fn literal(&self, id: LiteralId) -> Goal {
-        let literal = self.notes.literal(id);
+        let literal = self.parsed.literal(id);
         match self.targets[id as usize] {
             Some(target) => Goal {
                 span: Span {
@@ -385,7 +390,7 @@ impl Goals<'_, '_, '_> {
             return;
         };
         if let Some(target) = self.targets[id as usize] {
-            let at = self.notes.literal(id).offset;
+            let at = self.parsed.literal(id).offset;
             self.offsets.push((target, at));
             if let script::Expr::Target(of) = of {
                 self.offsets.push((of, at));
@@ -395,14 +400,14 @@ impl Goals<'_, '_, '_> {
 
     fn not_in_files(&mut self, name: Symbol) -> script::Expr {
         let script = &mut self.builder.script;
-        let notes = self.notes;
+        let parsed = self.parsed;
         let remark = *self.unknown.entry(name).or_insert_with(|| {
             script.remarks.push(Remark {
                 id: "target-not-in-files",
                 severity: Severity::Error,
                 text: format!(
                     "`{}`: the file does not assign this variable; the move is not compensated",
-                    notes.spelling(name)
+                    parsed.spelling(name)
                 )
                 .into(),
                 hint: "save the program together with the installation's variables",
@@ -416,8 +421,8 @@ impl Goals<'_, '_, '_> {
     fn feature(&mut self, value: ExprId, function: FunctionId) -> Feature {
         match self.variables.constant(value, function) {
             Ok(pose) => {
-                let name = match self.notes.expression(value) {
-                    Expr::Name(name, _) => self.notes.spelling(name),
+                let name = match self.parsed.expression(value) {
+                    Expr::Name(name, _) => self.parsed.spelling(name),
                     _ => "feature".into(),
                 };
                 Feature::Known(pose, name)
@@ -439,7 +444,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// A feature as an expression.
-    pub fn frame_of(&mut self, feature: Feature) -> script::Expr {
+    pub(super) fn frame_of(&mut self, feature: Feature) -> script::Expr {
         match feature {
             Feature::Base => script::Expr::Value(self.common.base),
             Feature::Known(pose, name) => {
@@ -451,7 +456,12 @@ impl Goals<'_, '_, '_> {
     }
 
     /// A feature or tool by its name.
-    pub fn named_frame(&mut self, value: ExprId, function: FunctionId, name: &str) -> script::Expr {
+    pub(super) fn named_frame(
+        &mut self,
+        value: ExprId,
+        function: FunctionId,
+        name: &str,
+    ) -> script::Expr {
         match self.variables.constant(value, function) {
             Ok(pose) => self
                 .common
@@ -461,14 +471,14 @@ impl Goals<'_, '_, '_> {
     }
 
     /// A tool.
-    pub fn tool(&mut self, value: ExprId, function: FunctionId) -> script::Expr {
+    pub(super) fn tool(&mut self, value: ExprId, function: FunctionId) -> script::Expr {
         self.named_frame(value, function, TOOL)
     }
 
     fn not_constant(&mut self, why: NotConstant) -> script::Expr {
         let held = match why {
             NotConstant::Unknown(name) => {
-                let name = self.notes.spelling(name);
+                let name = self.parsed.spelling(name);
                 return self.common.frame(&mut self.builder.script, &name, None);
             }
             NotConstant::Changing(variable) => self.held[variable as usize].frame,
@@ -498,8 +508,8 @@ impl Goals<'_, '_, '_> {
         let (Expr::Literal(id), _) = self.variables.follow(value, function) else {
             return None;
         };
-        let literal = self.notes.literal(id);
-        let values = self.notes.values(literal).filter(|_| !literal.pose)?;
+        let literal = self.parsed.literal(id);
+        let values = self.parsed.values(literal).filter(|_| !literal.pose)?;
         let unit = if literal.content == Content::Degrees {
             DEG
         } else {
@@ -509,12 +519,12 @@ impl Goals<'_, '_, '_> {
     }
 
     /// Whether a value holds a target that moves go to elsewhere.
-    pub fn has_target(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+    pub(super) fn has_target(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
         let Some(steps) = steps.checked_sub(1) else {
             return false;
         };
         let inner = |value| self.has_target(value, function, steps);
-        match self.notes.expression(value) {
+        match self.parsed.expression(value) {
             Expr::Literal(id) => self.targets[id as usize].is_some(),
             Expr::Name(name, _) => {
                 self.variables.meaning(name, function).is_some_and(|v| {
@@ -537,12 +547,12 @@ impl Goals<'_, '_, '_> {
     }
 
     /// Whether a value may be a pose, not joints.
-    pub fn may_be_pose(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+    pub(super) fn may_be_pose(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
         let Some(steps) = steps.checked_sub(1) else {
             return true;
         };
-        match self.notes.expression(value) {
-            Expr::Literal(id) => self.notes.literal(id).pose,
+        match self.parsed.expression(value) {
+            Expr::Literal(id) => self.parsed.literal(id).pose,
             Expr::Name(name, _) => self.variables.meaning(name, function).is_some_and(|v| {
                 let mut sources = self.variables.sources(v);
                 sources.any(|s| self.may_be_pose(s.value, s.function, steps / 2))

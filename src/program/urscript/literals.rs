@@ -7,7 +7,7 @@ use crate::program::number::{parse, parse_start};
 use crate::program::script::short;
 
 /// What the brackets hold.
-pub enum Found {
+pub(super) enum Found {
     /// Six numbers, and the byte behind the closing bracket.
     Six(Content, usize),
     /// Not six numbers.
@@ -25,7 +25,7 @@ fn blanks(bytes: &[u8], mut at: usize) -> usize {
 
 /// Reads six numbers from the byte behind the opening bracket into `numbers`, which stays as it was where they are not
 /// six.
-pub fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) -> Found {
+pub(super) fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) -> Found {
     let first = numbers.len();
     let mut degrees = [false; 6];
     let mut at = start;
@@ -95,7 +95,7 @@ pub fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) ->
 }
 
 /// A literal whose elements are not six numbers.
-pub fn other(offset: usize, end: usize, pose: bool, elements: u32) -> Literal {
+pub(super) fn other(offset: usize, end: usize, pose: bool, elements: u32) -> Literal {
     Literal {
         offset: short(offset),
         end: short(end),

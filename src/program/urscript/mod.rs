@@ -196,7 +196,13 @@ fn script(sources: &[Source]) -> Result<Script, ReadError> {
                 missing: "a function, a move or set_tcp",
             });
         }
-        translate(&mut builder, &mut common, source, short(file), reader.notes);
+        translate(
+            &mut builder,
+            &mut common,
+            source,
+            short(file),
+            reader.parsed,
+        );
     }
     Ok(builder.finish())
 }

@@ -1,10 +1,10 @@
 //! Statements: functions, blocks, assignments.
 
-use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, Notes, OTHER, Reach};
+use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, OTHER, Parsed, Reach};
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
 use crate::program::script::short;
-use crate::program::{ReadError, Source};
+use crate::program::{ReadError, Source, number};
 
 /// Blocks inside each other that a program may have.
 const MOST_BLOCKS: usize = 200;
@@ -23,10 +23,10 @@ struct Block {
 }
 
 /// Reads one file.
-pub struct Reader<'a> {
+pub(super) struct Reader<'a> {
     source: &'a Source,
     pub(super) scanner: Scanner<'a>,
-    pub notes: Notes<'a>,
+    pub parsed: Parsed<'a>,
     pub(super) function: FunctionId,
     blocks: Vec<Block>,
     /// Calls around the one that is being read.
@@ -38,14 +38,14 @@ pub struct Reader<'a> {
 pub(super) type Read<T> = Result<T, ReadError>;
 
 impl<'a> Reader<'a> {
-    pub fn new(source: &'a Source) -> Self {
-        let mut notes = Notes::default();
-        notes.add(Expr::Other);
-        notes.functions.push(Function::default());
+    pub(super) fn new(source: &'a Source) -> Self {
+        let mut parsed = Parsed::default();
+        parsed.add(Expr::Other);
+        parsed.functions.push(Function::default());
         Self {
             source,
             scanner: Scanner::new(&source.bytes),
-            notes,
+            parsed,
             function: 0,
             blocks: Vec::new(),
             depth: 0,
@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Where a block, bracket or text is not closed, or something else stands where the language wants one thing.
-    pub fn read(mut self) -> Read<Self> {
+    pub(super) fn read(mut self) -> Read<Self> {
         loop {
             let token = self.next()?;
             match token.kind {
@@ -118,7 +118,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn event(&mut self, event: Event) {
-        self.notes.functions[self.function as usize]
+        self.parsed.functions[self.function as usize]
             .events
             .push(event);
     }
@@ -132,9 +132,10 @@ impl<'a> Reader<'a> {
                 self.function(first, true)
             }
             b"if" => {
+                let never = self.is_never_true();
                 self.header()?;
                 self.open(BlockKind::Branch, first, "`if`")?;
-                self.event(Event::If);
+                self.event(if never { Event::Never } else { Event::If });
                 Ok(())
             }
             b"elif" => {
@@ -271,7 +272,7 @@ impl<'a> Reader<'a> {
                 Kind::End => return Err(self.unclosed(open.start, "a bracket")),
                 Kind::Sign(b',') => wants_name = true,
                 Kind::Word if wants_name => {
-                    let symbol = self.notes.symbol(self.text(token));
+                    let symbol = self.parsed.symbol(self.text(token));
                     let mut value = None;
                     if self.assigns() {
                         self.next()?;
@@ -284,8 +285,8 @@ impl<'a> Reader<'a> {
             }
         }
         self.header()?;
-        let symbol = self.notes.symbol(self.text(name));
-        self.notes.functions.push(Function {
+        let symbol = self.parsed.symbol(self.text(name));
+        self.parsed.functions.push(Function {
             name: Some(symbol),
             offset: short(first.start),
             parent: self.function,
@@ -293,7 +294,7 @@ impl<'a> Reader<'a> {
             parameters,
             events: Vec::new(),
         });
-        self.function = short(self.notes.functions.len() - 1);
+        self.function = short(self.parsed.functions.len() - 1);
         Ok(())
     }
 
@@ -303,12 +304,46 @@ impl<'a> Reader<'a> {
         };
         match block.kind {
             BlockKind::Function => {
-                self.function = self.notes.functions[self.function as usize].parent;
+                self.function = self.parsed.functions[self.function as usize].parent;
             }
             BlockKind::Branch => self.event(Event::EndIf),
             BlockKind::Loop { endless } => self.event(Event::EndLoop { endless }),
         }
         Ok(())
+    }
+
+    /// Whether a condition is two numbers that are not the same, `1 == 2`, or `False`.
+    fn is_never_true(&self) -> bool {
+        let mut ahead = self.scanner;
+        let mut next = || {
+            ahead.next().unwrap_or(Token {
+                kind: Kind::End,
+                start: 0,
+                end: 0,
+            })
+        };
+        let mut token = next();
+        let in_brackets = token.is(b'(');
+        if in_brackets {
+            token = next();
+        }
+        let is_false = token.kind == Kind::Word && matches!(self.text(token), b"False" | b"false");
+        if !is_false {
+            let signs = [next(), next()];
+            let (a, b) = (token, next());
+            let value = |token: Token| number::parse(self.text(token));
+            let (Some(a), Some(b)) = (value(a), value(b)) else {
+                return false;
+            };
+            if !signs.iter().all(|sign| sign.is(b'=')) || a.total_cmp(&b).is_eq() {
+                return false;
+            }
+        }
+        if in_brackets && !next().is(b')') {
+            return false;
+        }
+        let end = next();
+        end.is(b':') || end.kind == Kind::Line
     }
 
     /// What follows `if`, `while`, `def name()`: to the colon or the end of the line.
@@ -367,8 +402,8 @@ impl<'a> Reader<'a> {
         let text = self.text(name);
         // `a.b = …` changes a part of a
         let dot = memchr::memchr(b'.', text);
-        let symbol = self.notes.symbol(&text[..dot.unwrap_or(text.len())]);
-        self.notes.assignments.push(Assignment {
+        let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
+        self.parsed.assignments.push(Assignment {
             name: symbol,
             function: self.function,
             reach,
@@ -376,7 +411,7 @@ impl<'a> Reader<'a> {
             offset: short(name.start),
             part: part || dot.is_some(),
         });
-        let number = short(self.notes.assignments.len() - 1);
+        let number = short(self.parsed.assignments.len() - 1);
         self.event(Event::Assign(number));
     }
 

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 const NO_AXIS: f64 = 1e-12;
 
 /// The pose of six numbers, angles in radians or degrees.
-pub fn pose(numbers: [f64; 6], degrees: bool) -> Pose {
+pub(super) fn pose(numbers: [f64; 6], degrees: bool) -> Pose {
     let [x, y, z, rx, ry, rz] = numbers;
     let unit = if degrees { DEG } else { 1.0 };
     let vector = [rx, ry, rz].map(|angle| angle * unit);
@@ -19,10 +19,10 @@ pub fn pose(numbers: [f64; 6], degrees: bool) -> Pose {
 }
 
 /// No rotation vector has a longer part, radians.
-pub const MOST_ANGLE: f64 = 2.0 * TAU;
+pub(super) const MOST_ANGLE: f64 = 2.0 * TAU;
 
 /// A part of the rotation vector that is longer than any that is meant, in its own unit.
-pub fn endless(numbers: &[f64; 6], degrees: bool) -> Option<f64> {
+pub(super) fn endless(numbers: &[f64; 6], degrees: bool) -> Option<f64> {
     let unit = if degrees { DEG } else { 1.0 };
     let parts = numbers[3..].iter().copied();
     parts
@@ -31,7 +31,7 @@ pub fn endless(numbers: &[f64; 6], degrees: bool) -> Option<f64> {
 }
 
 /// The six numbers of a pose, the vector as near as can be to that of the present numbers.
-pub fn numbers(pose: &Pose, present: [f64; 6], degrees: bool) -> [f64; 6] {
+pub(super) fn numbers(pose: &Pose, present: [f64; 6], degrees: bool) -> [f64; 6] {
     let unit = if degrees { DEG } else { 1.0 };
     let old = [present[3], present[4], present[5]].map(|angle| angle * unit);
     let [rx, ry, rz] = nearest(pose.rotation.vector(), old).map(|angle| angle / unit);

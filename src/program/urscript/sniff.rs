@@ -58,7 +58,7 @@ fn calls(line: &[u8]) -> bool {
 }
 
 /// Whether the bytes look like `URScript`.
-pub fn recognises(bytes: &[u8]) -> bool {
+pub(super) fn recognises(bytes: &[u8]) -> bool {
     let bytes = &bytes[..bytes.len().min(LOOKED_AT)];
     if memchr::memchr(0, bytes).is_some() {
         return false;
@@ -84,7 +84,7 @@ pub fn recognises(bytes: &[u8]) -> bool {
 }
 
 /// Where the marker goes, and its text: behind the line that opens the first function, else at the top.
-pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
+pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
     let end = source.line_end();
     let mut text = Vec::new();

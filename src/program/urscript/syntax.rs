@@ -1,30 +1,30 @@
 //! What is noted of one file before names mean anything.
 
 use crate::program::script::short;
-use crate::program::{Load, Motion, Number, Pace};
+use crate::program::{Load, Motion, Number, SpeedZone};
 use std::collections::HashMap;
 use std::ops::Range;
 
 /// A name of the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Symbol(pub u32);
+pub(super) struct Symbol(pub u32);
 
-/// Index in [`Notes::expressions`].
-pub type ExprId = u32;
-/// Index in [`Notes::literals`].
-pub type LiteralId = u32;
-/// Index in [`Notes::functions`]; 0 is the text outside functions.
-pub type FunctionId = u32;
+/// Index in [`Parsed::expressions`].
+pub(super) type ExprId = u32;
+/// Index in [`Parsed::literals`].
+pub(super) type LiteralId = u32;
+/// Index in [`Parsed::functions`]; 0 is the text outside functions.
+pub(super) type FunctionId = u32;
 
 /// The value of everything that is not looked into.
-pub const OTHER: ExprId = 0;
+pub(super) const OTHER: ExprId = 0;
 
 /// A value as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Expr {
+pub(super) enum Expr {
     /// `p[…]` or `[…]`.
     Literal(LiteralId),
-    /// `[…]` with poses, lists or names in it: index in [`Notes::lists`].
+    /// `[…]` with poses, lists or names in it: index in [`Parsed::lists`].
     List(u32),
     /// A variable, and its first byte.
     Name(Symbol, u32),
@@ -42,7 +42,7 @@ pub enum Expr {
         near: Option<ExprId>,
         tcp: Option<ExprId>,
     },
-    /// What a function of the file returns: index in [`Notes::calls`].
+    /// What a function of the file returns: index in [`Parsed::calls`].
     Call(u32),
     /// Where the robot is.
     Actual,
@@ -52,7 +52,7 @@ pub enum Expr {
 
 /// What stands between the brackets of a literal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
+pub(super) enum Content {
     /// Six numbers.
     Numbers,
     /// Six numbers, the angles (of joints all six, of poses the last three) inside `d2r(…)`.
@@ -63,7 +63,7 @@ pub enum Content {
 
 /// `p[…]` or `[…]`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Literal {
+pub(super) struct Literal {
     /// Its first byte.
     pub offset: u32,
     /// Behind its last byte.
@@ -71,13 +71,13 @@ pub struct Literal {
     /// It has a `p`.
     pub pose: bool,
     pub content: Content,
-    /// In [`Notes::numbers`].
+    /// In [`Parsed::numbers`].
     pub numbers: Range<u32>,
     /// Elements between its commas.
     pub elements: u32,
     /// Only the running program knows its elements.
     pub computed: bool,
-    /// Where it is: the names in it, in [`Notes::composed`].
+    /// Where it is: the names in it, in [`Parsed::composed`].
     pub names: Range<u32>,
     /// The pose is another one, shifted along the base by what the text tells.
     pub shifted: Option<Shifted>,
@@ -85,7 +85,7 @@ pub struct Literal {
 
 /// `p[a[0] + 0.1, a[1], a[2] - 0.05, a[3], a[4], a[5]]`
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shifted {
+pub(super) struct Shifted {
     pub name: Symbol,
     /// Its first byte.
     pub offset: u32,
@@ -94,14 +94,14 @@ pub struct Shifted {
 
 /// A list and what stands between its commas.
 #[derive(Debug)]
-pub struct List {
+pub(super) struct List {
     pub literal: LiteralId,
     pub elements: Vec<ExprId>,
 }
 
 /// Where an assignment puts a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reach {
+pub(super) enum Reach {
     /// `global x = …`
     Global,
     /// `local x = …`
@@ -112,7 +112,7 @@ pub enum Reach {
 
 /// `x = …`, or an element of x.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Assignment {
+pub(super) struct Assignment {
     pub name: Symbol,
     pub function: FunctionId,
     pub reach: Reach,
@@ -124,7 +124,7 @@ pub struct Assignment {
 
 /// A move as the text has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub(super) struct Step {
     /// First byte of the instruction.
     pub offset: u32,
     /// Behind its last byte.
@@ -134,25 +134,25 @@ pub struct Step {
     pub target: Option<ExprId>,
     /// The controller follows it as a stream of set points.
     pub streamed: bool,
-    pub pace: Pace,
+    pub speed_zone: SpeedZone,
     /// The call can be written again with another target.
     pub repeatable: bool,
 }
 
 /// A call of a function that is none of the language.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Called {
+pub(super) struct Called {
     pub name: Symbol,
     pub function: FunctionId,
     pub offset: u32,
-    /// In [`Notes::arguments`].
+    /// In [`Parsed::arguments`].
     pub arguments: Range<u32>,
 }
 
 /// A statement, in the order of the text of one function.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Event {
-    /// Index in [`Notes::assignments`].
+pub(super) enum Event {
+    /// Index in [`Parsed::assignments`].
     Assign(u32),
     /// `set_tcp(…)`, at a byte.
     Tool(ExprId, u32),
@@ -160,9 +160,11 @@ pub enum Event {
     Load(Option<Load>, u32),
     /// Moves go along a frame that moves from here on, or no longer.
     Tracking(bool, u32),
-    /// Index in [`Notes::calls`].
+    /// Index in [`Parsed::calls`].
     Call(u32),
     If,
+    /// `if` with a condition that is never true: nothing runs before its first branch.
+    Never,
     /// `switch`: nothing runs before its first branch.
     Switch,
     /// `elif`, `case`; the last one is `else` or `default`.
@@ -181,13 +183,13 @@ pub enum Event {
     Continue,
     Return(ExprId, u32),
     Halt,
-    /// Index in [`Notes::steps`].
+    /// Index in [`Parsed::steps`].
     Step(u32),
 }
 
 /// A function, a thread, or the text outside them.
 #[derive(Clone, Debug, Default)]
-pub struct Function {
+pub(super) struct Function {
     pub name: Option<Symbol>,
     pub offset: u32,
     pub parent: FunctionId,
@@ -199,7 +201,7 @@ pub struct Function {
 
 /// All of one file.
 #[derive(Debug, Default)]
-pub struct Notes<'a> {
+pub(super) struct Parsed<'a> {
     pub expressions: Vec<Expr>,
     pub literals: Vec<Literal>,
     pub lists: Vec<List>,
@@ -220,8 +222,8 @@ pub struct Notes<'a> {
     spellings: Vec<&'a [u8]>,
 }
 
-impl<'a> Notes<'a> {
-    pub fn symbol(&mut self, name: &'a [u8]) -> Symbol {
+impl<'a> Parsed<'a> {
+    pub(super) fn symbol(&mut self, name: &'a [u8]) -> Symbol {
         let next = Symbol(short(self.spellings.len()));
         let spellings = &mut self.spellings;
         *self.symbols.entry(name).or_insert_with(|| {
@@ -230,42 +232,42 @@ impl<'a> Notes<'a> {
         })
     }
 
-    pub fn spelling(&self, symbol: Symbol) -> String {
+    pub(super) fn spelling(&self, symbol: Symbol) -> String {
         crate::program::Source::text(self.spellings[symbol.0 as usize])
     }
 
     /// A name as it stands in the file.
-    pub fn bytes(&self, symbol: Symbol) -> &'a [u8] {
+    pub(super) fn bytes(&self, symbol: Symbol) -> &'a [u8] {
         self.spellings[symbol.0 as usize]
     }
 
-    pub fn expression(&self, id: ExprId) -> Expr {
+    pub(super) fn expression(&self, id: ExprId) -> Expr {
         self.expressions[id as usize]
     }
 
-    pub fn literal(&self, id: LiteralId) -> &Literal {
+    pub(super) fn literal(&self, id: LiteralId) -> &Literal {
         &self.literals[id as usize]
     }
 
-    pub fn add(&mut self, expression: Expr) -> ExprId {
+    pub(super) fn add(&mut self, expression: Expr) -> ExprId {
         self.expressions.push(expression);
         short(self.expressions.len() - 1)
     }
 
     /// The names in a pose with expressions.
-    pub fn names_in(&self, id: LiteralId) -> &[Symbol] {
+    pub(super) fn names_in(&self, id: LiteralId) -> &[Symbol] {
         let names = &self.literal(id).names;
         &self.composed[names.start as usize..names.end as usize]
     }
 
     /// The values of a literal with its numbers written out, in the file's units.
-    pub fn values(&self, literal: &Literal) -> Option<[f64; 6]> {
+    pub(super) fn values(&self, literal: &Literal) -> Option<[f64; 6]> {
         let range = literal.numbers.start as usize..literal.numbers.end as usize;
         let numbers = self.numbers.get(range)?;
         (numbers.len() == 6).then(|| std::array::from_fn(|i| numbers[i].value))
     }
 
-    pub fn arguments_of(&self, call: &Called) -> &[(Option<Symbol>, ExprId)] {
+    pub(super) fn arguments_of(&self, call: &Called) -> &[(Option<Symbol>, ExprId)] {
         &self.arguments[call.arguments.start as usize..call.arguments.end as usize]
     }
 }

@@ -4,7 +4,7 @@
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(super) enum Kind {
     /// A name or a word of the language, dots inside included.
     Word,
     /// Something that starts as a number does, without its sign.
@@ -21,7 +21,7 @@ pub enum Kind {
 
 /// A token and its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Token {
+pub(super) struct Token {
     pub kind: Kind,
     pub start: usize,
     pub end: usize,
@@ -29,21 +29,21 @@ pub struct Token {
 
 impl Token {
     /// Whether it is this sign.
-    pub fn is(self, sign: u8) -> bool {
+    pub(super) fn is(self, sign: u8) -> bool {
         self.kind == Kind::Sign(sign)
     }
 }
 
 /// Why there is no next token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OpenText {
+pub(super) struct OpenText {
     /// Where the text starts.
     pub start: usize,
 }
 
 /// Reads tokens from the front.
 #[derive(Clone, Copy, Debug)]
-pub struct Scanner<'a> {
+pub(super) struct Scanner<'a> {
     pub bytes: &'a [u8],
     pub at: usize,
     line_start: bool,
@@ -54,7 +54,7 @@ fn in_word(byte: u8) -> bool {
 }
 
 /// The first byte behind a byte order mark.
-pub fn content_start(bytes: &[u8]) -> usize {
+pub(super) fn content_start(bytes: &[u8]) -> usize {
     if bytes.starts_with(b"\xef\xbb\xbf") {
         3
     } else {
@@ -63,7 +63,7 @@ pub fn content_start(bytes: &[u8]) -> usize {
 }
 
 impl<'a> Scanner<'a> {
-    pub fn new(bytes: &'a [u8]) -> Self {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self {
             bytes,
             at: content_start(bytes),
@@ -80,7 +80,7 @@ impl<'a> Scanner<'a> {
     ///
     /// # Errors
     /// Where a text has no end on its line.
-    pub fn next(&mut self) -> Result<Token, OpenText> {
+    pub(super) fn next(&mut self) -> Result<Token, OpenText> {
         loop {
             let Some(&byte) = self.bytes.get(self.at) else {
                 return Ok(self.token(Kind::End, 0));
@@ -129,7 +129,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The next token, which stays next; a text without end is one to the end of the file.
-    pub fn peek(&self) -> Token {
+    pub(super) fn peek(&self) -> Token {
         let mut ahead = *self;
         ahead.next().unwrap_or_else(|open| Token {
             kind: Kind::Text,
@@ -148,7 +148,7 @@ impl<'a> Scanner<'a> {
 }
 
 /// Bytes of a number without sign: digits, points, letters, and a sign behind an exponent's letter.
-pub fn number_length(text: &[u8]) -> usize {
+pub(super) fn number_length(text: &[u8]) -> usize {
     let mut at = 0;
     while let Some(&byte) = text.get(at) {
         let exponent_sign = matches!(byte, b'+' | b'-')

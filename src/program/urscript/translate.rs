@@ -1,8 +1,8 @@
 //! The statements of one file.
 
 use super::goals::{Common, Facets, Goals};
-use super::syntax::{Called, Content, Event, Expr, ExprId, FunctionId, Notes, Step};
-use super::variables::{MOST_STEPS, VarId, Variables, Way};
+use super::syntax::{Called, Content, Event, Expr, ExprId, FunctionId, Parsed, Step};
+use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use super::verbs;
 use crate::finding::Severity;
 use crate::program::script::{
@@ -13,23 +13,23 @@ use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
 use std::collections::{HashMap, HashSet};
 
 /// Adds the statements of a file.
-pub fn translate(
+pub(super) fn translate(
     builder: &mut Builder,
     common: &mut Common,
     source: &Source,
     file: u32,
-    mut notes: Notes,
+    mut parsed: Parsed,
 ) {
-    let variables = Variables::new(&notes);
+    let variables = Variables::new(&parsed);
     let mut translator = Translator::new(builder, common, source, file, &variables);
     translator.list_targets();
     translator.declare_variables();
-    for function in 0..short(notes.functions.len()) {
+    for function in 0..short(parsed.functions.len()) {
         translator.function(function);
     }
     translator.goals.builder.close();
     translator.report();
-    builder.script.numbers.append(&mut notes.numbers);
+    builder.script.numbers.append(&mut parsed.numbers);
 }
 
 struct Translator<'m, 'n, 'a> {
@@ -55,11 +55,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         file: u32,
         variables: &'m Variables<'n, 'a>,
     ) -> Self {
-        let notes = variables.notes;
+        let parsed = variables.parsed;
         let place = Place { file, offset: 0 };
         let first_routine = short(builder.script.routines.len());
-        for (at, function) in notes.functions.iter().enumerate() {
-            let name = function.name.map_or(String::new(), |n| notes.spelling(n));
+        for (at, function) in parsed.functions.iter().enumerate() {
+            let name = function.name.map_or(String::new(), |n| parsed.spelling(n));
             let start = match (at, function.thread) {
                 (0, _) => Start::Main,
                 (_, true) => Start::Concurrent,
@@ -104,12 +104,12 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         });
         Self {
             goals: Goals {
-                notes,
+                parsed,
                 variables,
                 builder,
                 common,
                 held: vec![Facets::default(); variables.list.len()],
-                targets: vec![None; notes.literals.len()],
+                targets: vec![None; parsed.literals.len()],
                 unknown: HashMap::new(),
                 lost_start: false,
                 offsets: Vec::new(),
@@ -137,11 +137,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
 
     /// Lists the literals that moves go to.
     fn list_targets(&mut self) {
-        let notes = self.goals.notes;
+        let parsed = self.goals.parsed;
         let mut names = HashMap::new();
-        for assignment in &notes.assignments {
-            let value = match notes.expression(assignment.value) {
-                Expr::Kinematics { pose, .. } => notes.expression(pose),
+        for assignment in &parsed.assignments {
+            let value = match parsed.expression(assignment.value) {
+                Expr::Kinematics { pose, .. } => parsed.expression(pose),
                 other => other,
             };
             if let Expr::Literal(id) = value
@@ -155,18 +155,18 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             .filter(|id| all[*id as usize])
             .collect();
         literals.retain(|id| {
-            let literal = notes.literal(*id);
+            let literal = parsed.literal(*id);
             (literal.pose || literal.elements == 6) && !literal.computed
         });
-        literals.sort_by_key(|id| notes.literal(*id).offset);
+        literals.sort_by_key(|id| parsed.literal(*id).offset);
         let first = short(self.goals.builder.script.numbers.len());
         self.goals.builder.script.targets.reserve(literals.len());
         for id in literals {
-            let literal = notes.literal(id);
+            let literal = parsed.literal(id);
             let is_known = literal.content != Content::Expressions;
             let targets = &mut self.goals.builder.script.targets;
             targets.push(Target {
-                name: names.get(&id).map(|name| notes.spelling(*name).into()),
+                name: names.get(&id).map(|name| parsed.spelling(*name).into()),
                 file: self.file,
                 offset: literal.offset,
                 layout: Layout {
@@ -243,14 +243,15 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             let routine = variables
                 .routine_of(short(at))
                 .map(|f| self.first_routine + f);
-            let name = self.goals.notes.spelling(variable.name);
+            let name = self.goals.parsed.spelling(variable.name);
             let from_outside = match variable.parameter {
-                Some(_) => self.goals.common.from_outside(),
+                Some(_) => self.goals.common.given_outside(),
                 None => script::Expr::Absent,
             };
-            let position = match variable.has_parts {
-                true => self.first_target(short(at)).unwrap_or(from_outside),
-                false => from_outside,
+            let position = if variable.has_parts {
+                self.first_target(short(at)).unwrap_or(from_outside)
+            } else {
+                from_outside
             };
             let frame = match variable.parameter {
                 Some(_) => script::Expr::Unknown(self.goals.common.frame_computed),
@@ -282,8 +283,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     /// The first target that is assigned to a variable: what is written of it in parts is that target's.
     fn first_target(&self, variable: VarId) -> Option<script::Expr> {
         let mut sources = self.goals.variables.sources(variable);
-        sources.find_map(|source| match self.goals.notes.expression(source.value) {
-            Expr::Literal(id) if source.way == Way::Whole => {
+        sources.find_map(|source| match self.goals.parsed.expression(source.value) {
+            Expr::Literal(id) if source.way == Assigned::Whole => {
                 self.goals.targets[id as usize].map(script::Expr::Target)
             }
             _ => None,
@@ -293,10 +294,28 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     // ---- statements
 
     fn function(&mut self, function: FunctionId) {
-        let notes = self.goals.notes;
+        let parsed = self.goals.parsed;
         let routine = self.first_routine + function;
         self.goals.builder.open(routine);
-        for event in &notes.functions[function as usize].events {
+        // blocks around that never run, from the outermost such `if` on
+        let mut dead = 0_u32;
+        for event in &parsed.functions[function as usize].events {
+            match event {
+                Event::Never if dead == 0 => dead = 1,
+                Event::Branch { .. } if dead == 1 => dead = 0,
+                Event::If | Event::Never | Event::Switch | Event::Loop if dead > 0 => {
+                    dead += 1;
+                    continue;
+                }
+                Event::EndIf | Event::EndLoop { .. } if dead > 0 => {
+                    dead -= 1;
+                    if dead > 0 {
+                        continue;
+                    }
+                }
+                _ if dead > 0 => continue,
+                _ => {}
+            }
             let builder = &mut *self.goals.builder;
             match *event {
                 Event::Assign(number) => self.assign(number),
@@ -309,22 +328,23 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     self.write(Some(self.load), How::Whole(load), offset);
                 }
                 Event::Tracking(on, offset) => {
-                    let held = match on {
-                        true => Held::Remark(builder.script.remark(Remark {
-                            id: "moving-frame",
-                            severity: Severity::Error,
-                            text: "moves along a conveyor, with a path offset or on a part that moves are not compensated".into(),
-                            hint: "",
-                        })),
-                        false => Held::Flag(false),
+                    let held = if on {
+                        Held::Remark(builder.script.remark(Remark {
+                        id: "moving-frame",
+                        severity: Severity::Error,
+                        text: "moves along a conveyor, with a path offset or on a part that moves are not compensated".into(),
+                        hint: "",
+                    }))
+                    } else {
+                        Held::Flag(false)
                     };
                     let value = builder.script.value(held);
                     let how = How::Whole(script::Expr::Value(value));
                     self.write(Some(self.tracking), how, offset);
                 }
-                Event::Call(call) => self.call(&notes.calls[call as usize]),
+                Event::Call(call) => self.call(&parsed.calls[call as usize]),
                 Event::If => builder.begin_if(),
-                Event::Switch => builder.begin_choice(),
+                Event::Switch | Event::Never => builder.begin_choice(),
                 Event::Branch { is_last } => builder.next_branch(is_last),
                 Event::EndIf => builder.end_choice(),
                 Event::Loop => builder.begin_loop(false),
@@ -344,7 +364,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     self.goals.builder.back();
                 }
                 Event::Halt => builder.exit(),
-                Event::Step(step) => self.step(&notes.steps[step as usize], function),
+                Event::Step(step) => self.step(&parsed.steps[step as usize], function),
             }
         }
     }
@@ -361,7 +381,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     }
 
     fn assign(&mut self, number: u32) {
-        let assignment = &self.goals.notes.assignments[number as usize];
+        let assignment = &self.goals.parsed.assignments[number as usize];
         let variable = self.goals.variables.assigned[number as usize];
         let offset = assignment.offset;
         if !assignment.part {
@@ -403,7 +423,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
         if let Some(frame) = held.frame {
             let name = self.goals.variables.list[variable as usize].name;
-            let name = self.goals.notes.spelling(name);
+            let name = self.goals.parsed.spelling(name);
             found.push((frame, self.goals.named_frame(value, function, &name)));
         }
         found
@@ -437,14 +457,14 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     }
 
     fn call(&mut self, call: &Called) {
-        let notes = self.goals.notes;
+        let parsed = self.goals.parsed;
         let callees = self.goals.variables.callees(call).to_vec();
-        if callees.is_empty() && verbs::is_of_language(notes.bytes(call.name)) {
+        if callees.is_empty() && verbs::is_of_language(parsed.bytes(call.name)) {
             return;
         }
         let mut arguments = Vec::new();
         if callees.is_empty() {
-            for &(_, value) in notes.arguments_of(call) {
+            for &(_, value) in parsed.arguments_of(call) {
                 if self.goals.has_target(value, call.function, MOST_STEPS) {
                     let value = self.goals.goal(value, call.function).target;
                     arguments.push(Argument {
@@ -456,16 +476,15 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             }
         }
         for &callee in &callees {
-            for position in 0..notes.functions[callee as usize].parameters.len() {
+            for position in 0..parsed.functions[callee as usize].parameters.len() {
                 let (parameter, given) = self.goals.variables.given(call, callee, position);
-                let values = match given {
-                    Some((value, function)) => self.values(parameter, value, function),
+                let values = if let Some((value, function)) = given {
+                    self.values(parameter, value, function)
+                } else {
                     // what was given before is no longer there
-                    None => {
-                        let held = self.goals.held[parameter as usize].position;
-                        let outside = self.goals.common.from_outside();
-                        held.map(|held| (held, outside)).into_iter().collect()
-                    }
+                    let held = self.goals.held[parameter as usize].position;
+                    let outside = self.goals.common.given_outside();
+                    held.map(|held| (held, outside)).into_iter().collect()
                 };
                 arguments.extend(values.into_iter().map(|(parameter, value)| Argument {
                     parameter: Some(parameter),
@@ -482,10 +501,10 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             place,
             callees: callees.iter().map(|f| self.first_routine + f).collect(),
             foreign: callees.is_empty(),
-            name: notes.spelling(call.name).into(),
+            name: parsed.spelling(call.name).into(),
             arguments: first..short(builder.script.arguments.len()),
         };
-        let is_thread = |callee: &FunctionId| notes.functions[*callee as usize].thread;
+        let is_thread = |callee: &FunctionId| parsed.functions[*callee as usize].thread;
         if callees.iter().any(is_thread) {
             builder.start(call);
         } else {
@@ -503,7 +522,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             frame: script::Expr::Value(self.goals.common.base),
             load: script::Expr::Variable(self.load),
             guards: self.guards[0],
-            pace: step.pace,
+            speed_zone: step.speed_zone,
             ..Instruction::at(place)
         };
         if let Some(target) = step.target {
@@ -544,7 +563,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 at,
             );
         }
-        for &offset in &self.goals.notes.forces {
+        for &offset in &self.goals.parsed.forces {
             let remarks = &self.goals.builder.script.remarks;
             let remark = &remarks[self.goals.common.somewhere as usize];
             let (id, message) = (remark.id, remark.text.to_string());
@@ -555,16 +574,16 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
 
     /// Values that are computed from targets.
     fn report_copies(&mut self) {
-        let notes = self.goals.notes;
+        let parsed = self.goals.parsed;
         let mut said = HashSet::new();
-        for &(name, function, offset) in &notes.mentions {
+        for &(name, function, offset) in &parsed.mentions {
             let Some(variable) = self.goals.variables.meaning(name, function) else {
                 continue;
             };
             let targets = &self.goals.builder.script.targets;
             let mut sources = self.goals.variables.sources(variable);
             let is_target = !self.goals.variables.list[variable as usize].has_parts
-                && sources.any(|source| match notes.expression(source.value) {
+                && sources.any(|source| match parsed.expression(source.value) {
                     Expr::Literal(id) => self.goals.targets[id as usize].is_some_and(|target| {
                         let target = &targets[target];
                         !target.blocked && target.layout.shape == Shape::Pose
@@ -576,7 +595,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             }
             let message = format!(
                 "a value is computed from `{}`, whose numbers change",
-                notes.spelling(name)
+                parsed.spelling(name)
             );
             let hint = "look where the new value is used";
             self.say(offset, "target-copied", Severity::Warning, message, hint);

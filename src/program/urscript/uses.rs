@@ -5,22 +5,22 @@
 //! target in it.
 
 use super::syntax::{Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
-use super::variables::{MOST_STEPS, VarId, Variables, Way};
+use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use crate::program::script::short;
 
 impl Variables<'_, '_> {
     /// Finds the literals and variables that moves go to.
     pub(super) fn find_targets(&mut self) {
-        let notes = self.notes;
+        let parsed = self.parsed;
         let mut open = Vec::new();
         // what `pose_trans(a, b)` goes to depends on whether others go to a
         for round in 0..4 {
             let mut changed = false;
             let mut seen = vec![false; self.list.len()];
-            for (at, function) in notes.functions.iter().enumerate() {
+            for (at, function) in parsed.functions.iter().enumerate() {
                 for event in &function.events {
                     if let Event::Step(step) = event
-                        && let Some(target) = notes.steps[*step as usize].target
+                        && let Some(target) = parsed.steps[*step as usize].target
                     {
                         open.push((target, short(at)));
                         changed |= self.mark_targets(&mut open, &mut seen, round > 0);
@@ -40,10 +40,10 @@ impl Variables<'_, '_> {
         seen: &mut [bool],
         through_features: bool,
     ) -> bool {
-        let notes = self.notes;
+        let parsed = self.parsed;
         let mut changed = false;
         while let Some((value, function)) = open.pop() {
-            let variable = match notes.expression(value) {
+            let variable = match parsed.expression(value) {
                 Expr::Literal(id) => {
                     changed |= !std::mem::replace(&mut self.targets[id as usize], true);
                     None
@@ -82,7 +82,7 @@ impl Variables<'_, '_> {
             {
                 let of = &mut self.list[variable as usize];
                 changed |= !std::mem::replace(&mut of.is_position, true);
-                let whole = self.sources(variable).filter(|s| s.way != Way::Part);
+                let whole = self.sources(variable).filter(|s| s.way != Assigned::Part);
                 open.extend(whole.map(|source| (source.value, source.function)));
             }
         }
@@ -90,10 +90,10 @@ impl Variables<'_, '_> {
     }
 
     /// A list of six values that are no literals: joints.
-    pub fn joints_of(&self, list: u32) -> Option<LiteralId> {
-        let list = &self.notes.lists[list as usize];
+    pub(super) fn joints_of(&self, list: u32) -> Option<LiteralId> {
+        let list = &self.parsed.lists[list as usize];
         let is_plain = |value: &ExprId| {
-            let value = self.notes.expression(*value);
+            let value = self.parsed.expression(*value);
             matches!(value, Expr::Name(..) | Expr::Other)
         };
         (list.elements.len() == 6 && list.elements.iter().all(is_plain)).then_some(list.literal)
@@ -101,7 +101,7 @@ impl Variables<'_, '_> {
 
     /// What an element of a list may be: by its number where the list is written out once, else any. `None` where the
     /// text does not tell them all.
-    pub fn elements(
+    pub(super) fn elements(
         &self,
         name: Symbol,
         at: Option<u32>,
@@ -114,14 +114,14 @@ impl Variables<'_, '_> {
         while let Some(&variable) = seen.get(next) {
             next += 1;
             for (number, source) in self.sources(variable).enumerate() {
-                is_one &= number == 0 && source.way != Way::Part;
-                if source.way == Way::Part {
+                is_one &= number == 0 && source.way != Assigned::Part;
+                if source.way == Assigned::Part {
                     found.push((source.value, source.function));
                     continue;
                 }
-                match self.notes.expression(source.value) {
+                match self.parsed.expression(source.value) {
                     Expr::List(list) => {
-                        let elements = &self.notes.lists[list as usize].elements;
+                        let elements = &self.parsed.lists[list as usize].elements;
                         found.extend(elements.iter().map(|value| (*value, source.function)));
                     }
                     Expr::Name(name, _) => {
@@ -131,7 +131,7 @@ impl Variables<'_, '_> {
                         }
                     }
                     // an empty list is filled by its elements
-                    Expr::Literal(id) if self.notes.literal(id).elements <= 1 => {}
+                    Expr::Literal(id) if self.parsed.literal(id).elements <= 1 => {}
                     _ => return None,
                 }
                 if seen.len() > MOST_STEPS as usize {
@@ -143,19 +143,20 @@ impl Variables<'_, '_> {
             found = vec![*found.get(at as usize)?];
         }
         // an element of this list is one of the others; lists of lists are not looked into
-        let again = |(value, function): &(ExprId, FunctionId)| match self.notes.expression(*value) {
+        let again = |(value, function): &(ExprId, FunctionId)| match self.parsed.expression(*value)
+        {
             Expr::Element(name, _) => self.meaning(name, *function),
             _ => None,
         };
         found.retain(|one| !again(one).is_some_and(|variable| seen.contains(&variable)));
         let is_plain = found
             .iter()
-            .all(|(value, _)| !matches!(self.notes.expression(*value), Expr::Element(..)));
+            .all(|(value, _)| !matches!(self.parsed.expression(*value), Expr::Element(..)));
         is_plain.then_some(found)
     }
 
     /// Whether a value is, by names alone, a position that moves go to.
-    pub fn goes_to(&self, value: ExprId, function: FunctionId) -> bool {
+    pub(super) fn goes_to(&self, value: ExprId, function: FunctionId) -> bool {
         match self.follow(value, function) {
             (Expr::Literal(id), _) => self.targets[id as usize],
             (Expr::Name(name, _), function) => self.meaning(name, function).is_some_and(|v| {
@@ -166,7 +167,7 @@ impl Variables<'_, '_> {
     }
 
     /// Whether a value is where the robot is, or displaced from there: what stands in it is no target.
-    pub fn is_actual(&self, value: ExprId, function: FunctionId) -> bool {
+    pub(super) fn is_actual(&self, value: ExprId, function: FunctionId) -> bool {
         self.comes_from_actual(value, function, MOST_STEPS)
     }
 
@@ -174,11 +175,11 @@ impl Variables<'_, '_> {
         let Some(steps) = steps.checked_sub(1) else {
             return false;
         };
-        match self.notes.expression(value) {
+        match self.parsed.expression(value) {
             Expr::Actual => true,
             Expr::Trans(a, _) | Expr::Add(a, _) => self.comes_from_actual(a, function, steps),
             Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
-                let mut sources = self.sources(variable).filter(|s| s.way != Way::Part);
+                let mut sources = self.sources(variable).filter(|s| s.way != Assigned::Part);
                 let mut all = sources.by_ref().take(MOST_STEPS as usize).peekable();
                 all.peek().is_some()
                     && all.all(|s| self.comes_from_actual(s.value, s.function, steps / 2))
@@ -190,14 +191,14 @@ impl Variables<'_, '_> {
 
     /// Finds the variables that are features and tools, and those whose positions have some of their own.
     pub(super) fn find_frames(&mut self) {
-        let notes = self.notes;
+        let parsed = self.parsed;
         let mut open = Vec::new();
-        for (at, function) in notes.functions.iter().enumerate() {
+        for (at, function) in parsed.functions.iter().enumerate() {
             for event in &function.events {
                 match *event {
                     Event::Tool(value, _) => open.push((value, short(at))),
                     Event::Step(step) => {
-                        if let Some(target) = notes.steps[step as usize].target {
+                        if let Some(target) = parsed.steps[step as usize].target {
                             self.frames_in(target, short(at), &mut open);
                         }
                     }
@@ -213,7 +214,7 @@ impl Variables<'_, '_> {
             }
         }
         while let Some((value, function)) = open.pop() {
-            let variable = match notes.expression(value) {
+            let variable = match parsed.expression(value) {
                 Expr::Name(name, _) => self.meaning(name, function),
                 _ => None,
             };
@@ -255,7 +256,7 @@ impl Variables<'_, '_> {
         function: FunctionId,
         found: &mut Vec<(ExprId, FunctionId)>,
     ) {
-        match self.notes.expression(value) {
+        match self.parsed.expression(value) {
             Expr::Trans(a, _) if self.goes_to(a, function) => self.frames_in(a, function, found),
             Expr::Trans(a, b) => {
                 found.push((a, function));
@@ -279,15 +280,14 @@ impl Variables<'_, '_> {
             let Some(variable) = variable else {
                 return (false, false);
             };
-            match self.fixed(variable) {
-                Some(source) => self.has_own(source.value, source.function, steps),
-                None => {
-                    let of = &self.list[variable as usize];
-                    (of.in_features, of.with_tools)
-                }
+            if let Some(source) = self.fixed(variable) {
+                self.has_own(source.value, source.function, steps)
+            } else {
+                let of = &self.list[variable as usize];
+                (of.in_features, of.with_tools)
             }
         };
-        match self.notes.expression(value) {
+        match self.parsed.expression(value) {
             Expr::Name(name, _) => of(self.meaning(name, function)),
             Expr::Call(call) => of(self.result(call)),
             Expr::Trans(a, b) if !self.goes_to(a, function) => {

@@ -3,24 +3,24 @@
 //! A `global` is one in the whole file, a `local` and what a function alone assigns belong to that function; what a function
 //! and one around it assign is taken for one variable.
 
-use super::syntax::{Assignment, Called, Event, Expr, ExprId, FunctionId, Notes, Reach, Symbol};
+use super::syntax::{Assignment, Called, Event, Expr, ExprId, FunctionId, Parsed, Reach, Symbol};
 use crate::geometry::Pose;
 use crate::program::script::short;
 use std::collections::{HashMap, HashSet};
 
 /// Names that stand for each other in turn, and calls inside each other, that are followed.
-pub const MOST_STEPS: u32 = 12;
+pub(super) const MOST_STEPS: u32 = 12;
 /// Functions of one name that are told apart: a program has one.
 const MOST_OF_A_NAME: usize = 4;
 /// No source follows.
 const NONE: u32 = u32::MAX;
 
 /// Index in [`Variables::list`].
-pub type VarId = u32;
+pub(super) type VarId = u32;
 
 /// How a variable gets a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub(super) enum Assigned {
     /// `x = …`
     Whole,
     /// `x[i] = …`
@@ -31,17 +31,17 @@ pub enum Way {
 
 /// One of the values that a variable gets.
 #[derive(Clone, Copy, Debug)]
-pub struct Source {
+pub(super) struct Source {
     pub value: ExprId,
     /// In which the names of the value are looked up.
     pub function: FunctionId,
-    pub way: Way,
+    pub way: Assigned,
     next: u32,
 }
 
 /// A variable, a parameter, or what a function returns.
 #[derive(Clone, Debug)]
-pub struct Variable {
+pub(super) struct Variable {
     pub name: Symbol,
     pub offset: u32,
     /// The function whose parameter it is.
@@ -62,7 +62,7 @@ pub struct Variable {
 
 /// Why a pose is not constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NotConstant {
+pub(super) enum NotConstant {
     /// A variable has more than one value; it is the whole pose.
     Changing(VarId),
     /// This name is assigned nowhere; it is the whole pose.
@@ -75,8 +75,8 @@ pub enum NotConstant {
 
 /// The variables of a file.
 #[derive(Debug)]
-pub struct Variables<'n, 'a> {
-    pub notes: &'n Notes<'a>,
+pub(super) struct Variables<'n, 'a> {
+    pub parsed: &'n Parsed<'a>,
     pub list: Vec<Variable>,
     sources: Vec<Source>,
     /// The variable of each assignment.
@@ -94,16 +94,16 @@ pub struct Variables<'n, 'a> {
 }
 
 impl<'n, 'a> Variables<'n, 'a> {
-    pub fn new(notes: &'n Notes<'a>) -> Self {
+    pub(super) fn new(parsed: &'n Parsed<'a>) -> Self {
         let mut functions: HashMap<Symbol, Vec<FunctionId>> = HashMap::new();
-        for (at, function) in notes.functions.iter().enumerate() {
+        for (at, function) in parsed.functions.iter().enumerate() {
             if let Some(name) = function.name {
                 functions.entry(name).or_default().push(short(at));
             }
         }
         functions.retain(|_, all| all.len() <= MOST_OF_A_NAME);
         let mut variables = Self {
-            notes,
+            parsed,
             list: Vec::new(),
             sources: Vec::new(),
             assigned: Vec::new(),
@@ -112,7 +112,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             functions,
             sets_tool: false,
             mentioned: HashMap::new(),
-            targets: vec![false; notes.literals.len()],
+            targets: vec![false; parsed.literals.len()],
         };
         variables.declare_parameters();
         variables.assign();
@@ -143,7 +143,7 @@ impl<'n, 'a> Variables<'n, 'a> {
         short(self.list.len() - 1)
     }
 
-    fn source(&mut self, variable: VarId, value: ExprId, function: FunctionId, way: Way) {
+    fn source(&mut self, variable: VarId, value: ExprId, function: FunctionId, way: Assigned) {
         let at = short(self.sources.len());
         self.sources.push(Source {
             value,
@@ -152,7 +152,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             next: NONE,
         });
         let of = &mut self.list[variable as usize];
-        of.has_parts |= way == Way::Part;
+        of.has_parts |= way == Assigned::Part;
         if of.first == NONE {
             of.first = at;
         } else {
@@ -162,7 +162,7 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The values that a variable gets.
-    pub fn sources(&self, variable: VarId) -> impl Iterator<Item = Source> + '_ {
+    pub(super) fn sources(&self, variable: VarId) -> impl Iterator<Item = Source> + '_ {
         let mut at = self.list[variable as usize].first;
         std::iter::from_fn(move || {
             let source = *self.sources.get(at as usize)?;
@@ -172,19 +172,19 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The function that a variable belongs to alone: no function in it assigns it.
-    pub fn routine_of(&self, variable: VarId) -> Option<FunctionId> {
+    pub(super) fn routine_of(&self, variable: VarId) -> Option<FunctionId> {
         let of = &self.list[variable as usize];
         if of.parameter.is_some() {
             return of.parameter;
         }
-        let mut owners = self.sources(variable).filter(|s| s.way != Way::Given);
+        let mut owners = self.sources(variable).filter(|s| s.way != Assigned::Given);
         let first = owners.next()?.function;
         let is_own = self.names.get(&(first, of.name)) == Some(&variable);
         (first != 0 && is_own && owners.all(|s| s.function == first)).then_some(first)
     }
 
     fn declare_parameters(&mut self) {
-        for (at, function) in self.notes.functions.iter().enumerate() {
+        for (at, function) in self.parsed.functions.iter().enumerate() {
             let at = short(at);
             for &(name, _) in &function.parameters {
                 let variable = self.add(name, function.offset, Some(at));
@@ -194,11 +194,11 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     fn assign(&mut self) {
-        let notes = self.notes;
+        let parsed = self.parsed;
         let global = |a: &&Assignment| {
             a.reach == Reach::Global || (a.function == 0 && a.reach == Reach::Plain)
         };
-        let all = &notes.assignments;
+        let all = &parsed.assignments;
         let globals: HashSet<Symbol> = all.iter().filter(global).map(|a| a.name).collect();
         let plain: HashSet<(FunctionId, Symbol)> = all
             .iter()
@@ -217,24 +217,23 @@ impl<'n, 'a> Variables<'n, 'a> {
                 }
                 let mut around = owner;
                 while around != 0 {
-                    around = notes.functions[around as usize].parent;
+                    around = parsed.functions[around as usize].parent;
                     if plain.contains(&(around, name)) {
                         owner = around;
                     }
                 }
             }
-            let variable = match self.names.get(&(owner, name)) {
-                Some(known) => *known,
-                None => {
-                    let made = self.add(name, assignment.offset, None);
-                    self.names.insert((owner, name), made);
-                    made
-                }
+            let variable = if let Some(known) = self.names.get(&(owner, name)) {
+                *known
+            } else {
+                let made = self.add(name, assignment.offset, None);
+                self.names.insert((owner, name), made);
+                made
             };
             let way = if assignment.part {
-                Way::Part
+                Assigned::Part
             } else {
-                Way::Whole
+                Assigned::Whole
             };
             self.source(variable, assignment.value, assignment.function, way);
             self.assigned.push(variable);
@@ -243,35 +242,34 @@ impl<'n, 'a> Variables<'n, 'a> {
 
     /// What calls give and functions return.
     fn bind(&mut self) {
-        let notes = self.notes;
-        for (at, function) in notes.functions.iter().enumerate() {
+        let parsed = self.parsed;
+        for (at, function) in parsed.functions.iter().enumerate() {
             for event in &function.events {
                 match *event {
                     Event::Return(value, offset) if at != 0 => {
                         let at = short(at);
-                        let result = match self.results.get(&at) {
-                            Some(known) => *known,
-                            None => {
-                                let name = function.name.expect("functions have names");
-                                let made = self.add(name, offset, None);
-                                self.results.insert(at, made);
-                                made
-                            }
+                        let result = if let Some(known) = self.results.get(&at) {
+                            *known
+                        } else {
+                            let name = function.name.expect("functions have names");
+                            let made = self.add(name, offset, None);
+                            self.results.insert(at, made);
+                            made
                         };
-                        self.source(result, value, at, Way::Given);
+                        self.source(result, value, at, Assigned::Given);
                     }
                     Event::Tool(..) => self.sets_tool = true,
                     _ => {}
                 }
             }
         }
-        for call in &notes.calls {
+        for call in &parsed.calls {
             for callee in self.callees(call).to_vec() {
-                let count = notes.functions[callee as usize].parameters.len();
+                let count = parsed.functions[callee as usize].parameters.len();
                 for position in 0..count {
                     let (parameter, value) = self.given(call, callee, position);
                     if let Some((value, function)) = value {
-                        self.source(parameter, value, function, Way::Given);
+                        self.source(parameter, value, function, Assigned::Given);
                     }
                 }
             }
@@ -279,20 +277,20 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// Functions of the file that a call may mean.
-    pub fn callees(&self, call: &Called) -> &[FunctionId] {
+    pub(super) fn callees(&self, call: &Called) -> &[FunctionId] {
         self.functions.get(&call.name).map_or(&[], Vec::as_slice)
     }
 
     /// A parameter of a function, and what a call gives it with the function where that is meant.
-    pub fn given(
+    pub(super) fn given(
         &self,
         call: &Called,
         callee: FunctionId,
         position: usize,
     ) -> (VarId, Option<(ExprId, FunctionId)>) {
-        let function = &self.notes.functions[callee as usize];
+        let function = &self.parsed.functions[callee as usize];
         let (name, default) = function.parameters[position];
-        let arguments = self.notes.arguments_of(call);
+        let arguments = self.parsed.arguments_of(call);
         let named = arguments.iter().find(|(by, _)| *by == Some(name));
         let placed = arguments.get(position).filter(|(by, _)| by.is_none());
         let value = named.or(placed).map(|(_, value)| (*value, call.function));
@@ -301,7 +299,7 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The variable that a name means in a function.
-    pub fn meaning(&self, name: Symbol, function: FunctionId) -> Option<VarId> {
+    pub(super) fn meaning(&self, name: Symbol, function: FunctionId) -> Option<VarId> {
         let mut function = function;
         loop {
             if let Some(variable) = self.names.get(&(function, name)) {
@@ -310,20 +308,20 @@ impl<'n, 'a> Variables<'n, 'a> {
             if function == 0 {
                 return None;
             }
-            function = self.notes.functions[function as usize].parent;
+            function = self.parsed.functions[function as usize].parent;
         }
     }
 
     /// What a call of a function of the file returns.
-    pub fn result(&self, call: u32) -> Option<VarId> {
-        match self.callees(&self.notes.calls[call as usize]) {
+    pub(super) fn result(&self, call: u32) -> Option<VarId> {
+        match self.callees(&self.parsed.calls[call as usize]) {
             [one] => self.results.get(one).copied(),
             _ => None,
         }
     }
 
     /// What a function returns.
-    pub fn result_of(&self, function: FunctionId) -> Option<VarId> {
+    pub(super) fn result_of(&self, function: FunctionId) -> Option<VarId> {
         self.results.get(&function).copied()
     }
 
@@ -339,7 +337,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             drop(sources);
             let one = first.filter(|source| {
                 more.is_none()
-                    && source.way == Way::Whole
+                    && source.way == Assigned::Whole
                     && self.list[at as usize].parameter.is_none()
             });
             let mut named = Vec::new();
@@ -365,7 +363,7 @@ impl<'n, 'a> Variables<'n, 'a> {
 
     /// Whether a value says the same at any time if the variables that it names do.
     fn is_plain(&self, value: ExprId, function: FunctionId, named: &mut Vec<VarId>) -> bool {
-        match self.notes.expression(value) {
+        match self.parsed.expression(value) {
             Expr::Literal(_) | Expr::List(_) | Expr::Element(..) | Expr::Actual | Expr::Other => {
                 true
             }
@@ -387,16 +385,16 @@ impl<'n, 'a> Variables<'n, 'a> {
     }
 
     /// The value of a variable that stands for it.
-    pub fn fixed(&self, variable: VarId) -> Option<Source> {
+    pub(super) fn fixed(&self, variable: VarId) -> Option<Source> {
         let is_fixed = self.list[variable as usize].is_fixed;
         self.sources(variable).next().filter(|_| is_fixed)
     }
 
     /// The value behind names that stand for theirs.
-    pub fn follow(&self, value: ExprId, function: FunctionId) -> (Expr, FunctionId) {
+    pub(super) fn follow(&self, value: ExprId, function: FunctionId) -> (Expr, FunctionId) {
         let (mut value, mut function) = (value, function);
         for _ in 0..MOST_STEPS {
-            let Expr::Name(name, _) = self.notes.expression(value) else {
+            let Expr::Name(name, _) = self.parsed.expression(value) else {
                 break;
             };
             let Some(next) = self.meaning(name, function).and_then(|v| self.fixed(v)) else {
@@ -404,14 +402,18 @@ impl<'n, 'a> Variables<'n, 'a> {
             };
             (value, function) = (next.value, next.function);
         }
-        (self.notes.expression(value), function)
+        (self.parsed.expression(value), function)
     }
 
     /// A pose that the text tells.
     ///
     /// # Errors
     /// Where it does not.
-    pub fn constant(&self, value: ExprId, function: FunctionId) -> Result<Pose, NotConstant> {
+    pub(super) fn constant(
+        &self,
+        value: ExprId,
+        function: FunctionId,
+    ) -> Result<Pose, NotConstant> {
         self.evaluate(value, function, MOST_STEPS)
     }
 
@@ -432,8 +434,8 @@ impl<'n, 'a> Variables<'n, 'a> {
         };
         match expression {
             Expr::Literal(id) => {
-                let literal = self.notes.literal(id);
-                let values = self.notes.values(literal);
+                let literal = self.parsed.literal(id);
+                let values = self.parsed.values(literal);
                 let values = values.filter(|_| literal.pose && !self.targets[id as usize]);
                 let degrees = literal.content == super::syntax::Content::Degrees;
                 let values = values.ok_or(NotConstant::Computed)?;

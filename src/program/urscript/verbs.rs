@@ -8,7 +8,7 @@ use crate::program::Motion;
 
 /// What a call does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verb {
+pub(super) enum Verb {
     /// `movej`, `movel`, `movep`
     Move(Motion, Places),
     /// `movec`
@@ -33,14 +33,14 @@ pub enum Verb {
 
 /// Places of speed, blend radius and time among the arguments of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Places {
+pub(super) struct Places {
     pub speed: Option<usize>,
     pub radius: Option<usize>,
     pub time: Option<usize>,
 }
 
 impl Places {
-    pub const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         speed: None,
         radius: None,
         time: None,
@@ -70,7 +70,7 @@ impl Places {
 
 /// Calls that give poses or joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PoseCall {
+pub(super) enum PoseCall {
     Trans,
     Add,
     Inverse,
@@ -79,7 +79,7 @@ pub enum PoseCall {
 }
 
 /// What a function of this name does.
-pub fn verb(name: &[u8]) -> Verb {
+pub(super) fn verb(name: &[u8]) -> Verb {
     match name {
         b"movej" => Verb::Move(Motion::Joint, Places::JOINT),
         b"movel" => Verb::Move(Motion::Linear, Places::LINE),
@@ -125,7 +125,7 @@ pub fn verb(name: &[u8]) -> Verb {
 }
 
 /// Whether a function that the file does not define is one of the language that takes the robot nowhere and sets no tool.
-pub fn is_of_language(name: &[u8]) -> bool {
+pub(super) fn is_of_language(name: &[u8]) -> bool {
     let is_known = KNOWN.split(' ').any(|known| known.as_bytes() == name);
     is_known
         || FAMILIES
@@ -165,7 +165,7 @@ const KNOWN: &str = "\
     tool_wrench_limit_set transpose unlock_protective_stop varmsg wrench_trans xmlrpc zero_wrench";
 
 /// Calls whose values are looked into.
-pub fn value_of(name: &[u8]) -> Option<PoseCall> {
+pub(super) fn value_of(name: &[u8]) -> Option<PoseCall> {
     match name {
         b"pose_trans" => Some(PoseCall::Trans),
         b"pose_add" => Some(PoseCall::Add),
@@ -181,7 +181,7 @@ pub fn value_of(name: &[u8]) -> Option<PoseCall> {
 }
 
 /// Words before brackets that are no calls.
-pub fn is_operator(name: &[u8]) -> bool {
+pub(super) fn is_operator(name: &[u8]) -> bool {
     matches!(
         name,
         b"and"
@@ -201,7 +201,7 @@ pub fn is_operator(name: &[u8]) -> bool {
 }
 
 /// Words that start a statement wherever they stand outside brackets.
-pub fn starts_statement(name: &[u8]) -> bool {
+pub(super) fn starts_statement(name: &[u8]) -> bool {
     starts_block(name)
         || matches!(
             name,
@@ -218,7 +218,7 @@ pub fn starts_statement(name: &[u8]) -> bool {
 }
 
 /// Words of numbers that the text tells, such as `pi/2` and `d2r(90)`.
-pub fn is_constant(name: &[u8]) -> bool {
+pub(super) fn is_constant(name: &[u8]) -> bool {
     matches!(
         name,
         b"pi"
@@ -237,6 +237,6 @@ pub fn is_constant(name: &[u8]) -> bool {
 }
 
 /// Words that open a block, which none of the language's expressions holds.
-pub fn starts_block(name: &[u8]) -> bool {
+pub(super) fn starts_block(name: &[u8]) -> bool {
     matches!(name, b"def" | b"thread" | b"if" | b"while")
 }

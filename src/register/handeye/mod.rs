@@ -12,7 +12,7 @@ mod methods;
 mod refine;
 
 pub use corners::{Corners, refine_by_corners};
-pub use refine::{Left, Refined};
+pub use refine::{PoseResidual, Refined};
 
 use crate::geometry::{Pose, norm};
 use nalgebra::Matrix3;

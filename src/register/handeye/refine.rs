@@ -11,7 +11,7 @@ const FLOOR: [f64; 2] = [1e-12, 1e-12];
 
 /// What is left of one row: rotation (radians) and distance (metres) of the board from where the others say it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Left {
+pub struct PoseResidual {
     /// In the fit.
     pub rotation_rad: f64,
     /// In the fit.
@@ -44,7 +44,7 @@ pub struct Refined {
     /// Steps until it stood still.
     pub steps: usize,
     /// Each row.
-    pub rows: Vec<Left>,
+    pub rows: Vec<PoseResidual>,
 }
 
 type Jacobian = SMatrix<f64, 6, 12>;
@@ -155,16 +155,16 @@ fn finish(
             .try_inverse()
             .map_or(left, |grown| grown * left);
         let length = |v: &Vector6<f64>, at: usize| Vector3::new(v[at], v[at + 1], v[at + 2]).norm();
-        Left {
+        PoseResidual {
             rotation_rad: length(&left, 0),
             distance_m: length(&left, 3),
             out_rotation_rad: length(&out, 0),
             out_distance_m: length(&out, 3),
         }
     };
-    let rows: Vec<Left> = a.iter().zip(b).map(row).collect();
+    let rows: Vec<PoseResidual> = a.iter().zip(b).map(row).collect();
     #[allow(clippy::cast_precision_loss)]
-    let rms = |of: fn(&Left) -> f64| {
+    let rms = |of: fn(&PoseResidual) -> f64| {
         (rows.iter().map(|r| of(r).powi(2)).sum::<f64>() / rows.len() as f64).sqrt()
     };
     let part = |at: usize, pose: &Pose| {

@@ -149,12 +149,12 @@ pub struct Found {
     /// Why it is no success; empty if it is.
     pub doubts: Vec<Doubt>,
     /// What is left at some points of FROM, evenly spread.
-    pub left: Vec<Left>,
+    pub left: Vec<PointResidual>,
 }
 
 /// What is left at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Left {
+pub struct PointResidual {
     /// Its index in FROM.
     pub index: usize,
     /// Where it lies in TO, metres.
@@ -253,7 +253,7 @@ fn left(
     surface: &Surface,
     pose: &Pose,
     options: &Options,
-) -> Vec<Left> {
+) -> Vec<PointResidual> {
     let step = from.len().div_ceil(MOST_LEFT).max(1);
     let some: Vec<Vector> = from.iter().step_by(step).copied().collect();
     let pairs = pairings(&some, surface, pose, options.metric);
@@ -263,7 +263,7 @@ fn left(
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let last = (distances.len() as f64 * options.kept).round() as usize;
     let limit = distances[last.clamp(1, distances.len()) - 1];
-    let one = |(pair, index): (&Pairing, &usize)| Left {
+    let one = |(pair, index): (&Pairing, &usize)| PointResidual {
         index: *index,
         at_m: pair.at,
         left_m: match options.metric {

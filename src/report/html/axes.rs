@@ -8,7 +8,7 @@ use crate::task::axes::{Axes, Joint};
 
 /// The page.
 #[must_use]
-pub fn page(found: &Axes) -> Page {
+pub(crate) fn page(found: &Axes) -> Page {
     let list = &found.joints;
     let answer = format!("{} joints were swept", list.len());
     let mut page = Page::new("Axes".into(), Level::of(&found.findings), answer);

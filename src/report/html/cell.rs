@@ -15,7 +15,7 @@ const MOST_TRIANGLES: usize = 3000;
 
 /// A view in space.
 #[derive(Clone, Debug, Serialize)]
-pub struct Cell {
+pub(crate) struct Cell {
     /// Its title.
     pub title: String,
     /// What it shows.
@@ -41,7 +41,7 @@ pub struct Cell {
 /// Whether errors are drawn along the paths.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
-pub enum Along {
+pub(crate) enum Along {
     /// They are, and this is what that tells.
     Note(String),
     /// No way along them: `false`.
@@ -50,7 +50,7 @@ pub enum Along {
 
 /// The items of a view: a row of its table each.
 #[derive(Clone, Debug, Serialize, Default)]
-pub struct Points {
+pub(crate) struct Points {
     /// What they are, in a word.
     pub name: &'static str,
     /// Title of their list.
@@ -72,7 +72,7 @@ pub struct Points {
 
 impl Points {
     /// Adds an item.
-    pub fn push(&mut self, place_m: Option<Vector>, joints: Option<[f64; 6]>) {
+    pub(crate) fn push(&mut self, place_m: Option<Vector>, joints: Option<[f64; 6]>) {
         let place = place_m.map_or([Number(f64::NAN); 3], |p| p.map(|x| fixed(mm_from_m(x), 3)));
         self.at.extend(place);
         let joints = joints.map_or([Number(f64::NAN); 6], |q| q.map(|q| fixed(q / DEG, 2)));
@@ -82,7 +82,7 @@ impl Points {
 
 /// Lines through places, each with a deviation.
 #[derive(Clone, Debug, Serialize)]
-pub struct Path {
+pub(crate) struct Path {
     /// What it is.
     pub name: String,
     /// Its colour.
@@ -112,7 +112,7 @@ pub struct Path {
 impl Path {
     /// Vectors from places, metres: a line from each place to where it deviates to.
     #[must_use]
-    pub fn vectors(name: &str, tone: Tone, places_m: &[Vector], by_m: &[Vector]) -> Self {
+    pub(crate) fn vectors(name: &str, tone: Tone, places_m: &[Vector], by_m: &[Vector]) -> Self {
         let mut path = Self {
             name: name.into(),
             tone,
@@ -140,7 +140,7 @@ impl Path {
 
 /// Half axes of an ellipsoid about a place.
 #[derive(Clone, Debug, Serialize)]
-pub struct Ellipsoid {
+pub(crate) struct Ellipsoid {
     /// Its middle.
     pub at: [Number; 3],
     /// Three half axes, one after the other.
@@ -149,7 +149,7 @@ pub struct Ellipsoid {
 
 /// The robot.
 #[derive(Clone, Debug, Serialize)]
-pub struct Robot {
+pub(crate) struct Robot {
     base: Vec<Number>,
     rows: Vec<[Number; 5]>,
     sign: Vec<Number>,
@@ -169,7 +169,7 @@ struct Coupling {
 
 /// A body.
 #[derive(Clone, Debug, Serialize)]
-pub struct Solid {
+pub(crate) struct Solid {
     name: String,
     /// The link that carries it.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -230,7 +230,7 @@ fn matrix(pose: &Pose) -> Vec<Number> {
 impl Solid {
     /// A ball, metres.
     #[must_use]
-    pub fn ball(name: &str, centre_m: Vector, radius_m: f64) -> Self {
+    pub(crate) fn ball(name: &str, centre_m: Vector, radius_m: f64) -> Self {
         Self {
             name: name.into(),
             link: None,
@@ -316,7 +316,12 @@ fn coarse(triangles: &[[Vector; 3]]) -> Vec<Number> {
 impl Robot {
     /// The robot of a profile with tools and what a cell has it carry.
     #[must_use]
-    pub fn of(profile: &Profile, tools: &[Pose], cell: Option<&CellFile>, meshes: &Meshes) -> Self {
+    pub(crate) fn of(
+        profile: &Profile,
+        tools: &[Pose],
+        cell: Option<&CellFile>,
+        meshes: &Meshes,
+    ) -> Self {
         let links = profile.links.iter().map(|link| {
             [
                 fixed(link.alpha_rad / DEG, 6),
@@ -378,7 +383,7 @@ impl Robot {
 
 /// What stands around the robot.
 #[must_use]
-pub fn bodies(cell: Option<&CellFile>, meshes: &Meshes) -> Vec<Solid> {
+pub(crate) fn bodies(cell: Option<&CellFile>, meshes: &Meshes) -> Vec<Solid> {
     cell.iter()
         .flat_map(|cell| &cell.bodies)
         .filter_map(|body| Solid::of(&body.name, None, &body.shape, meshes))

@@ -36,7 +36,7 @@ struct Frame {
 
 /// The numbers of a pose.
 #[must_use]
-pub fn pose_text(pose: &Pose) -> String {
+pub(crate) fn pose_text(pose: &Pose) -> String {
     let [x, y, z] = pose.xyz_mm();
     // a zero has no sign
     let [rx, ry, rz] = pose.rxryrz_deg().map(|r| (r * 1e4).round() / 1e4 + 0.0);
@@ -202,7 +202,7 @@ fn show_ellipsoids(page: &mut Page, list: &[Ellipsoid]) {
 
 /// The page of `register`: residuals where points are known, ellipsoids where they were asked for and at FROM's origin.
 #[must_use]
-pub fn registration_page(found: &Registration) -> Page {
+pub(crate) fn registration_page(found: &Registration) -> Page {
     let pose = pose_text(&found.pose);
     let mut facts = vec![("TO from FROM".to_owned(), pose)];
     if let Some(rmsd) = found.rmsd_mm {
@@ -251,7 +251,7 @@ pub fn registration_page(found: &Registration) -> Page {
 
 /// The page of `hexapod`: the tool balls of every pose with their ellipsoids.
 #[must_use]
-pub fn hexapod_page(found: &hexapod::Poses) -> Page {
+pub(crate) fn hexapod_page(found: &hexapod::Poses) -> Page {
     let ellipsoids: Vec<Ellipsoid> = found
         .poses
         .iter()
@@ -287,7 +287,7 @@ pub fn hexapod_page(found: &hexapod::Poses) -> Page {
 
 /// The page of `hexapod --taught`: the residuals of the three points.
 #[must_use]
-pub fn base_page(found: &hexapod::Base) -> Page {
+pub(crate) fn base_page(found: &hexapod::Base) -> Page {
     let points = found.taught_mm.iter().zip(found.residuals_mm);
     let points = points.zip(["B1", "B2", "B3"]);
     frame_page(&Frame {
@@ -317,7 +317,7 @@ pub fn base_page(found: &hexapod::Base) -> Page {
 
 /// The page of `handeye`.
 #[must_use]
-pub fn hand_eye_page(found: &HandEye) -> Page {
+pub(crate) fn hand_eye_page(found: &HandEye) -> Page {
     let in_hand = found.setup == "eye-in-hand";
     let mut page = frame_page(&Frame {
         title: "Hand-eye calibration".into(),

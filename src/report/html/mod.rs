@@ -11,13 +11,13 @@
 //! begin or end; the script makes text of them, never markup; and a content security policy lets the page run that one
 //! script and ask for nothing.
 
-pub mod axes;
-pub mod cell;
-pub mod diagnosis;
-pub mod frames;
-pub mod measurements;
-pub mod numbers;
-pub mod page;
-pub mod plan;
-pub mod programs;
-pub mod reach;
+pub(crate) mod axes;
+pub(crate) mod cell;
+pub(crate) mod diagnosis;
+pub(crate) mod frames;
+pub(crate) mod measurements;
+pub(crate) mod numbers;
+pub(crate) mod page;
+pub(crate) mod plan;
+pub(crate) mod programs;
+pub(crate) mod reach;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 /// A number for a page: what is not finite becomes `null`, what is whole is written without a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Number(pub f64);
+pub(crate) struct Number(pub f64);
 
 /// Whole numbers below this are exact.
 const EXACT: f64 = 9e15;
@@ -26,14 +26,14 @@ impl Serialize for Number {
 
 /// Rounded to so many decimals.
 #[must_use]
-pub fn fixed(value: f64, decimals: i32) -> Number {
+pub(crate) fn fixed(value: f64, decimals: i32) -> Number {
     let scale = 10.0_f64.powi(decimals);
     Number((value * scale).round() / scale)
 }
 
 /// Rounded to so many significant digits.
 #[must_use]
-pub fn significant(value: f64, digits: usize) -> Number {
+pub(crate) fn significant(value: f64, digits: usize) -> Number {
     if value == 0.0 || !value.is_finite() {
         return Number(value);
     }
@@ -43,7 +43,7 @@ pub fn significant(value: f64, digits: usize) -> Number {
 
 /// A column of a table.
 #[derive(Clone, Debug, Serialize)]
-pub struct Column {
+pub(crate) struct Column {
     /// Its heading.
     pub label: String,
     /// The unit of its numbers.
@@ -62,7 +62,7 @@ pub struct Column {
 /// The values of a column.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
-pub enum Values {
+pub(crate) enum Values {
     /// Numbers; `None` where there is none.
     Numbers(Vec<Option<Number>>),
     /// Texts, each its own.
@@ -79,7 +79,7 @@ pub enum Values {
 impl Values {
     /// Rows.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         match self {
             Self::Numbers(values) => values.len(),
             Self::Texts(values) => values.len(),
@@ -101,7 +101,7 @@ impl Column {
 
     /// A column of numbers in a unit; an empty unit is none.
     #[must_use]
-    pub fn numbers<N: Into<Option<Number>>>(
+    pub(crate) fn numbers<N: Into<Option<Number>>>(
         label: &str,
         unit: &'static str,
         values: impl IntoIterator<Item = N>,
@@ -113,13 +113,13 @@ impl Column {
 
     /// A column of counts.
     #[must_use]
-    pub fn counts(label: &str, values: impl IntoIterator<Item = usize>) -> Self {
+    pub(crate) fn counts(label: &str, values: impl IntoIterator<Item = usize>) -> Self {
         Self::numbers(label, "", values.into_iter().map(|n| Number(n as f64)))
     }
 
     /// A column of texts that hardly repeat.
     #[must_use]
-    pub fn texts<T: Into<Option<String>>>(
+    pub(crate) fn texts<T: Into<Option<String>>>(
         label: &str,
         values: impl IntoIterator<Item = T>,
     ) -> Self {
@@ -129,7 +129,7 @@ impl Column {
 
     /// A column of few names that repeat.
     #[must_use]
-    pub fn names<'a, T: Into<Option<&'a str>>>(
+    pub(crate) fn names<'a, T: Into<Option<&'a str>>>(
         label: &str,
         values: impl IntoIterator<Item = T>,
     ) -> Self {
@@ -151,14 +151,14 @@ impl Column {
 
     /// Charts draw it, tables do not show it.
     #[must_use]
-    pub fn for_charts(mut self) -> Self {
+    pub(crate) fn for_charts(mut self) -> Self {
         self.hidden = true;
         self
     }
 
     /// It holds lines of a program.
     #[must_use]
-    pub fn of_code(mut self) -> Self {
+    pub(crate) fn of_code(mut self) -> Self {
         self.code = true;
         self.hidden = true;
         self
@@ -167,7 +167,7 @@ impl Column {
 
 /// A table: columns of the same length.
 #[derive(Clone, Debug, Serialize, Default)]
-pub struct Table {
+pub(crate) struct Table {
     /// The columns.
     pub columns: Vec<Column>,
 }
@@ -175,14 +175,14 @@ pub struct Table {
 impl Table {
     /// Rows.
     #[must_use]
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
 }
 
 /// Edges of bars and how many values are between them: about the square root of their number of bars, at most 60.
 #[must_use]
-pub fn histogram(label: &str, unit: &'static str, values: &[f64]) -> Table {
+pub(crate) fn histogram(label: &str, unit: &'static str, values: &[f64]) -> Table {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let (mut from, mut to, mut counts) = (Vec::new(), Vec::new(), Vec::new());

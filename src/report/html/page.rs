@@ -19,7 +19,7 @@ const SCRIPT: &str = include_str!("assets/report.js");
 const STYLE: &str = include_str!("assets/report.css");
 
 /// Findings that a page holds; of more it tells how many there are.
-pub const MOST_FINDINGS: usize = 5000;
+pub(crate) const MOST_FINDINGS: usize = 5000;
 
 /// Bytes of data that stand in a page as they are; more are packed.
 const PLAIN: usize = 300_000;
@@ -27,7 +27,7 @@ const PLAIN: usize = 300_000;
 /// How the answer looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Level {
+pub(crate) enum Level {
     /// Nothing to worry about.
     Good,
     /// Look at it.
@@ -39,7 +39,7 @@ pub enum Level {
 impl Level {
     /// As the worst of the findings.
     #[must_use]
-    pub fn of(findings: &[Finding]) -> Self {
+    pub(crate) fn of(findings: &[Finding]) -> Self {
         match findings.iter().map(|f| f.severity).max() {
             Some(Severity::Error) => Self::Error,
             Some(Severity::Warning) => Self::Warning,
@@ -50,7 +50,7 @@ impl Level {
 
 /// The answer in a sentence.
 #[derive(Clone, Debug, Serialize)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     /// How it looks.
     pub level: Level,
     /// The sentence.
@@ -59,7 +59,7 @@ pub struct Verdict {
 
 /// One of the few numbers that stand first.
 #[derive(Clone, Debug, Serialize)]
-pub struct Fact {
+pub(crate) struct Fact {
     /// What it is.
     pub label: String,
     /// It, with its unit.
@@ -68,7 +68,7 @@ pub struct Fact {
 
 /// A short table that is readable without a script.
 #[derive(Clone, Debug, Serialize)]
-pub struct Summary {
+pub(crate) struct Summary {
     /// Headings.
     pub heads: Vec<String>,
     /// Rows of texts.
@@ -78,7 +78,7 @@ pub struct Summary {
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A line through its points.
     Line,
     /// Points.
@@ -96,7 +96,7 @@ pub enum Kind {
 /// Colours by meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Tone {
+pub(crate) enum Tone {
     /// No meaning.
     One,
     /// As it was.
@@ -113,7 +113,7 @@ pub enum Tone {
 
 /// Columns of a table drawn together, by their indices.
 #[derive(Clone, Debug, Serialize)]
-pub struct Series {
+pub(crate) struct Series {
     /// How.
     pub kind: Kind,
     /// Column of x, or of names.
@@ -135,7 +135,7 @@ pub struct Series {
 impl Series {
     /// Two columns.
     #[must_use]
-    pub fn new(kind: Kind, x: usize, y: usize, name: &str, tone: Tone) -> Self {
+    pub(crate) fn new(kind: Kind, x: usize, y: usize, name: &str, tone: Tone) -> Self {
         Self {
             kind,
             x,
@@ -150,7 +150,7 @@ impl Series {
 
 /// What an axis shows.
 #[derive(Clone, Debug, Serialize)]
-pub struct Axis {
+pub(crate) struct Axis {
     /// Its name.
     pub label: String,
     /// Its unit; empty where it has none.
@@ -160,7 +160,7 @@ pub struct Axis {
 impl Axis {
     /// A name and a unit.
     #[must_use]
-    pub fn new(label: &str, unit: &'static str) -> Self {
+    pub(crate) fn new(label: &str, unit: &'static str) -> Self {
         Self {
             label: label.into(),
             unit,
@@ -170,7 +170,7 @@ impl Axis {
 
 /// A chart of columns of one of the page's tables.
 #[derive(Clone, Debug, Serialize)]
-pub struct Chart {
+pub(crate) struct Chart {
     /// Its title.
     pub title: String,
     /// What it tells.
@@ -195,7 +195,7 @@ pub struct Chart {
 impl Chart {
     /// A chart without series.
     #[must_use]
-    pub fn new(title: &str, table: &str, x: Axis, y: Axis) -> Self {
+    pub(crate) fn new(title: &str, table: &str, x: Axis, y: Axis) -> Self {
         Self {
             title: title.into(),
             note: String::new(),
@@ -212,7 +212,7 @@ impl Chart {
 
 /// Correlations.
 #[derive(Clone, Debug, Serialize)]
-pub struct Heat {
+pub(crate) struct Heat {
     /// Its title.
     pub title: String,
     /// What it tells.
@@ -225,7 +225,7 @@ pub struct Heat {
 
 /// A table shown as such.
 #[derive(Clone, Debug, Serialize)]
-pub struct Shown {
+pub(crate) struct Shown {
     /// Its title.
     pub title: String,
     /// What it tells.
@@ -237,7 +237,7 @@ pub struct Shown {
 
 /// Sentences.
 #[derive(Clone, Debug, Serialize)]
-pub struct Text {
+pub(crate) struct Text {
     /// Its title.
     pub title: String,
     /// One paragraph each.
@@ -247,7 +247,7 @@ pub struct Text {
 /// A part of a page.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
-pub enum Section {
+pub(crate) enum Section {
     /// A view in space.
     Cell(Box<Cell>),
     /// A chart.
@@ -262,7 +262,7 @@ pub enum Section {
 
 /// A report.
 #[derive(Clone, Debug, Serialize)]
-pub struct Page {
+pub(crate) struct Page {
     /// What it is about.
     pub title: String,
     /// Which files, which robot.
@@ -286,7 +286,7 @@ pub struct Page {
 impl Page {
     /// A page with nothing on it.
     #[must_use]
-    pub fn new(title: String, level: Level, answer: String) -> Self {
+    pub(crate) fn new(title: String, level: Level, answer: String) -> Self {
         Self {
             title,
             lead: Vec::new(),
@@ -302,7 +302,7 @@ impl Page {
     }
 
     /// One of the numbers that stand first.
-    pub fn fact(&mut self, label: &str, value: String) {
+    pub(crate) fn fact(&mut self, label: &str, value: String) {
         self.facts.push(Fact {
             label: label.into(),
             value,
@@ -310,7 +310,7 @@ impl Page {
     }
 
     /// A table under a name, shown.
-    pub fn show(&mut self, name: &str, title: &str, note: &str, table: Table) {
+    pub(crate) fn show(&mut self, name: &str, title: &str, note: &str, table: Table) {
         self.tables.insert(name.into(), table);
         self.sections.push(Section::Table(Shown {
             title: title.into(),
@@ -320,7 +320,7 @@ impl Page {
     }
 
     /// A histogram of values, with its table; none of no values.
-    pub fn histogram(
+    pub(crate) fn histogram(
         &mut self,
         name: &str,
         title: &str,
@@ -341,7 +341,7 @@ impl Page {
     }
 
     /// Findings: how many of each name, and the first of them, errors before warnings before notes.
-    pub fn findings(&mut self, findings: &[Finding]) {
+    pub(crate) fn findings(&mut self, findings: &[Finding]) {
         if findings.is_empty() {
             return;
         }
@@ -384,7 +384,7 @@ impl Page {
 
     /// The whole file.
     #[must_use]
-    pub fn html(&self) -> String {
+    pub(crate) fn html(&self) -> String {
         let (kind, data) = stored(embedded(self));
         let (title, header) = (escaped(&self.title), self.header());
         let (policy, version) = (hash(SCRIPT), env!("CARGO_PKG_VERSION"));

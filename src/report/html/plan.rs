@@ -10,7 +10,7 @@ use crate::task::plan::Plan;
 
 /// The page of `plan`.
 #[must_use]
-pub fn plan_page(found: &Plan) -> Page {
+pub(crate) fn plan_page(found: &Plan) -> Page {
     let (o, (profile, tool)) = (&found.observability, &found.drawn);
     let (count, dropped) = (found.joints_deg.len(), found.not_determined.len());
     let all = found.expected_sigma.len() + dropped;

@@ -12,7 +12,7 @@ const BALL_M: f64 = 0.006;
 
 /// The page.
 #[must_use]
-pub fn page(found: &Reach) -> Page {
+pub(crate) fn page(found: &Reach) -> Page {
     let (all, count) = (&found.reach, found.measurable);
     let (profile, tool, balls_m, file) = &found.drawn;
     let level = if count > 0 { Level::Good } else { Level::Error };

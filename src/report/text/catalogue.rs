@@ -70,6 +70,12 @@ pub(super) fn explanations(found: &Explanations, _: Style) -> String {
         if !f.languages.is_empty() {
             text += &format!("; in {}", f.languages.join(", "));
         }
+        if f.acceptable {
+            text += "; --accept takes it";
+        }
+        if !f.was.is_empty() {
+            text += &format!("; earlier called {}", f.was.join(", "));
+        }
         text.push('\n');
     }
     text

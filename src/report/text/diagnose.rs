@@ -143,7 +143,7 @@ pub(super) fn text(found: &Diagnosis, style: Style) -> String {
     let source = match found.found.noise_source {
         NoiseSource::Given => "sigma_mm",
         NoiseSource::Repeats => "repeated poses",
-        NoiseSource::Left => "what no model explains",
+        NoiseSource::Residuals => "what no model explains",
     };
     out += &format!(
         "\nnoise {} mm a coordinate by {source}; left {} mm\n",

@@ -6,8 +6,8 @@ use crate::task::parts::Statistics;
 use crate::task::validate::{Models, Validation};
 
 /// What is told of a model by this name.
-fn of<'a, T>(models: &'a Option<Models<T>>, name: &str) -> Option<&'a T> {
-    let mut named = models.iter().flat_map(Models::named);
+fn of<'a, T>(models: Option<&'a Models<T>>, name: &str) -> Option<&'a T> {
+    let mut named = models.into_iter().flat_map(Models::named);
     named.find(|(other, _)| *other == name).map(|(_, one)| one)
 }
 
@@ -20,9 +20,9 @@ pub(super) fn text(found: &Validation, style: Style) -> String {
     let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
     for name in ["controller", "frames only", "real"] {
         let row = |what: &str, s: &dyn Statistics| spread_row(&format!("{name}, {what}"), s);
-        rows.extend(of(&found.position, name).map(|s| row("position mm", s)));
-        rows.extend(of(&found.orientation, name).map(|s| row("orientation deg", s)));
-        rows.extend(of(&found.range, name).map(|s| row("distance mm", s)));
+        rows.extend(of(found.position.as_ref(), name).map(|s| row("position mm", s)));
+        rows.extend(of(found.orientation.as_ref(), name).map(|s| row("orientation deg", s)));
+        rows.extend(of(found.range.as_ref(), name).map(|s| row("distance mm", s)));
     }
     if let Some(folds) = &found.folds {
         for (name, q) in [("frames only", &folds.frames_only), ("real", &folds.real)] {

@@ -7,7 +7,7 @@ use crate::program::{LANGUAGES, Language, Settings, Step};
 
 /// A configuration and the poses that the arm goes over before it comes to where it is approached from; joints in radians.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stop {
+pub(super) struct Stop {
     /// What it goes over.
     pub over: Vec<[f64; 6]>,
     /// Where it is measured.
@@ -32,7 +32,7 @@ fn steps(stops: &[Stop], approach_rad: f64) -> Vec<Step> {
 
 /// The program's text; `None` in a language that cannot be written, and in INFORM without pulses.
 #[must_use]
-pub fn program(
+pub(super) fn program(
     language: &str,
     stops: &[Stop],
     approach_rad: f64,
@@ -46,7 +46,7 @@ pub fn program(
 
 /// Languages that a program can be written in.
 #[must_use]
-pub fn languages(settings: &Settings) -> Vec<&'static str> {
+pub(super) fn languages(settings: &Settings) -> Vec<&'static str> {
     let writes = |language: &&&dyn Language| language.drive(&[], settings).is_some();
     LANGUAGES
         .iter()

@@ -23,7 +23,7 @@ const ROOM_M: f64 = 0.1 * MM;
 const BY_HAND: &str = "drive it by hand, over a pose between, or leave the configuration out";
 
 /// The arm, its own shapes, and what it must keep to.
-pub struct Driving<'a> {
+pub(super) struct Driving<'a> {
     profile: Profile,
     tool: &'a Mounted,
     scene: Scene,
@@ -36,7 +36,7 @@ pub struct Driving<'a> {
 
 impl<'a> Driving<'a> {
     /// Reads the meshes that the profile's shapes name.
-    pub fn new(
+    pub(super) fn new(
         file: &'a ProfileFile,
         tool: &'a Mounted,
         constraints: &'a Constraints,
@@ -67,7 +67,7 @@ impl<'a> Driving<'a> {
     }
 
     /// Whether the arm comes to this configuration from where it is approached from, and touches nothing on that way.
-    pub fn admits(&self, q: &[f64; 6]) -> bool {
+    pub(super) fn admits(&self, q: &[f64; 6]) -> bool {
         self.stands(q) && self.is_free(&self.constraints.approach(q), q)
     }
 
@@ -105,7 +105,7 @@ impl<'a> Driving<'a> {
     }
 
     /// An order in which as few moves as possible meet anything.
-    pub fn order(&self, joints: &[[f64; 6]]) -> Vec<usize> {
+    pub(super) fn order(&self, joints: &[[f64; 6]]) -> Vec<usize> {
         route::order(joints, &|q| self.constraints.approach(q), &|from, to| {
             self.is_free(from, to)
         })
@@ -113,7 +113,7 @@ impl<'a> Driving<'a> {
 
     /// Poses that the arm goes over before it comes to where each configuration is approached from: none where the straight way of
     /// the joints is free, or where no way was found.
-    pub fn over(&self, joints: &[[f64; 6]]) -> Vec<Vec<[f64; 6]>> {
+    pub(super) fn over(&self, joints: &[[f64; 6]]) -> Vec<Vec<[f64; 6]>> {
         let zero = self
             .profile
             .mechanism
@@ -130,7 +130,13 @@ impl<'a> Driving<'a> {
     }
 
     /// What the moves of a program meet: what each configuration is come to over, its approach, then the configuration.
-    pub fn findings(&self, language: &str, file: &str, text: &str, stops: &[Stop]) -> Vec<Finding> {
+    pub(super) fn findings(
+        &self,
+        language: &str,
+        file: &str,
+        text: &str,
+        stops: &[Stop],
+    ) -> Vec<Finding> {
         let mut findings = self.touched(language, file, text, stops);
         let mut at: Option<[f64; 6]> = None;
         for (index, stop) in stops.iter().enumerate() {

@@ -20,7 +20,7 @@ pub struct Deviation {
 
 /// Everything a profile says, one name and value a fact, lengths in mm and angles in degrees.
 #[must_use]
-pub fn facts(profile: &Profile) -> Vec<(String, String)> {
+pub(super) fn facts(profile: &Profile) -> Vec<(String, String)> {
     let mut facts: Vec<(String, String)> = Vec::new();
     let mut fact = |name: String, value: String| facts.push((name, value));
     fact(
@@ -113,7 +113,7 @@ pub fn facts(profile: &Profile) -> Vec<(String, String)> {
 
 /// Mean and largest distance between the real and the controller's tool over an even grid of postures.
 #[must_use]
-pub fn typical_deviation(profile: &Profile) -> Deviation {
+pub(super) fn typical_deviation(profile: &Profile) -> Deviation {
     let (tool, conditions) = (first_tool(profile), Conditions::default());
     deviation(
         profile,
@@ -125,7 +125,7 @@ pub fn typical_deviation(profile: &Profile) -> Deviation {
 
 /// Mean and largest distance between the tools of two controllers of one type of arm over an even grid of postures.
 #[must_use]
-pub fn typical_deviation_of(a: &Profile, b: &Profile) -> Deviation {
+pub(super) fn typical_deviation_of(a: &Profile, b: &Profile) -> Deviation {
     let tool = first_tool(a);
     let models = (a.controller_model(&tool), b.controller_model(&tool));
     deviation(a, &models.0, &models.1, &Conditions::default())

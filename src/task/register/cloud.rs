@@ -4,7 +4,7 @@ use super::points::Points;
 use super::{Motion, Options, Registration, Residual, Search, Step};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::register::icp::{self, Doubt, Left, Metric, icp};
+use crate::register::icp::{self, Doubt, Metric, PointResidual, icp};
 use crate::task::Failure;
 
 /// Registers two clouds; a doubtful result is an error finding.
@@ -81,7 +81,7 @@ fn finding(doubt: &Doubt, name: &str) -> Finding {
 }
 
 /// The residual of a point, for the page.
-fn residual(one: &Left, from: &Points, kept: f64) -> Residual {
+fn residual(one: &PointResidual, from: &Points, kept: f64) -> Residual {
     Residual {
         rejected: (!one.kept).then(|| format!("beyond the nearest {:.0} %", 100.0 * kept)),
         ..Residual::new(&from.rows[one.index].id, one.left_m).at(one.at_m)

@@ -69,9 +69,9 @@ pub(super) fn register(
         )
     };
     Ok(Registration {
-        features,
         findings,
         scale,
+        features,
         ..Registration::new(&from.name, &to.name, motion, options)
     })
 }

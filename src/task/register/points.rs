@@ -8,13 +8,13 @@ use crate::task::table::Table;
 use std::collections::BTreeMap;
 
 /// Columns of a position.
-pub const POINT: [&str; 3] = ["x_mm", "y_mm", "z_mm"];
+pub(crate) const POINT: [&str; 3] = ["x_mm", "y_mm", "z_mm"];
 /// Columns of an outward normal.
-pub const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
+pub(crate) const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
 
 /// What a row stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Feature {
+pub(crate) enum Feature {
     Point,
     Sphere,
     Hole,
@@ -23,7 +23,7 @@ pub enum Feature {
 
 /// One row.
 #[derive(Clone, Debug)]
-pub struct PointRow {
+pub(crate) struct PointRow {
     pub id: String,
     pub point_m: Vector,
     pub normal: Option<Vector>,
@@ -35,14 +35,14 @@ pub struct PointRow {
 }
 
 /// A table of points.
-pub struct Points {
+pub(crate) struct Points {
     pub name: String,
     pub rows: Vec<PointRow>,
     pub has_ids: bool,
 }
 
 impl Points {
-    pub fn read(source: &Source) -> Result<Self, Failure> {
+    pub(crate) fn read(source: &Source) -> Result<Self, Failure> {
         let table = Table::read(source)?;
         table.require(&POINT)?;
         let optional = |column: &'static str| table.has(column).then_some(column);
@@ -106,20 +106,20 @@ impl Points {
     }
 
     /// The positions in order, metres.
-    pub fn positions(&self) -> Vec<Vector> {
+    pub(crate) fn positions(&self) -> Vec<Vector> {
         self.rows.iter().map(|row| row.point_m).collect()
     }
 }
 
 /// A row of FROM and the rows of TO that measure it.
-pub struct Pair<'a> {
+pub(crate) struct Pair<'a> {
     pub from: &'a PointRow,
     pub to: Vec<&'a PointRow>,
 }
 
 /// Matches by `id` where both tables have one, else by order. Rows without a partner are an error unless `drop` allows them;
 /// then their ids are returned.
-pub fn matched<'a>(
+pub(crate) fn matched<'a>(
     from: &'a Points,
     to: &'a Points,
     drop: bool,

@@ -4,7 +4,7 @@ use crate::physics::{Moment, tool_pose};
 use crate::support::{random_joints, shipped_profiles};
 use crate::trial::truth::{faults, robot_of};
 use poseshift::geometry::Pose;
-use poseshift::model::effects::{BASE, Effect, MOST_PARAMETERS, Place, REGISTRY, Site};
+use poseshift::model::effects::{BASE, Effect, MOST_PARAMETERS, REGISTRY, Site, SiteKey};
 use poseshift::model::profile::Mounted;
 use poseshift::model::{Conditions, Model};
 use rand::{RngExt, SeedableRng};
@@ -45,7 +45,8 @@ fn every_effect_is_the_same_in_two_implementations() {
                     index: random.random_range(1..6),
                     tool: None,
                 };
-                if definition.site.contains(&Place::JointOrBase) && random.random_range(0..2) == 0 {
+                if definition.site.contains(&SiteKey::JointOrBase) && random.random_range(0..2) == 0
+                {
                     site.index = BASE;
                 }
                 let mut parameters = [0.0; MOST_PARAMETERS];
@@ -64,7 +65,7 @@ fn every_effect_is_the_same_in_two_implementations() {
                 };
                 // what a joint drifts by is not also the base's
                 let mut alone = effect.clone();
-                if definition.site.contains(&Place::JointOrBase) {
+                if definition.site.contains(&SiteKey::JointOrBase) {
                     if effect.site.index == BASE {
                         alone.parameters[0] = 0.0;
                     } else {

@@ -248,7 +248,7 @@ fn what_repeats_at_a_pose_and_no_function_tells_is_missing() {
         without_sigma(case(group("clean"), 0, 8, SESSION.0)),
         |row| own[row],
     );
-    assert_eq!(quick(&once).noise_source, NoiseSource::Left);
+    assert_eq!(quick(&once).noise_source, NoiseSource::Residuals);
 }
 
 #[test]

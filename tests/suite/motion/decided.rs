@@ -326,3 +326,35 @@ fn an_effect_without_angles_has_room_for_those_of_the_search() {
         assert_eq!(errors(&done), [""; 0], "{name} {:?}", done.findings);
     }
 }
+
+#[test]
+fn a_written_loop_is_checked_against_its_original() {
+    // a move that the robot comes to in two ways has two stops in both programs
+    let text = rapid(
+        &format!("CONST robtarget p := [[430,0,400],{P};\nCONST robtarget r := [[400,60,420],{P};"),
+        "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nFOR i FROM 1 TO 3 DO\nMoveL p,v100,fine,tool0;\nMoveL r,v100,fine,tool0;\nENDFOR",
+    );
+    let files = [("t.mod", text.as_str())];
+    let done = try_with(given(), &[PLAIN], &files).expect("read");
+    assert_eq!(errors(&done), [""; 0]);
+    let after = written(done, &files);
+    let again = [("t.mod", after[0].as_str())];
+    assert!(super::landings(&[PLAIN], &again, &files) < 0.002);
+    assert!(super::landings(&[PLAIN], &files, &files) > 0.1);
+}
+
+#[test]
+fn an_accepted_target_gets_the_numbers_that_miss_least() {
+    let (name, text) = from_both_sides().swap_remove(0);
+    let files = [(name, text.as_str())];
+    let options = Options {
+        accepted: vec!["target-shared".parse().expect("an acceptance")],
+        ..given()
+    };
+    let done = try_with(options, &[BACKLASH, PLAIN], &files).expect("read");
+    assert_eq!(done.summary.compensated, 1, "{:?}", done.findings);
+    let after = written(done, &files);
+    let before = super::landings(&[BACKLASH, PLAIN], &files, &files);
+    let landed = super::landings(&[BACKLASH, PLAIN], &[(name, after[0].as_str())], &files);
+    assert!(landed < 0.8 * before, "{landed} of {before} mm");
+}

@@ -24,6 +24,7 @@ fn profile(effects: &[&str]) -> Profile {
         .expect("a profile")
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "each test makes its own")]
 fn try_with(
     options: Options,
     effects: &[&str],

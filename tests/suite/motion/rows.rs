@@ -377,3 +377,35 @@ fn numbers_written_over_a_part_of_a_copy_lose_their_correction() {
         more.findings
     );
 }
+
+#[test]
+fn connecting_a_trap_calls_nothing() {
+    let program = |connect: &str| {
+        format!(
+            "MODULE t\nCONST robtarget p := [[430,0,300],{P};\nPERS tooldata tA := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\n\
+             VAR intnum i1;\nPROC main()\n{connect}MoveJ p,v100,fine,tA;\nENDPROC\nTRAP tMeas\ntA.tframe.trans.z := 140;\nENDTRAP\nENDMODULE\n"
+        )
+    };
+    // the trap may run at any time in both: what it writes is in doubt everywhere
+    for connect in ["", "CONNECT i1 WITH tMeas;\n"] {
+        let done = done(&[PLAIN], &[("t.mod", &program(connect))]);
+        assert!(done.is_refused(), "{connect}: {:?}", done.findings);
+    }
+}
+
+#[test]
+fn a_side_that_nobody_knows_is_reported() {
+    let program = rapid(
+        &format!("CONST robtarget p := [[430,0,400],{P};"),
+        "MoveJ p,v100,fine,tool0;",
+    );
+    let files = [("t.mod", program.as_str())];
+    let unknown = done(&[BACKLASH], &files);
+    assert!(message(&unknown, "direction-uncertain").contains("joint 2"));
+    let options = Options {
+        start_joints: Some([0.0, -0.5, 0.0, 0.0, 1.0, 0.0]),
+        ..given()
+    };
+    let known = try_with(options, &[BACKLASH], &files).expect("read");
+    assert!(!known.findings.iter().any(|f| f.id == "direction-uncertain"));
+}

@@ -294,7 +294,7 @@ const FORMS: [Form; 5] = [
             format!(
                 "/PROG  T\n/ATTR\nOWNER = MNEDITOR;\n/MN\n   1:  UFRAME_NUM=0 ;\n   2:  UTOOL_NUM=0 ;\n   3:J P[1] 100% FINE    ;\n   4:L P[2] 100mm/sec FINE    ;\n/POS\n\
                  P[1]{{\n   GP1:\n\tUF : 0, UT : 0,\t\n\tJ1= {a:.9} deg,\tJ2= {b:.9} deg,\tJ3= {c:.9} deg,\n\tJ4= {d:.9} deg,\tJ5= {e:.9} deg,\tJ6= {f:.9} deg\n}};\n\
-                 P[2]{{\n   GP1:\n\tUF : 0, UT : 0,\t\tCONFIG : 'N U T, 0, 0, 0',\n\tX = {x:.6}  mm,\tY = {y:.6}  mm,\tZ = {z:.6}  mm,\n\tW = {w:.8} deg,\tP = {p:.8} deg,\tR = {r:.8} deg\n}};\n/END\n"
+                 P[2]{{\n   GP1:\n\tUF : 0, UT : 0,\t\tCONFIG : '',\n\tX = {x:.6}  mm,\tY = {y:.6}  mm,\tZ = {z:.6}  mm,\n\tW = {w:.8} deg,\tP = {p:.8} deg,\tR = {r:.8} deg\n}};\n/END\n"
             )
         },
         read: |text| {

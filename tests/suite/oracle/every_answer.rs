@@ -1,4 +1,4 @@
-//! All answers of arms with an offset wrist against another method (tests/data/inverse_general).
+//! All answers of arms with an offset wrist against another method (`tests/data/inverse_general`).
 
 use crate::support::{offset_wrist_arms, table};
 use poseshift::geometry::wrap;

@@ -49,7 +49,9 @@ impl Known {
                 });
                 let yes = yes.count();
                 self.numbers.extend([yes as f64, (list.len() - yes) as f64]);
-                list.iter().for_each(|one| self.add(one));
+                for one in list {
+                    self.add(one);
+                }
             }
             Value::Object(map) => {
                 for (key, one) in map {
@@ -80,9 +82,10 @@ impl Known {
 /// Half a unit of the last digit that is written, and what arithmetic takes.
 fn half_a_digit(digits: &str) -> f64 {
     let (mantissa, exponent) = digits.split_once('e').unwrap_or((digits, "0"));
+    let length = |text: &str| i32::try_from(text.len()).expect("a short number");
     let decimals = match mantissa.split_once('.') {
-        Some((_, decimals)) => decimals.len() as i32,
-        None => -(mantissa.len() as i32 - mantissa.trim_end_matches('0').len() as i32),
+        Some((_, decimals)) => length(decimals),
+        None => length(mantissa.trim_end_matches('0')) - length(mantissa),
     };
     let exponent: i32 = exponent.parse().expect("an exponent");
     0.500_001 * 10_f64.powi(exponent - decimals)
@@ -176,7 +179,10 @@ fn text_json_and_page_of_every_command_tell_the_same_numbers() {
         let mut known = Known::of(&report);
         // names: of files and options, and of robots
         known.texts += line;
-        for word in line.split(' ').filter(|word| word.ends_with(".yaml")) {
+        for word in line
+            .split(' ')
+            .filter(|word| Path::new(word).extension().is_some_and(|e| e == "yaml"))
+        {
             let path = word.strip_prefix('@').map(repository);
             let path = path.unwrap_or_else(|| folder.path().join(word));
             let profile = std::fs::read_to_string(path).unwrap_or_default();

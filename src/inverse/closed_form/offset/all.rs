@@ -117,7 +117,7 @@ fn pinches(room: &mut impl FnMut(f64) -> (f64, f64), [from, to]: [f64; 2], found
 }
 
 /// A way to the meeting point: front, before.
-pub(in super::super) type Way = [f64; 2];
+pub(in super::super) type ArmSigns = [f64; 2];
 
 impl Arm {
     /// The rows at every root on the ways whose front sign is among `fronts` and whose elbow sign is among `befores`, handed to `each`.
@@ -197,7 +197,7 @@ impl Arm {
         circle: &Circle<f64>,
         whole: Stretch,
         part: Option<[f64; 2]>,
-        [front, before]: Way,
+        [front, before]: ArmSigns,
         found: &mut Vec<f64>,
     ) {
         let residual = |angle: f64| {
@@ -240,7 +240,7 @@ impl Arm {
         &self,
         target: &Pose,
         start: Turn,
-        [front, before]: Way,
+        [front, before]: ArmSigns,
     ) -> Option<([Turn; 6], f64)> {
         let circle = self.circle(target);
         let (mut sixth, mut turned) = (start, 0.0_f64);
@@ -266,7 +266,7 @@ impl Arm {
     pub(in super::super) fn offset_least(
         &self,
         target: &Pose,
-        [front, before]: Way,
+        [front, before]: ArmSigns,
     ) -> ([Turn; 6], f64) {
         let circle = self.circle(target);
         let missed = |angle: f64| {

@@ -16,7 +16,7 @@
 
 mod all;
 
-pub(super) use all::Way;
+pub(super) use all::ArmSigns;
 
 use super::{Arm, Margins, Wrist, arm_rotation};
 use crate::geometry::units::{DEG, MM};

@@ -253,14 +253,14 @@ fn rows_of_arcs_start_with_a_straight_line() {
 }
 
 #[test]
-fn joint_moves_honour_configuration_data_and_others_keep_the_posture() {
+fn moves_have_configuration_data_but_where_the_orientation_is_free() {
     let lines = "J P[1] 1% FINE ;\nL P[1] 9mm/sec FINE ;\nL P[1] 9mm/sec FINE Wjnt ;";
     let program = read(lines, &usual("1"));
     let flags = program
         .moves
         .iter()
         .map(|m| (m.configured, m.free_orientation));
-    assert!(flags.eq([(true, false), (false, false), (false, true)]));
+    assert!(flags.eq([(true, false), (true, false), (false, true)]));
 }
 
 #[test]

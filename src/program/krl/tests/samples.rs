@@ -71,8 +71,8 @@ fn the_sample_of_refusals_has_each_of_them() {
         .collect();
     let expected = [
         "absolutely-accurate",
-        "held-work-piece",
         "frame-chosen-at-run-time",
+        "held-work-piece",
         "partial-target",
         "relative-move",
         "target-assigned-at-run-time",

@@ -260,7 +260,7 @@ fn a_tool_that_the_file_does_not_assign_has_its_name() {
 
 #[test]
 fn speed_and_radius_are_arguments_by_place_or_name() {
-    let of = |text: &str| path(text).moves.last().expect("a move").pace;
+    let of = |text: &str| path(text).moves.last().expect("a move").speed_zone;
     let named = of("movel(p[1,2,3,0,0,0], a=1.2, r=0.005, v=0.25)");
     assert_eq!((named.speed_m_s, named.zone_m), (Some(0.25), Some(0.005)));
     let placed = of("movec(p[1,2,3,0,0,0], p[1,2,4,0,0,0], 1.2, 0.1, 0.02, 0)");
@@ -294,4 +294,40 @@ fn threads_begin_with_what_is_set_where_they_are_run() {
     let program = path("thread t():\nmovel(p[1,2,3,0,0,0])\nend\nrun t()\nmovel(p[1,2,4,0,0,0])");
     assert_eq!(program.before(&program.moves[0]), [Before::Anywhere]);
     assert_eq!(program.before(&program.moves[1]), [Before::Start]);
+}
+
+#[test]
+fn what_a_condition_never_lets_run_moves_nothing() {
+    let text = |condition: &str| {
+        format!(
+            "x=p[1,2,3,0,0,0]\nif {condition}:\nwhile a:\nif b:\nmovel(x)\nend\nend\nelse:\nmovel(p[1,2,4,0,0,0])\nend\nmovel(p[1,2,5,0,0,0])"
+        )
+    };
+    for (condition, runs) in [
+        ("(1 == 2)", false),
+        ("1==2", false),
+        ("False", false),
+        ("(1 == 1.0)", true),
+        ("(1 == 2 or a)", true),
+        ("(a == 2)", true),
+        ("(1 == a)", true),
+        ("2 > 1", true),
+        ("not False", true),
+    ] {
+        let program = path(&text(condition));
+        assert_eq!(to(&program).contains(&"x".to_owned()), runs, "{condition}");
+        assert_eq!(program.targets.len(), 3);
+        assert_eq!(
+            ids(&program),
+            if runs {
+                vec![]
+            } else {
+                vec!["target-unused-here"]
+            }
+        );
+    }
+    // what follows the whole `if` runs
+    let program =
+        path("x=p[1,2,3,0,0,0]\nif 1==2:\nmovel(x)\nelif a:\nmovej(x)\nend\nmovel(p[1,2,5,0,0,0])");
+    assert_eq!(to(&program), ["x", "-"]);
 }

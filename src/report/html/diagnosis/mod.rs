@@ -23,7 +23,7 @@ const STEP_RAD: f64 = 1e-6;
 
 /// The page of `diagnose`.
 #[must_use]
-pub fn page(of: &Diagnosis) -> Page {
+pub(crate) fn page(of: &Diagnosis) -> Page {
     let found = &of.found;
     let (level, answer) = match found.verdict {
         Verdict::Explained => (
@@ -48,7 +48,7 @@ pub fn page(of: &Diagnosis) -> Page {
     let source = match found.noise_source {
         NoiseSource::Given => "sigma_mm",
         NoiseSource::Repeats => "repeated poses",
-        NoiseSource::Left => "what no model explains",
+        NoiseSource::Residuals => "what no model explains",
     };
     page.fact(
         &format!("noise of a coordinate, by {source}"),

@@ -14,7 +14,7 @@ const MOST_NAMES: usize = 60;
 
 /// The page of `calibrate`.
 #[must_use]
-pub fn calibrate_page(of: &Calibration) -> Page {
+pub(crate) fn calibrate_page(of: &Calibration) -> Page {
     let found = &of.found;
     let profile = found.profile();
     let main = |q: &Quality| q.main().and_then(|s| s.mean_mm).unwrap_or(f64::NAN);

@@ -3,8 +3,8 @@
 mod calibrate;
 mod validate;
 
-pub use calibrate::calibrate_page;
-pub use validate::validate_page;
+pub(crate) use calibrate::calibrate_page;
+pub(crate) use validate::validate_page;
 
 use super::cell::{Along, Cell, Path, Points, Robot};
 use super::numbers::{Column, Table, fixed, significant};
@@ -24,7 +24,7 @@ const FAR_OFF: f64 = 20.0;
 const MOST_POINTS: usize = 500;
 
 /// One model's misses of every row.
-pub struct Judged<'a> {
+pub(crate) struct Judged<'a> {
     /// Its name.
     pub name: &'static str,
     /// Its colour.
@@ -34,7 +34,7 @@ pub struct Judged<'a> {
 }
 
 /// Rows with the misses of several models, the best last.
-pub struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     /// The rows.
     pub problem: &'a Problem,
     /// What the rows' indices are of.

@@ -11,7 +11,7 @@ use crate::task::validate::{Repeated, RepeatedDistance, Validation};
 
 /// The page of `validate`.
 #[must_use]
-pub fn validate_page(of: &Validation) -> Page {
+pub(crate) fn validate_page(of: &Validation) -> Page {
     let (found, profile) = (&of.found, &of.profile);
     let mean = |q: &statistics::Quality| q.main().map_or(f64::NAN, |s| s.mean);
     let (controller, real) = (mean(&found.controller.quality), mean(&found.real.quality));

@@ -13,7 +13,7 @@ use crate::report::html::page::{Axis, Chart, Kind, Level, Page, Section, Series,
 use crate::task::check::Header;
 
 /// What the page of `check` is made of.
-pub struct Checked<'a> {
+pub(crate) struct Checked<'a> {
     /// As for the JSON.
     pub header: &'a Header<'a>,
     /// The files.
@@ -30,7 +30,7 @@ pub struct Checked<'a> {
 
 /// The page of `check`.
 #[must_use]
-pub fn check_page(of: &Checked) -> Page {
+pub(crate) fn check_page(of: &Checked) -> Page {
     let (header, found) = (of.header, of.check);
     let (mut level, mut text) = answer(&found.findings, "No error found", "The answer is no");
     if of.worse > 0 {

@@ -14,7 +14,7 @@ use crate::report::html::page::{Page, Section, Tone};
 use crate::task::compensate::Header;
 
 /// What the page of `compensate` is made of.
-pub struct Compensated<'a> {
+pub(crate) struct Compensated<'a> {
     /// As for the JSON.
     pub header: &'a Header<'a>,
     /// The compensation, with every target.
@@ -29,7 +29,7 @@ pub struct Compensated<'a> {
 
 /// The page of `compensate`, without the way of the written program.
 #[must_use]
-pub fn compensate_page(of: &Compensated) -> Page {
+pub(crate) fn compensate_page(of: &Compensated) -> Page {
     let (header, compensation) = (of.header, of.compensation);
     let program = &compensation.program;
     let reports = &compensation.targets;
@@ -239,7 +239,7 @@ pub fn compensate_page(of: &Compensated) -> Page {
 }
 
 /// Adds the way of the written program to the page of `compensate`.
-pub fn add_written(
+pub(crate) fn add_written(
     page: &mut Page,
     traced: &[Traced],
     original: &[Traced],

@@ -3,8 +3,8 @@
 mod check;
 mod compensate;
 
-pub use check::{Checked, check_page};
-pub use compensate::{Compensated, add_written, compensate_page};
+pub(crate) use check::{Checked, check_page};
+pub(crate) use compensate::{Compensated, add_written, compensate_page};
 
 use super::cell::Path;
 use super::numbers::{Number, fixed};
@@ -21,12 +21,12 @@ use crate::program::{Program, Source};
 /// Items that a page holds; of more it holds those with the largest numbers.
 const MOST_ITEMS: usize = 20_000;
 /// Samples of all paths together.
-pub const SAMPLES: usize = 24_000;
+pub(crate) const SAMPLES: usize = 24_000;
 /// Letters of a program's line that are shown.
 const LETTERS: usize = 96;
 
 /// What a page of a program draws beside its numbers.
-pub struct Scenery<'a> {
+pub(crate) struct Scenery<'a> {
     /// The robot.
     pub profile: &'a Profile,
     /// What stands around it.

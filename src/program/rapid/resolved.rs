@@ -2,7 +2,7 @@
 
 use super::builtins::Known;
 use super::syntax::{
-    Argument, Base, Callee, Datum, Expression, Function, Notes, Part, StatementKind, Storage,
+    Argument, Base, Callee, Datum, Expression, Function, Parsed, Part, StatementKind, Storage,
     Stored, Type, Verb, indices,
 };
 use super::verbs::Verbs;
@@ -12,8 +12,8 @@ use crate::program::script::short;
 use std::collections::HashSet;
 
 /// All that was noted, with its names resolved.
-pub(super) struct World<'a> {
-    pub notes: Notes,
+pub(super) struct Resolved<'a> {
+    pub parsed: Parsed,
     pub sources: &'a [Source],
     data: Scopes,
     routines: Scopes,
@@ -51,22 +51,22 @@ struct Given {
     file: u32,
 }
 
-impl<'a> World<'a> {
-    pub fn new(notes: Notes, verbs: Verbs, sources: &'a [Source]) -> Self {
+impl<'a> Resolved<'a> {
+    pub(super) fn new(parsed: Parsed, verbs: Verbs, sources: &'a [Source]) -> Self {
         let (mut data, mut routines) = (Scopes::default(), Scopes::default());
-        for (at, datum) in notes.data.iter().enumerate() {
+        for (at, datum) in parsed.data.iter().enumerate() {
             data.add(datum.name, datum.context, datum.local, short(at));
         }
-        for (at, routine) in notes.routines.iter().enumerate() {
+        for (at, routine) in parsed.routines.iter().enumerate() {
             let context = Context {
                 module: routine.module,
                 routine: None,
             };
             routines.add(routine.name, context, routine.local, short(at));
         }
-        let written = vec![false; notes.data.len()];
-        let mut world = Self {
-            notes,
+        let written = vec![false; parsed.data.len()];
+        let mut resolved = Self {
+            parsed,
             sources,
             data,
             routines,
@@ -74,32 +74,32 @@ impl<'a> World<'a> {
             written,
             undeclared: HashSet::new(),
         };
-        world.find_written();
-        world
+        resolved.find_written();
+        resolved
     }
 
-    pub fn datum(&self, datum: u32) -> &Datum {
-        &self.notes.data[datum as usize]
+    pub(super) fn datum(&self, datum: u32) -> &Datum {
+        &self.parsed.data[datum as usize]
     }
 
-    pub fn spelling(&self, name: Symbol) -> &str {
-        self.notes.symbols.spelling(name)
+    pub(super) fn spelling(&self, name: Symbol) -> &str {
+        self.parsed.symbols.spelling(name)
     }
 
-    pub fn meaning(&self, name: Symbol, context: Context) -> Meaning {
+    pub(super) fn meaning(&self, name: Symbol, context: Context) -> Meaning {
         self.data.meaning(name, context)
     }
 
-    pub fn several(&self, list: u32) -> &[u32] {
+    pub(super) fn several(&self, list: u32) -> &[u32] {
         self.data.several(list)
     }
 
     /// What a function of this name does if it is one of the language.
-    pub fn known(&self, function: &Function) -> Known {
+    pub(super) fn known(&self, function: &Function) -> Known {
         self.verbs.known(function.name)
     }
 
-    pub fn is_written(&self, entity: Entity) -> bool {
+    pub(super) fn is_written(&self, entity: Entity) -> bool {
         match entity {
             Entity::Declared(datum) => self.written[datum as usize],
             Entity::Undeclared(name) => self.undeclared.contains(&name),
@@ -107,12 +107,12 @@ impl<'a> World<'a> {
     }
 
     /// Whether a name is written that the files do not declare.
-    pub fn has_undeclared(&self) -> bool {
+    pub(super) fn has_undeclared(&self) -> bool {
         !self.undeclared.is_empty()
     }
 
     /// The type of what a name means; of several declarations that of the first.
-    pub fn kind(&self, name: Symbol, context: Context) -> Option<Type> {
+    pub(super) fn kind(&self, name: Symbol, context: Context) -> Option<Type> {
         match self.meaning(name, context) {
             Meaning::One(datum) => Some(self.datum(datum).kind),
             Meaning::Several(list) => Some(self.datum(self.several(list)[0]).kind),
@@ -121,12 +121,18 @@ impl<'a> World<'a> {
     }
 
     /// Whether a call names a routine of the files.
-    pub fn is_routine(&self, name: Symbol, context: Context) -> bool {
+    pub(super) fn is_routine(&self, name: Symbol, context: Context) -> bool {
         self.routines.meaning(name, context) != Meaning::Nothing
     }
 
     /// The routines that a call may mean.
-    pub fn callees(&self, callee: Callee, arguments: Part, context: Context, file: u32) -> Callees {
+    pub(super) fn callees(
+        &self,
+        callee: Callee,
+        arguments: Part,
+        context: Context,
+        file: u32,
+    ) -> Callees {
         let named = |name: Option<Symbol>| {
             let meaning = name.map_or(Meaning::Nothing, |name| {
                 self.routines.meaning(name, context)
@@ -142,7 +148,7 @@ impl<'a> World<'a> {
             Callee::Text(start, end) => {
                 let text = &self.sources[file as usize].bytes[start as usize..end as usize];
                 let name = text.rsplit(|b| *b == b':').next().unwrap_or_default();
-                named(self.notes.symbols.find(&name.to_ascii_lowercase()))
+                named(self.parsed.symbols.find(&name.to_ascii_lowercase()))
             }
             Callee::Late => return self.any_routine(arguments, ""),
         };
@@ -153,18 +159,18 @@ impl<'a> World<'a> {
     }
 
     /// Every procedure whose name begins so and that takes so many arguments, and others.
-    pub fn any_routine(&self, arguments: Part, prefix: &str) -> Callees {
-        let positional = self.notes.arguments[indices(arguments)]
+    pub(super) fn any_routine(&self, arguments: Part, prefix: &str) -> Callees {
+        let positional = self.parsed.arguments[indices(arguments)]
             .iter()
             .filter(|argument| argument.option.is_none())
             .count();
         let fits = |at: &usize| {
-            let routine = &self.notes.routines[*at];
+            let routine = &self.parsed.routines[*at];
             let name = self.spelling(routine.name);
             let begins = name
                 .get(..prefix.len())
                 .is_some_and(|begin| begin.eq_ignore_ascii_case(prefix));
-            let required = self.notes.data[indices(routine.parameters)]
+            let required = self.parsed.data[indices(routine.parameters)]
                 .iter()
                 .filter(|datum| !matches!(datum.storage, Storage::Parameter { optional: true, .. }))
                 .count();
@@ -173,7 +179,7 @@ impl<'a> World<'a> {
                 && required == positional
                 && !name.eq_ignore_ascii_case("main")
         };
-        let routines = (0..self.notes.routines.len()).filter(fits).map(short);
+        let routines = (0..self.parsed.routines.len()).filter(fits).map(short);
         Callees {
             routines: routines.collect(),
             foreign: true,
@@ -181,7 +187,7 @@ impl<'a> World<'a> {
     }
 
     /// The parameter of a routine that each argument is for.
-    pub fn parameters<'b>(
+    pub(super) fn parameters<'b>(
         &'b self,
         routine: u32,
         arguments: &'b [Argument],
@@ -189,7 +195,7 @@ impl<'a> World<'a> {
         let mut positional = arguments
             .iter()
             .filter(|argument| argument.option.is_none());
-        let (first, end) = self.notes.routines[routine as usize].parameters;
+        let (first, end) = self.parsed.routines[routine as usize].parameters;
         (first..end).map(move |datum| {
             let parameter = self.datum(datum);
             let argument = match parameter.storage {
@@ -221,12 +227,12 @@ impl<'a> World<'a> {
         changed
     }
 
-    /// Whether arguments are given to functions or instructions in [`Notes::given`] or [`Notes::arguments`].
+    /// Whether arguments are given to functions or instructions in [`Parsed::given`] or [`Parsed::arguments`].
     fn list(&self, of_function: bool) -> &[Argument] {
         if of_function {
-            &self.notes.given
+            &self.parsed.given
         } else {
-            &self.notes.arguments
+            &self.parsed.arguments
         }
     }
 
@@ -237,8 +243,8 @@ impl<'a> World<'a> {
             routine: None,
         };
         let mut file = 0;
-        for at in 0..self.notes.statements.len() {
-            match self.notes.statements[at].kind {
+        for at in 0..self.parsed.statements.len() {
+            match self.parsed.statements[at].kind {
                 StatementKind::Text {
                     file: in_file,
                     context: now,
@@ -247,7 +253,7 @@ impl<'a> World<'a> {
                     self.mark(name, context);
                 }
                 StatementKind::Function(function) => {
-                    let function = self.notes.functions[function as usize];
+                    let function = self.parsed.functions[function as usize];
                     let given = Given {
                         callee: Callee::Named(function.name),
                         verb: Verb::Other,
@@ -282,10 +288,15 @@ impl<'a> World<'a> {
             }
         }
         // what a routine writes into a parameter by reference is written where it is called
-        while calls
-            .iter()
-            .fold(false, |changed, call| self.mark_given(*call) || changed)
-        {}
+        loop {
+            let mut changed = false;
+            for call in &calls {
+                changed |= self.mark_given(*call);
+            }
+            if !changed {
+                break;
+            }
+        }
     }
 
     fn note_call(&mut self, given: Given, calls: &mut Vec<Given>) {
@@ -294,14 +305,14 @@ impl<'a> World<'a> {
             Verb::Move { first: 2, .. } => self.mark_argument(given, 1),
             Verb::WritesTool => {
                 for at in indices(given.arguments) {
-                    if let Some(name) = named(&self.notes.arguments[at].expression) {
+                    if let Some(name) = named(&self.parsed.arguments[at].expression) {
                         self.mark(name, given.context);
                     }
                 }
             }
             Verb::WritesNamed => {
-                for at in 0..self.notes.data.len() {
-                    let datum = self.notes.data[at];
+                for at in 0..self.parsed.data.len() {
+                    let datum = self.parsed.data[at];
                     let matters = datum.kind.is_target() || datum.kind.is_frame();
                     self.written[at] |= matters && datum.storage != Storage::Constant;
                 }
@@ -364,14 +375,13 @@ impl<'a> World<'a> {
     }
 
     /// Whether the value that a target is declared with is written over, so that it may be anything.
-    pub fn is_written_target(&self, target: usize) -> bool {
+    pub(super) fn is_written_target(&self, target: usize) -> bool {
         let declares = |datum: &Datum| match datum.value {
-            Stored::Elements { elements, .. } => self.notes.elements[indices(elements)]
-                .iter()
-                .any(|element| *element == super::syntax::Element::Target(target)),
+            Stored::Elements { elements, .. } => self.parsed.elements[indices(elements)]
+                .contains(&super::syntax::Element::Target(target)),
             _ => false,
         };
-        let found = self.notes.data.iter().position(declares);
+        let found = self.parsed.data.iter().position(declares);
         found.is_some_and(|at| self.written[at])
     }
 }

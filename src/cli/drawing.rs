@@ -11,14 +11,14 @@ use crate::task::compensate::Header;
 use crate::task::meshes::Loader;
 
 /// The report while it is made: the program as it was, then as it is written.
-pub struct Drawing {
+pub(super) struct Drawing {
     pub page: Page,
     original: Vec<Traced>,
 }
 
 impl Drawing {
     /// The program as it was.
-    pub fn begin(
+    pub(super) fn begin(
         header: &Header,
         compensation: &Compensation,
         file: &ProfileFile,
@@ -48,14 +48,14 @@ impl Drawing {
     }
 
     /// How many moves were inserted to keep the path near the wanted one.
-    pub fn tell_inserted(&mut self, moves: usize) {
+    pub(super) fn tell_inserted(&mut self, moves: usize) {
         if moves > 0 {
             self.page.fact("moves inserted", moves.to_string());
         }
     }
 
     /// And as it is written.
-    pub fn add_written(
+    pub(super) fn add_written(
         &mut self,
         language: &dyn Language,
         written: &[Source],
