@@ -15,7 +15,7 @@
 //!
 //! let joint = |k: usize, axis: &str| format!(
 //!     "<link name='l{k}'/><joint name='j{k}' type='revolute'><parent link='l{}'/><child link='l{k}'/>\
-//!      <origin xyz='0.1 0 0.2'/><axis xyz='{axis}'/><limit lower='-2' upper='2'/></joint>", k - 1);
+//!      <origin xyz='0.1 0 0.2'/><axis xyz='{axis}'/><limit lower='-2' upper='2' effort='1' velocity='1'/></joint>", k - 1);
 //! let axes = ["0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"];
 //! let joints: String = axes.iter().enumerate().map(|(k, axis)| joint(k + 1, axis)).collect();
 //! let arm = UrdfArm::read(&format!("<robot name='r'><link name='l0'/>{joints}</robot>"), &Choice::default())?;
