@@ -10,9 +10,11 @@
 //! fake target = world_from_frame⁻¹ · F
 //! ```
 //!
-//! Each step is one file: `placement` finds the tool and frame of each target, `posture` the branch of the inverse that
-//! the program means, `rewrite` puts the new numbers in the place of the old ones and reads them back to tell what
-//! rounding costs, `displaced` tells what a correction does to points that the program derives from a target.
+//! Each step is one file. [`crate::motion`] says with what and in which posture the robot comes to each target; `approach` lists
+//! the ways to come there, `solve` finds the joints (`singular` at the wrist's singularity), `shared` one set of numbers for all
+//! ways, `limit` what a correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new targets between
+//! them, `displaced` says what a correction does to points that the program derives from a target; `written` puts it all into the
+//! files and reads them again. `context` and `refused` say which files stay.
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
@@ -42,6 +44,7 @@ mod displaced;
 mod limit;
 mod outcome;
 mod refused;
+mod remarks;
 mod rewrite;
 mod shared;
 mod singular;
@@ -339,28 +342,21 @@ impl Compensation {
         if sources.iter().any(|source| source.is_context) {
             self.findings.retain(|finding| !of_context(finding));
         }
+        self.findings
+            .retain(|finding| finding.id != "acceptance-unused");
         let (idle, taken) = accept(&mut self.findings, accepted);
-        let known = |text: &String| {
-            self.findings
-                .iter()
-                .any(|f| f.id == "acceptance-unused" && f.message == *text)
+        // what an earlier look took is no error any more
+        let is_open = |acceptance: &&&Acceptance| {
+            !self
+                .decided
+                .contains(&format!("accepted {}", acceptance.id()))
         };
-        let idle: Vec<String> = idle
+        let idle: Vec<Finding> = idle
             .iter()
-            .filter(|acceptance| {
-                !self
-                    .decided
-                    .contains(&format!("accepted {}", acceptance.id()))
-            })
-            .map(|acceptance| format!("--accept {acceptance} takes no error: there is none"))
-            .filter(|text| !known(text))
+            .filter(is_open)
+            .map(|acceptance| acceptance.idle(sources.first().map_or("", |source| &source.name)))
             .collect();
-        if let Some(source) = sources.first() {
-            self.findings.extend(idle.into_iter().map(|text| {
-                Finding::of_file("acceptance-unused", Severity::Warning, &source.name, text)
-                    .hint("leave it out")
-            }));
-        }
+        self.findings.extend(idle);
         self.decided
             .extend(taken.iter().map(|id| format!("accepted {id}")));
         self.decided.sort_unstable();

@@ -4,11 +4,11 @@ use super::Job;
 use super::approach::Approach;
 use super::limit;
 use super::outcome::{TargetReport, small};
+use super::remarks;
 use super::shared::{self, Fake};
-use super::singular;
-use crate::finding::{Acceptance, Finding, Severity};
+use crate::finding::{Acceptance, Finding};
 use crate::geometry::Separation;
-use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::geometry::units::{DEG, MM};
 use crate::inverse::{Arm, Outcome, Status};
 use crate::motion::walk::NOWHERE;
 use crate::program::number::{self, Fraction, Style};
@@ -26,9 +26,6 @@ const ROUNDING_LIMIT: Separation = Separation {
     distance_m: 0.01 * MM,
     angle_rad: 0.01 * DEG,
 };
-/// Nearer to a singularity than this the joints move much for a small shift.
-const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
-const NEAR_AXIS_1_M: f64 = 5.0 * MM;
 
 /// What became of some of the targets.
 pub(super) struct Portion<'a> {
@@ -101,7 +98,7 @@ impl<'a> Portion<'a> {
             .find(|(_, outcome)| outcome.status != Status::Converged);
         if let Some((approach, outcome)) = lost {
             report = TargetReport::new(Some((approach, outcome)));
-            self.findings.push(failure(job, approach, outcome));
+            self.findings.push(remarks::failure(job, approach, outcome));
         } else {
             match shared::common(job, group) {
                 Ok(fake) => self.add_converged(job, group, &fake, fractions, &mut report),
@@ -229,8 +226,10 @@ impl<'a> Portion<'a> {
         }
         (report.fake, report.shift) = (Some(fake.frame_from_tool), shift);
         report.before = worst(group.iter().map(|(approach, _)| uncorrected(job, approach)));
-        self.findings.extend(singularity(job, approach, outcome));
-        self.findings.extend(other_posture(job, approach, outcome));
+        self.findings
+            .extend(remarks::singularity(job, approach, outcome));
+        self.findings
+            .extend(remarks::other_posture(job, approach, outcome));
         let moved = job.ground.off_part(wanted).separation(&given);
         if moved.distance_m < NO_SHIFT.distance_m && moved.angle_rad < NO_SHIFT.angle_rad {
             return;
@@ -269,7 +268,7 @@ impl<'a> Portion<'a> {
             || left.angle_rad > report.residual.angle_rad + ROUNDING_LIMIT.angle_rad
         {
             self.findings
-                .push(rounding_finding(job, approach, left, shift));
+                .push(remarks::rounding(job, approach, left, shift));
         }
     }
 
@@ -310,7 +309,8 @@ impl<'a> Portion<'a> {
             return None;
         }
         if let Some(joint) = kept_configuration(job, approach, &fake.q, &new) {
-            self.findings.push(kept_finding(job, approach, joint));
+            self.findings
+                .push(remarks::kept_configuration(job, approach, joint));
             return None;
         }
         let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
@@ -320,7 +320,9 @@ impl<'a> Portion<'a> {
         };
         let new = &mut written.numbers;
         if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
-            written.finding = Some(configuration_finding(job, approach, roles, &old, new));
+            written.finding = Some(remarks::changed_configuration(
+                job, approach, roles, &old, new,
+            ));
         }
         let mut digits = Vec::with_capacity(32);
         for (index, number) in numbers.iter().enumerate() {
@@ -440,35 +442,6 @@ fn styles(
     })
 }
 
-fn rounding_finding(
-    job: &Job,
-    approach: &Approach,
-    rounding: Separation,
-    shift: Separation,
-) -> Finding {
-    // what a field for joints takes is that
-    let severity = if job.ground.is_joints(approach.target as usize) {
-        Severity::Warning
-    } else {
-        Severity::Error
-    };
-    let message = format!(
-        "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg off its wanted pose; the limit is 0.010 mm and 0.010 deg (the shift is {:.3} mm, {:.3} deg)",
-        job.ground.name_of(approach.target as usize),
-        mm_from_m(rounding.distance_m),
-        rounding.angle_rad / DEG,
-        mm_from_m(shift.distance_m),
-        shift.angle_rad / DEG
-    );
-    job.ground.at_target(
-        "rounding",
-        severity,
-        approach.target as usize,
-        message,
-        "--decimals 4 writes more",
-    )
-}
-
 fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {
     let start = number.start as usize;
     &job.ground.sources[target.file as usize].bytes[start..start + usize::from(number.length)]
@@ -501,173 +474,4 @@ fn kept_configuration(job: &Job, approach: &Approach, q: &[f64; 6], new: &[f64])
         decoded.configuration.joints[i]
             .is_some_and(|range| is_inside(approach.nominal_q[i], range) && !is_inside(q[i], range))
     })
-}
-
-fn kept_finding(job: &Job, approach: &Approach, joint: usize) -> Finding {
-    let message = format!(
-        "the correction takes joint {} of {} across the border of its configuration data, which are those of other \
-         targets too and stay: a joint move would come out a turn away",
-        joint + 1,
-        job.ground.name_of(approach.target as usize)
-    );
-    job.ground.at_target(
-        "configuration-kept",
-        Severity::Error,
-        approach.target as usize,
-        message,
-        "go there on a straight line, or move the target away from the border",
-    )
-}
-
-fn configuration_finding(
-    job: &Job,
-    approach: &Approach,
-    roles: &[Role],
-    old: &[f64],
-    new: &[f64],
-) -> Finding {
-    let shown = |numbers: &[f64]| {
-        let data = numbers
-            .iter()
-            .zip(roles)
-            .filter(|(_, role)| **role == Role::Configuration);
-        data.map(|(number, _)| number.to_string())
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let message = format!(
-        "a joint of {} crosses into another range: configuration {} becomes {}",
-        job.ground.name_of(approach.target as usize),
-        shown(old),
-        shown(new)
-    );
-    job.ground.at_target(
-        "configuration-changed",
-        Severity::Warning,
-        approach.target as usize,
-        message,
-        "check the move on the robot slowly",
-    )
-}
-
-fn failure(job: &Job, approach: &Approach, outcome: &Outcome) -> Finding {
-    let name = job.ground.name_of(approach.target as usize);
-    let mechanism = job.ground.arm_with(approach.tool as usize).arm.mechanism();
-    let missing = format!(
-        "{:.6} mm and {:.6} deg are missing",
-        mm_from_m(outcome.residual.distance_m),
-        outcome.residual.angle_rad / DEG
-    );
-    let margins = &outcome.margins;
-    let near = format!(
-        "wrist {:.3} deg, elbow {:.3} deg, axis 1 {:.1} mm from singular",
-        margins.wrist_rad / DEG,
-        margins.elbow_rad / DEG,
-        mm_from_m(margins.shoulder_m)
-    );
-    let (id, message) = match outcome.status {
-        Status::OutOfReach => (
-            "out-of-reach",
-            format!("the real robot does not reach {name}: {missing}; {near}"),
-        ),
-        Status::JointLimit(joint) => {
-            let limits = &mechanism.joints[joint];
-            let at = outcome.q[joint] / DEG;
-            let message = format!(
-                "to reach {name} joint {} must go to {at:.3} deg; its limits are {:.3} to {:.3} deg",
-                joint + 1,
-                limits.min_rad / DEG,
-                limits.max_rad / DEG
-            );
-            ("joint-limit", message)
-        }
-        Status::BranchLost => (
-            "branch-lost",
-            format!(
-                "the real robot reaches {name} only on another branch than {}; {near}",
-                approach.branch
-            ),
-        ),
-        Status::NotConverged | Status::Converged => (
-            "not-converged",
-            format!("no joints found for {name}: {missing}; {near}"),
-        ),
-    };
-    let mut hint = "move the target, or --keep-going to leave it as it is".to_owned();
-    if let Some(offers) = singular::offers(job, approach) {
-        hint = format!("{hint}; or {offers}");
-    }
-    job.ground.at_target(
-        id,
-        Severity::Error,
-        approach.target as usize,
-        message,
-        &hint,
-    )
-}
-
-fn singularity(job: &Job, approach: &Approach, outcome: &Outcome) -> Option<Finding> {
-    let margins = &outcome.margins;
-    let by = (0..6)
-        .map(|i| (outcome.q[i] - approach.nominal_q[i]).abs())
-        .fold(0.0, f64::max)
-        / DEG;
-    let (which, distance) = if margins.wrist_rad < NEAR_STRAIGHT_RAD {
-        ("wrist", format!("{:.3} deg", margins.wrist_rad / DEG))
-    } else if margins.elbow_rad < NEAR_STRAIGHT_RAD {
-        ("elbow", format!("{:.3} deg", margins.elbow_rad / DEG))
-    } else if margins.shoulder_m < NEAR_AXIS_1_M {
-        (
-            "shoulder",
-            format!("{:.2} mm", mm_from_m(margins.shoulder_m)),
-        )
-    } else {
-        return None;
-    };
-    let message = format!(
-        "{} is {distance} from the {which} singularity: the correction turns a joint by {by:.2} deg",
-        job.ground.name_of(approach.target as usize)
-    );
-    let hint = "the move may be fast there; check it slowly";
-    Some(job.ground.at_target(
-        "near-singularity",
-        Severity::Warning,
-        approach.target as usize,
-        message,
-        hint,
-    ))
-}
-
-/// A pose that the controller may reach in another posture than the one it was compensated for.
-fn other_posture(job: &Job, approach: &Approach, outcome: &Outcome) -> Option<Finding> {
-    let is_pose = job.ground.program.targets[approach.target as usize]
-        .layout
-        .shape
-        == Shape::Pose;
-    let only = job
-        .ground
-        .arm_with(approach.tool as usize)
-        .inverse
-        .arm
-        .is_only_posture(&outcome.margins);
-    if !is_pose || only {
-        return None;
-    }
-    let q: Vec<String> = outcome
-        .q
-        .iter()
-        .map(|q| format!("{:.1}", q / DEG))
-        .collect();
-    let message = format!(
-        "{} is near a singularity, where this arm can have another posture on the same branch: joints {} deg are meant",
-        job.ground.name_of(approach.target as usize),
-        q.join(", ")
-    );
-    Some(job.ground.at_target(
-        "several-postures",
-        Severity::Warning,
-        approach.target as usize,
-        message,
-        "see that the controller stands so, or teach the joints",
-    ))
 }

@@ -79,6 +79,12 @@ impl Acceptance {
         self.kind.id
     }
 
+    /// That it took nothing, at the first file.
+    pub(crate) fn idle(&self, file: &str) -> Finding {
+        let text = format!("--accept {self} takes no error: there is none");
+        Finding::of_file("acceptance-unused", Severity::Warning, file, text).hint("leave it out")
+    }
+
     /// Whether it takes a finding; a file is named by its path as the user gave it, or by its end.
     #[must_use]
     pub fn takes(&self, finding: &Finding) -> bool {
@@ -123,11 +129,7 @@ pub fn accept_errors(
     file: &str,
 ) -> Vec<&'static str> {
     let (idle, taken) = accept(findings, acceptances);
-    let idle = idle.into_iter().map(|acceptance| {
-        let text = format!("--accept {acceptance} takes no error: there is none");
-        Finding::of_file("acceptance-unused", Severity::Warning, file, text).hint("leave it out")
-    });
-    findings.extend(idle);
+    findings.extend(idle.into_iter().map(|acceptance| acceptance.idle(file)));
     taken
 }
 

@@ -22,8 +22,6 @@ const STANDSTILL_RAD: f64 = 1e-6;
 const READABLE: f64 = 1e6;
 /// Arrivals at one move that are told apart.
 const MOST_ARRIVALS: usize = 64;
-/// Joints of one posture that differ by less but for whole rotations, radians.
-const SAME_POSTURE_RAD: f64 = 0.01;
 /// Joints that differ by less are the same, radians.
 const SAME_RAD: f64 = 1e-7;
 /// A joint that moves more in a step of a path may have gone round: the step is halved.
@@ -502,12 +500,7 @@ impl Walker<'_, '_> {
             honoured: true,
             start: Some(*q),
         };
-        // whole rotations go by continuity
-        let turn = std::f64::consts::TAU;
-        let is_rotation = |by: f64| (by - turn * (by / turn).round()).abs() < SAME_POSTURE_RAD;
-        let is_other = |posture: &Posture| (0..6).any(|i| !is_rotation(posture.q[i] - q[i]));
-        posture::choose(self.ground, &asked, &mut Vec::new())
-            .filter(|posture| posture.configured && is_other(posture))
+        posture::choose(self.ground, &asked, &mut Vec::new()).filter(|posture| posture.configured)
     }
 
     /// A part of the target's orientation so large that its angle is lost in rounding.

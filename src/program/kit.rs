@@ -40,6 +40,8 @@ pub(super) enum Fault {
         meaning: &'static str,
         limit: &'static str,
     },
+    /// A byte that no text has.
+    Binary { at: u32 },
 }
 
 /// Bytes of a wrong part that an error message repeats at most.
@@ -57,7 +59,7 @@ impl Fault {
             }
         };
         let at = match self {
-            Self::Unclosed { at, .. } => at,
+            Self::Unclosed { at, .. } | Self::Binary { at } => at,
             Self::Unexpected { start, .. } | Self::BadValue { start, .. } => start,
         };
         let (line, column) = source.line_column(at as usize);
@@ -91,6 +93,11 @@ impl Fault {
                 value: shown(start, end),
                 meaning,
                 limit,
+            },
+            Self::Binary { at } => ReadError::Binary {
+                file,
+                byte: source.bytes[at as usize],
+                offset: at as usize,
             },
         }
     }

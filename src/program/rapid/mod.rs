@@ -197,7 +197,7 @@ fn script(sources: &[Source]) -> Result<Script, ReadError> {
     for (file, source) in sources.iter().enumerate() {
         check_bytes(source)?;
         let recognised = Reader::read(source, short(file), &mut parsed, &mut verbs)
-            .map_err(|fault| fault.in_source(source))?;
+            .map_err(|fault| fault.in_source(source, "the file"))?;
         if !recognised {
             return Err(ReadError::NotThisLanguage {
                 file: source.name.clone(),
@@ -216,7 +216,9 @@ fn script(sources: &[Source]) -> Result<Script, ReadError> {
     for bad in &resolved.parsed.bad_values {
         let target = &mut script.targets[bad.target];
         if !resolved.is_written_target(bad.target) {
-            return Err(bad.fault.in_source(&sources[target.file as usize]));
+            return Err(bad
+                .fault
+                .in_source(&sources[target.file as usize], "the file"));
         }
         // its value is that of the last run, or none yet
         (target.numbers, target.blocked) = (0..0, true);

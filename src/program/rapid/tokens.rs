@@ -3,7 +3,7 @@
 //! A token is a kind and a span; nothing is decoded or copied. Bytes of 0x80 and above count as letters, so Latin-1 and
 //! UTF-8 both pass. A line may end with LF, CR LF or CR.
 
-use crate::program::{ReadError, Source};
+pub(super) use crate::program::kit::Fault;
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,92 +37,6 @@ impl Token {
     /// Whether it is this sign.
     pub(super) fn is(self, sign: u8) -> bool {
         self.kind == Kind::Sign(sign)
-    }
-}
-
-/// Why the text cannot be read, by offsets; becomes a [`ReadError`] with the source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fault {
-    /// What opens here is not closed.
-    Unclosed { at: u32, what: &'static str },
-    /// Something else stands where one thing belongs.
-    Unexpected {
-        start: u32,
-        end: u32,
-        expected: &'static str,
-    },
-    /// A number no robot can use.
-    BadValue {
-        start: u32,
-        end: u32,
-        meaning: &'static str,
-        limit: &'static str,
-    },
-    /// A byte that no text has.
-    Binary { at: u32 },
-}
-
-/// Bytes of a wrong token that an error message repeats at most.
-const SHOWN: usize = 40;
-
-impl Fault {
-    /// The error with file, line and column.
-    pub(super) fn in_source(self, source: &Source) -> ReadError {
-        let file = source.name.clone();
-        let place = |at: u32| source.line_column(at as usize);
-        let shown = |start: u32, end: u32| {
-            let end = (end as usize).min(start as usize + SHOWN);
-            match source.bytes.get(start as usize..end) {
-                Some(text) if !text.is_empty() => Source::text(text),
-                _ => "the end of the file".to_owned(),
-            }
-        };
-        match self {
-            Self::Unclosed { at, what } => {
-                let (line, column) = place(at);
-                ReadError::Unclosed {
-                    file,
-                    line,
-                    column,
-                    what,
-                }
-            }
-            Self::Unexpected {
-                start,
-                end,
-                expected,
-            } => {
-                let (line, column) = place(start);
-                ReadError::Unexpected {
-                    file,
-                    line,
-                    column,
-                    found: shown(start, end),
-                    expected,
-                }
-            }
-            Self::BadValue {
-                start,
-                end,
-                meaning,
-                limit,
-            } => {
-                let (line, column) = place(start);
-                ReadError::BadValue {
-                    file,
-                    line,
-                    column,
-                    value: shown(start, end),
-                    meaning,
-                    limit,
-                }
-            }
-            Self::Binary { at } => ReadError::Binary {
-                file,
-                byte: source.bytes[at as usize],
-                offset: at as usize,
-            },
-        }
     }
 }
 

@@ -80,10 +80,8 @@ const POSTS: &[Post] = &[
     Post {
         files: &["rapid/ABB_RAPID_S4C__PGA.prg"],
         wrong: (
-            &[
-                5, 6, 22, 23, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 56, 57,
-            ],
-            "lines are in the base frame, arcs by mistake in the work frame; the robot leaves one in another posture",
+            &ARCS,
+            "lines are in the base frame, arcs by mistake in the work frame",
         ),
         ..PLAIN
     },

@@ -7,7 +7,6 @@ use poseshift::model::profile::Mounted;
 use poseshift::model::{Conditions, Geometry, Mechanism, Model};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use std::time::{Duration, Instant};
 
 /// Random postures an arm.
 const POSES: usize = 500;
@@ -18,8 +17,8 @@ const ANGLE_RAD: f64 = 1e-10;
 const SAME_RAD: f64 = 1e-5;
 /// Of ten thousand postures so many may be missed.
 const MISSED_OF_10_000: usize = 10;
-/// Far more than a refusal takes, far less than a search does in a debug build.
-const AT_ONCE: Duration = Duration::from_millis(2);
+/// Evaluations of the real arm after which a refusal comes: no search was begun.
+const AT_ONCE: u32 = 1;
 
 fn postures(mechanism: &Mechanism, count: usize, seed: u64) -> Vec<[f64; 6]> {
     let mut random = StdRng::seed_from_u64(seed);
@@ -196,9 +195,8 @@ fn out_of_reach_and_not_a_number_are_refused_at_once() {
             translation: reached.translation.map(|x| 20.0 * x + 20.0),
             ..reached
         };
-        let clock = Instant::now();
         let outcome = inverse.solve(&far, branch, &near);
-        assert!(clock.elapsed() < AT_ONCE, "{name} {:?}", clock.elapsed());
+        assert!(outcome.iterations <= AT_ONCE, "{name} {outcome:?}");
         assert_eq!(outcome.status, Status::OutOfReach, "{name}");
         assert!(inverse.arm.solve_all(&far, &near).is_empty(), "{name}");
         for (pose, near) in [

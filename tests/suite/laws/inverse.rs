@@ -14,7 +14,10 @@ use rand::rngs::StdRng;
 const POSES: usize = 10_000;
 /// Rounding of an arm of three metres, amplified at most a thousand times near singularities.
 const POSITION_M: f64 = 1e-11;
-const ANGLE_RAD: f64 = 1e-10;
+const ANGLE_RAD: f64 = 1e-11;
+/// An offset wrist's equation is solved to this where the elbow is nearer to straight than the other, radians.
+const AT_EDGE_RAD: f64 = 1e-10;
+const EDGE_RAD: f64 = 1e-4;
 
 fn is_small(gap: Separation) -> bool {
     gap.distance_m < POSITION_M && gap.angle_rad < ANGLE_RAD
@@ -112,8 +115,11 @@ fn all_eight_branches_reach_the_pose_or_say_that_they_do_not() {
                 let gap = controller
                     .forward(&found.q, &Conditions::default())
                     .separation(&wanted);
-                assert!(is_small(gap), "{name} {q:?} {branch} {gap:?} {found:?}");
                 let (is, margins) = arm.posture(&found.q);
+                let at_edge = arm.kind().starts_with("offset") && margins.elbow_rad < EDGE_RAD;
+                let good = is_small(gap)
+                    || (at_edge && gap.distance_m < POSITION_M && gap.angle_rad < AT_EDGE_RAD);
+                assert!(good, "{name} {q:?} {branch} {gap:?} {found:?}");
                 assert!(
                     is == branch
                         || margins.wrist_rad < 1e-6
