@@ -1,7 +1,8 @@
 //! The files' new bytes: changes and marker put in, read again, and every number compared with what was meant.
 
 use super::Compensation;
-use crate::program::{Edits, Language, Marker, Program, Role, Source, Target, number, sha256};
+use crate::program::script::Script;
+use crate::program::{Edits, Language, Marker, Number, Role, Source, Target, number, sha256};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ impl Compensation {
     /// # Errors
     /// What is written would not read back, number by number, as what was meant.
     pub fn written(
-        self,
+        mut self,
         language: &dyn Language,
         sources: &[Source],
         profile_sha256: &str,
@@ -46,7 +47,7 @@ impl Compensation {
         let mut meant = Vec::with_capacity(sources.len());
         let mut written = Vec::with_capacity(sources.len());
         for (file, source) in sources.iter().enumerate() {
-            let mut edits = self.edits[file].clone();
+            let mut edits = std::mem::take(&mut self.edits[file]);
             if !is_written[file] {
                 edits = Edits::default();
             }
@@ -70,7 +71,7 @@ impl Compensation {
                 Source::new(source.name.clone(), bytes)
             });
         }
-        let (settings, moves) = (self.settings, self.program.moves.len());
+        let (settings, moves) = (self.settings, self.program.instructions.len());
         let all_written = is_written
             .iter()
             .zip(sources)
@@ -81,7 +82,8 @@ impl Compensation {
             file: sources[file].name.clone(),
             what,
         };
-        let after = crate::motion::read(language, &written, &settings)
+        let after = language
+            .script(&written, &settings)
             .map_err(|error| differs(0, error.to_string()))?;
         let mut new: Vec<Vec<f64>> = Vec::new();
         for (file, meant) in meant.iter().enumerate() {
@@ -90,10 +92,10 @@ impl Compensation {
                 .map_err(|what| differs(file, what))?;
         }
         if let Some(mut added) = added {
-            if after.moves.len() != moves + added.moves {
+            if after.instructions.len() != moves + added.moves {
                 let what = format!(
                     "{} moves where {} are meant",
-                    after.moves.len(),
+                    after.instructions.len(),
                     moves + added.moves
                 );
                 return Err(differs(0, what));
@@ -131,7 +133,7 @@ struct Meant {
 impl Meant {
     fn of(compensation: &Compensation, file: usize, edits: &Edits) -> Self {
         let program = &compensation.program;
-        let order = numbers_of(program, file);
+        let order = numbers_of(&program.targets, &program.numbers, file);
         let mut next = order.into_iter().peekable();
         let mut meant = Self {
             numbers: Vec::new(),
@@ -200,7 +202,7 @@ impl Meant {
     /// Compares with what was read again; adds the numbers of new targets.
     fn compare(
         &self,
-        after: &Program,
+        after: &Script,
         file: usize,
         language: &dyn Language,
         new: &mut Vec<Vec<f64>>,
@@ -213,12 +215,13 @@ impl Meant {
                 .get(behind)
                 .is_some_and(|range| range.contains(&(offset as usize)))
         };
-        let mut found = numbers_of(after, file);
+        let mut found = numbers_of(&after.targets, &after.numbers, file);
         if !self.new.is_empty() {
             found.retain(|index| !is_new(after.numbers[*index as usize].start));
             let of_file = after.targets.iter().filter(|t| t.file as usize == file);
             for target in of_file {
-                let numbers = after.numbers_of(target);
+                let numbers =
+                    &after.numbers[target.numbers.start as usize..target.numbers.end as usize];
                 if numbers.first().is_some_and(|first| is_new(first.start)) {
                     new.push(without_configuration(language, target, |i| {
                         numbers[i].value
@@ -265,13 +268,13 @@ pub(super) fn without_configuration(
 }
 
 /// The numbers of a file's targets in the order of the file, each place once.
-fn numbers_of(program: &Program, file: usize) -> Vec<u32> {
-    let of_file = program.targets.iter().filter(|t| t.file as usize == file);
-    let mut numbers: Vec<u32> = of_file.flat_map(|target| target.numbers.clone()).collect();
-    let start = |index: &u32| program.numbers[*index as usize].start;
-    if !numbers.is_sorted_by_key(start) {
-        numbers.sort_by_key(start);
+fn numbers_of(targets: &[Target], numbers: &[Number], file: usize) -> Vec<u32> {
+    let of_file = targets.iter().filter(|t| t.file as usize == file);
+    let mut found: Vec<u32> = of_file.flat_map(|target| target.numbers.clone()).collect();
+    let start = |index: &u32| numbers[*index as usize].start;
+    if !found.is_sorted_by_key(start) {
+        found.sort_by_key(start);
     }
-    numbers.dedup_by_key(|index| start(index));
-    numbers
+    found.dedup_by_key(|index| start(index));
+    found
 }

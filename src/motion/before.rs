@@ -1,7 +1,7 @@
 //! Which moves may come before a move.
 
 use crate::program::script::short;
-use std::collections::HashMap;
+use foldhash::{HashMap, HashMapExt};
 
 /// A place where the robot may come from.
 pub(super) type Stop = u32;

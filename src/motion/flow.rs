@@ -15,7 +15,8 @@ use crate::program::script::{
     OVERWRITTEN, Part, PartValue, RoutineId, Script, Start, Statement, TableId, ValueId,
     VariableId, Write, Written, short,
 };
-use std::collections::{BinaryHeap, HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 /// Calls inside calls that are told apart.
@@ -763,12 +764,22 @@ impl<'a> Flow<'a> {
                 guard = self.holdings.join(guard, one);
             }
         }
+        // what the move itself names is written nowhere else: many moves then hold the same
+        let mut held = |value| match value {
+            Expr::Value(_) | Expr::Target(_) | Expr::Unknown(_) => {
+                self.evaluate(state, value, DECLARED)
+            }
+            other => self.evaluate(state, other, site),
+        };
+        let (tool, frame) = (held(instruction.tool), held(instruction.frame));
+        let load = held(instruction.load);
+        let (configured, wrist) = (held(instruction.configured), held(instruction.wrist));
         self.reached[stop as usize] = Some(Reached {
-            tool: self.evaluate(state, instruction.tool, site),
-            frame: self.evaluate(state, instruction.frame, site),
-            load: self.evaluate(state, instruction.load, site),
-            configured: self.evaluate(state, instruction.configured, site),
-            wrist: self.evaluate(state, instruction.wrist, site),
+            tool,
+            frame,
+            load,
+            configured,
+            wrist,
             target,
             guard,
             before: state.before,

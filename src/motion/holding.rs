@@ -1,7 +1,7 @@
 //! What a variable may hold: one value, several, or something that only the running program knows.
 
-use crate::program::script::{DisplacementId, RemarkId, ValueId};
-use std::collections::{HashMap, HashSet};
+use crate::program::script::{DisplacementId, NOT_DISPLACED, RemarkId, ValueId, short};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// A write, as an index of the script's statements; or the declaration.
 pub(super) type Site = u32;
@@ -43,8 +43,16 @@ pub(super) const NOTHING: Holding = Holding(0);
 /// Every holding once.
 #[derive(Debug)]
 pub(super) struct Holdings {
-    list: Vec<Box<[(Atom, Site)]>>,
-    ids: HashMap<Box<[(Atom, Site)]>, u32>,
+    /// What is in all of them, one after the other.
+    atoms: Vec<(Atom, Site)>,
+    /// Where those of each holding end; they begin where those of the one before end.
+    ends: Vec<u32>,
+    /// Holdings of one thing.
+    ones: HashMap<(Atom, Site), u32>,
+    /// Those of one position as it is declared, by position; 0 where there is none yet.
+    declared: Vec<u32>,
+    /// Holdings of several.
+    several: HashMap<Box<[(Atom, Site)]>, u32>,
     joins: HashMap<(u32, u32), u32>,
     /// Targets of holdings with more than are told apart.
     pub lost: HashSet<u32>,
@@ -52,26 +60,57 @@ pub(super) struct Holdings {
 
 impl Holdings {
     pub(super) fn new() -> Self {
-        let nothing: Box<[(Atom, Site)]> = Box::default();
         Self {
-            list: vec![nothing.clone()],
-            ids: HashMap::from([(nothing, 0)]),
+            atoms: Vec::new(),
+            ends: vec![0],
+            ones: HashMap::new(),
+            declared: Vec::new(),
+            several: HashMap::new(),
             joins: HashMap::new(),
             lost: HashSet::new(),
         }
     }
 
     pub(super) fn of(&self, holding: Holding) -> &[(Atom, Site)] {
-        &self.list[holding.0 as usize]
+        let at = holding.0 as usize;
+        let start = at.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.atoms[start as usize..self.ends[at] as usize]
     }
 
     /// One thing.
     pub(super) fn one(&mut self, atom: Atom, site: Site) -> Holding {
-        self.intern(vec![(atom, site)])
+        let next = short(self.ends.len());
+        let known = match atom {
+            Atom::Target {
+                target,
+                displacement: NOT_DISPLACED,
+            } if site == DECLARED => {
+                let at = target as usize;
+                if self.declared.len() <= at {
+                    self.declared.resize(at + 1, 0);
+                }
+                &mut self.declared[at]
+            }
+            _ => self.ones.entry((atom, site)).or_default(),
+        };
+        if *known == 0 {
+            *known = next;
+        }
+        let id = *known;
+        if id == next {
+            self.atoms.push((atom, site));
+            self.ends.push(short(self.atoms.len()));
+        }
+        Holding(id)
     }
 
     /// Any of these.
     pub(super) fn intern(&mut self, mut atoms: Vec<(Atom, Site)>) -> Holding {
+        match atoms[..] {
+            [] => return NOTHING,
+            [(atom, site)] => return self.one(atom, site),
+            _ => {}
+        }
         atoms.sort_unstable();
         atoms.dedup_by_key(|(atom, _)| *atom);
         let is_target = |atom: &Atom| matches!(atom, Atom::Target { .. } | Atom::Changed { .. });
@@ -85,11 +124,7 @@ impl Holdings {
             atoms.push((Atom::Anything, site.unwrap_or(DECLARED)));
         }
         if targets > MOST_TARGETS {
-            self.lost
-                .extend(atoms.iter().filter_map(|(atom, _)| match atom {
-                    Atom::Target { target, .. } | Atom::Changed { target } => Some(*target),
-                    _ => None,
-                }));
+            self.lost.extend(targets_of(&atoms));
             atoms.retain(|(atom, _)| !is_target(atom));
         }
         if atoms.iter().any(|(atom, _)| *atom == Atom::Anything) {
@@ -97,22 +132,22 @@ impl Holdings {
             atoms.sort_unstable();
             atoms.dedup_by_key(|(atom, _)| *atom);
         }
-        let atoms = atoms.into_boxed_slice();
-        let list = &mut self.list;
-        let id = *self.ids.entry(atoms).or_insert_with_key(|atoms| {
-            list.push(atoms.clone());
-            crate::program::script::short(list.len() - 1)
-        });
+        if let [(atom, site)] = atoms[..] {
+            return self.one(atom, site);
+        }
+        if let Some(&known) = self.several.get(&atoms[..]) {
+            return Holding(known);
+        }
+        let id = short(self.ends.len());
+        self.atoms.extend_from_slice(&atoms);
+        self.ends.push(short(self.atoms.len()));
+        self.several.insert(atoms.into_boxed_slice(), id);
         Holding(id)
     }
 
     /// Nothing is told apart any more.
     pub(super) fn lose_all(&mut self) {
-        let atoms = self.list.iter().flatten();
-        self.lost.extend(atoms.filter_map(|(atom, _)| match atom {
-            Atom::Target { target, .. } | Atom::Changed { target } => Some(*target),
-            _ => None,
-        }));
+        self.lost.extend(targets_of(&self.atoms));
     }
 
     /// What either may hold.
@@ -132,6 +167,14 @@ impl Holdings {
         self.joins.insert(key, joined.0);
         joined
     }
+}
+
+/// The positions with numbers in the files among these.
+fn targets_of(atoms: &[(Atom, Site)]) -> impl Iterator<Item = u32> {
+    atoms.iter().filter_map(|(atom, _)| match atom {
+        Atom::Target { target, .. } | Atom::Changed { target } => Some(*target),
+        _ => None,
+    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Which routines read a variable, and who starts them.
 
 use crate::program::script::{Expr, How, RoutineId, Script, Statement, VariableId, short};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// The routine that the operator starts to come to a routine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,7 +12,8 @@ use crate::program::{
     Before, Displacement, Frame, FrameId, Language, Load, Move, Program, ReadError, Settings,
     Shape, Source, TargetId, Tool, ToolId, Value as Meaning,
 };
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use std::rc::Rc;
 
 /// Uses of elements of arrays that are listed; beyond, an element is listed once.
 const MOST_USES: usize = 500_000;
@@ -44,27 +45,29 @@ pub(super) fn resolve(
         tools: HashMap::new(),
         frames: HashMap::new(),
         used: Vec::new(),
+        as_written: Vec::new(),
+        changed: Vec::new(),
         as_frames: HashMap::new(),
         doubted: Vec::new(),
+        last: None,
         stops: Vec::new(),
         full: false,
     };
     resolver.used = vec![false; resolver.report.program.targets.len()];
+    resolver.as_written = resolver.used.clone();
     resolver.list()?;
     resolver.link();
     resolver.judge_doubts();
     resolver.judge_targets();
     resolver.report.finish();
     drop(resolver);
-    program.instructions = script.instructions;
+    program.instructions = script.instructions.into_iter().map(Into::into).collect();
     Ok(program)
 }
 
 /// Why a tool or frame is not known.
-type Refused = (Cause, Option<Site>);
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Cause {
+enum Refused {
     /// A remark of the reader.
     Said(RemarkId),
     /// Several, or unknown ones.
@@ -84,17 +87,31 @@ struct Resolver<'a, 'p> {
     frames: HashMap<Atom, Result<FrameId, Refused>>,
     /// Targets that moves go to.
     used: Vec<bool>,
+    /// Those of them whose numbers in the file a move goes to.
+    as_written: Vec<bool>,
+    /// Targets that the running program changes before a move goes to them, and where.
+    changed: Vec<(TargetId, Option<Place>)>,
     /// Targets that are tools or frames, and where.
     as_frames: HashMap<TargetId, Place>,
     /// Moves whose tool, frame or mode is in doubt: target, the call, and whether it is the tool alone.
     doubted: Vec<(TargetId, Site, bool)>,
+    /// What tool, load, frame and mode held at the move before, and what that means.
+    last: Option<([Holding; 4], Rc<Choices>)>,
     /// Moves of each stop.
     stops: Vec<(u32, u32)>,
     full: bool,
 }
 
-/// One of the tools or frames that a move may have.
-type Choice<Id> = (Result<Id, Refused>, Option<Place>);
+/// The tools, frames and modes that a move may have, with the writes that set them.
+#[derive(Default)]
+struct Choices {
+    /// The unknown one where none is known.
+    tools: Vec<(ToolId, Site)>,
+    frames: Vec<(FrameId, Site)>,
+    /// Why others are not known, and which of the two that is.
+    refused: Vec<(Refused, Site, &'static str)>,
+    configured: Vec<bool>,
+}
 
 impl Resolver<'_, '_> {
     /// Lists the moves of all stops in the order of the text.
@@ -127,36 +144,13 @@ impl Resolver<'_, '_> {
         let instruction = &script.instructions[at as usize];
         let reached = self.flow.reached[stop as usize].expect("stops that are reached are listed");
         let guards = self.guards(reached.guard, instruction);
-        let loads = self.loads(reached.load);
-        let mut tools: Vec<Choice<ToolId>> = Vec::with_capacity(1);
-        for (atom, site) in self.atoms(reached.tool) {
-            if atom == Atom::Doubt {
-                continue;
-            }
-            for &load in &loads {
-                let tool = self.tool(atom, load)?;
-                tools.push((tool, self.written(site, instruction)));
-            }
-        }
-        let mut frames: Vec<Choice<FrameId>> = Vec::with_capacity(1);
-        for (atom, site) in self.atoms(reached.frame) {
-            if atom == Atom::Doubt {
-                continue;
-            }
-            let frame = self.frame(atom)?;
-            frames.push((frame, self.written(site, instruction)));
-        }
-        let configured = self.flags(reached.configured);
-        let free_orientation =
-            instruction.free_orientation || self.flags(reached.wrist).contains(&true);
         let mut listed = Listed {
             at,
             stop,
             instruction,
-            free_orientation,
-            tools,
-            frames,
-            configured,
+            free_orientation: instruction.free_orientation
+                || self.flags(reached.wrist).contains(&true),
+            choices: self.choices(&reached)?,
             guards,
             doubts: self.doubts(&reached),
         };
@@ -174,6 +168,55 @@ impl Resolver<'_, '_> {
             }
         }
         Ok(())
+    }
+
+    /// The tools, frames and modes that a move may have: mostly those of the move before.
+    fn choices(&mut self, reached: &Reached) -> Result<Rc<Choices>, ReadError> {
+        let of = [
+            reached.tool,
+            reached.load,
+            reached.frame,
+            reached.configured,
+        ];
+        if let Some((known, choices)) = &self.last
+            && *known == of
+        {
+            return Ok(Rc::clone(choices));
+        }
+        let mut choices = Choices {
+            configured: self.flags(reached.configured),
+            ..Choices::default()
+        };
+        let loads = self.loads(reached.load);
+        for (atom, site) in self.atoms(reached.tool) {
+            if atom == Atom::Doubt {
+                continue;
+            }
+            for &load in &loads {
+                match self.tool(atom, load)? {
+                    Ok(tool) => choices.tools.push((tool, site)),
+                    Err(why) => choices.refused.push((why, site, "tool")),
+                }
+            }
+        }
+        for (atom, site) in self.atoms(reached.frame) {
+            if atom == Atom::Doubt {
+                continue;
+            }
+            match self.frame(atom)? {
+                Ok(frame) => choices.frames.push((frame, site)),
+                Err(why) => choices.refused.push((why, site, "work frame")),
+            }
+        }
+        if choices.tools.is_empty() {
+            choices.tools.push((self.unknown_tool(), DECLARED));
+        }
+        if choices.frames.is_empty() {
+            choices.frames.push((self.unknown_frame(), DECLARED));
+        }
+        let choices = Rc::new(choices);
+        self.last = Some((of, Rc::clone(&choices)));
+        Ok(choices)
     }
 
     /// What a holding may be; where nothing is known that is one thing, too.
@@ -301,7 +344,7 @@ impl Resolver<'_, '_> {
                         Ok(frame) => Ok(frame),
                         Err(remark) => {
                             let known = self.report.remark(remark);
-                            Err((Cause::Said(known), None))
+                            Err(Refused::Said(known))
                         }
                     }
                 }
@@ -309,17 +352,17 @@ impl Resolver<'_, '_> {
                     name: number.to_string().into(),
                     ..nameless
                 }),
-                Held::Remark(remark) => Err((Cause::Said(remark), None)),
-                Held::Actual | Held::Load(_) | Held::Flag(_) => Err((Cause::NoFrame, None)),
+                Held::Remark(remark) => Err(Refused::Said(remark)),
+                Held::Actual | Held::Load(_) | Held::Flag(_) => Err(Refused::NoFrame),
             },
             Atom::Target {
                 target,
                 displacement: NOT_DISPLACED,
             } => self.target_as_frame(target as usize),
             Atom::Target { .. } | Atom::Changed { .. } | Atom::Anything | Atom::Doubt => {
-                Err((Cause::Chosen, None))
+                Err(Refused::Chosen)
             }
-            Atom::Unknown(remark) => Err((Cause::Said(remark), None)),
+            Atom::Unknown(remark) => Err(Refused::Said(remark)),
         })
     }
 
@@ -340,7 +383,7 @@ impl Resolver<'_, '_> {
                 pose: Some(pose),
                 load: None,
             }),
-            _ => Err((Cause::NoFrame, None)),
+            _ => Err(Refused::NoFrame),
         }
     }
 
@@ -450,14 +493,9 @@ impl Resolver<'_, '_> {
             } => self.go_target(target as usize, both(displacement, of), listed),
             Atom::Changed { target } => {
                 let because = site.and_then(|site| self.flow.place_of(site));
-                self.report.block(
-                    target as usize,
-                    "target-assigned-at-run-time",
-                    "the running program changes this target",
-                    "correct the value where the program computes it, or keep the target out of the path",
-                    because,
-                );
-                self.go_target(target as usize, displacement, listed);
+                self.used[target as usize] = true;
+                self.changed.push((target as usize, because));
+                self.go_nowhere(listed);
             }
             Atom::Value(ValueId::MAX) | Atom::Doubt => self.go_nowhere(listed),
             Atom::Value(value) => {
@@ -500,10 +538,8 @@ impl Resolver<'_, '_> {
 
     /// A move to somewhere: nothing is rewritten, and what follows does not know where it comes from.
     fn go_nowhere(&mut self, listed: &Listed) {
-        let tool = listed.tools.iter().find_map(|(tool, _)| tool.ok());
-        let tool = tool.unwrap_or_else(|| self.unknown_tool());
-        let frame = listed.frames.iter().find_map(|(frame, _)| frame.ok());
-        let frame = frame.unwrap_or_else(|| self.unknown_frame());
+        let (tool, _) = listed.choices.tools[0];
+        let (frame, _) = listed.choices.frames[0];
         self.push(
             None,
             (tool, None),
@@ -516,6 +552,7 @@ impl Resolver<'_, '_> {
 
     fn go_target(&mut self, target: TargetId, displacement: u32, listed: &Listed) {
         self.used[target] = true;
+        self.as_written[target] = true;
         for &(remark, site) in &listed.guards {
             let because = self.flow.place_of(site);
             let remark = &self.script.remarks[remark as usize];
@@ -531,46 +568,17 @@ impl Resolver<'_, '_> {
             Some(displacement) => displacement.clone(),
             None => Displacement::Unknown,
         };
-        let place = listed.instruction.place;
-        let refused = |choice: &Option<(Refused, Option<Place>)>| *choice;
-        let mut tools: Vec<(ToolId, Option<Place>)> = Vec::with_capacity(1);
-        for (tool, written) in &listed.tools {
-            match tool {
-                Ok(tool) => tools.push((*tool, *written)),
-                Err(why) => {
-                    if !is_joints {
-                        self.refuse(target, refused(&Some((*why, *written))), "tool", place);
-                    }
-                }
+        let choices = &*listed.choices;
+        if !is_joints {
+            for &(why, site, what) in &choices.refused {
+                self.refuse(target, why, site, what, listed.instruction);
             }
         }
-        let mut frames: Vec<(FrameId, Option<Place>)> = Vec::with_capacity(1);
-        for (frame, written) in &listed.frames {
-            match frame {
-                Ok(frame) => frames.push((*frame, *written)),
-                Err(why) => {
-                    if !is_joints {
-                        self.refuse(
-                            target,
-                            refused(&Some((*why, *written))),
-                            "work frame",
-                            place,
-                        );
-                    }
-                }
-            }
-        }
-        if tools.is_empty() {
-            let unknown = self.unknown_tool();
-            tools.push((unknown, None));
-        }
-        if frames.is_empty() {
-            let unknown = self.unknown_frame();
-            frames.push((unknown, None));
-        }
-        for &tool in &tools {
-            for &frame in &frames {
-                for &configured in &listed.configured {
+        for &(tool, tool_site) in &choices.tools {
+            for &(frame, frame_site) in &choices.frames {
+                let tool = (tool, self.written(tool_site, listed.instruction));
+                let frame = (frame, self.written(frame_site, listed.instruction));
+                for &configured in &choices.configured {
                     self.push(
                         Some(target),
                         tool,
@@ -619,31 +627,28 @@ impl Resolver<'_, '_> {
     fn refuse(
         &mut self,
         target: TargetId,
-        why: Option<(Refused, Option<Place>)>,
+        why: Refused,
+        written: Site,
         what: &str,
-        place: Place,
+        instruction: &Instruction,
     ) {
-        let Some(((cause, site), written)) = why else {
-            return;
-        };
-        let because = site
-            .and_then(|site| self.flow.place_of(site))
-            .or(written)
-            .or(Some(place));
-        match cause {
-            Cause::Said(remark) => {
+        let because = self
+            .written(written, instruction)
+            .or(Some(instruction.place));
+        match why {
+            Refused::Said(remark) => {
                 let remark = self.report.remark_of(self.script, remark).clone();
                 self.report
                     .block(target, remark.id, &remark.text, remark.hint, because);
             }
-            Cause::Chosen => self.report.block(
+            Refused::Chosen => self.report.block(
                 target,
                 "frame-chosen-at-run-time",
                 &format!("only the running program knows the {what}"),
                 "set the tool and the work frame before the move in the same routine",
                 because,
             ),
-            Cause::NoFrame => self.report.block(
+            Refused::NoFrame => self.report.block(
                 target,
                 "frame-chosen-at-run-time",
                 &format!("what the program gives as its {what} is none"),
@@ -674,8 +679,6 @@ impl Resolver<'_, '_> {
             frame,
             displacement,
             configured,
-            near: instruction.near.clone(),
-            speed_zone: instruction.speed_zone,
             free_orientation: listed.free_orientation,
             instruction: *at,
             before: Before::Start,
@@ -784,8 +787,28 @@ impl Resolver<'_, '_> {
         }
     }
 
+    /// Targets that the running program changes: where a move goes to their numbers in the file too, these cannot be replaced.
+    fn judge_changed(&mut self) {
+        for (target, because) in std::mem::take(&mut self.changed) {
+            let severity = if self.as_written[target] {
+                Severity::Error
+            } else {
+                Severity::Warning
+            };
+            self.report.block_as(
+                severity,
+                target,
+                "target-assigned-at-run-time",
+                "the running program changes this target; it stays as it is",
+                "correct the value where the program computes it, or keep the target out of the path",
+                because,
+            );
+        }
+    }
+
     /// Targets that are given away, that are frames too, or that nothing uses; writes that nothing sees.
     fn judge_targets(&mut self) {
+        self.judge_changed();
         for &(target, remark) in &self.script.refused {
             if self.used[target] {
                 let remark = &self.script.remarks[remark as usize];
@@ -916,9 +939,7 @@ struct Listed<'a> {
     stop: Stop,
     instruction: &'a Instruction,
     free_orientation: bool,
-    tools: Vec<Choice<ToolId>>,
-    frames: Vec<Choice<FrameId>>,
-    configured: Vec<bool>,
+    choices: Rc<Choices>,
     guards: Vec<(RemarkId, Site)>,
     doubts: Option<(Site, bool)>,
 }
@@ -991,6 +1012,18 @@ impl<'a, 'p> Report<'a, 'p> {
         hint: &str,
         because: Option<Place>,
     ) {
+        self.block_as(Severity::Error, target, id, wrong, hint, because);
+    }
+
+    fn block_as(
+        &mut self,
+        of_pose: Severity,
+        target: TargetId,
+        id: &'static str,
+        wrong: &str,
+        hint: &str,
+        because: Option<Place>,
+    ) {
         if !self.said.insert((target, id)) {
             return;
         }
@@ -1001,7 +1034,7 @@ impl<'a, 'p> Report<'a, 'p> {
             offset: blocked.offset,
         };
         let severity = match blocked.layout.shape {
-            Shape::Pose => Severity::Error,
+            Shape::Pose => of_pose,
             Shape::Joints => Severity::Warning,
         };
         let name = blocked.name.as_deref().unwrap_or("target");

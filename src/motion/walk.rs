@@ -269,7 +269,7 @@ impl Walker<'_, '_> {
             (None, NOWHERE) if is_first => self.walk_options.start_joints,
             _ => start,
         };
-        let honoured = motion.configured && motion.near.is_none();
+        let honoured = motion.configured && self.ground.program.near(motion).is_none();
         let nowhere = Arrival {
             motion: at,
             from,
@@ -389,7 +389,7 @@ impl Walker<'_, '_> {
     ) -> Option<Posture> {
         let ground = self.ground;
         let equipped = ground.arm_with(motion.tool);
-        let near = motion.near.as_deref().copied();
+        let near = self.ground.program.near(motion).copied();
         let along = start.filter(|_| {
             motion.motion != Motion::Joint && !motion.free_orientation && near.is_none()
         });

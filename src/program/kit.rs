@@ -54,7 +54,7 @@ impl Fault {
         let shown = |start: u32, end: u32| {
             let end = (end as usize).min(start as usize + SHOWN);
             match source.bytes.get(start as usize..end) {
-                Some(text) if !text.is_empty() => Source::text(text),
+                Some(text) if !text.is_empty() => Source::text(text).into_owned(),
                 _ => format!("the end of {whole}"),
             }
         };

@@ -427,10 +427,6 @@ pub struct Move {
     pub displacement: Displacement,
     /// The controller honours the target's configuration data in this move.
     pub configured: bool,
-    /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
-    pub near: Option<Box<[f64; 6]>>,
-    /// How fast, and with which corner.
-    pub speed_zone: SpeedZone,
     /// On the way the orientation is free: only the end counts.
     pub free_orientation: bool,
     /// Index in [`Program::instructions`].
@@ -455,8 +451,6 @@ impl Default for Move {
             frame: 0,
             displacement: Displacement::None,
             configured: false,
-            near: None,
-            speed_zone: SpeedZone::default(),
             free_orientation: false,
             instruction: 0,
             before: Before::Start,
@@ -523,14 +517,55 @@ pub struct Program {
     /// Work frames as moves use them.
     pub frames: Vec<Frame>,
     /// What moves say, with the bytes where they say it.
-    pub instructions: Vec<Instruction>,
+    pub instructions: Vec<MoveText>,
     /// Moves that come before others where there are several.
     pub befores: Vec<Box<[Before]>>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }
 
+/// What of a move's instruction is needed once the program is followed: where it stands, how fast it is, where it starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MoveText {
+    /// File and first byte.
+    pub place: Place,
+    /// Behind its last byte.
+    pub end: u32,
+    /// How the robot gets there.
+    pub motion: Motion,
+    /// Where its target stands in it.
+    pub target_span: script::Span,
+    /// How fast, and with which corner.
+    pub speed_zone: SpeedZone,
+    /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
+    pub near: Option<Box<[f64; 6]>>,
+}
+
+impl From<Instruction> for MoveText {
+    fn from(of: Instruction) -> Self {
+        Self {
+            place: of.place,
+            end: of.end,
+            motion: of.motion,
+            target_span: of.target_span,
+            speed_zone: of.speed_zone,
+            near: of.near,
+        }
+    }
+}
+
 impl Program {
+    /// How fast a move is, and with which corner.
+    pub fn speed_zone(&self, motion: &Move) -> SpeedZone {
+        self.instructions[motion.instruction as usize].speed_zone
+    }
+
+    /// The joints, radians, that the controller's inverse starts from where the move names them.
+    pub fn near(&self, motion: &Move) -> Option<&[f64; 6]> {
+        let text = &self.instructions[motion.instruction as usize];
+        text.near.as_deref()
+    }
+
     /// The moves that may come before a move: each [`Before::Start`], [`Before::Anywhere`] or [`Before::One`].
     pub fn before<'a>(&'a self, motion: &'a Move) -> &'a [Before] {
         match motion.before {

@@ -3,104 +3,95 @@
 //! Names are case-insensitive. Data of a routine hide those of its module, those of a module hide those of others; LOCAL data
 //! are seen in their own module only.
 
-use std::collections::HashMap;
+use crate::program::script::short;
+use foldhash::HashMap;
+use foldhash::fast::RandomState;
+use hashbrown::HashTable;
+use hashbrown::hash_table::Entry as Found;
 use std::collections::hash_map::Entry;
-use std::hash::{BuildHasher, BuildHasherDefault, Hasher, RandomState};
+use std::hash::BuildHasher;
 
 /// A name without its case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Symbol(pub u32);
 
 /// Every name that was read, with its first spelling.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Symbols {
-    ids: HashMap<Box<[u8]>, u32, Seed>,
-    spellings: Vec<Box<str>>,
-    /// The last name of each of some checksums: most names are met again soon.
-    recent: Vec<u32>,
+    /// By the hash of the folded name.
+    ids: HashTable<u32>,
+    spellings: Spellings,
+    hasher: RandomState,
 }
 
-/// Starts the checksums of names at a number that no text can know, so that none can make many names meet.
-#[derive(Clone, Copy, Debug)]
-struct Seed(u64);
+/// Texts, one after the other.
+#[derive(Debug, Default)]
+struct Spellings {
+    text: String,
+    /// Where each ends; it begins where the one before ends.
+    ends: Vec<u32>,
+}
 
-impl BuildHasher for Seed {
-    type Hasher = Spread;
-
-    fn build_hasher(&self) -> Spread {
-        Spread(self.0)
+impl Spellings {
+    fn of(&self, id: u32) -> &str {
+        let id = id as usize;
+        let start = id.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.text[start as usize..self.ends[id] as usize]
     }
 }
 
-/// Names up to this length are looked up without allocation; RAPID allows 32 letters.
+/// Names up to this length are folded without allocation; RAPID allows 32 letters.
 const SHORT: usize = 64;
-/// Names that are remembered; a power of two.
-const RECENT: usize = 1024;
 
-impl Default for Symbols {
-    fn default() -> Self {
-        Self {
-            ids: HashMap::with_hasher(Seed(RandomState::new().build_hasher().finish())),
-            spellings: Vec::new(),
-            recent: vec![u32::MAX; RECENT],
-        }
-    }
+/// The hash of a name, whatever its case.
+fn hash_of(hasher: &RandomState, name: &str) -> u64 {
+    let mut short = [0; SHORT];
+    let Some(copy) = short.get_mut(..name.len()) else {
+        return hasher.hash_one(name.to_ascii_lowercase().as_bytes());
+    };
+    copy.copy_from_slice(name.as_bytes());
+    copy.make_ascii_lowercase();
+    hasher.hash_one(&*copy)
 }
 
 impl Symbols {
     /// The symbol of a name.
     pub(super) fn intern(&mut self, name: &[u8]) -> Symbol {
-        let at = checksum(name);
-        let recent = self.recent[at];
-        let spelling = self.spellings.get(recent as usize);
-        if spelling.is_some_and(|spelling| spelling.as_bytes() == name) {
-            return Symbol(recent);
+        let name = crate::program::Source::text(name);
+        let Self {
+            ids,
+            spellings,
+            hasher,
+        } = self;
+        let found = ids.entry(
+            hash_of(hasher, &name),
+            |&id| spellings.of(id).eq_ignore_ascii_case(&name),
+            |&id| hash_of(hasher, spellings.of(id)),
+        );
+        match found {
+            Found::Occupied(known) => Symbol(*known.get()),
+            Found::Vacant(free) => {
+                let id = short(spellings.ends.len());
+                free.insert(id);
+                spellings.text.push_str(&name);
+                spellings.ends.push(short(spellings.text.len()));
+                Symbol(id)
+            }
         }
-        let id = self.insert(name);
-        self.recent[at] = id;
-        Symbol(id)
     }
 
-    fn insert(&mut self, name: &[u8]) -> u32 {
-        let mut short = [0; SHORT];
-        let long;
-        let folded: &[u8] = if let Some(copy) = short.get_mut(..name.len()) {
-            copy.copy_from_slice(name);
-            copy.make_ascii_lowercase();
-            copy
-        } else {
-            long = name.to_ascii_lowercase();
-            &long
-        };
-        if let Some(&id) = self.ids.get(folded) {
-            return id;
-        }
-        // a file of 4 GiB has fewer names
-        #[allow(clippy::cast_possible_truncation)]
-        let id = self.spellings.len() as u32;
-        self.ids.insert(folded.into(), id);
-        self.spellings
-            .push(crate::program::Source::text(name).into());
-        id
-    }
-
-    /// The symbol of a name that was read; `name` in lower case.
+    /// The symbol of a name that was read.
     pub(super) fn find(&self, name: &[u8]) -> Option<Symbol> {
-        self.ids.get(name).copied().map(Symbol)
+        let name = crate::program::Source::text(name);
+        let is_same = |&id: &u32| self.spellings.of(id).eq_ignore_ascii_case(&name);
+        let found = self.ids.find(hash_of(&self.hasher, &name), is_same);
+        found.copied().map(Symbol)
     }
 
     /// How it was spelled first.
     pub(super) fn spelling(&self, symbol: Symbol) -> &str {
-        &self.spellings[symbol.0 as usize]
+        self.spellings.of(symbol.0)
     }
-}
-
-/// A place in the list of recent names. Names with one checksum only push each other out.
-fn checksum(name: &[u8]) -> usize {
-    let sum = name.iter().fold(name.len(), |sum, &byte| {
-        sum.wrapping_mul(31).wrapping_add(usize::from(byte))
-    });
-    (sum ^ (sum >> 10)) % RECENT
 }
 
 /// Where something stands: its module and, inside a routine, that.
@@ -130,36 +121,6 @@ impl Scope {
         };
         // fewer than 2^31 modules and routines fit in 4 GiB
         scope << 32 | u64::from(name.0)
-    }
-}
-
-/// Spreads numbers over 64 bits, each to another: keys of [`Scope::key`], which count up, and names from a [`Seed`] on.
-#[derive(Default)]
-struct Spread(u64);
-
-impl Hasher for Spread {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for chunk in bytes.chunks(8) {
-            let mut word = [0; 8];
-            word[..chunk.len()].copy_from_slice(chunk);
-            self.write_u64(self.0 ^ u64::from_le_bytes(word));
-        }
-    }
-
-    fn write_usize(&mut self, length: usize) {
-        self.write_u64(self.0 ^ length as u64);
-    }
-
-    /// The finaliser of splitmix64.
-    fn write_u64(&mut self, key: u64) {
-        let z = key.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        self.0 = z ^ (z >> 31);
     }
 }
 
@@ -195,7 +156,7 @@ enum Slot {
 pub(super) struct Scopes {
     /// By symbol.
     slots: Vec<Slot>,
-    found: HashMap<u64, Meaning, BuildHasherDefault<Spread>>,
+    found: HashMap<u64, Meaning>,
     several: Vec<Vec<u32>>,
 }
 

@@ -1,6 +1,7 @@
 //! A program file as bytes, and its lines.
 
 use crate::finding::{Finding, Severity};
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// A file's name and bytes. The encoding does not matter: nothing is decoded but for messages.
@@ -95,10 +96,10 @@ impl Source {
 
     /// Bytes as text for messages: UTF-8 where they are, Latin-1 otherwise.
     #[must_use]
-    pub fn text(bytes: &[u8]) -> String {
+    pub fn text(bytes: &[u8]) -> Cow<'_, str> {
         std::str::from_utf8(bytes).map_or_else(
             |_| bytes.iter().copied().map(char::from).collect(),
-            str::to_owned,
+            Cow::Borrowed,
         )
     }
 }

@@ -36,7 +36,7 @@ impl Job<'_> {
         }
         let arms = self.walk.arms(&stop);
         let source = &self.subject.sources[motion.file as usize];
-        let speed_zone = motion.speed_zone;
+        let speed_zone = self.walk.program.speed_zone(motion);
         let part = self.parts.and_then(|parts| parts[index]);
         let wanted_end = match (self.original, part) {
             (Some(original), Some(part)) => part.end_pose(original, self.options),

@@ -411,7 +411,7 @@ fn cell_text(source: &Source, cell: Cell) -> String {
     if cell.quoted {
         text.replace("\"\"", "\"")
     } else {
-        text
+        text.into_owned()
     }
 }
 

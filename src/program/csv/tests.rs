@@ -87,7 +87,7 @@ fn joints_and_joints_to_start_from() {
     );
     let text = "x_mm,y_mm,z_mm,qw,qx,qy,qz,near1_deg,near2_deg,near3_deg,near4_deg,near5_deg,near6_deg\n1,2,3,1,0,0,0,90,0,0,0,0,-180\n";
     let program = read(text).expect("a table");
-    let near = program.moves[0].near.as_ref().expect("joints");
+    let near = program.near(&program.moves[0]).expect("joints");
     assert!((near[0] - 90.0 * DEG).abs() < 1e-12 && (near[5] + 180.0 * DEG).abs() < 1e-12);
     assert!(!program.moves[0].configured);
 }

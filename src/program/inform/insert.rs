@@ -1,8 +1,8 @@
 //! Moves between those of a job: the line again, to a new `C` position.
 
 use super::job::{HEADERS, Job, Letter, Positions};
+use crate::program::MoveText;
 use crate::program::insert::{indent, line_end, spliced, with_numbers};
-use crate::program::script::Instruction;
 use crate::program::{Between, Inserted, Insertion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ struct Copied<'a> {
 /// A line that does nothing but go to a `C` position, and the name of that.
 fn plain_move(
     bytes: &[u8],
-    instruction: &Instruction,
+    instruction: &MoveText,
     verbs: &[&[u8]],
 ) -> Option<(Range<usize>, Range<usize>)> {
     let span = instruction.place.offset as usize..instruction.end as usize;

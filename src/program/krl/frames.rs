@@ -12,7 +12,7 @@ use crate::program::script::{
     VariableId, short,
 };
 use crate::program::{Load, Number};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// A table of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

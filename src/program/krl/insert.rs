@@ -6,7 +6,7 @@ use super::tokens::Cursor;
 use crate::program::insert::{Repeated, bracketed, indent, line_end, with_numbers};
 use crate::program::script::Place;
 use crate::program::{
-    Before, Displacement, Insertion, Instruction, Motion, Program, Replacements, Source, Target,
+    Before, Displacement, Insertion, Motion, MoveText, Program, Replacements, Source, Target,
 };
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use std::ops::Range;
 const REPEATED: &[&[u8]] = &[b"PTP", b"LIN", b"CIRC", b"SPTP", b"SLIN", b"SCIRC"];
 
 /// Whether the instruction may be written again with another target.
-fn is_repeated(bytes: &[u8], instruction: &Instruction) -> bool {
+fn is_repeated(bytes: &[u8], instruction: &MoveText) -> bool {
     let start = instruction.place.offset as usize;
     let text = &bytes[start..instruction.end as usize];
     let word = text
@@ -51,7 +51,7 @@ fn stands_still(sources: &[Source], from: &Target, to: &Target) -> bool {
 }
 
 /// The instruction that goes to the point an arc passes through, in front of the one to its end.
-fn via_of(program: &Program, at: u32) -> Option<&Instruction> {
+fn via_of(program: &Program, at: u32) -> Option<&MoveText> {
     let via = program.instructions.get(at.checked_sub(1)? as usize)?;
     let place: Place = program.instructions[at as usize].place;
     (via.motion == Motion::ArcVia && via.place == place).then_some(via)

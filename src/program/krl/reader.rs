@@ -9,7 +9,7 @@ use crate::program::Source;
 use crate::program::kit::Fault;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, VariableId, short};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Reads files into one script.
 pub(super) struct Reader {

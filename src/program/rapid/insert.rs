@@ -1,7 +1,7 @@
 //! Moves between those of a program: the instruction again, with a target written out.
 
 use crate::program::insert::{Repeated, bracketed, indent, with_numbers};
-use crate::program::{Before, Insertion, Instruction, Move, Program, Replacements, Source, Target};
+use crate::program::{Before, Insertion, Move, MoveText, Program, Replacements, Source, Target};
 use std::ops::Range;
 
 /// Instructions that do nothing but go to their target, or go on with their process on the way. Others switch outputs, count
@@ -11,7 +11,7 @@ const REPEATED: &[&str] = &[
 ];
 
 /// The text of an instruction with its semicolon; strings and comments do not stand in one that moves.
-fn text<'a>(source: &'a Source, instruction: &Instruction) -> Option<&'a [u8]> {
+fn text<'a>(source: &'a Source, instruction: &MoveText) -> Option<&'a [u8]> {
     let span = instruction.place.offset as usize..instruction.end as usize;
     let text = source.bytes.get(span)?;
     (text.ends_with(b";") && !text.contains(&b'!') && !text.contains(&b'"')).then_some(text)

@@ -41,9 +41,9 @@ use super::{
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion};
 use crate::program::{Configuration, Inserted, Insertion};
+use foldhash::{HashSet, HashSetExt};
 use reader::Reader;
 use resolved::Resolved;
-use std::collections::HashSet;
 use syntax::Parsed;
 use verbs::Verbs;
 

@@ -9,7 +9,7 @@ use super::verbs::Verbs;
 use crate::program::Source;
 use crate::program::names::{Context, Meaning, Scopes, Symbol};
 use crate::program::script::short;
-use std::collections::HashSet;
+use foldhash::{HashSet, HashSetExt};
 
 /// All that was noted, with its names resolved.
 pub(super) struct Resolved<'a> {

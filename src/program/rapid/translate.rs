@@ -13,7 +13,7 @@ use crate::program::script::{
     Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
 };
 use crate::program::{Shape, TargetId};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Names of options.
 #[derive(Debug, Default)]

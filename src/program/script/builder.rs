@@ -3,7 +3,7 @@
 use super::{
     Call, Instruction, Label, Place, Routine, RoutineId, Script, Start, Statement, Write, short,
 };
-use std::collections::HashMap;
+use foldhash::HashMap;
 
 /// Adds the statements of routines to a script, one routine after another.
 ///

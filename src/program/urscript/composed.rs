@@ -12,7 +12,7 @@ use super::verbs;
 use crate::geometry::Pose;
 use crate::program::number;
 use crate::program::script::{self, short};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashSet, HashSetExt};
 
 /// Variables between a pose and the targets that it is computed from, that are looked into.
 const MOST_BETWEEN: usize = 256;

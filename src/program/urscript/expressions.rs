@@ -285,7 +285,7 @@ impl Reader<'_> {
                     file,
                     line,
                     column,
-                    value: Source::text(&bytes[from..to]),
+                    value: Source::text(&bytes[from..to]).into_owned(),
                     meaning: "number",
                     limit: "it is too large",
                 })

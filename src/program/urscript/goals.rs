@@ -10,7 +10,7 @@ use crate::program::script::{
     Span, ValueId, VariableId,
 };
 use crate::program::{Displacement, Shift, TargetId};
-use std::collections::HashMap;
+use foldhash::{HashMap, HashMapExt};
 
 /// The name of every tool that `set_tcp` sets.
 const TOOL: &str = "tcp";
@@ -425,7 +425,7 @@ impl Goals<'_, '_, '_> {
                     Expr::Name(name, _) => self.parsed.spelling(name),
                     _ => "feature".into(),
                 };
-                Feature::Known(pose, name)
+                Feature::Known(pose, name.into_owned())
             }
             Err(why) => Feature::Held(self.not_constant(why)),
         }

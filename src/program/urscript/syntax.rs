@@ -2,7 +2,8 @@
 
 use crate::program::script::short;
 use crate::program::{Load, Motion, Number, SpeedZone};
-use std::collections::HashMap;
+use foldhash::HashMap;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A name of the file.
@@ -232,7 +233,7 @@ impl<'a> Parsed<'a> {
         })
     }
 
-    pub(super) fn spelling(&self, symbol: Symbol) -> String {
+    pub(super) fn spelling(&self, symbol: Symbol) -> Cow<'a, str> {
         crate::program::Source::text(self.spellings[symbol.0 as usize])
     }
 

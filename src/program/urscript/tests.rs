@@ -69,9 +69,9 @@ fn waypoints_of_the_pendant_are_rewritten_and_their_seeds_stay() {
     assert_eq!(to(&program), ["Waypoint_1_p", "Waypoint_1_p"]);
     assert_eq!(program.findings, []);
     assert_eq!(program.targets.len(), 1);
-    let near = program.moves[0].near.as_ref().expect("a seed");
+    let near = program.near(&program.moves[0]).expect("a seed");
     assert!((near[0] - 1.994_249_820_709_228_5).abs() < 1e-15 && (near[5] - 1.4e-4).abs() < 1e-15);
-    assert_eq!(program.moves[1].near, None);
+    assert_eq!(program.near(&program.moves[1]), None);
     let tool = &program.tools[program.moves[0].tool];
     let load = tool.load.expect("a load");
     assert!((load.mass_kg - 1.5).abs() < 1e-15 && (load.cog_m[2] - 0.05).abs() < 1e-15);

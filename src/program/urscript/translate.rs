@@ -10,7 +10,7 @@ use crate::program::script::{
     Variable, VariableId, Write, Written, short,
 };
 use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Adds the statements of a file.
 pub(super) fn translate(
@@ -59,7 +59,10 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         let place = Place { file, offset: 0 };
         let first_routine = short(builder.script.routines.len());
         for (at, function) in parsed.functions.iter().enumerate() {
-            let name = function.name.map_or(String::new(), |n| parsed.spelling(n));
+            let name = function
+                .name
+                .map(|name| parsed.spelling(name))
+                .unwrap_or_default();
             let start = match (at, function.thread) {
                 (0, _) => Start::Main,
                 (_, true) => Start::Concurrent,
@@ -261,7 +264,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             let mut declare = |wanted: bool, declared| {
                 wanted.then(|| {
                     script.variable(Variable {
-                        name: name.as_str().into(),
+                        name: (*name).into(),
                         place,
                         declared,
                         kept: false,

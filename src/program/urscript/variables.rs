@@ -6,7 +6,7 @@
 use super::syntax::{Assignment, Called, Event, Expr, ExprId, FunctionId, Parsed, Reach, Symbol};
 use crate::geometry::Pose;
 use crate::program::script::short;
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Names that stand for each other in turn, and calls inside each other, that are followed.
 pub(super) const MOST_STEPS: u32 = 12;

@@ -251,8 +251,9 @@ fn positions_are_bound_to_parameters_by_value_and_by_reference() {
     }
     // what a routine writes comes back by reference alone
     for (manner, expected) in [("IN", vec![]), ("OUT", vec!["target-assigned-at-run-time"])] {
-        let body =
-            format!("{UP}up(XP1)\nLIN XP1\nEND\nDEF up(p:{manner})\nDECL E6POS p\np.Z=p.Z+100\n");
+        let body = format!(
+            "{UP}LIN XP1\nup(XP1)\nLIN XP1\nEND\nDEF up(p:{manner})\nDECL E6POS p\np.Z=p.Z+100\n"
+        );
         let done = done(&[PLAIN], &[("t.src", &module(&body)), ("t.dat", data)]);
         assert_eq!(errors(&done), expected, "{manner}: {:?}", done.findings);
     }

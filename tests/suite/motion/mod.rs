@@ -17,7 +17,11 @@ const PLAIN: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}
 const BACKLASH: &str = "{effect: backlash, joint: 2, width_deg: -0.1}";
 
 fn profile(effects: &[&str]) -> Profile {
-    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
+    profile_of("robots/abb_irb120.yaml", effects)
+}
+
+fn profile_of(robot: &str, effects: &[&str]) -> Profile {
+    let text = std::fs::read_to_string(repository(robot)).expect("a profile");
     let plain = &text[..text.find("calibration:").expect("a list of effects")];
     let effects = effects.join(", ");
     Profile::from_yaml(&format!("{plain}calibration: {{effects: [{effects}]}}\n"))

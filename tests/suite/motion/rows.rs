@@ -1,8 +1,9 @@
 //! Small programs whose thin reading lands beside: what each means, or that it is refused with both places.
 
-use super::{BACKLASH, P, PLAIN, done, errors, given, message, rapid, try_with};
-use poseshift::compensate::{CompensateError, Options};
+use super::{BACKLASH, P, PLAIN, done, errors, given, message, profile_of, rapid, try_with};
+use poseshift::compensate::{CompensateError, Options, compensate};
 use poseshift::geometry::Pose;
+use poseshift::program::{self, Source};
 
 #[test]
 fn a_target_that_joints_reach_from_both_sides_is_refused_with_both_lines() {
@@ -28,14 +29,22 @@ fn a_target_reached_twice_in_one_way_has_one_fake_target() {
 
 #[test]
 fn a_straight_move_keeps_the_branch_of_its_path() {
-    // row d: the nearest largest joint change is on another branch
-    let program = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {A1 0,A2 -20,A3 40,A4 0,A5 70,A6 -60}\n\
-                   LIN {X 420.0,Y 0,Z 430.0,A -160,B 20,C 180}\nEND\n";
-    let done = done(&[PLAIN], &[("t.src", program)]);
-    let end = &done.targets[1];
-    let branch = end.branch.expect("solved").to_string();
-    let q = end.q.expect("solved");
-    assert!(q[4] > 0.0, "joint 5 keeps its sign: {branch} {q:?}");
+    // row d: the nearest largest joint change is on the other side of the stretched elbow, a3 = atan(35 / 420)
+    let program = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 0,A2 -20,A3 40,A4 0,A5 70,A6 -60}\n\
+                   LIN {X 859.202,Y 0,Z 364.860,A -160,B 0,C 180}\nEND\n";
+    let kr6 = profile_of(
+        "robots/kuka_kr6_r900.yaml",
+        &["{effect: link_geometry, link: 3, theta_deg: 0.1}"],
+    );
+    let source = Source::new("t.src", program.as_bytes().to_vec());
+    let language = program::language_of(&source).expect("a language");
+    let done = compensate(language, &[source], &kr6, &given()).expect("read");
+    assert_eq!(errors(&done), [""; 0]);
+    let q = done.targets[1].q.expect("solved");
+    assert!(q[2] > (35.0_f64 / 420.0).atan(), "{q:?}");
+    assert!(q[4] > 0.0, "joint 5 keeps its sign: {q:?}");
+    let shift = done.targets[1].shift.distance_m;
+    assert!(shift < 1e-3, "of the path's own branch: {shift}");
 }
 
 #[test]
@@ -101,8 +110,16 @@ fn writes_of_instructions_and_functions_are_seen() {
             "PERS robtarget p10 := [[430,0,400],{P};\nVAR rawbytes rb;\nVAR iodev io;\nVAR bool ok;\nVAR string s;"
         );
         let body = format!("{write}\nMoveJ p10,v100,fine,tool0;");
-        let done = done(&[PLAIN], &[("t.mod", &rapid(&data, &body))]);
-        assert_eq!(errors(&done), ["target-assigned-at-run-time"], "{write}");
+        let text = rapid(&data, &body);
+        let alone = done(&[PLAIN], &[("t.mod", &text)]);
+        // no move goes to the numbers in the file: they stay
+        assert_eq!(errors(&alone), [""; 0], "{write}");
+        assert!(message(&alone, "target-assigned-at-run-time").contains("line 8"));
+        assert_eq!(alone.summary.compensated, 0, "{write}");
+        // a move to them before the write needs them corrected, and the one behind it does not
+        let body = format!("MoveJ p10,v100,fine,tool0;\n{write}\nMoveJ p10,v100,fine,tool0;");
+        let both = done(&[PLAIN], &[("t.mod", &rapid(&data, &body))]);
+        assert_eq!(errors(&both), ["target-assigned-at-run-time"], "{write}");
     }
     // a whole position that is read in: the move stays as it is
     let data = format!("PERS robtarget p10 := [[430,0,400],{P};\nVAR iodev io;");
@@ -275,13 +292,13 @@ fn the_joints_before_the_first_move_tell_its_direction() {
 }
 
 /// Reads files as the motion model does.
-fn read(files: &[(&str, &str)]) -> poseshift::program::Program {
-    let sources: Vec<poseshift::program::Source> = files
+fn read(files: &[(&str, &str)]) -> program::Program {
+    let sources: Vec<Source> = files
         .iter()
-        .map(|(name, text)| poseshift::program::Source::new(*name, text.as_bytes().to_vec()))
+        .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
         .collect();
-    let language = poseshift::program::language_of(&sources[0]).expect("a language");
-    let settings = poseshift::program::Settings::default();
+    let language = program::language_of(&sources[0]).expect("a language");
+    let settings = program::Settings::default();
     poseshift::motion::read(language, &sources, &settings).expect("read")
 }
 
@@ -349,7 +366,7 @@ fn a_move_to_a_position_that_nobody_understands_does_not_vanish() {
         let targets: Vec<bool> = program.moves.iter().map(|m| m.target.is_some()).collect();
         assert_eq!(targets, [true, false, true], "{name}");
         let before = program.before(&program.moves[2]);
-        assert_eq!(before, [poseshift::program::Before::One(1)], "{name}");
+        assert_eq!(before, [program::Before::One(1)], "{name}");
     }
 }
 

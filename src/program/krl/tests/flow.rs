@@ -228,7 +228,7 @@ fn instructions_keep_where_their_parts_stand() {
             (arc, "XP2")
         ]
     );
-    let speed_zone = program.moves[0].speed_zone;
+    let speed_zone = program.speed_zone(&program.moves[0]);
     assert!(speed_zone.cuts_corner() && speed_zone.speed_m_s == Some(0.25));
-    assert_eq!(program.moves[2].speed_zone.zone_m, Some(0.0));
+    assert_eq!(program.speed_zone(&program.moves[2]).zone_m, Some(0.0));
 }

@@ -260,7 +260,10 @@ fn a_tool_that_the_file_does_not_assign_has_its_name() {
 
 #[test]
 fn speed_and_radius_are_arguments_by_place_or_name() {
-    let of = |text: &str| path(text).moves.last().expect("a move").speed_zone;
+    let of = |text: &str| {
+        let program = path(text);
+        program.speed_zone(program.moves.last().expect("a move"))
+    };
     let named = of("movel(p[1,2,3,0,0,0], a=1.2, r=0.005, v=0.25)");
     assert_eq!((named.speed_m_s, named.zone_m), (Some(0.25), Some(0.005)));
     let placed = of("movec(p[1,2,3,0,0,0], p[1,2,4,0,0,0], 1.2, 0.1, 0.02, 0)");

@@ -47,7 +47,11 @@ fn samples_have_targets_and_nothing_to_complain_about() {
 #[test]
 fn waypoints_of_the_sample_keep_their_seeds() {
     let program = read_sources(&sample("backup")).expect("a program");
-    let seeded: Vec<_> = program.moves.iter().filter(|m| m.near.is_some()).collect();
+    let seeded: Vec<_> = program
+        .moves
+        .iter()
+        .filter(|m| program.near(m).is_some())
+        .collect();
     assert_eq!(seeded.len(), 3);
     // no target lies on the numbers of a `_q`
     let named = |target: &crate::program::Target| target.name.clone();
