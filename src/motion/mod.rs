@@ -39,7 +39,7 @@ pub use course::Turning;
 pub(crate) use posture::OUT_OF_REACH;
 pub use setting::{Given, GivenError, MeasuredFrameError, Missing, PlacementError};
 
-use crate::program::{Language, Program, ReadError, Settings, Source};
+use crate::program::{Language, Program, ReadError, Settings, Source, check_bytes};
 
 /// Reads program files that belong together, and follows them.
 ///
@@ -50,6 +50,7 @@ pub fn read(
     sources: &[Source],
     settings: &Settings,
 ) -> Result<Program, ReadError> {
+    sources.iter().try_for_each(check_bytes)?;
     let script = language.script(sources, settings)?;
     resolve::resolve(language, sources, settings, script)
 }

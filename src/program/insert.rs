@@ -1,6 +1,6 @@
 //! Moves put between those of a program: what languages share.
 
-use super::{Number, Source};
+use super::{Before, Displacement, Motion, Move, MoveText, Number, Program, Source, Target};
 use std::ops::Range;
 
 /// A target to be put between two of a program: the text of each number, in the order of [`super::Language::roles`].
@@ -79,33 +79,6 @@ pub(super) fn line_start(bytes: &[u8], at: usize) -> usize {
     before.map_or(0, |end| end + 1)
 }
 
-/// The end of the line that a byte stands in, without its line end.
-pub(super) fn line_end(bytes: &[u8], at: usize) -> usize {
-    memchr::memchr2(b'\n', b'\r', &bytes[at..]).map_or(bytes.len(), |length| at + length)
-}
-
-/// The range from an opening bracket to the one that closes it.
-pub(super) fn bracketed(bytes: &[u8], start: usize) -> Option<Range<usize>> {
-    let (open, close) = match bytes.get(start)? {
-        b'[' => (b'[', b']'),
-        b'{' => (b'{', b'}'),
-        b'(' => (b'(', b')'),
-        _ => return None,
-    };
-    let mut depth = 0_usize;
-    for (at, byte) in bytes.iter().enumerate().skip(start) {
-        if *byte == open {
-            depth += 1;
-        } else if *byte == close {
-            depth -= 1;
-            if depth == 0 {
-                return Some(start..at + 1);
-            }
-        }
-    }
-    None
-}
-
 /// Pairs of numbers with something else, in the order of the text.
 fn in_order<'a, T>(numbers: &'a [Number], with: &'a [T]) -> Vec<(&'a Number, &'a T)> {
     let mut pairs: Vec<_> = numbers.iter().zip(with).collect();
@@ -136,26 +109,132 @@ pub(super) fn with_numbers(
     Some(out)
 }
 
-/// An instruction that is written again for every target before its own.
-pub(super) struct Repeated<'a> {
-    /// The file it stands in.
-    pub source: &'a Source,
-    /// Its text.
-    pub span: Range<usize>,
-    /// The blanks before it.
-    pub blanks: &'a [u8],
-    /// Where the point on the way of an arc stands in it.
-    pub via: Option<Range<usize>>,
-    /// Where its target stands in it.
-    pub end: Range<usize>,
+/// How the moves of a language are written again where their targets stand in them.
+pub(super) struct Manner {
+    /// Whether an instruction, as the text has it, does nothing but go to its target.
+    pub repeats: fn(&[u8]) -> bool,
+    /// What of a target stands for its external axes: they stand still between targets where it is the same. Nothing where
+    /// the language has none.
+    pub external: Option<fn(&[Source], &Program, &Target) -> Option<Vec<u8>>>,
     /// The longest line of the language in bytes.
     pub longest: usize,
+}
+
+impl Manner {
+    /// See [`super::Language::insert`].
+    pub(super) fn insert(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        insertions: &[Insertion],
+    ) -> Inserted {
+        Inserted::each(insertions, |one| self.one(sources, program, one))
+    }
+
+    /// The instruction again, with the target of its move written out.
+    fn one(
+        &self,
+        sources: &[Source],
+        program: &Program,
+        insertion: &Insertion,
+    ) -> Option<Replacements> {
+        let motion = sole_use(program, insertion.motion)?;
+        let target = program.target_of(motion)?;
+        if motion.displacement != Displacement::None {
+            return None;
+        }
+        let instruction = &program.instructions[motion.instruction as usize];
+        let source = &sources[motion.file as usize];
+        let span = instruction.span();
+        let mut repeated = Repeated {
+            source,
+            blanks: indent(&source.bytes, span.start)?,
+            via: None,
+            end: instruction.target_span.range()?,
+            longest: self.longest,
+            span,
+        };
+        if !insertion.is_split() {
+            if !(self.repeats)(&source.bytes[repeated.span.clone()]) {
+                return None;
+            }
+            let mut from = before(program, motion)?;
+            if insertion.between.iter().any(|b| b.via.is_some()) {
+                repeated.via = Some(via(program, motion.instruction)?.target_span.range()?);
+                from = before(program, from)?;
+            }
+            if let Some(external) = self.external {
+                let of = |target: &Target| external(sources, program, target);
+                let (from, to) = (of(program.target_of(from)?)?, of(target)?);
+                if from != to {
+                    return None;
+                }
+            }
+        }
+        repeated.insert(insertion, |numbers| {
+            let bytes = &sources[target.file as usize].bytes;
+            let own = program.numbers_of(target);
+            let mut text = with_numbers(bytes, &target.span(), own, numbers)?;
+            // what was broken over lines stays one line
+            text.retain(|b| !matches!(b, b'\n' | b'\r'));
+            Some(text)
+        })
+    }
+}
+
+/// A move whose instruction goes to no other target.
+pub(super) fn sole_use(program: &Program, index: usize) -> Option<&Move> {
+    let motion = &program.moves[index];
+    let others = [index.wrapping_sub(1), index + 1];
+    let mut others = others.into_iter().filter_map(|at| program.moves.get(at));
+    let is_sole = others
+        .all(|other| other.instruction != motion.instruction || other.target == motion.target);
+    is_sole.then_some(motion)
+}
+
+/// The only move that may come before another.
+fn before<'a>(program: &'a Program, motion: &Move) -> Option<&'a Move> {
+    match program.before(motion) {
+        [Before::One(before)] => program.moves.get(*before as usize),
+        _ => None,
+    }
+}
+
+/// The instruction that goes to the point an arc passes through, in front of the one to its end.
+fn via(program: &Program, end: u32) -> Option<&MoveText> {
+    let via = program.instructions.get(end.checked_sub(1)? as usize)?;
+    let is_one = via.place == program.instructions[end as usize].place;
+    (via.motion == Motion::ArcVia && is_one).then_some(via)
+}
+
+/// Whether a text starts with one of these words, in any case.
+pub(super) fn starts_with_word(text: &[u8], words: &[&str]) -> bool {
+    let in_word = |b: &&u8| b.is_ascii_alphanumeric() || **b == b'_';
+    let first = &text[..text.iter().take_while(in_word).count()];
+    let is = |word: &&str| first.eq_ignore_ascii_case(word.as_bytes());
+    words.iter().any(is)
+}
+
+/// An instruction that is written again for every target before its own.
+struct Repeated<'a> {
+    /// The file it stands in.
+    source: &'a Source,
+    /// Its text.
+    span: Range<usize>,
+    /// The blanks before it.
+    blanks: &'a [u8],
+    /// Where the point on the way of an arc stands in it.
+    via: Option<Range<usize>>,
+    /// Where its target stands in it.
+    end: Range<usize>,
+    /// The longest line of the language in bytes.
+    longest: usize,
 }
 
 impl Repeated<'_> {
     /// The instruction for each target, in lines before it; `written` makes a target of its numbers. `None` where one cannot
     /// be written, or a line becomes too long.
-    pub(super) fn insert(
+    fn insert(
         &self,
         insertion: &Insertion,
         written: impl Fn(&[Vec<u8>]) -> Option<Vec<u8>>,
@@ -213,12 +292,6 @@ pub(super) fn spliced(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn brackets_are_closed_by_their_own() {
-        assert_eq!(bracketed(b"f( a, p[1,2] )", 1), Some(1..14));
-        assert_eq!(bracketed(b"{a{b}", 0), None);
-    }
 
     #[test]
     fn numbers_are_put_where_they_stand_whatever_their_order() {

@@ -1,12 +1,14 @@
 //! What readers of all languages share.
 
-use super::{ReadError, Source};
+use super::script::short;
+use super::{About, Marker, ReadError, Source};
+use std::ops::Range;
 
 /// No text has a zero byte, and places are kept in 32 bits.
 ///
 /// # Errors
 /// Where the file is none that a program can be in.
-pub(super) fn check_bytes(source: &Source) -> Result<(), ReadError> {
+pub(crate) fn check_bytes(source: &Source) -> Result<(), ReadError> {
     let limit = u32::MAX as usize;
     let (file, size) = (source.name.clone(), source.bytes.len());
     if size >= limit {
@@ -48,16 +50,36 @@ pub(super) enum Fault {
 const SHOWN: usize = 40;
 
 impl Fault {
-    /// The error with file, line and column; `whole` is what is read at a time, such as "the line".
-    pub(super) fn in_source(self, source: &Source, whole: &str) -> ReadError {
+    /// The thing that opens at a byte is not closed.
+    pub(super) fn unclosed(at: usize, what: &'static str) -> Self {
+        Self::Unclosed {
+            at: short(at),
+            what,
+        }
+    }
+
+    /// Something else stands at these bytes.
+    pub(super) fn unexpected(at: Range<usize>, expected: &'static str) -> Self {
+        Self::Unexpected {
+            start: short(at.start),
+            end: short(at.end),
+            expected,
+        }
+    }
+
+    /// The number at these bytes is none that a robot can use.
+    pub(super) fn bad_value(at: Range<usize>, meaning: &'static str, limit: &'static str) -> Self {
+        Self::BadValue {
+            start: short(at.start),
+            end: short(at.end),
+            meaning,
+            limit,
+        }
+    }
+
+    /// The error with file, line and column.
+    pub(super) fn in_source(self, source: &Source) -> ReadError {
         let file = source.name.clone();
-        let shown = |start: u32, end: u32| {
-            let end = (end as usize).min(start as usize + SHOWN);
-            match source.bytes.get(start as usize..end) {
-                Some(text) if !text.is_empty() => Source::text(text).into_owned(),
-                _ => format!("the end of {whole}"),
-            }
-        };
         let at = match self {
             Self::Unclosed { at, .. } | Self::Binary { at } => at,
             Self::Unexpected { start, .. } | Self::BadValue { start, .. } => start,
@@ -78,7 +100,7 @@ impl Fault {
                 file,
                 line,
                 column,
-                found: shown(start, end),
+                found: shown(&source.bytes, start as usize, end as usize),
                 expected,
             },
             Self::BadValue {
@@ -90,7 +112,7 @@ impl Fault {
                 file,
                 line,
                 column,
-                value: shown(start, end),
+                value: shown(&source.bytes, start as usize, end as usize),
                 meaning,
                 limit,
             },
@@ -101,4 +123,50 @@ impl Fault {
             },
         }
     }
+}
+
+/// What stands at these bytes, for messages.
+fn shown(bytes: &[u8], start: usize, end: usize) -> String {
+    let text = bytes.get(start..end.min(start + SHOWN)).unwrap_or_default();
+    match (text.trim_ascii(), bytes.get(start)) {
+        ([], None) => "the end of the file".into(),
+        ([], Some(b'\n' | b'\r')) => "the end of the line".into(),
+        ([], Some(_)) => "nothing".into(),
+        (text, _) => format!("`{}`", Source::text(text)),
+    }
+}
+
+/// A file that has nothing of the language that it is read as.
+pub(super) fn not_this_language(about: &'static About, source: &Source) -> ReadError {
+    ReadError::NotThisLanguage {
+        file: source.name.clone(),
+        language: about.name,
+        missing: about.has,
+    }
+}
+
+/// The first byte of a text behind a byte order mark.
+pub(super) fn content_start(bytes: &[u8]) -> usize {
+    let mark = b"\xef\xbb\xbf";
+    if bytes.starts_with(mark) {
+        mark.len()
+    } else {
+        0
+    }
+}
+
+/// The first byte of the line behind the one of `at`; `None` where that is the last and has no end. Lines end with LF, CR LF
+/// or CR.
+pub(super) fn line_behind(bytes: &[u8], at: usize) -> Option<usize> {
+    let end = at + memchr::memchr2(b'\n', b'\r', &bytes[at..])?;
+    let is_pair = bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n');
+    Some(end + 1 + usize::from(is_pair))
+}
+
+/// The lines of a marker as comments, each behind this sign.
+pub(super) fn comments(source: &Source, marker: &Marker, sign: &str) -> Vec<u8> {
+    let end = source.line_end();
+    let lines = marker.lines();
+    let line = |line: &String| [sign.as_bytes(), line.as_bytes(), end].concat();
+    lines.iter().flat_map(line).collect()
 }

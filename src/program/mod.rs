@@ -31,6 +31,7 @@ mod kit;
 pub mod krl;
 mod marker;
 mod names;
+mod notation;
 pub mod number;
 pub mod rapid;
 pub mod script;
@@ -41,11 +42,13 @@ pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;
 pub use insert::{Between, Inserted, Insertion, Replacements};
+pub(crate) use kit::check_bytes;
 pub use marker::{Found, Marker, sha256};
 pub use script::{Instruction, Place, Script};
 pub use source::Source;
 
 use crate::finding::Finding;
+use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Vector};
 use std::ops::Range;
 use std::path::Path;
@@ -105,6 +108,8 @@ pub struct About {
     pub leaves: &'static [&'static str],
     /// What is reported and blocks the file.
     pub refuses: &'static [&'static str],
+    /// What a file of it has at least; said of one that has not.
+    pub has: &'static str,
 }
 
 /// One programming language of robots.
@@ -115,7 +120,8 @@ pub trait Language: Sync {
     /// Whether the content looks like a program of this language (for files whose ending does not tell).
     fn recognises(&self, source: &Source) -> bool;
 
-    /// Translates program files that belong together into statements: data in one may be used in another.
+    /// Translates program files that belong together into statements: data in one may be used in another. The files are
+    /// texts of at most 4 GiB.
     ///
     /// # Errors
     /// Where the text is not a program of this language or is broken.
@@ -145,8 +151,16 @@ pub trait Language: Sync {
         None
     }
 
+    /// What each number of a pose is, in the order of [`Target::numbers`].
+    fn pose_roles(&self, layout: Layout) -> &'static [Role];
+
     /// What each number of a target is, in the order of [`Target::numbers`].
-    fn roles(&self, layout: Layout) -> &'static [Role];
+    fn roles(&self, layout: Layout) -> &'static [Role] {
+        match layout.shape {
+            Shape::Pose => self.pose_roles(layout),
+            Shape::Joints => &[Role::Joint; 6],
+        }
+    }
 
     /// The largest number that a target's orientation can have: beyond it none is meant (1e5 degrees are 278 rotations).
     fn most_orientation(&self, layout: Layout) -> f64 {
@@ -155,8 +169,15 @@ pub trait Language: Sync {
     }
 
     /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a metre away where it is an
-    /// angle or part of a quaternion.
-    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize;
+    /// angle or part of a quaternion. Most languages write millimetres and degrees: a thousandth of a millimetre is 6e-5
+    /// degrees there.
+    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
+        match role {
+            Role::Position => millimetre_decimals,
+            Role::Orientation | Role::Joint => millimetre_decimals + 2,
+            Role::Configuration => 0,
+        }
+    }
 
     /// Decimals that a number gets at least, so that rounding stays below a thousandth of a millimetre and of a degree where
     /// the controller takes as many.
@@ -164,12 +185,59 @@ pub trait Language: Sync {
         self.decimals(role, 3)
     }
 
-    /// The meaning of a target's numbers, as many as it has roles.
-    fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded;
+    /// The pose of a target's numbers: `frame_from_tool`, metres.
+    fn pose_of(&self, layout: Layout, numbers: &[f64]) -> Pose;
 
-    /// Writes the numbers of `value` into `numbers`, which hold the target's present ones. Configuration data change only
-    /// where `before` and `after` (the controller's joints for the old and the new pose) truly differ in them; signs and
-    /// turns that the pose leaves open stay as near to the present numbers as they can.
+    /// Writes a pose into the numbers of a target, which hold the present ones: signs and turns that the pose leaves open
+    /// stay as near to these as they can.
+    fn write_pose(&self, layout: Layout, pose: &Pose, numbers: &mut [f64]);
+
+    /// How many radians one of each joint's numbers is.
+    fn joint_units(&self, layout: Layout, settings: &Settings) -> [f64; 6] {
+        let _ = (layout, settings);
+        [DEG; 6]
+    }
+
+    /// The inverse solutions that the configuration data of a pose allow.
+    fn configuration(&self, layout: Layout, numbers: &[f64]) -> Configuration {
+        let _ = (layout, numbers);
+        Configuration::default()
+    }
+
+    /// Changes the configuration data among the numbers of a pose where `before` and `after` (the controller's joints for the
+    /// old and the new pose) truly differ in them.
+    fn update_configuration(
+        &self,
+        layout: Layout,
+        before: &Posture,
+        after: &Posture,
+        numbers: &mut [f64],
+    ) {
+        let _ = (layout, before, after, numbers);
+    }
+
+    /// The meaning of a target's numbers, as many as it has roles.
+    fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded {
+        match layout.shape {
+            Shape::Pose => Decoded {
+                value: Value::Pose(self.pose_of(layout, numbers)),
+                configuration: self.configuration(layout, numbers),
+            },
+            Shape::Joints => {
+                let unit = self.joint_units(layout, settings);
+                Decoded {
+                    value: Value::Joints(std::array::from_fn(|i| numbers[i] * unit[i])),
+                    configuration: Configuration::default(),
+                }
+            }
+        }
+    }
+
+    /// Writes `value` into `numbers`, which hold the target's present ones; see [`Self::write_pose`] and
+    /// [`Self::update_configuration`].
+    ///
+    /// # Panics
+    /// If the value is of another shape than the target.
     fn encode(
         &self,
         layout: Layout,
@@ -178,7 +246,21 @@ pub trait Language: Sync {
         after: &Posture,
         settings: &Settings,
         numbers: &mut [f64],
-    );
+    ) {
+        match (layout.shape, value) {
+            (Shape::Pose, Value::Pose(pose)) => {
+                self.write_pose(layout, pose, numbers);
+                self.update_configuration(layout, before, after, numbers);
+            }
+            (Shape::Joints, Value::Joints(joints)) => {
+                let unit = self.joint_units(layout, settings);
+                for (i, number) in numbers.iter_mut().enumerate() {
+                    *number = joints[i] / unit[i];
+                }
+            }
+            _ => panic!("a value of the other shape"),
+        }
+    }
 
     /// Writes one of a target's configuration data, the `index`-th of its numbers, in the manner of the text it replaces.
     /// Most languages write whole numbers.
@@ -327,6 +409,8 @@ pub struct Target {
     pub file: u32,
     /// First byte of the whole target.
     pub offset: u32,
+    /// Behind its last byte.
+    pub end: u32,
     /// Which numbers it has.
     pub layout: Layout,
     /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`]. None where it is blocked because it has no
@@ -551,6 +635,22 @@ impl From<Instruction> for MoveText {
             speed_zone: of.speed_zone,
             near: of.near,
         }
+    }
+}
+
+impl MoveText {
+    /// Its bytes in its file.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.place.offset as usize..self.end as usize
+    }
+}
+
+impl Target {
+    /// Its bytes in its file.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.offset as usize..self.end as usize
     }
 }
 

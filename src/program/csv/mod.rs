@@ -22,15 +22,16 @@
 mod header;
 mod records;
 
-use super::kit::check_bytes;
+use super::kit::{Fault, comments, content_start, not_this_language};
+use super::notation;
 use super::script::{
     Builder, Expr, Held, Instruction, NamedFrame, Place, Script, Span, Start, ValueId, short,
 };
 use super::{
-    About, Configuration, Decoded, Language, Layout, Marker, Motion, Number, Posture, ReadError,
-    Role, Settings, Shape, Source, Target, Value, number,
+    About, Configuration, Language, Layout, Marker, Motion, Number, ReadError, Role, Settings,
+    Shape, Source, Target, number,
 };
-use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion};
 use header::{Header, Wrong};
 use records::{Cell, Records};
@@ -57,22 +58,13 @@ static ABOUT: About = About {
         "cells separated by semicolons or tabs, numbers with a decimal comma",
         "GOTO lines of APT and CL files: they do not tell the turn about the tool's axis",
     ],
+    has: "a header with x_mm, y_mm, z_mm, qw, qx, qy, qz or with q1_deg to q6_deg",
 };
 
 /// The frame that poses are in which name none, unless the command line gives another.
 const WORLD: &str = "world";
 /// Farther from 1 the length of a quaternion is a mistake.
 const LENGTH: std::ops::RangeInclusive<f64> = 0.99..=1.01;
-
-const POSE_ROLES: [Role; 7] = [
-    Role::Position,
-    Role::Position,
-    Role::Position,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-];
 
 impl Language for Csv {
     fn about(&self) -> &'static About {
@@ -91,11 +83,8 @@ impl Language for Csv {
         Some(WORLD)
     }
 
-    fn roles(&self, layout: Layout) -> &'static [Role] {
-        match layout.shape {
-            Shape::Pose => &POSE_ROLES,
-            Shape::Joints => &[Role::Joint; 6],
-        }
+    fn pose_roles(&self, _: Layout) -> &'static [Role] {
+        &notation::WITH_QUATERNION[..7]
     }
 
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
@@ -108,59 +97,22 @@ impl Language for Csv {
         }
     }
 
-    fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
-        match layout.shape {
-            Shape::Pose => {
-                let n: &[f64; 7] = numbers.try_into().expect("a pose has 7 numbers");
-                let translation = [n[0], n[1], n[2]].map(m_from_mm);
-                let rotation = Quaternion([n[3], n[4], n[5], n[6]]).normalized();
-                Decoded {
-                    value: Value::Pose(Pose::from_parts(translation, rotation)),
-                    configuration: header::configuration(layout.variant),
-                }
-            }
-            Shape::Joints => {
-                let n: &[f64; 6] = numbers.try_into().expect("six joint angles");
-                Decoded {
-                    value: Value::Joints(n.map(|degrees| degrees * DEG)),
-                    configuration: Configuration::default(),
-                }
-            }
-        }
+    fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
+        notation::pose_of_quaternion(numbers)
     }
 
-    fn encode(
-        &self,
-        layout: Layout,
-        value: &Value,
-        _: &Posture,
-        _: &Posture,
-        _: &Settings,
-        numbers: &mut [f64],
-    ) {
-        match (layout.shape, value) {
-            (Shape::Pose, Value::Pose(pose)) => {
-                let present = Quaternion([numbers[3], numbers[4], numbers[5], numbers[6]]);
-                let new = pose.rotation.quaternion().nearest_to(&present);
-                numbers[..3].copy_from_slice(&pose.translation.map(mm_from_m));
-                numbers[3..].copy_from_slice(&new.0);
-            }
-            (Shape::Joints, Value::Joints(joints)) => {
-                numbers.copy_from_slice(&joints.map(|angle| angle / DEG));
-            }
-            _ => panic!("a value of the other shape"),
-        }
+    fn write_pose(&self, _: Layout, pose: &Pose, numbers: &mut [f64]) {
+        notation::write_quaternion(pose, numbers);
+    }
+
+    fn configuration(&self, layout: Layout, _: &[f64]) -> Configuration {
+        header::configuration(layout.variant)
     }
 
     /// Comment lines at the top.
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
-        let mut text = Vec::new();
-        for line in marker.lines() {
-            text.extend_from_slice(b"# ");
-            text.extend_from_slice(line.as_bytes());
-            text.extend_from_slice(source.line_end());
-        }
-        (records::content_start(&source.bytes), text)
+        let at = content_start(&source.bytes);
+        (at, comments(source, marker, "# "))
     }
 }
 
@@ -170,7 +122,6 @@ fn script(sources: &[Source]) -> Result<Script, ReadError> {
     let flag = Held::Flag(true);
     reader.honoured = reader.builder.script.value(flag);
     for (file, source) in sources.iter().enumerate() {
-        check_bytes(source)?;
         reader.table(source, short(file))?;
     }
     Ok(reader.builder.finish())
@@ -191,17 +142,9 @@ impl Reader {
     fn table(&mut self, source: &Source, file: u32) -> Result<(), ReadError> {
         let mut records = Records::of(&source.bytes);
         let mut cells = Vec::new();
-        let unclosed = |at| {
-            let (line, column) = source.line_column(at);
-            ReadError::Unclosed {
-                file: source.name.clone(),
-                line,
-                column,
-                what: "a quoted cell",
-            }
-        };
+        let unclosed = |at| Fault::unclosed(at, "a quoted cell").in_source(source);
         if !records.next(&mut cells).map_err(unclosed)? {
-            return Err(no_table(source));
+            return Err(not_this_language(&ABOUT, source));
         }
         let header = read_header(source, &cells)?;
         // one line a row: lists that grow leave holes in the memory
@@ -273,16 +216,17 @@ impl Reader {
         let tool = self.tool(text(header.tool).unwrap_or_default());
         let frame = self.frame(text(header.frame).unwrap_or_default());
         let script = &mut self.builder.script;
+        let end = short(cells.last().expect("a record has a cell").end);
         script.targets.push(Target {
             name: name.map(Into::into),
             file,
             offset,
+            end,
             layout: header.layout(branch.transpose()?),
             numbers: start..short(script.numbers.len()),
             blocked: false,
         });
         let target = script.targets.len() - 1;
-        let end = short(cells.last().expect("a record has a cell").end);
         self.builder.go(Instruction {
             end,
             motion: match header.shape {
@@ -331,19 +275,11 @@ impl Reader {
     }
 }
 
-fn no_table(source: &Source) -> ReadError {
-    ReadError::NotThisLanguage {
-        file: source.name.clone(),
-        language: ABOUT.name,
-        missing: "a header with x_mm, y_mm, z_mm, qw, qx, qy, qz or with q1_deg to q6_deg",
-    }
-}
-
 fn read_header(source: &Source, cells: &[Cell]) -> Result<Header, ReadError> {
     Header::of(&header::names(source, cells)).map_err(|wrong| {
         let shown = |cell: Cell| format!("`{}`", cell_text(source, cell));
         match wrong {
-            Wrong::Missing => no_table(source),
+            Wrong::Missing => not_this_language(&ABOUT, source),
             Wrong::Both => {
                 let found = "a header with poses and joints".to_owned();
                 let expected = "a table of poses or one of joints";

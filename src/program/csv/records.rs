@@ -3,6 +3,8 @@
 //! Cells are separated by commas; a cell in double quotes may hold commas and line ends, and a quote as two. Blanks around a
 //! cell do not belong to it. Lines end with LF, CR LF or CR; empty ones and those that start with `#` are passed over.
 
+use crate::program::kit::content_start;
+
 /// Where a cell's text stands, without its quotes and the blanks around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Cell {
@@ -110,15 +112,6 @@ impl<'a> Records<'a> {
         let before = text.iter().take_while(|&&b| is_blank(b)).count();
         let behind = text[before..].iter().rev().take_while(|&&b| is_blank(b));
         (start + before, end - behind.count())
-    }
-}
-
-/// The first byte behind a byte order mark.
-pub(super) fn content_start(bytes: &[u8]) -> usize {
-    if bytes.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
     }
 }
 

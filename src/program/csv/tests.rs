@@ -1,7 +1,7 @@
 //! Tables of poses and joints.
 
 use super::*;
-use crate::program::Program;
+use crate::program::{Posture, Program};
 
 fn read(text: &str) -> Result<Program, ReadError> {
     crate::motion::read(

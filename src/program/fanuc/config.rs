@@ -21,18 +21,15 @@
 //! joint point J2 = -42.883, J3 = 70.004, J5 = 20, whose wrist is behind axis 1 and before the lower arm on any arm of FANUC's
 //! proportions; and in public backups `U B` is common, where `D T` does not occur.
 
-use crate::geometry::units::DEG;
 use crate::program::{Configuration, Posture};
 use std::f64::consts::{PI, TAU};
 
-/// So near to a border, in degrees, either side of it is right.
-const BORDER_DEG: f64 = 0.01;
 /// Turns that joints can make.
 const MOST_TURNS: f64 = 100.0;
 /// Letters of the flags, by place, then by number.
 pub(super) const LETTERS: [[u8; 2]; 3] = [*b"NF", *b"UD", *b"TB"];
-/// Joints of the turns.
-const JOINTS: [usize; 3] = [0, 3, 5];
+/// The joint of each number: that of the first flag (the others hang on none), those of the turns.
+pub(super) const JOINTS: [usize; 6] = [4, 4, 4, 0, 3, 5];
 
 /// The six numbers of a posture.
 pub(super) fn data(posture: &Posture) -> [f64; 6] {
@@ -42,9 +39,9 @@ pub(super) fn data(posture: &Posture) -> [f64; 6] {
         bit(posture.joints_rad[4] >= 0.0),
         bit(posture.behind_lower_arm),
         bit(posture.behind_axis_1),
-        turn(JOINTS[0]),
-        turn(JOINTS[1]),
-        turn(JOINTS[2]),
+        turn(JOINTS[3]),
+        turn(JOINTS[4]),
+        turn(JOINTS[5]),
     ]
 }
 
@@ -56,7 +53,7 @@ pub(super) fn configuration(data: &[f64; 6]) -> Configuration {
         _ => None,
     };
     let mut joints = [None; 6];
-    for (joint, turn) in JOINTS.into_iter().zip(&data[3..]) {
+    for (joint, turn) in JOINTS.into_iter().zip(data).skip(3) {
         let whole = turn.fract() == 0.0 && turn.abs() <= MOST_TURNS;
         joints[joint] = whole.then_some((turn * TAU - PI, turn * TAU + PI));
     }
@@ -66,31 +63,6 @@ pub(super) fn configuration(data: &[f64; 6]) -> Configuration {
         behind_axis_1: flag(2),
         joints,
     }
-}
-
-/// Changes each of the present numbers that was right before and is not after; leaves the others.
-pub(super) fn update(before: &Posture, after: &Posture, present: &mut [f64]) {
-    let new = data(after);
-    for (k, number) in present.iter_mut().enumerate().take(new.len()) {
-        if allowed(k, *number, before) && !allowed(k, *number, after) {
-            *number = new[k];
-        }
-    }
-}
-
-/// Whether the k-th number may stand for a posture.
-fn allowed(k: usize, number: f64, posture: &Posture) -> bool {
-    let joint = match k {
-        0 => 4,
-        3..=5 => JOINTS[k - 3],
-        _ => return same(data(posture)[k], number),
-    };
-    let border = BORDER_DEG * DEG;
-    [-border, 0.0, border].into_iter().any(|by| {
-        let mut near = *posture;
-        near.joints_rad[joint] += by;
-        same(data(&near)[k], number)
-    })
 }
 
 /// Whether two whole numbers are the same.
@@ -117,6 +89,8 @@ pub(super) fn write(k: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::units::DEG;
+    use crate::program::notation::update;
 
     fn posture(degrees: [f64; 6]) -> Posture {
         Posture {
@@ -151,7 +125,13 @@ mod tests {
     #[test]
     fn numbers_change_only_where_the_posture_leaves_them() {
         let change = |before: [f64; 6], after: [f64; 6], mut present: [f64; 6]| {
-            update(&posture(before), &posture(after), &mut present);
+            update(
+                data,
+                JOINTS,
+                &posture(before),
+                &posture(after),
+                &mut present,
+            );
             present
         };
         let at = |j5: f64, j6: f64| [10.0, 0.0, 0.0, 20.0, j5, j6];

@@ -1,8 +1,8 @@
 //! Numbers of position registers that a program has just written: `PR[9,1]=(-30)` to `PR[9,6]=0`, then `UTOOL[9]=PR[9]`.
 
-use super::frames;
 use super::words::{assigned, behind_group, concerns_group_1, register, whole, word_length};
 use crate::geometry::Pose;
+use crate::program::notation::pose_of_angles;
 use crate::program::number;
 use std::collections::BTreeMap;
 
@@ -36,7 +36,7 @@ impl Constants {
         for (value, known) in values.iter_mut().zip(self.written.get(&register)?) {
             *value = (*known)?;
         }
-        Some(frames::pose(values))
+        Some(pose_of_angles(values))
     }
 
     /// What is known behind an instruction that is no move.

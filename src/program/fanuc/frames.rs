@@ -1,8 +1,7 @@
 //! Tools and work frames in files of the controller: `SYSFRAME.VA` and `FRAME.DG`.
 
-use super::angles;
 use crate::geometry::Pose;
-use crate::geometry::units::m_from_mm;
+use crate::program::notation::pose_of_angles;
 use crate::program::number;
 use std::collections::BTreeMap;
 
@@ -138,7 +137,7 @@ fn variables(bytes: &[u8]) -> Result<Frames, BadNumber> {
         let text = memchr::memrchr(b'\'', text).map_or(text, |quote| &text[quote + 1..]);
         coordinates(text, start + line.len() - text.len(), &mut values)?;
         if let [Some(x), Some(y), Some(z), Some(w), Some(p), Some(r)] = values {
-            let pose = pose([x, y, z, w, p, r]);
+            let pose = pose_of_angles([x, y, z, w, p, r]);
             let place = match section {
                 Section::Tools => &mut frames.tools,
                 _ => &mut frames.frames,
@@ -214,8 +213,8 @@ fn list(bytes: &[u8]) -> Frames {
         number += 1;
         let Some(values) = values else { continue };
         match section {
-            Section::Tools => frames.tools.insert(number, pose(values)),
-            Section::Frames => frames.frames.insert(number, pose(values)),
+            Section::Tools => frames.tools.insert(number, pose_of_angles(values)),
+            Section::Frames => frames.frames.insert(number, pose_of_angles(values)),
             Section::Other => None,
         };
     }
@@ -248,12 +247,4 @@ fn row(line: &[u8]) -> Option<Option<[f64; 6]>> {
         }
     }
     Some(known.then_some(values))
-}
-
-/// The pose of these numbers, millimetres and degrees.
-pub(super) fn pose([x, y, z, w, p, r]: [f64; 6]) -> Pose {
-    Pose {
-        rotation: angles::rotation([w, p, r]),
-        translation: [x, y, z].map(m_from_mm),
-    }
 }

@@ -5,7 +5,7 @@
 
 use super::points::Points;
 use super::sections::{Sections, line_end};
-use crate::program::insert::{line_start, spliced, with_numbers};
+use crate::program::insert::{line_start, sole_use, spliced, with_numbers};
 use crate::program::{Between, Inserted, Insertion, Motion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
@@ -50,14 +50,14 @@ struct Copied {
     name: Range<usize>,
 }
 
-/// The text of a target, and its `P[3:"name"]`.
+/// The text of a target with its semicolon, and its `P[3:"name"]`.
 fn declared(bytes: &[u8], target: &Target) -> Option<(Range<usize>, Range<usize>)> {
-    let start = target.offset as usize;
-    let open = start + memchr::memchr(b'{', &bytes[start..])?;
-    let close = open + memchr::memchr(b'}', &bytes[open..])?;
-    let close = close + memchr::memchr(b';', &bytes[close..]).filter(|gap| *gap <= 4)?;
+    let Range { start, end } = target.span();
+    let behind = bytes[end..].iter().take_while(|b| b.is_ascii_whitespace());
+    let close = end + behind.count();
+    let open = start + memchr::memchr(b'{', &bytes[start..end])?;
     let name = start..start + bytes[start..open].trim_ascii_end().len();
-    Some((start..close + 1, name))
+    (bytes.get(close) == Some(&b';')).then_some((start..close + 1, name))
 }
 
 /// Whether a target has other axes than the six of the arm.
@@ -69,11 +69,11 @@ fn has_more_axes(text: &[u8]) -> bool {
 impl Copied {
     fn of(source: &Source, program: &Program, insertion: &Insertion) -> Option<Self> {
         let bytes = &source.bytes;
-        let motion = &program.moves[insertion.motion];
-        let target = &program.targets[motion.target?];
+        let motion = sole_use(program, insertion.motion)?;
+        let target = program.target_of(motion)?;
         let index = motion.instruction as usize;
         let instruction = &program.instructions[index];
-        let span = instruction.place.offset as usize..instruction.end as usize;
+        let span = instruction.span();
         let before = head(bytes, span.start)?;
         let points = if insertion.is_split() {
             vec![instruction.target_span.range()?]
@@ -143,9 +143,7 @@ fn points_of(bytes: &[u8], sections: &Sections) -> (u32, usize) {
     let (mut highest, mut end) = (0, sections.points.start);
     while let Ok(Some(point)) = reader.next() {
         highest = highest.max(point.number);
-        let start = point.offset as usize;
-        let close = memchr::memchr(b'}', &bytes[start..]).map_or(start, |length| start + length);
-        end = line_end(bytes, close);
+        end = line_end(bytes, point.end as usize);
     }
     (highest, end)
 }

@@ -32,7 +32,6 @@
 //! known in German only. That moves other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
 //! MOTN-018, are *not verified on a controller*.
 
-mod angles;
 mod config;
 mod constants;
 mod controller;
@@ -48,13 +47,12 @@ mod sections;
 mod statements;
 mod words;
 
+use super::notation;
 use super::{
-    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Script, Settings, Shape, Source, Step, Value,
+    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
+    ReadError, Role, Script, Settings, Source, Step,
 };
 use crate::geometry::Pose;
-use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use points::{Fault, POSE_NUMBERS};
 use sections::Sections;
 
 /// FANUC TP.
@@ -81,22 +79,11 @@ static ABOUT: About = About {
         "points that were never taught, or of robots with other axes",
         "tools and user frames that the running program assigns or chooses",
     ],
+    has: "/PROG and /MN, or $MNUTOOL and $MNUFRAME,",
 };
 
-const POSE_ROLES: [Role; POSE_NUMBERS] = [
-    Role::Position,
-    Role::Position,
-    Role::Position,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Configuration,
-    Role::Configuration,
-    Role::Configuration,
-    Role::Configuration,
-    Role::Configuration,
-    Role::Configuration,
-];
+/// Printed with three decimals an angle up to this far beyond a half turn is still 180.000.
+const BEYOND_DEG: f64 = 0.0005;
 /// Numbers of a pose without configuration data.
 const PLAIN: usize = 6;
 
@@ -115,19 +102,10 @@ impl Language for Fanuc {
         reader::script(sources)
     }
 
-    fn roles(&self, layout: Layout) -> &'static [Role] {
-        match (layout.shape, layout.variant) {
-            (Shape::Pose, 0) => &POSE_ROLES,
-            (Shape::Pose, _) => &POSE_ROLES[..PLAIN],
-            (Shape::Joints, _) => &[Role::Joint; 6],
-        }
-    }
-
-    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
-        match role {
-            Role::Position => millimetre_decimals,
-            Role::Orientation | Role::Joint => millimetre_decimals + 2,
-            Role::Configuration => 0,
+    fn pose_roles(&self, layout: Layout) -> &'static [Role] {
+        match layout.variant {
+            0 => &notation::WITH_ANGLES,
+            _ => &notation::WITH_ANGLES[..PLAIN],
         }
     }
 
@@ -139,49 +117,28 @@ impl Language for Fanuc {
         }
     }
 
-    fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
-        let first: [f64; PLAIN] = numbers[..PLAIN].try_into().expect("six numbers at least");
-        match layout.shape {
-            Shape::Pose => {
-                let [x, y, z, w, p, r] = first;
-                let pose = Pose {
-                    rotation: angles::rotation([w, p, r]),
-                    translation: [x, y, z].map(m_from_mm),
-                };
-                let data: Option<&[f64; 6]> = numbers[PLAIN..].try_into().ok();
-                Decoded {
-                    value: Value::Pose(pose),
-                    configuration: data.map_or_else(Configuration::default, config::configuration),
-                }
-            }
-            Shape::Joints => Decoded {
-                value: Value::Joints(first.map(|degrees| degrees * DEG)),
-                configuration: Configuration::default(),
-            },
-        }
+    fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
+        notation::pose_of_angles(std::array::from_fn(|i| numbers[i]))
     }
 
-    fn encode(
+    fn write_pose(&self, _: Layout, pose: &Pose, numbers: &mut [f64]) {
+        notation::write_angles(pose, BEYOND_DEG, numbers);
+    }
+
+    fn configuration(&self, _: Layout, numbers: &[f64]) -> Configuration {
+        let data: Option<&[f64; 6]> = numbers[PLAIN..].try_into().ok();
+        data.map_or_else(Configuration::default, config::configuration)
+    }
+
+    fn update_configuration(
         &self,
-        layout: Layout,
-        value: &Value,
+        _: Layout,
         before: &Posture,
         after: &Posture,
-        _: &Settings,
         numbers: &mut [f64],
     ) {
-        match (layout.shape, value) {
-            (Shape::Pose, Value::Pose(pose)) => {
-                let present = [numbers[3], numbers[4], numbers[5]];
-                numbers[..3].copy_from_slice(&pose.translation.map(mm_from_m));
-                numbers[3..PLAIN].copy_from_slice(&angles::nearest(&pose.rotation, present));
-                config::update(before, after, &mut numbers[PLAIN..]);
-            }
-            (Shape::Joints, Value::Joints(joints)) => {
-                numbers.copy_from_slice(&joints.map(|angle| angle / DEG));
-            }
-            _ => panic!("a value of the other shape"),
-        }
+        let of = config::data;
+        notation::update(of, config::JOINTS, before, after, &mut numbers[PLAIN..]);
     }
 
     fn write_configuration(
@@ -211,50 +168,6 @@ impl Language for Fanuc {
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         mark::mark(source, marker)
-    }
-}
-
-/// A fault with its place in words.
-fn in_source(fault: &Fault, source: &Source) -> ReadError {
-    let (Fault::Unclosed { at, .. } | Fault::Unexpected { at, .. } | Fault::BadValue { at, .. }) =
-        *fault;
-    let (line, column) = source.line_column(at);
-    let file = source.name.clone();
-    match *fault {
-        Fault::Unclosed { what, .. } => ReadError::Unclosed {
-            file,
-            line,
-            column,
-            what,
-        },
-        Fault::Unexpected { expected, .. } => ReadError::Unexpected {
-            file,
-            line,
-            column,
-            found: found(&source.bytes[at..]),
-            expected,
-        },
-        Fault::BadValue { length, .. } => ReadError::BadValue {
-            file,
-            line,
-            column,
-            value: found(&source.bytes[at..at + length]),
-            meaning: "coordinate, or number of a tool or frame",
-            limit: "a plain number of at most 1000000 is wanted; angles of tools and frames go to 720 deg, their numbers to 255",
-        },
-    }
-}
-
-/// What stands at a place, in words.
-fn found(rest: &[u8]) -> String {
-    let word = rest
-        .split(u8::is_ascii_whitespace)
-        .next()
-        .unwrap_or_default();
-    match word {
-        [] if rest.is_empty() => "the end of the file".into(),
-        [] => "nothing".into(),
-        word => format!("`{}`", Source::text(&word[..word.len().min(20)])),
     }
 }
 

@@ -2,18 +2,17 @@
 
 use super::controller::Why;
 use super::sections::line_end;
-use crate::program::Number;
-use crate::program::number;
+use crate::program::kit::Fault;
 use crate::program::script::short;
+use crate::program::{Number, number};
 use std::ops::Range;
 
 /// Bytes of a number and the blanks before it.
 const WIDEST_FIELD: usize = 4096;
+/// Bytes of a wrong word that an error shows.
+const LONGEST_WORD: usize = 20;
 /// Millimetres or degrees.
 const LARGEST: f64 = 1e6;
-/// The numbers of a pose: X Y Z W P R, three flags, three turns.
-pub(super) const POSE_NUMBERS: usize = 12;
-
 /// What group 1 of a point holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Content {
@@ -32,6 +31,8 @@ pub(super) struct Point {
     pub number: u32,
     /// First byte.
     pub offset: u32,
+    /// Behind its last brace.
+    pub end: u32,
     /// Group 1; `None` where it has none: another robot or a positioner.
     pub content: Option<Content>,
     /// Its numbers among those of its listing.
@@ -44,15 +45,13 @@ pub(super) struct Point {
     pub extended: bool,
 }
 
-/// What is wrong with the text.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Fault {
-    /// Something is not closed.
-    Unclosed { at: usize, what: &'static str },
-    /// Something else stands here.
-    Unexpected { at: usize, expected: &'static str },
-    /// A number that no robot can use.
-    BadValue { at: usize, length: usize },
+/// A number that no robot can use.
+pub(super) fn bad_value(at: usize, length: usize) -> Fault {
+    Fault::bad_value(
+        at..at + length,
+        "coordinate, or number of a tool or frame",
+        "a plain number of at most 1000000 is wanted; angles of tools and frames go to 720 deg, their numbers to 255",
+    )
 }
 
 /// Reads the points of a section.
@@ -99,10 +98,14 @@ impl<'a> Points<'a> {
     }
 
     fn unexpected(&self, expected: &'static str) -> Fault {
-        Fault::Unexpected {
-            at: self.at,
-            expected,
-        }
+        self.unexpected_at(self.at, expected)
+    }
+
+    /// The word at a byte stands where something else belongs.
+    fn unexpected_at(&self, at: usize, expected: &'static str) -> Fault {
+        let word = self.bytes[at..].iter().take(LONGEST_WORD);
+        let length = word.take_while(|b| !b.is_ascii_whitespace()).count();
+        Fault::unexpected(at..at + length, expected)
     }
 
     /// The next point; `None` at the end of the section.
@@ -133,6 +136,7 @@ impl<'a> Points<'a> {
         let mut point = Point {
             number,
             offset: short(start),
+            end: short(start),
             content: None,
             numbers: 0..0,
             frame: None,
@@ -141,6 +145,7 @@ impl<'a> Points<'a> {
         };
         self.expect(b'{', "{")?;
         self.groups(start, &mut point)?;
+        point.end = short(self.at);
         Ok(point)
     }
 
@@ -173,10 +178,7 @@ impl<'a> Points<'a> {
                 self.at += close + 1;
                 Ok(())
             }
-            None => Err(Fault::Unclosed {
-                at: start,
-                what: "the name of a point",
-            }),
+            None => Err(Fault::unclosed(start, "the name of a point")),
         }
     }
 
@@ -187,12 +189,7 @@ impl<'a> Points<'a> {
         loop {
             self.skip_blanks();
             match self.byte() {
-                None => {
-                    return Err(Fault::Unclosed {
-                        at: start,
-                        what: "a point",
-                    });
-                }
+                None => return Err(Fault::unclosed(start, "a point")),
                 Some(b'}') => {
                     self.at += 1;
                     break;
@@ -232,10 +229,7 @@ impl<'a> Points<'a> {
     fn in_group(&self, group: Option<u32>, key: &Range<usize>) -> Result<bool, Fault> {
         match group {
             Some(number) => Ok(number == 1),
-            None => Err(Fault::Unexpected {
-                at: key.start,
-                expected: "GP1:",
-            }),
+            None => Err(self.unexpected_at(key.start, "GP1:")),
         }
     }
 
@@ -262,10 +256,7 @@ impl<'a> Points<'a> {
             let end = line_end(self.bytes, self.at);
             let inside = self.at + 1;
             let Some(length) = memchr::memchr(b'\'', &self.bytes[inside..end]) else {
-                return Err(Fault::Unclosed {
-                    at: self.at,
-                    what: "a string",
-                });
+                return Err(Fault::unclosed(self.at, "a string"));
             };
             self.at = inside + length + 1;
             if within {
@@ -294,10 +285,7 @@ impl<'a> Points<'a> {
                 _ => None,
             };
             if let Some(place) = place {
-                *place = selected.ok_or(Fault::BadValue {
-                    at: self.at,
-                    length,
-                })?;
+                *place = selected.ok_or(bad_value(self.at, length))?;
             }
         }
         self.at += length;
@@ -331,11 +319,11 @@ impl<'a> Points<'a> {
             }
             self.at += length;
             let value = number::parse(&rest[..length]);
-            Some(value.ok_or(Fault::BadValue { at: digits, length })?)
+            Some(value.ok_or(bad_value(digits, length))?)
         };
         let (end, length) = (self.at, self.at - digits);
         if length > WIDEST_FIELD || value.is_some_and(|value| value.abs() > LARGEST) {
-            return Err(Fault::BadValue { at: digits, length });
+            return Err(bad_value(digits, length));
         }
         self.skip_blanks_in_line();
         let letters = self.bytes[self.at..]

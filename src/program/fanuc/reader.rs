@@ -1,15 +1,15 @@
 //! From listings to statements: what the files hold, before their instructions are gone through.
 
+use super::ABOUT;
 use super::controller::{Controller, Why};
 use super::frames::{self, Frames};
 use super::lines::Lines;
-use super::points::{Content, Fault, Point, Points};
+use super::points::{Content, Point, Points, bad_value};
 use super::sections::Sections;
 use super::statements::State;
 use super::words::{Named, Register};
-use super::{ABOUT, in_source};
 use crate::finding::{Finding, Severity};
-use crate::program::kit::check_bytes;
+use crate::program::kit::{Fault, not_this_language};
 use crate::program::script::{
     Builder, Expr, How, Place, RoutineId, Script, Start, Variable, VariableId, short,
 };
@@ -92,25 +92,18 @@ pub(super) fn script(sources: &[Source]) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
     let (mut values, mut listings) = (Frames::default(), Vec::new());
     for (file, source) in sources.iter().enumerate() {
-        check_bytes(source)?;
         if let Some(sections) = Sections::of(&source.bytes) {
             let listing = listing(&mut builder, source, short(file), &sections);
-            listings.push(listing.map_err(|fault| in_source(&fault, source))?);
+            listings.push(listing.map_err(|fault| fault.in_source(source))?);
         } else if let Some(kind) = frames::kind(&source.bytes) {
-            let found = frames::read(&source.bytes, kind).map_err(|bad| {
-                let (at, length) = (bad.at, bad.length);
-                in_source(&Fault::BadValue { at, length }, source)
-            })?;
+            let found = frames::read(&source.bytes, kind)
+                .map_err(|bad| bad_value(bad.at, bad.length).in_source(source))?;
             if found.rounded {
                 builder.script.findings.push(frames_rounded(source));
             }
             values.add(found);
         } else {
-            return Err(ReadError::NotThisLanguage {
-                file: source.name.clone(),
-                language: ABOUT.name,
-                missing: "/PROG and /MN, or $MNUTOOL and $MNUFRAME,",
-            });
+            return Err(not_this_language(&ABOUT, source));
         }
     }
     builder.script.is_closed = true;
@@ -202,6 +195,7 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point) {
             name: Some(format!("P[{}]", point.number).into()),
             file: listing.file,
             offset: point.offset,
+            end: point.end,
             layout: Layout { shape, variant },
             numbers: short(point.numbers.start)..short(point.numbers.end),
             blocked: trouble.is_some(),

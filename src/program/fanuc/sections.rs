@@ -1,5 +1,6 @@
 //! The sections of a listing: `/PROG`, `/ATTR`, `/APPL`, `/MN`, `/POS`, `/END`.
 
+use crate::program::kit::{self, line_behind};
 use std::ops::Range;
 
 /// Where the sections of a listing are.
@@ -54,11 +55,7 @@ impl Sections {
 
 /// The first byte behind a byte order mark and blanks.
 pub(super) fn content_start(bytes: &[u8]) -> usize {
-    let mark = if bytes.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    };
+    let mark = kit::content_start(bytes);
     mark + blanks(&bytes[mark..])
 }
 
@@ -94,11 +91,7 @@ fn trimmed(bytes: &[u8], range: Range<usize>) -> Range<usize> {
 
 /// The first byte behind the line of `at`, its end included.
 pub(super) fn line_end(bytes: &[u8], at: usize) -> usize {
-    let Some(end) = memchr::memchr2(b'\n', b'\r', &bytes[at..]).map(|k| at + k) else {
-        return bytes.len();
-    };
-    let crlf = bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n');
-    end + 1 + usize::from(crlf)
+    line_behind(bytes, at).unwrap_or(bytes.len())
 }
 
 #[cfg(test)]

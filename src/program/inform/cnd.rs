@@ -4,9 +4,10 @@
 //! `//UFRAME n` and, among the positions it was taught with, `BUSER x,y,z,Rx,Ry,Rz` in the base frame.
 
 use super::lines::{Lines, after, numbers, unexpected, whole, words};
-use super::pose_of;
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
+use crate::program::kit::Fault;
+use crate::program::notation::pose_of_angles;
 use crate::program::{Load, Number, ReadError, Source};
 use std::collections::HashMap;
 
@@ -59,17 +60,19 @@ pub(super) fn read(source: &Source, conditions: &mut Conditions) -> Result<(), R
             }
             let endless = |n: &Number| n.value.abs() > MOST_ANGLE;
             if let Some(angle) = found.iter().skip(3).find(|n| count == 6 && endless(n)) {
-                let (line, column) = source.line_column(angle.start as usize);
-                return Err(ReadError::BadValue {
-                    file: source.name.clone(),
-                    line,
-                    column,
-                    value: angle.value.to_string(),
-                    meaning: "angle of a tool or frame in degrees",
-                    limit: "the limit is 720 deg; write it between -360 and 360",
-                });
+                let start = angle.start as usize;
+                let fault = Fault::bad_value(
+                    start..start + usize::from(angle.length),
+                    "angle of a tool or frame in degrees",
+                    "the limit is 720 deg; write it between -360 and 360",
+                );
+                return Err(fault.in_source(source));
             }
-            Ok(found.iter().map(|n| n.value).collect::<Vec<f64>>())
+            let mut values = [0.0; 6];
+            for (value, number) in values.iter_mut().zip(&found) {
+                *value = number.value;
+            }
+            Ok(values)
         };
         if let Some(text) = after(line.text, b"//TOOL") {
             open = Open::Tool(number(text)?, None, None);
@@ -79,13 +82,13 @@ pub(super) fn read(source: &Source, conditions: &mut Conditions) -> Result<(), R
             if let Open::Frame(frame) = open {
                 let skip = at + b"/BUSER".len();
                 let equals = memchr::memchr(b'=', &line.text[skip..]).map_or(0, |at| at + 1);
-                let pose = pose_of(&values(skip + equals, 6)?);
+                let pose = pose_of_angles(values(skip + equals, 6)?);
                 keep(&mut conditions.frames, frame, pose, |a, b| a == b);
             }
         } else if line.text.is_empty() || line.text[0] == b'/' {
         } else if let Open::Tool(tool, pose, cog) = &mut open {
             match (*pose, *cog) {
-                (None, _) => *pose = Some(pose_of(&values(0, 6)?)),
+                (None, _) => *pose = Some(pose_of_angles(values(0, 6)?)),
                 (Some(_), None) => {
                     let v = values(0, 3)?;
                     *cog = Some([v[0], v[1], v[2]].map(m_from_mm));

@@ -1,8 +1,9 @@
 //! Moves between those of a job: the line again, to a new `C` position.
 
 use super::job::{HEADERS, Job, Letter, Positions};
+use crate::program::insert::{indent, sole_use, spliced, with_numbers};
+use crate::program::kit::line_behind;
 use crate::program::MoveText;
-use crate::program::insert::{indent, line_end, spliced, with_numbers};
 use crate::program::{Between, Inserted, Insertion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
@@ -11,16 +12,6 @@ const MOST_POSITIONS: u32 = 99_999;
 
 /// The header lines above a position.
 type Above<'a> = [Option<&'a [u8]>; HEADERS];
-
-/// The byte behind a line and its end.
-fn behind_line(bytes: &[u8], at: usize) -> usize {
-    let end = line_end(bytes, at);
-    match &bytes[end..] {
-        [b'\r', b'\n', ..] => end + 2,
-        [] => end,
-        _ => end + 1,
-    }
-}
 
 /// What the copies of one move are made of.
 struct Copied<'a> {
@@ -42,10 +33,11 @@ fn plain_move(
     instruction: &MoveText,
     verbs: &[&[u8]],
 ) -> Option<(Range<usize>, Range<usize>)> {
-    let span = instruction.place.offset as usize..instruction.end as usize;
+    let span = instruction.span();
     let name = instruction.target_span.range()?;
     let verb = &bytes[span.start..];
-    let rest = &bytes[span.end..line_end(bytes, span.end)];
+    let behind = line_behind(bytes, span.end).unwrap_or(bytes.len());
+    let rest = &bytes[span.end..behind];
     let is_plain = verbs.iter().any(|known| verb.starts_with(known))
         && bytes[name.start] == b'C'
         && rest.trim_ascii().is_empty();
@@ -59,7 +51,7 @@ impl<'a> Copied<'a> {
         positions: &Positions<'a>,
         insertion: &Insertion,
     ) -> Option<Self> {
-        let motion = &program.moves[insertion.motion];
+        let motion = sole_use(program, insertion.motion)?;
         let is_arc = insertion.between.iter().any(|b| b.via.is_some());
         let verbs: &[&[u8]] = if insertion.is_split() {
             &[b"MOVJ ", b"MOVL ", b"MOVC ", b"MOVS "]
@@ -81,8 +73,7 @@ impl<'a> Copied<'a> {
             .targets
             .binary_search_by_key(&at, |target| target.offset);
         let own = own.ok()?;
-        let start = at as usize;
-        let end = line_end(bytes, start);
+        let Range { start, end } = positions.targets[own].span();
         let equals = start + memchr::memchr(b'=', &bytes[start..end])?;
         Some(Self {
             blanks: indent(bytes, span.start)?,
@@ -172,7 +163,7 @@ impl<'a> Own<'a> {
             range: job.offset..crate::program::script::short(job.instructions.end),
             highest,
             digits: name.iter().take_while(|byte| byte.is_ascii_digit()).count(),
-            behind: behind_line(bytes, offset as usize),
+            behind: line_behind(bytes, offset as usize).unwrap_or(bytes.len()),
             above: positions.header(last).lines,
             goes_on: job.last_position > offset,
         })

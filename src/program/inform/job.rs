@@ -6,6 +6,7 @@
 
 use super::lines::{Line, Lines, add_numbers, after, unexpected, whole, words};
 use super::{DEGREES, PULSES, rconf};
+use crate::program::kit::Fault;
 use crate::program::script::{Span, short};
 use crate::program::{Layout, Number, ReadError, Shape, Source, Target, TargetId, number};
 use memchr::memmem;
@@ -291,13 +292,7 @@ impl<'a> Positions<'a> {
     /// The last job has no end.
     fn unclosed(&self, source: &Source) -> ReadError {
         let at = self.jobs.last().map_or(0, |job| job.offset);
-        let (line, column) = source.line_column(at as usize);
-        ReadError::Unclosed {
-            file: source.name.clone(),
-            line,
-            column,
-            what: "a job (its END is missing)",
-        }
+        Fault::unclosed(at as usize, "a job (its END is missing)").in_source(source)
     }
 
     /// What can be said once the whole job is known.
@@ -391,6 +386,7 @@ impl<'a> Positions<'a> {
             name: Some(name.into()),
             file: job.file,
             offset: short(line.start),
+            end: short(to),
             layout: Layout {
                 shape: layout.0,
                 variant: layout.1,

@@ -1,5 +1,6 @@
 //! The lines of a file, and the words and numbers in them.
 
+use crate::program::kit::{self, Fault};
 use crate::program::script::short;
 use crate::program::{Number, ReadError, Source, number};
 
@@ -25,13 +26,7 @@ impl<'a> Lines<'a> {
 
     /// The lines behind a byte order mark.
     pub(super) fn of(bytes: &'a [u8]) -> Self {
-        let mark = bytes.starts_with(b"\xef\xbb\xbf");
-        Self::from(bytes, if mark { 3 } else { 0 })
-    }
-
-    /// First byte of the line that comes next.
-    pub(super) fn position(&self) -> usize {
-        self.at
+        Self::from(bytes, kit::content_start(bytes))
     }
 }
 
@@ -134,17 +129,5 @@ pub(super) fn unexpected(
     found: &[u8],
     expected: &'static str,
 ) -> ReadError {
-    let (line, column) = source.line_column(at);
-    let shown = &found[..found.len().min(40)];
-    let found = match shown {
-        [] => "nothing".to_owned(),
-        _ => format!("`{}`", Source::text(shown)),
-    };
-    ReadError::Unexpected {
-        file: source.name.clone(),
-        line,
-        column,
-        found,
-        expected,
-    }
+    Fault::unexpected(at..at + found.len(), expected).in_source(source)
 }

@@ -35,14 +35,15 @@ mod reader;
 mod remarks;
 mod variables;
 
-use super::kit::check_bytes;
+use super::kit::{line_behind, not_this_language};
+use super::notation;
 use super::script::{Script, short};
 use super::{
-    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source, Step, Value,
+    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Program, ReadError, Role,
+    Settings, Source, Step,
 };
-use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::geometry::{Pose, Rotation};
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
 
 /// Yaskawa INFORM.
 #[derive(Debug)]
@@ -69,16 +70,8 @@ static ABOUT: About = About {
         "tools and frames that the running program sets (MFRAME, SETTOOL), tool coordinates",
         "positions of a second robot, with base or station axes that are not at zero, or without six axes",
     ],
+    has: "line /JOB",
 };
-
-const POSE_ROLES: [Role; 6] = [
-    Role::Position,
-    Role::Position,
-    Role::Position,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-];
 
 /// Variant of joints in encoder pulses.
 const PULSES: u8 = 0;
@@ -102,11 +95,8 @@ impl Language for Inform {
         script(sources, settings)
     }
 
-    fn roles(&self, layout: Layout) -> &'static [Role] {
-        match layout.shape {
-            Shape::Pose => &POSE_ROLES,
-            Shape::Joints => &[Role::Joint; 6],
-        }
+    fn pose_roles(&self, _: Layout) -> &'static [Role] {
+        &notation::WITH_ANGLES[..6]
     }
 
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
@@ -128,48 +118,25 @@ impl Language for Inform {
         }
     }
 
-    fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded {
-        let n: &[f64; 6] = numbers.try_into().expect("a position has six numbers");
-        let (value, configuration) = match layout.shape {
-            Shape::Pose => (
-                Value::Pose(pose_of(n)),
-                rconf::configuration(layout.variant),
-            ),
-            Shape::Joints => {
-                let unit = units_per_degree(layout, settings);
-                let joints = std::array::from_fn(|i| n[i] / unit[i] * DEG);
-                (Value::Joints(joints), Configuration::default())
-            }
-        };
-        Decoded {
-            value,
-            configuration,
-        }
+    fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
+        notation::pose_of_angles(std::array::from_fn(|i| numbers[i]))
     }
 
-    fn encode(
-        &self,
-        layout: Layout,
-        value: &Value,
-        _: &Posture,
-        _: &Posture,
-        settings: &Settings,
-        numbers: &mut [f64],
-    ) {
-        match (layout.shape, value) {
-            (Shape::Pose, Value::Pose(pose)) => {
-                numbers[..3].copy_from_slice(&pose.translation.map(mm_from_m));
-                let angles = angles_near(&pose.rotation, [numbers[3], numbers[4], numbers[5]]);
-                numbers[3..6].copy_from_slice(&angles);
-            }
-            (Shape::Joints, Value::Joints(joints)) => {
-                let unit = units_per_degree(layout, settings);
-                for i in 0..6 {
-                    numbers[i] = joints[i] / DEG * unit[i];
-                }
-            }
-            _ => panic!("a value of the other shape"),
+    fn write_pose(&self, _: Layout, pose: &Pose, numbers: &mut [f64]) {
+        notation::write_angles(pose, 0.0, numbers);
+    }
+
+    fn joint_units(&self, layout: Layout, settings: &Settings) -> [f64; 6] {
+        if layout.variant == DEGREES {
+            return [DEG; 6];
         }
+        let pulses = settings.pulses_per_deg;
+        let pulses = pulses.expect("targets in pulses are blocked without pulses per degree");
+        pulses.map(|pulses| DEG / pulses)
+    }
+
+    fn configuration(&self, layout: Layout, _: &[f64]) -> Configuration {
+        rconf::configuration(layout.variant)
     }
 
     fn insert(
@@ -224,15 +191,10 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
         ..job::Positions::default()
     };
     for (file, source) in sources.iter().enumerate() {
-        check_bytes(source)?;
         if cnd::recognises(&source.bytes) {
             cnd::read(source, &mut conditions)?;
         } else if !positions.read(source, short(file))? {
-            return Err(ReadError::NotThisLanguage {
-                file: source.name.clone(),
-                language: ABOUT.name,
-                missing: "line /JOB",
-            });
+            return Err(not_this_language(&ABOUT, source));
         }
     }
     Ok(reader::script(sources, positions, &conditions))
@@ -246,12 +208,9 @@ fn push_comment(comment: &[u8], end: &[u8], text: &mut Vec<u8>) {
 
 /// Behind the NOP of the first job, else at the end.
 fn marker_place(bytes: &[u8]) -> usize {
-    let mut lines = lines::Lines::of(bytes);
-    while let Some(line) = lines.next() {
+    for line in lines::Lines::of(bytes) {
         if line.text == b"NOP" {
-            let at = lines.position().min(bytes.len());
-            let is_pair = at > 0 && bytes[at - 1] == b'\r' && bytes.get(at) == Some(&b'\n');
-            return at + usize::from(is_pair);
+            return line_behind(bytes, line.start).unwrap_or(bytes.len());
         }
     }
     bytes.len()
@@ -263,52 +222,6 @@ fn is_job(bytes: &[u8]) -> bool {
         .filter(|line| !line.text.is_empty() && line.text[0] != b'\'')
         .map(|line| line.text);
     lines.next() == Some(b"/JOB") && lines.next().is_some_and(|line| line.starts_with(b"//"))
-}
-
-/// The pose of x, y, z in mm and Rx, Ry, Rz in degrees.
-fn pose_of(n: &[f64]) -> Pose {
-    Pose {
-        rotation: Rotation::from_rzryrx([n[5] * DEG, n[4] * DEG, n[3] * DEG]),
-        translation: [n[0], n[1], n[2]].map(m_from_mm),
-    }
-}
-
-/// What one degree of each joint is in the numbers of a layout.
-fn units_per_degree(layout: Layout, settings: &Settings) -> [f64; 6] {
-    if layout.variant == DEGREES {
-        return [1.0; 6];
-    }
-    settings
-        .pulses_per_deg
-        .expect("targets in pulses are blocked without pulses per degree")
-}
-
-/// Rx, Ry and Rz in degrees: of the two ways and the turns that give the same rotation those nearest to the present numbers,
-/// but within ±180° where these are.
-fn angles_near(rotation: &Rotation, present: [f64; 3]) -> [f64; 3] {
-    let [rz, ry, rx] = rotation.rzryrx(present[0] * DEG).map(|angle| angle / DEG);
-    let near = |angles: [f64; 3]| {
-        let mut near = [0.0; 3];
-        for i in 0..3 {
-            near[i] = angles[i] + 360.0 * ((present[i] - angles[i]) / 360.0).round();
-        }
-        near
-    };
-    let distance =
-        |angles: &[f64; 3]| -> f64 { (0..3).map(|i| (angles[i] - present[i]).abs()).sum() };
-    let (one, other) = (
-        near([rx, ry, rz]),
-        near([rx + 180.0, 180.0 - ry, rz + 180.0]),
-    );
-    // the second way has Ry beyond ±90°, which only files that have it already want
-    let second = present[1].abs() > 90.0 && distance(&other) < distance(&one);
-    let mut angles = if second { other } else { one };
-    for i in 0..3 {
-        if present[i].abs() <= 180.0 && angles[i].abs() > 180.0 {
-            angles[i] -= 360.0_f64.copysign(angles[i]);
-        }
-    }
-    angles
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::units::m_from_mm;
 use crate::program::script::short;
 use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
+use std::ops::Range;
 
 impl Reader {
     /// The names behind a type, each with sizes and a value or without.
@@ -93,7 +94,7 @@ impl Reader {
         let text = &cursor.bytes[name.start as usize..start];
         let text = text.split(|&b| b == b'=').next().unwrap_or(text);
         let name = Source::text(text.trim_ascii());
-        let target = self.add(&aggregate, start, Some(name.into()));
+        let target = self.add(&aggregate, start..cursor.at, Some(name.into()));
         Ok(Some(Stored::Target(target)))
     }
 
@@ -101,7 +102,7 @@ impl Reader {
     pub(super) fn add(
         &mut self,
         aggregate: &Aggregate,
-        start: usize,
+        span: Range<usize>,
         name: Option<Box<str>>,
     ) -> TargetId {
         let script = &mut self.builder.script;
@@ -136,7 +137,8 @@ impl Reader {
         script.targets.push(Target {
             name,
             file: self.file,
-            offset: short(start),
+            offset: short(span.start),
+            end: short(span.end),
             layout: Layout { shape, variant },
             numbers: first..short(script.numbers.len()),
             blocked: flaw.is_some(),

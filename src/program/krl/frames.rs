@@ -4,9 +4,9 @@ use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
 use super::remarks::{angle, chosen, frame_assigned, moving, refusal};
 use super::targets::Owner;
-use crate::geometry::units::{DEG, m_from_mm};
-use crate::geometry::{Pose, Rotation};
+use crate::geometry::Pose;
 use crate::program::names::Symbol;
+use crate::program::notation::pose_of_angles;
 use crate::program::script::{
     Expr, Held, NamedFrame, Part, PartValue, Place, Remark, Script, TableId, ValueId, Variable,
     VariableId, short,
@@ -270,10 +270,7 @@ impl Modal {
 
 /// `X Y Z A B C` in mm and degrees as a pose.
 pub(super) fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
-    Pose {
-        rotation: Rotation::from_rzryrx([a * DEG, b * DEG, c * DEG]),
-        translation: [x, y, z].map(m_from_mm),
-    }
+    pose_of_angles([x, y, z, c, b, a])
 }
 
 /// No tool or base is turned by more, degrees.

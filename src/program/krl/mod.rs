@@ -35,14 +35,14 @@ mod status;
 mod targets;
 mod tokens;
 
-use super::kit::check_bytes;
+use super::kit::not_this_language;
+use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
-    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source, Step, Value,
+    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
+    ReadError, Role, Settings, Source, Step,
 };
-use crate::geometry::Rotation;
-use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::Pose;
 use reader::Reader;
 
 /// KUKA KRL.
@@ -70,23 +70,13 @@ static ABOUT: About = About {
         "points of absolutely accurate robots (S bit 4)",
         "_REL moves from unknown positions, products of frames without one known position",
     ],
+    has: "DEF, DEFDAT, a header (&ACCESS) or a move",
 };
 
 /// Characters of a line that the controller takes.
 const LONGEST_LINE: usize = 471;
 /// Characters that a number may grow by.
 const GROWTH: usize = 8;
-
-const POSE_ROLES: [Role; 8] = [
-    Role::Position,
-    Role::Position,
-    Role::Position,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Configuration,
-    Role::Configuration,
-];
 
 /// Whether S and T stand in a position of this variant.
 fn status_and_turn(layout: Layout) -> (bool, bool) {
@@ -116,66 +106,40 @@ impl Language for Krl {
         Ok(frames::frame_of(name, parts))
     }
 
-    fn roles(&self, layout: Layout) -> &'static [Role] {
-        let count = 6 + layout.variant.count_ones() as usize;
-        match layout.shape {
-            Shape::Pose => &POSE_ROLES[..count.min(POSE_ROLES.len())],
-            Shape::Joints => &[Role::Joint; 6],
-        }
+    fn pose_roles(&self, layout: Layout) -> &'static [Role] {
+        &notation::WITH_ANGLES[..6 + layout.variant.count_ones() as usize]
     }
 
-    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
-        match role {
-            Role::Position => millimetre_decimals,
-            // a hundredth of a degree is 0.17 mm at one metre
-            Role::Orientation | Role::Joint => millimetre_decimals + 2,
-            Role::Configuration => 0,
-        }
+    fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
+        frames::pose_of(std::array::from_fn(|i| numbers[i]))
     }
 
-    fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
-        if layout.shape == Shape::Joints {
-            let n: &[f64; 6] = numbers.try_into().expect("six joint angles");
-            return Decoded {
-                value: Value::Joints(n.map(|degrees| degrees * DEG)),
-                configuration: Configuration::default(),
-            };
-        }
-        let pose = frames::pose_of(std::array::from_fn(|i| numbers[i]));
+    fn write_pose(&self, _: Layout, pose: &Pose, numbers: &mut [f64]) {
+        // A, B, C: that about z first
+        numbers[3..6].reverse();
+        notation::write_angles(pose, 0.0, numbers);
+        numbers[3..6].reverse();
+    }
+
+    fn configuration(&self, layout: Layout, numbers: &[f64]) -> Configuration {
         let (status, turn) = bits_of(layout, numbers);
-        Decoded {
-            value: Value::Pose(pose),
-            configuration: status::configuration(status, turn),
-        }
+        status::configuration(status, turn)
     }
 
-    fn encode(
+    fn update_configuration(
         &self,
         layout: Layout,
-        value: &Value,
         before: &Posture,
         after: &Posture,
-        _: &Settings,
         numbers: &mut [f64],
     ) {
-        match (layout.shape, value) {
-            (Shape::Pose, Value::Pose(pose)) => {
-                let present = [numbers[3], numbers[4], numbers[5]];
-                numbers[..3].copy_from_slice(&pose.translation.map(mm_from_m));
-                numbers[3..6].copy_from_slice(&angles(&pose.rotation, present));
-                let (status, turn) = bits_of(layout, numbers);
-                if let Some(status) = status {
-                    numbers[6] = f64::from(status::update_status(before, after, status));
-                }
-                if let Some(turn) = turn {
-                    let last = numbers.len() - 1;
-                    numbers[last] = f64::from(status::update_turn(before, after, turn));
-                }
-            }
-            (Shape::Joints, Value::Joints(joints)) => {
-                numbers.copy_from_slice(&joints.map(|angle| angle / DEG));
-            }
-            _ => panic!("a value of the other shape"),
+        let (status, turn) = bits_of(layout, numbers);
+        if let Some(status) = status {
+            numbers[6] = f64::from(status::update_status(before, after, status));
+        }
+        if let Some(turn) = turn {
+            let last = numbers.len() - 1;
+            numbers[last] = f64::from(status::update_turn(before, after, turn));
         }
     }
 
@@ -190,7 +154,7 @@ impl Language for Krl {
         _: usize,
         insertions: &[Insertion],
     ) -> Inserted {
-        Inserted::each(insertions, |one| insert::insert(sources, program, one))
+        insert::MANNER.insert(sources, program, insertions)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
@@ -206,21 +170,16 @@ impl Language for Krl {
 fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
     let mut reader = Reader::new();
     for (file, source) in sources.iter().enumerate() {
-        check_bytes(source)?;
         if !sniff::recognises(&source.bytes) {
-            return Err(ReadError::NotThisLanguage {
-                file: source.name.clone(),
-                language: ABOUT.name,
-                missing: "DEF, DEFDAT, a header (&ACCESS) or a move",
-            });
+            return Err(not_this_language(&ABOUT, source));
         }
         let read = reader.declarations(source, short(file));
-        read.map_err(|fault| fault.in_source(source, "the line"))?;
+        read.map_err(|fault| fault.in_source(source))?;
     }
     reader.settle();
     for (file, source) in sources.iter().enumerate() {
         let read = reader.statements(source, short(file));
-        read.map_err(|fault| fault.in_source(source, "the line"))?;
+        read.map_err(|fault| fault.in_source(source))?;
     }
     Ok(reader.finish(sources, settings))
 }
@@ -238,35 +197,6 @@ fn bits_of(layout: Layout, numbers: &[f64]) -> (Option<u32>, Option<u32>) {
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn whole(value: f64) -> u32 {
     value as u32
-}
-
-/// A, B, C in degrees: of all that make this rotation those nearest to the present ones, within ±180 where these are.
-fn angles(rotation: &Rotation, present: [f64; 3]) -> [f64; 3] {
-    let [a, b, c] = rotation.rzryrx(present[2] * DEG).map(|angle| angle / DEG);
-    let turned = |angle: f64, present: f64| {
-        let near = angle + 360.0 * ((present - angle) / 360.0).round();
-        if present.abs() <= 180.0 && near.abs() > 180.0 {
-            near - 360.0_f64.copysign(near)
-        } else {
-            near
-        }
-    };
-    let near =
-        |angles: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| turned(angles[i], present[i])) };
-    let distance = |angles: &[f64; 3]| -> f64 {
-        let gap = |i: usize| {
-            let gap = (angles[i] - present[i]).rem_euclid(360.0);
-            gap.min(360.0 - gap)
-        };
-        (0..3).map(gap).fold(0.0, f64::max)
-    };
-    // B beyond ±90 turns A and C by half
-    let (first, second) = (near([a, b, c]), near([a + 180.0, 180.0 - b, c + 180.0]));
-    if distance(&first) <= distance(&second) {
-        first
-    } else {
-        second
-    }
 }
 
 #[cfg(test)]

@@ -95,7 +95,11 @@ impl Reader {
             b'{' => {
                 let start = cursor.at;
                 let aggregate = aggregate::read(cursor)?;
-                return Ok(Operand::Inline(self.add(&aggregate, start, None)));
+                return Ok(Operand::Inline(self.add(
+                    &aggregate,
+                    start..cursor.at,
+                    None,
+                )));
             }
             0 | b';' => return Err(cursor.next().unexpected("a position")),
             _ => {}

@@ -2,7 +2,8 @@
 
 use super::names::DataKind;
 use super::statements::is_motion;
-use super::tokens::{Cursor, Kind, capitals, content_start, lines};
+use super::tokens::{Cursor, Kind, capitals, lines};
+use crate::program::kit::{comments, content_start, line_behind};
 use crate::program::{Marker, Source};
 
 /// Bytes that are looked at: enough for long comments in front.
@@ -83,13 +84,7 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
 /// Where the marker goes, and its text: behind the line that opens the first routine or the data list, else at the top.
 pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
-    let end = source.line_end();
-    let mut text = Vec::new();
-    for line in marker.lines() {
-        text.extend_from_slice(b"; ");
-        text.extend_from_slice(line.as_bytes());
-        text.extend_from_slice(end);
-    }
+    let text = comments(source, marker, "; ");
     let top = content_start(bytes);
     let mut behind_header = top;
     for (start, stop) in lines(bytes, top) {
@@ -99,7 +94,7 @@ pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
             end: stop,
         };
         if cursor.blanks() == b'&' {
-            behind_header = next_line(bytes, stop).unwrap_or(behind_header);
+            behind_header = line_behind(bytes, stop).unwrap_or(behind_header);
             continue;
         }
         let mut buffer = [0; 24];
@@ -112,15 +107,9 @@ pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
             capitals(cursor.text(word), &mut buffer),
             b"DEF" | b"DEFFCT" | b"DEFDAT"
         );
-        if opens && let Some(at) = next_line(bytes, stop) {
+        if opens && let Some(at) = line_behind(bytes, stop) {
             return (at, text);
         }
     }
     (behind_header, text)
-}
-
-/// The first byte of the line behind the one that ends here.
-fn next_line(bytes: &[u8], end: usize) -> Option<usize> {
-    let crlf = bytes.get(end..end + 2) == Some(b"\r\n");
-    (end < bytes.len()).then_some(end + 1 + usize::from(crlf))
 }

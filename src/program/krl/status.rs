@@ -11,11 +11,10 @@
 //! # Source
 //! KUKA, KUKA System Software, Operating and Programming Instructions for System Integrators, "Status" and "Turn".
 
-use crate::geometry::units::DEG;
+use crate::program::notation::truly_changes;
 use crate::program::{Configuration, Posture};
+use std::ops::Range;
 
-/// So near to zero, in degrees, either sign of an axis is right.
-const BORDER_DEG: f64 = 0.01;
 /// Bit of S that an absolutely accurate robot sets.
 pub(super) const ABSOLUTELY_ACCURATE: u32 = 16;
 
@@ -54,44 +53,32 @@ pub(super) fn configuration(status: Option<u32>, turn: Option<u32>) -> Configura
     }
 }
 
-/// S with the bits changed that were right before and are not after.
+/// S with the bits changed that truly change.
 pub(super) fn update_status(before: &Posture, after: &Posture, present: u32) -> u32 {
-    (0..3).fold(present, |bits, at| {
-        let right = |posture: &Posture| {
-            near(posture, 4).any(|posture| (status(&posture) ^ present) >> at & 1 == 0)
-        };
-        if right(before) && !right(after) {
-            bits ^ 1 << at
-        } else {
-            bits
-        }
-    })
+    update(status, |_| 4, 0..3, before, after, present)
 }
 
 /// T likewise.
 pub(super) fn update_turn(before: &Posture, after: &Posture, present: u32) -> u32 {
-    (0..6).fold(present, |bits, at| {
-        let right = |posture: &Posture| {
-            near(posture, at).any(|posture| (turn(&posture) ^ present) >> at & 1 == 0)
-        };
-        if right(before) && !right(after) {
+    update(turn, |bit| bit as usize, 0..6, before, after, present)
+}
+
+fn update(
+    of: impl Fn(&Posture) -> u32,
+    joint: impl Fn(u32) -> usize,
+    bits: Range<u32>,
+    before: &Posture,
+    after: &Posture,
+    present: u32,
+) -> u32 {
+    bits.fold(present, |bits, at| {
+        let is = |posture: &Posture| (of(posture) ^ present) >> at & 1 == 0;
+        if truly_changes(before, after, joint(at), is) {
             bits ^ 1 << at
         } else {
             bits
         }
     })
-}
-
-/// The posture, and both with one joint a little aside.
-fn near(posture: &Posture, joint: usize) -> impl Iterator<Item = Posture> {
-    let border = BORDER_DEG * DEG;
-    [-border, 0.0, border]
-        .map(|by| {
-            let mut near = *posture;
-            near.joints_rad[joint] += by;
-            near
-        })
-        .into_iter()
 }
 
 /// Writes S or T as whole number or as the bits that stood there, at least as many.
@@ -131,6 +118,7 @@ pub(super) fn write(value: u32, old: &[u8], out: &mut Vec<u8>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::units::DEG;
 
     fn posture(degrees: [f64; 6]) -> Posture {
         Posture {

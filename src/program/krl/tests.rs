@@ -9,8 +9,9 @@ mod writing;
 
 use super::*;
 use crate::finding::Severity;
-use crate::geometry::Pose;
-use crate::program::{Displacement, Motion, Shift, Target, Tool};
+use crate::geometry::Rotation;
+use crate::geometry::units::DEG;
+use crate::program::{Displacement, Motion, Shape, Shift, Target, Tool, Value};
 
 /// X Y Z A B C without S and T.
 const POSE: Layout = Layout {

@@ -293,15 +293,6 @@ pub(super) fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = (usize, 
     })
 }
 
-/// Where the text starts: behind a byte order mark.
-pub(super) fn content_start(bytes: &[u8]) -> usize {
-    if bytes.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -332,6 +332,7 @@ impl Reader<'_> {
             name,
             file: self.file,
             offset,
+            end: self.behind,
             layout: Layout { shape, variant: 0 },
             numbers: short(start)..short(self.parsed.numbers.len()),
             blocked: false,

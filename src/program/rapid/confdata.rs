@@ -9,16 +9,13 @@
 //! # Source
 //! ABB, Technical reference manual RAPID, confdata. Checked against 209 of 214 targets of programs whose robot is known.
 
-use crate::geometry::units::DEG;
 use crate::program::{Configuration, Posture};
 use std::f64::consts::FRAC_PI_2;
 
-/// So near to a border, in degrees, either side of it is right.
-const BORDER_DEG: f64 = 0.01;
 /// Quarter turns that joints can make.
 const MOST_QUARTERS: f64 = 100.0;
-/// Joints of cf1, cf4 and cf6.
-const JOINTS: [usize; 3] = [0, 3, 5];
+/// Joints of cf1, cf4 and cf6, and that of the last bit of cfx: the others hang on none.
+pub(super) const JOINTS: [usize; 4] = [0, 3, 5, 4];
 
 /// cf1, cf4, cf6, cfx of a posture.
 pub(super) fn confdata(posture: &Posture) -> [f64; 4] {
@@ -49,32 +46,15 @@ pub(super) fn configuration([cf1, cf4, cf6, cfx]: [f64; 4]) -> Configuration {
     }
 }
 
-/// Changes each of the present numbers that was right before and is not after; leaves the others.
-pub(super) fn update(before: &Posture, after: &Posture, present: &mut [f64]) {
-    let new = confdata(after);
-    for (k, number) in present.iter_mut().enumerate().take(new.len()) {
-        if allowed(k, *number, before) && !allowed(k, *number, after) {
-            *number = new[k];
-        }
-    }
-}
-
-/// Whether the k-th number may stand for a posture.
-fn allowed(k: usize, number: f64, posture: &Posture) -> bool {
-    let border = BORDER_DEG * DEG;
-    let nudged = |joint: usize| {
-        [-border, 0.0, border].into_iter().any(|by| {
-            let mut near = *posture;
-            near.joints_rad[joint] += by;
-            confdata(&near)[k].to_bits() == (number + 0.0).to_bits()
-        })
-    };
-    nudged(JOINTS.get(k).copied().unwrap_or(4))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::units::DEG;
+    use crate::program::notation;
+
+    fn update(before: &Posture, after: &Posture, present: &mut [f64]) {
+        notation::update(confdata, JOINTS, before, after, present);
+    }
 
     fn posture(degrees: [f64; 6]) -> Posture {
         Posture {

@@ -32,15 +32,14 @@ mod translate;
 mod values;
 mod verbs;
 
-use super::kit::check_bytes;
+use super::kit::not_this_language;
+use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
-    About, Decoded, Language, Layout, Marker, Posture, Program, ReadError, Role, Settings, Shape,
-    Source, Step, Value,
+    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
+    ReadError, Role, Settings, Source, Step,
 };
-use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::geometry::{Pose, Quaternion};
-use crate::program::{Configuration, Inserted, Insertion};
+use crate::geometry::Pose;
 use foldhash::{HashSet, HashSetExt};
 use reader::Reader;
 use resolved::Resolved;
@@ -71,21 +70,8 @@ static ABOUT: About = About {
         "moves with a program displacement or external offset",
         "targets handed to routines, arrays of names of targets",
     ],
+    has: "module, data of robots, routine or move",
 };
-
-const POSE_ROLES: [Role; 11] = [
-    Role::Position,
-    Role::Position,
-    Role::Position,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Configuration,
-    Role::Configuration,
-    Role::Configuration,
-    Role::Configuration,
-];
 
 impl Language for Rapid {
     fn about(&self) -> &'static About {
@@ -110,13 +96,6 @@ impl Language for Rapid {
         records::frame_of(is_tool, name, parts, sources)
     }
 
-    fn roles(&self, layout: Layout) -> &'static [Role] {
-        match layout.shape {
-            Shape::Pose => &POSE_ROLES,
-            Shape::Joints => &[Role::Joint; 6],
-        }
-    }
-
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
         match role {
             Role::Position => millimetre_decimals,
@@ -127,49 +106,31 @@ impl Language for Rapid {
         }
     }
 
-    fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
-        match layout.shape {
-            Shape::Pose => {
-                let n: &[f64; 11] = numbers.try_into().expect("a pose has 11 numbers");
-                let translation = [n[0], n[1], n[2]].map(m_from_mm);
-                let rotation = Quaternion([n[3], n[4], n[5], n[6]]).normalized();
-                Decoded {
-                    value: Value::Pose(Pose::from_parts(translation, rotation)),
-                    configuration: confdata::configuration([n[7], n[8], n[9], n[10]]),
-                }
-            }
-            Shape::Joints => {
-                let n: &[f64; 6] = numbers.try_into().expect("six joint angles");
-                Decoded {
-                    value: Value::Joints(n.map(|degrees| degrees * DEG)),
-                    configuration: Configuration::default(),
-                }
-            }
-        }
+    fn pose_roles(&self, _: Layout) -> &'static [Role] {
+        &notation::WITH_QUATERNION
     }
 
-    fn encode(
+    fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
+        notation::pose_of_quaternion(numbers)
+    }
+
+    fn write_pose(&self, _: Layout, pose: &Pose, numbers: &mut [f64]) {
+        notation::write_quaternion(pose, numbers);
+    }
+
+    fn configuration(&self, _: Layout, numbers: &[f64]) -> Configuration {
+        confdata::configuration([numbers[7], numbers[8], numbers[9], numbers[10]])
+    }
+
+    fn update_configuration(
         &self,
-        layout: Layout,
-        value: &Value,
+        _: Layout,
         before: &Posture,
         after: &Posture,
-        _: &Settings,
         numbers: &mut [f64],
     ) {
-        match (layout.shape, value) {
-            (Shape::Pose, Value::Pose(pose)) => {
-                let present = Quaternion([numbers[3], numbers[4], numbers[5], numbers[6]]);
-                let new = pose.rotation.quaternion().nearest_to(&present);
-                numbers[..3].copy_from_slice(&pose.translation.map(mm_from_m));
-                numbers[3..7].copy_from_slice(&new.0);
-                confdata::update(before, after, &mut numbers[7..]);
-            }
-            (Shape::Joints, Value::Joints(joints)) => {
-                numbers.copy_from_slice(&joints.map(|angle| angle / DEG));
-            }
-            _ => panic!("a value of the other shape"),
-        }
+        let of = confdata::confdata;
+        notation::update(of, confdata::JOINTS, before, after, &mut numbers[7..]);
     }
 
     fn insert(
@@ -179,7 +140,7 @@ impl Language for Rapid {
         _: usize,
         insertions: &[Insertion],
     ) -> Inserted {
-        Inserted::each(insertions, |one| insert::insert(sources, program, one))
+        insert::MANNER.insert(sources, program, insertions)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
@@ -195,15 +156,10 @@ impl Language for Rapid {
 fn script(sources: &[Source]) -> Result<Script, ReadError> {
     let (mut parsed, mut verbs) = (Parsed::default(), Verbs::default());
     for (file, source) in sources.iter().enumerate() {
-        check_bytes(source)?;
         let recognised = Reader::read(source, short(file), &mut parsed, &mut verbs)
-            .map_err(|fault| fault.in_source(source, "the file"))?;
+            .map_err(|fault| fault.in_source(source))?;
         if !recognised {
-            return Err(ReadError::NotThisLanguage {
-                file: source.name.clone(),
-                language: ABOUT.name,
-                missing: "module, data of robots, routine or move",
-            });
+            return Err(not_this_language(&ABOUT, source));
         }
     }
     let mut script = Script {
@@ -216,9 +172,7 @@ fn script(sources: &[Source]) -> Result<Script, ReadError> {
     for bad in &resolved.parsed.bad_values {
         let target = &mut script.targets[bad.target];
         if !resolved.is_written_target(bad.target) {
-            return Err(bad
-                .fault
-                .in_source(&sources[target.file as usize], "the file"));
+            return Err(bad.fault.in_source(&sources[target.file as usize]));
         }
         // its value is that of the last run, or none yet
         (target.numbers, target.blocked) = (0..0, true);

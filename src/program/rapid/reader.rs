@@ -433,11 +433,7 @@ fn outside(parsed: &mut Parsed) -> Context {
 
 /// The byte after a byte order mark and a `%%%` header.
 pub(super) fn content_start(bytes: &[u8]) -> Result<usize, Fault> {
-    let start = if bytes.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    };
+    let start = crate::program::kit::content_start(bytes);
     let blanks = bytes[start..]
         .iter()
         .take_while(|b| b.is_ascii_whitespace());

@@ -89,7 +89,7 @@ impl Parts<'_> {
                 meaning,
                 limit,
             };
-            return Err(fault.in_source(&self.sources[place.file as usize], "the file"));
+            return Err(fault.in_source(&self.sources[place.file as usize]));
         }
         let translation = [x, y, z].map(m_from_mm);
         let rotation = Quaternion(quaternion).normalized();

@@ -3,6 +3,7 @@
 use super::syntax::Type;
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
+use crate::program::kit::{comments, line_behind};
 use crate::program::{Marker, Source};
 
 /// Tokens that are looked at: enough for long headers.
@@ -75,13 +76,7 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
 /// Where the marker goes, and its text: behind the line that opens the module, else at the top.
 pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
-    let end = source.line_end();
-    let mut text = Vec::new();
-    for line in marker.lines() {
-        text.extend_from_slice(b"  ! ");
-        text.extend_from_slice(line.as_bytes());
-        text.extend_from_slice(end);
-    }
+    let text = comments(source, marker, "  ! ");
     let top = super::reader::content_start(bytes).unwrap_or(0);
     let header = module_header_end(bytes);
     let line = line_behind(bytes, header.unwrap_or(top));
@@ -103,11 +98,4 @@ fn module_header_end(bytes: &[u8]) -> Option<usize> {
         end = tokens.find(|token| token.is(b')'))?.end;
     }
     Some(end as usize)
-}
-
-/// The first byte of the line behind the one of `at`.
-fn line_behind(bytes: &[u8], at: usize) -> Option<usize> {
-    let end = at + memchr::memchr2(b'\n', b'\r', &bytes[at..])?;
-    let crlf = bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n');
-    Some(end + 1 + usize::from(crlf))
 }

@@ -7,7 +7,8 @@ mod samples;
 use super::*;
 use crate::finding::{Finding, Severity};
 use crate::motion;
-use crate::program::{Displacement, Layout, Motion, Program, Settings, Shape, Shift, Tool};
+use crate::geometry::units::DEG;
+use crate::program::{Displacement, Motion, Shape, Shift, Tool, Value};
 
 const POSE: Layout = Layout {
     shape: Shape::Pose,

@@ -5,8 +5,9 @@ use super::reader::{Read, Reader};
 use super::syntax::{Expr, ExprId, List, Literal, OTHER};
 use super::tokens::{Kind, Token};
 use super::verbs::{self, Verb};
+use crate::program::kit::Fault;
+use crate::program::number;
 use crate::program::script::short;
-use crate::program::{ReadError, Source, number};
 
 /// Those calls inside each other whose values are looked into.
 pub(super) const MOST_LOOKED_INTO: u32 = 8;
@@ -280,15 +281,7 @@ impl Reader<'_> {
                 Ok(Some(self.parsed.add(Expr::Literal(id))))
             }
             Found::TooLarge(from, to) => {
-                let (file, line, column) = self.place(from);
-                Err(ReadError::BadValue {
-                    file,
-                    line,
-                    column,
-                    value: Source::text(&bytes[from..to]).into_owned(),
-                    meaning: "number",
-                    limit: "it is too large",
-                })
+                self.fail(Fault::bad_value(from..to, "number", "it is too large"))
             }
             Found::Else => Ok(None),
         }

@@ -31,7 +31,6 @@ mod composed;
 mod drive;
 mod expressions;
 mod goals;
-mod insert;
 mod literals;
 mod reader;
 mod rotation;
@@ -43,12 +42,15 @@ mod uses;
 mod variables;
 mod verbs;
 
-use super::kit::check_bytes;
+use super::insert::Manner;
+use super::kit::not_this_language;
+use super::notation;
 use super::script::{Builder, Script, short};
 use super::{
-    About, Configuration, Decoded, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source, Step, Value,
+    About, Inserted, Insertion, Language, Layout, Marker, Program, ReadError, Role, Settings,
+    Source, Step,
 };
+use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use goals::Common;
 use reader::Reader;
@@ -78,16 +80,15 @@ static ABOUT: About = About {
         "targets that functions outside the file are given, servoing to poses",
         "conveyor tracking and path offsets",
     ],
+    has: "a function, a move or set_tcp",
 };
 
-const POSE_ROLES: [Role; 6] = [
-    Role::Position,
-    Role::Position,
-    Role::Position,
-    Role::Orientation,
-    Role::Orientation,
-    Role::Orientation,
-];
+/// Calls are written again with a pose written out.
+const MANNER: Manner = Manner {
+    repeats: |_| true,
+    external: None,
+    longest: usize::MAX,
+};
 
 impl Language for UrScript {
     fn about(&self) -> &'static About {
@@ -102,15 +103,12 @@ impl Language for UrScript {
         script(sources)
     }
 
-    fn roles(&self, layout: Layout) -> &'static [Role] {
-        match layout.shape {
-            Shape::Pose => &POSE_ROLES,
-            Shape::Joints => &[Role::Joint; 6],
-        }
+    fn pose_roles(&self, _: Layout) -> &'static [Role] {
+        &notation::WITH_ANGLES[..6]
     }
 
     fn most_orientation(&self, layout: Layout) -> f64 {
-        if layout.variant == 1 {
+        if in_degrees(layout) {
             rotation::MOST_ANGLE / DEG
         } else {
             rotation::MOST_ANGLE
@@ -125,42 +123,17 @@ impl Language for UrScript {
         }
     }
 
-    fn decode(&self, layout: Layout, numbers: &[f64], _: &Settings) -> Decoded {
-        let n: [f64; 6] = numbers.try_into().expect("every target has six numbers");
-        let degrees = layout.variant == 1;
-        let value = match layout.shape {
-            Shape::Pose => Value::Pose(rotation::pose(n, degrees)),
-            Shape::Joints => {
-                Value::Joints(n.map(|angle| if degrees { angle * DEG } else { angle }))
-            }
-        };
-        Decoded {
-            value,
-            configuration: Configuration::default(),
-        }
+    fn pose_of(&self, layout: Layout, numbers: &[f64]) -> Pose {
+        rotation::pose(std::array::from_fn(|i| numbers[i]), in_degrees(layout))
     }
 
-    fn encode(
-        &self,
-        layout: Layout,
-        value: &Value,
-        _: &Posture,
-        _: &Posture,
-        _: &Settings,
-        numbers: &mut [f64],
-    ) {
-        let degrees = layout.variant == 1;
-        let new = match (layout.shape, value) {
-            (Shape::Pose, Value::Pose(pose)) => {
-                let present: &[f64; 6] = (&*numbers).try_into().expect("a pose has six numbers");
-                rotation::numbers(pose, *present, degrees)
-            }
-            (Shape::Joints, Value::Joints(joints)) => {
-                joints.map(|angle| if degrees { angle / DEG } else { angle })
-            }
-            _ => panic!("a value of the other shape"),
-        };
-        numbers.copy_from_slice(&new);
+    fn write_pose(&self, layout: Layout, pose: &Pose, numbers: &mut [f64]) {
+        let present = std::array::from_fn(|i| numbers[i]);
+        numbers.copy_from_slice(&rotation::numbers(pose, present, in_degrees(layout)));
+    }
+
+    fn joint_units(&self, layout: Layout, _: &Settings) -> [f64; 6] {
+        [if in_degrees(layout) { DEG } else { 1.0 }; 6]
     }
 
     fn insert(
@@ -170,7 +143,7 @@ impl Language for UrScript {
         _: usize,
         insertions: &[Insertion],
     ) -> Inserted {
-        Inserted::each(insertions, |one| insert::insert(sources, program, one))
+        MANNER.insert(sources, program, insertions)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
@@ -182,19 +155,19 @@ impl Language for UrScript {
     }
 }
 
+/// Whether the angles of a target are written as `d2r(…)`.
+fn in_degrees(layout: Layout) -> bool {
+    layout.variant == 1
+}
+
 /// Each file stands for itself.
 fn script(sources: &[Source]) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
     let mut common = Common::new(&mut builder.script);
     for (file, source) in sources.iter().enumerate() {
-        check_bytes(source)?;
         let reader = Reader::new(source).read()?;
         if !reader.recognised {
-            return Err(ReadError::NotThisLanguage {
-                file: source.name.clone(),
-                language: ABOUT.name,
-                missing: "a function, a move or set_tcp",
-            });
+            return Err(not_this_language(&ABOUT, source));
         }
         translate(
             &mut builder,

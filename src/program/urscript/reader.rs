@@ -3,6 +3,7 @@
 use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, OTHER, Parsed, Reach};
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
+use crate::program::kit::Fault;
 use crate::program::script::short;
 use crate::program::{ReadError, Source, number};
 
@@ -83,38 +84,16 @@ impl<'a> Reader<'a> {
         &self.scanner.bytes[token.start..token.end]
     }
 
-    pub(super) fn place(&self, offset: usize) -> (String, usize, usize) {
-        let (line, column) = self.source.line_column(offset);
-        (self.source.name.clone(), line, column)
+    pub(super) fn fail<T>(&self, fault: Fault) -> Read<T> {
+        Err(fault.in_source(self.source))
     }
 
     pub(super) fn unclosed(&self, offset: usize, what: &'static str) -> ReadError {
-        let (file, line, column) = self.place(offset);
-        ReadError::Unclosed {
-            file,
-            line,
-            column,
-            what,
-        }
+        Fault::unclosed(offset, what).in_source(self.source)
     }
 
     pub(super) fn unexpected(&self, token: Token, expected: &'static str) -> ReadError {
-        let (file, line, column) = self.place(token.start);
-        let found = match token.kind {
-            Kind::End => "the end of the file".into(),
-            Kind::Line => "the end of the line".into(),
-            _ => {
-                let text = self.text(token);
-                format!("`{}`", Source::text(&text[..text.len().min(40)]))
-            }
-        };
-        ReadError::Unexpected {
-            file,
-            line,
-            column,
-            found,
-            expected,
-        }
+        Fault::unexpected(token.start..token.end, expected).in_source(self.source)
     }
 
     pub(super) fn event(&mut self, event: Event) {

@@ -1,6 +1,6 @@
 //! Whether bytes look like `URScript`, and where the marker goes.
 
-use super::tokens::content_start;
+use crate::program::kit::{comments, content_start, line_behind};
 use crate::program::{Marker, Source};
 
 /// Bytes that are looked at: exports start with long libraries.
@@ -86,18 +86,8 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
 /// Where the marker goes, and its text: behind the line that opens the first function, else at the top.
 pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
-    let end = source.line_end();
-    let mut text = Vec::new();
-    for line in marker.lines() {
-        text.extend_from_slice(b"  # ");
-        text.extend_from_slice(line.as_bytes());
-        text.extend_from_slice(end);
-    }
+    let text = comments(source, marker, "  # ");
     let header = lines(bytes).find(|(_, line)| opens(line));
-    let behind = header.and_then(|(at, _)| {
-        let stop = at + memchr::memchr2(b'\n', b'\r', &bytes[at..])?;
-        let crlf = bytes[stop] == b'\r' && bytes.get(stop + 1) == Some(&b'\n');
-        Some(stop + 1 + usize::from(crlf))
-    });
+    let behind = header.and_then(|(at, _)| line_behind(bytes, at));
     (behind.unwrap_or_else(|| content_start(bytes)), text)
 }

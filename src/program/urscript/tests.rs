@@ -1,7 +1,7 @@
 use super::*;
 use crate::finding::Severity;
 use crate::geometry::Pose;
-use crate::program::{Before, Displacement, Edits, Motion, Move};
+use crate::program::{Before, Displacement, Edits, Motion, Move, Shape, Value};
 
 mod flow;
 mod posts;

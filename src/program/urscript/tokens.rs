@@ -2,6 +2,8 @@
 //!
 //! A line end ends a statement except inside brackets. A line that starts with `$` is an annotation of the pendant: no code.
 
+use crate::program::kit::content_start;
+
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -51,15 +53,6 @@ pub(super) struct Scanner<'a> {
 
 fn in_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_' || byte >= 0x80
-}
-
-/// The first byte behind a byte order mark.
-pub(super) fn content_start(bytes: &[u8]) -> usize {
-    if bytes.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    }
 }
 
 impl<'a> Scanner<'a> {

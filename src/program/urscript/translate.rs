@@ -172,6 +172,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 name: names.get(&id).map(|name| parsed.spelling(*name).into()),
                 file: self.file,
                 offset: literal.offset,
+                end: literal.end,
                 layout: Layout {
                     shape: if literal.pose {
                         Shape::Pose

@@ -62,7 +62,7 @@ fn pose_point(number: u32, flags: &str, j: [f64; 6]) -> String {
     let world_from_tool = model.forward(&j.map(|angle| angle * DEG), &Conditions::default());
     let pose = Pose::from_translation(0.0, -0.1, 0.0) * world_from_tool;
     let [x, y, z] = pose.translation.map(mm_from_m);
-    let [w, p, r] = angles::nearest(&pose.rotation, [0.0; 3]);
+    let [w, p, r] = notation::nearest_angles(&pose.rotation, [0.0; 3], BEYOND_DEG);
     format!(
         "P[{number}]{{\n   GP1:\n\tUF : 2, UT : 1,\t\tCONFIG : '{flags}',\n\tX ={x:11.6}  mm,\tY ={y:11.6}  mm,\tZ ={z:11.6}  mm,\n\tW ={w:11.6} deg,\tP ={p:11.6} deg,\tR ={r:11.6} deg\n}};\n"
     )
