@@ -1,13 +1,13 @@
 //! Where the real tool lands with the written samples, by an inverse that is not the program's own.
 
-use super::{cases, run};
+use super::{Case, cases, run};
 use crate::support::scratch;
 use nalgebra::{Matrix6, Vector6};
 use poseshift::geometry::{Pose, sub};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model};
 use poseshift::motion;
-use poseshift::program::{self, Settings, Source, Value};
+use poseshift::program::{self, Settings, Source, Target, Value};
 use rs_opw_kinematics::glam::{DMat3, DQuat, DVec3};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
@@ -68,17 +68,31 @@ fn closed_form(world_from_tool: &Pose, tool: &Mounted, near: &[f64; 6]) -> [f64;
         .expect("the fake target is in the nominal reach")
 }
 
+/// A file, or those of a folder.
 fn sources(folder: &Path) -> Vec<Source> {
-    let read = |file| {
-        Source::new(
-            format!("{}", folder.join(&file).display()),
-            std::fs::read(folder.join(file)).expect("a file"),
-        )
+    let read = |path: &Path| {
+        let bytes = std::fs::read(path).expect("a file");
+        Source::new(path.display().to_string(), bytes)
     };
-    crate::support::files_below(folder)
-        .into_iter()
-        .map(read)
-        .collect()
+    if folder.is_file() {
+        return vec![read(folder)];
+    }
+    let files = crate::support::files_below(folder).into_iter();
+    files.map(|file| read(&folder.join(file))).collect()
+}
+
+/// The files of a folder, and behind them those that the sample reads for what they declare.
+fn with_context(files: &Path, folder: &Path, case: &Case) -> Vec<Source> {
+    let mut all = sources(files);
+    let mut options = case.options.iter();
+    while let Some(option) = options.next() {
+        if option == "--with" {
+            let context = sources(&folder.join(options.next().expect("a folder")));
+            let as_context = |source: Source| Source::context(source.name, source.bytes);
+            all.extend(context.into_iter().map(as_context));
+        }
+    }
+    all
 }
 
 #[test]
@@ -92,19 +106,23 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
         let text = std::fs::read_to_string(folder.join(&case.profile)).expect("a profile");
         let profile = Profile::from_yaml(&text).expect("a valid profile");
         let is_irb120 = profile.model.starts_with("IRB 120");
-        let written = sources(&out);
+        let written = with_context(&out, &folder, &case);
         let language = program::language_of(&written[0]).expect("a known language");
         let settings = Settings {
             pulses_per_deg: profile.pulses_per_deg,
             ..Settings::default()
         };
         let after = motion::read(language, &written, &settings).expect("a program");
-        let before =
-            motion::read(language, &sources(&folder.join("in")), &settings).expect("a program");
+        let original = with_context(&folder.join("in"), &folder, &case);
+        let before = motion::read(language, &original, &settings).expect("a program");
         let targets = report["targets"].as_array().expect("a list");
-        assert_eq!(targets.len(), after.targets.len());
+        // those of the context stand behind them
+        let own = |target: &&Target| !written[target.file as usize].is_context;
+        assert_eq!(targets.len(), after.targets.iter().filter(own).count());
         for used in &after.moves {
-            let Some(target) = used.target else { continue };
+            let Some(target) = used.target.filter(|target| *target < targets.len()) else {
+                continue;
+            };
             let told = &targets[target];
             if told["status"] != "converged" || told["fake"].is_null() {
                 continue;
