@@ -5,7 +5,7 @@ use super::approach::Approach;
 use super::{Job, LIMIT_DERIVED_M};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
-use crate::geometry::{Pose, Rotation, Separation};
+use crate::geometry::{Pose, Separation};
 use crate::program::{Displacement, Move, Shift};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -44,9 +44,7 @@ pub(super) fn check(
         let finding = match &motion.displacement {
             Displacement::None => continue,
             Displacement::Unknown => {
-                let near = SOMEHOW
-                    .iter()
-                    .filter_map(|shift| landing(job, approach, fake, shift));
+                let near = somehow().filter_map(|shift| landing(job, approach, fake, &shift));
                 let most = near.map(|gap| gap.distance_m).fold(0.0, f64::max);
                 let message = format!(
                     "a point derived from {name} at run time takes its correction along: up to {:.0} mm from it that is {:.3} mm off \
@@ -111,26 +109,14 @@ pub(super) fn check(
 /// How far a sensor or a register usually displaces a point, metres.
 const SOMEHOW_M: f64 = 5.0 * MM;
 
-/// Displacements that stand for one that only the running program knows.
-static SOMEHOW: [Shift; 6] = {
-    const fn along(in_frame_m: [f64; 3]) -> Shift {
-        Shift {
-            in_frame_m,
-            in_tool: Pose {
-                rotation: Rotation([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-                translation: [0.0; 3],
-            },
-        }
-    }
-    [
-        along([SOMEHOW_M, 0.0, 0.0]),
-        along([-SOMEHOW_M, 0.0, 0.0]),
-        along([0.0, SOMEHOW_M, 0.0]),
-        along([0.0, -SOMEHOW_M, 0.0]),
-        along([0.0, 0.0, SOMEHOW_M]),
-        along([0.0, 0.0, -SOMEHOW_M]),
-    ]
-};
+/// Displacements that stand for one that only the running program knows: along each axis of the work frame.
+fn somehow() -> impl Iterator<Item = Shift> {
+    (0..6).map(|side| {
+        let mut by = [0.0; 3];
+        by[side / 2] = if side % 2 == 0 { SOMEHOW_M } else { -SOMEHOW_M };
+        Shift::along(by)
+    })
+}
 
 /// How far from its wanted pose a displaced use of a target lands; `None` where the controller does not reach it.
 fn landing(

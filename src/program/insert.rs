@@ -109,13 +109,15 @@ pub(super) fn with_numbers(
     Some(out)
 }
 
+/// What of a target stands for its external axes: from one target to another they stand still where it is the same.
+pub(super) type External = fn(&[Source], &Program, &Target) -> Option<Vec<u8>>;
+
 /// How the moves of a language are written again where their targets stand in them.
 pub(super) struct Manner {
     /// Whether an instruction, as the text has it, does nothing but go to its target.
     pub repeats: fn(&[u8]) -> bool,
-    /// What of a target stands for its external axes: they stand still between targets where it is the same. Nothing where
-    /// the language has none.
-    pub external: Option<fn(&[Source], &Program, &Target) -> Option<Vec<u8>>>,
+    /// The external axes of a target; nothing where the language has none.
+    pub external: Option<External>,
     /// The longest line of the language in bytes.
     pub longest: usize,
 }

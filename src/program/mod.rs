@@ -29,6 +29,7 @@ pub mod inform;
 mod insert;
 mod kit;
 pub mod krl;
+mod language;
 mod marker;
 mod names;
 mod notation;
@@ -43,12 +44,12 @@ pub use edit::Edits;
 pub use error::ReadError;
 pub use insert::{Between, Inserted, Insertion, Replacements};
 pub(crate) use kit::check_bytes;
+pub use language::{About, Language};
 pub use marker::{Found, Marker, sha256};
 pub use script::{Instruction, Place, Script};
 pub use source::Source;
 
 use crate::finding::Finding;
-use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Vector};
 use std::ops::Range;
 use std::path::Path;
@@ -91,213 +92,6 @@ pub fn language_of(source: &Source) -> Option<&'static dyn Language> {
     both.copied()
         .or_else(|| only(Box::new(LANGUAGES.iter().filter(shows))))
         .or_else(|| only(Box::new(LANGUAGES.iter().filter(ends))))
-}
-
-/// What a language is called and does; the text of `poseshift languages`.
-#[derive(Debug)]
-pub struct About {
-    /// Name in profiles and on the command line.
-    pub id: &'static str,
-    /// Name for people.
-    pub name: &'static str,
-    /// File name endings, lower case, without the dot.
-    pub extensions: &'static [&'static str],
-    /// What is rewritten.
-    pub rewrites: &'static [&'static str],
-    /// What is seen and left as it is.
-    pub leaves: &'static [&'static str],
-    /// What is reported and blocks the file.
-    pub refuses: &'static [&'static str],
-    /// What a file of it has at least; said of one that has not.
-    pub has: &'static str,
-}
-
-/// One programming language of robots.
-pub trait Language: Sync {
-    /// Its names and what it handles.
-    fn about(&self) -> &'static About;
-
-    /// Whether the content looks like a program of this language (for files whose ending does not tell).
-    fn recognises(&self, source: &Source) -> bool;
-
-    /// Translates program files that belong together into statements: data in one may be used in another. The files are
-    /// texts of at most 4 GiB.
-    ///
-    /// # Errors
-    /// Where the text is not a program of this language or is broken.
-    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError>;
-
-    /// A tool (`is_tool`) or a work frame of its parts; where it cannot be one a remark says why.
-    ///
-    /// # Errors
-    /// Where a part is a number that no robot can use.
-    fn frame_of(
-        &self,
-        is_tool: bool,
-        name: &str,
-        parts: &[script::Part],
-        sources: &[Source],
-    ) -> Result<Result<script::NamedFrame, script::Remark>, ReadError> {
-        let _ = (is_tool, parts, sources);
-        Ok(Ok(script::NamedFrame {
-            name: name.into(),
-            pose: None,
-            load: None,
-        }))
-    }
-
-    /// Name of the work frame that targets without one stand in: the world unless the command line gives another for it.
-    fn frame_of_unframed(&self) -> Option<&'static str> {
-        None
-    }
-
-    /// What each number of a pose is, in the order of [`Target::numbers`].
-    fn pose_roles(&self, layout: Layout) -> &'static [Role];
-
-    /// What each number of a target is, in the order of [`Target::numbers`].
-    fn roles(&self, layout: Layout) -> &'static [Role] {
-        match layout.shape {
-            Shape::Pose => self.pose_roles(layout),
-            Shape::Joints => &[Role::Joint; 6],
-        }
-    }
-
-    /// The largest number that a target's orientation can have: beyond it none is meant (1e5 degrees are 278 rotations).
-    fn most_orientation(&self, layout: Layout) -> f64 {
-        let _ = layout;
-        1e5
-    }
-
-    /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a metre away where it is an
-    /// angle or part of a quaternion. Most languages write millimetres and degrees: a thousandth of a millimetre is 6e-5
-    /// degrees there.
-    fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
-        match role {
-            Role::Position => millimetre_decimals,
-            Role::Orientation | Role::Joint => millimetre_decimals + 2,
-            Role::Configuration => 0,
-        }
-    }
-
-    /// Decimals that a number gets at least, so that rounding stays below a thousandth of a millimetre and of a degree where
-    /// the controller takes as many.
-    fn least_decimals(&self, role: Role) -> usize {
-        self.decimals(role, 3)
-    }
-
-    /// The pose of a target's numbers: `frame_from_tool`, metres.
-    fn pose_of(&self, layout: Layout, numbers: &[f64]) -> Pose;
-
-    /// Writes a pose into the numbers of a target, which hold the present ones: signs and turns that the pose leaves open
-    /// stay as near to these as they can.
-    fn write_pose(&self, layout: Layout, pose: &Pose, numbers: &mut [f64]);
-
-    /// How many radians one of each joint's numbers is.
-    fn joint_units(&self, layout: Layout, settings: &Settings) -> [f64; 6] {
-        let _ = (layout, settings);
-        [DEG; 6]
-    }
-
-    /// The inverse solutions that the configuration data of a pose allow.
-    fn configuration(&self, layout: Layout, numbers: &[f64]) -> Configuration {
-        let _ = (layout, numbers);
-        Configuration::default()
-    }
-
-    /// Changes the configuration data among the numbers of a pose where `before` and `after` (the controller's joints for the
-    /// old and the new pose) truly differ in them.
-    fn update_configuration(
-        &self,
-        layout: Layout,
-        before: &Posture,
-        after: &Posture,
-        numbers: &mut [f64],
-    ) {
-        let _ = (layout, before, after, numbers);
-    }
-
-    /// The meaning of a target's numbers, as many as it has roles.
-    fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded {
-        match layout.shape {
-            Shape::Pose => Decoded {
-                value: Value::Pose(self.pose_of(layout, numbers)),
-                configuration: self.configuration(layout, numbers),
-            },
-            Shape::Joints => {
-                let unit = self.joint_units(layout, settings);
-                Decoded {
-                    value: Value::Joints(std::array::from_fn(|i| numbers[i] * unit[i])),
-                    configuration: Configuration::default(),
-                }
-            }
-        }
-    }
-
-    /// Writes `value` into `numbers`, which hold the target's present ones; see [`Self::write_pose`] and
-    /// [`Self::update_configuration`].
-    ///
-    /// # Panics
-    /// If the value is of another shape than the target.
-    fn encode(
-        &self,
-        layout: Layout,
-        value: &Value,
-        before: &Posture,
-        after: &Posture,
-        settings: &Settings,
-        numbers: &mut [f64],
-    ) {
-        match (layout.shape, value) {
-            (Shape::Pose, Value::Pose(pose)) => {
-                self.write_pose(layout, pose, numbers);
-                self.update_configuration(layout, before, after, numbers);
-            }
-            (Shape::Joints, Value::Joints(joints)) => {
-                let unit = self.joint_units(layout, settings);
-                for (i, number) in numbers.iter_mut().enumerate() {
-                    *number = joints[i] / unit[i];
-                }
-            }
-            _ => panic!("a value of the other shape"),
-        }
-    }
-
-    /// Writes one of a target's configuration data, the `index`-th of its numbers, in the manner of the text it replaces.
-    /// Most languages write whole numbers.
-    fn write_configuration(
-        &self,
-        layout: Layout,
-        index: usize,
-        value: f64,
-        old: &[u8],
-        out: &mut Vec<u8>,
-    ) {
-        let _ = (layout, index, old);
-        out.extend_from_slice(format!("{value}").as_bytes());
-    }
-
-    /// Text that puts moves between those of one file, which is the `file`-th of the sources. A move that cannot be
-    /// repeated, because its text does more than go to its target, is refused; by default all are.
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        file: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        let _ = (sources, program, file);
-        Inserted::none(insertions)
-    }
-
-    /// A program that drives through configurations; `None` where none can be written in this language, or not with these
-    /// settings.
-    fn drive(&self, steps: &[Step], settings: &Settings) -> Option<String> {
-        let _ = (steps, settings);
-        None
-    }
-
-    /// Where the marker goes and its text in the file's own line ends.
-    fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>);
 }
 
 /// Which kind of target the numbers are.
@@ -446,21 +240,21 @@ pub enum Displacement {
     Overwritten,
 }
 
-/// `shifted frame_from_tool = Trans(in_frame_m) · frame_from_tool · in_tool`.
+/// `shifted frame_from_tool = in_frame · frame_from_tool · in_tool`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shift {
-    /// A translation in the work frame, metres (RAPID `Offs`).
-    pub in_frame_m: Vector,
+    /// A motion in the work frame (RAPID `Offs`).
+    pub in_frame: Pose,
     /// A motion in the tool frame (RAPID `RelTool`).
     pub in_tool: Pose,
 }
 
 impl Shift {
-    /// A translation in the work frame alone.
+    /// A translation in the work frame alone, metres.
     #[must_use]
-    pub fn in_frame(in_frame_m: Vector) -> Self {
+    pub fn along([x, y, z]: Vector) -> Self {
         Self {
-            in_frame_m,
+            in_frame: Pose::from_translation(x, y, z),
             in_tool: Pose::identity(),
         }
     }
@@ -468,8 +262,7 @@ impl Shift {
     /// `frame_from_tool`, shifted.
     #[must_use]
     pub fn apply(&self, frame_from_tool: &Pose) -> Pose {
-        let [x, y, z] = self.in_frame_m;
-        Pose::from_translation(x, y, z) * *frame_from_tool * self.in_tool
+        self.in_frame * *frame_from_tool * self.in_tool
     }
 }
 

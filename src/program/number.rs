@@ -86,6 +86,22 @@ pub fn parse_start(text: &[u8]) -> Option<(f64, usize)> {
     Some((if *first == b'-' { -value } else { value }, at))
 }
 
+/// The whole number without sign that `text` starts with, and how many digits it has: nine at most.
+pub(crate) fn whole_start(text: &[u8]) -> Option<(u32, usize)> {
+    let digits = text.iter().take_while(|b| b.is_ascii_digit()).count();
+    (1..=9).contains(&digits).then(|| {
+        let text = text[..digits].iter();
+        let value = text.fold(0, |value, b| 10 * value + u32::from(b - b'0'));
+        (value, digits)
+    })
+}
+
+/// The whole number without sign that is all of a text.
+pub(crate) fn whole(text: &[u8]) -> Option<u32> {
+    let (value, digits) = whole_start(text)?;
+    (digits == text.len()).then_some(value)
+}
+
 /// How the numbers of one file write magnitudes below one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fraction {

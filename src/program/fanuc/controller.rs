@@ -411,11 +411,8 @@ fn variable(
     shared: bool,
 ) -> VariableId {
     script.variable(Variable {
-        name: name.into(),
-        place: Place { file: 0, offset: 0 },
-        declared,
         kept,
         shared,
-        routine: None,
+        ..Variable::new(name, Place { file: 0, offset: 0 }, declared)
     })
 }

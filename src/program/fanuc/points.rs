@@ -150,12 +150,7 @@ impl<'a> Points<'a> {
     }
 
     fn whole_number(&mut self) -> Option<u32> {
-        let digits = self.bytes[self.at..]
-            .iter()
-            .take_while(|b| b.is_ascii_digit());
-        let length = digits.take(10).count();
-        let text = std::str::from_utf8(&self.bytes[self.at..self.at + length]).ok()?;
-        let value = text.parse().ok()?;
+        let (value, length) = number::whole_start(&self.bytes[self.at..])?;
         self.at += length;
         Some(value)
     }
@@ -272,10 +267,8 @@ impl<'a> Points<'a> {
         let selected = match text {
             b"F" | b"f" | b"" => Some(None),
             stars if stars.iter().all(|&b| b == b'*') => Some(None),
-            digits => std::str::from_utf8(digits)
-                .ok()
-                .and_then(|text| text.parse().ok())
-                .filter(|&number: &u32| number <= 255)
+            digits => number::whole(digits)
+                .filter(|number| *number <= 255)
                 .map(Some),
         };
         if within {
@@ -355,7 +348,7 @@ fn group_number(key: &[u8]) -> Option<u32> {
     let digits = key
         .strip_prefix(b"GP")
         .or_else(|| key.strip_prefix(b"gp"))?;
-    std::str::from_utf8(digits).ok()?.parse().ok()
+    number::whole(digits)
 }
 
 /// Group 1 of a point while it is read.

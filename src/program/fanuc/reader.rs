@@ -318,12 +318,12 @@ impl Reader<'_> {
                 name, file, offset, ..
             } = script.targets[target].clone();
             script.variable(Variable {
-                name: name.unwrap_or_default(),
-                place: Place { file, offset },
-                declared: Expr::Target(target),
                 kept: true,
-                shared: false,
-                routine: None,
+                ..Variable::new(
+                    name.unwrap_or_default(),
+                    Place { file, offset },
+                    Expr::Target(target),
+                )
             })
         })
     }
@@ -333,12 +333,8 @@ impl Reader<'_> {
         let (script, chosen) = (&mut self.builder.script, self.controller.chosen);
         *self.arguments.entry((routine, number)).or_insert_with(|| {
             script.variable(Variable {
-                name: format!("AR[{number}]").into(),
-                place: self.place,
-                declared: Expr::Unknown(chosen),
-                kept: false,
-                shared: false,
                 routine: Some(routine),
+                ..Variable::new(format!("AR[{number}]"), self.place, Expr::Unknown(chosen))
             })
         })
     }

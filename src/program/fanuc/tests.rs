@@ -8,8 +8,8 @@ mod robust;
 
 use super::*;
 use crate::finding::Severity;
-use crate::program::number::{Fraction, Style};
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::program::number::{Fraction, Style};
 use crate::program::{Displacement, Motion, Shape, Value};
 
 const POSE: Layout = Layout {

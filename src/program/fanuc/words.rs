@@ -1,5 +1,7 @@
 //! The words of instructions: positions, indices, numbers.
 
+use crate::program::number;
+
 /// Bytes of an index with its name.
 const MOST_INDEX: usize = 256;
 
@@ -98,11 +100,9 @@ pub(super) fn bracket_end(inside: &[u8]) -> Option<usize> {
 
 /// A whole number, and nothing else but the name behind its colon.
 pub(super) fn whole(text: &[u8]) -> Option<u32> {
-    let digits = text.iter().take_while(|b| b.is_ascii_digit()).count();
+    let (number, digits) = number::whole_start(text)?;
     let rest = text[digits..].trim_ascii_start();
-    let plain = rest.is_empty() || rest[0] == b':';
-    let number = std::str::from_utf8(&text[..digits]).ok()?.parse().ok();
-    number.filter(|_| plain)
+    (rest.is_empty() || rest[0] == b':').then_some(number)
 }
 
 /// The number between the brackets behind a word: 2 of `LBL[2:name]`; `None` where something else says it.

@@ -3,12 +3,12 @@
 //! A tool is `//TOOL n`, its name, `x,y,z,Rx,Ry,Rz` on the flange, the centre of gravity, the mass. A user frame is
 //! `//UFRAME n` and, among the positions it was taught with, `BUSER x,y,z,Rx,Ry,Rz` in the base frame.
 
-use super::lines::{Lines, after, numbers, unexpected, whole, words};
+use super::lines::{Lines, after, numbers, unexpected, words};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
 use crate::program::kit::Fault;
 use crate::program::notation::pose_of_angles;
-use crate::program::{Load, Number, ReadError, Source};
+use crate::program::{Load, Number, ReadError, Source, number};
 use std::collections::HashMap;
 
 /// No tool or frame is turned by more, degrees.
@@ -26,7 +26,7 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     let mut lines = Lines::of(bytes).filter(|line| !line.text.is_empty());
     lines.next().is_some_and(|line| {
         let number = after(line.text, b"//TOOL").or_else(|| after(line.text, b"//UFRAME"));
-        number.is_some_and(|number| words(number).next().and_then(whole).is_some())
+        number.is_some_and(|number| words(number).next().and_then(number::whole).is_some())
     })
 }
 
@@ -42,7 +42,7 @@ pub(super) fn read(source: &Source, conditions: &mut Conditions) -> Result<(), R
     let mut open = Open::None;
     for line in Lines::of(&source.bytes) {
         let number = |text| {
-            words(text).next().and_then(whole).ok_or_else(|| {
+            words(text).next().and_then(number::whole).ok_or_else(|| {
                 unexpected(
                     source,
                     line.start,

@@ -1,6 +1,6 @@
 //! The words of instructions: what positions they name, and what they write.
 
-use super::lines::whole;
+use crate::program::number::whole;
 
 /// A position of the robot that an instruction names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 //! they are set anew. What a position's numbers are is told by the last of PULSE, RECTAN and ANGLE; POSTYPE tells the frame
 //! of rectangular ones. (Some posts write `POSTYPE BASE` behind pulse positions.)
 
-use super::lines::{Line, Lines, add_numbers, after, unexpected, whole, words};
+use super::lines::{Line, Lines, add_numbers, after, unexpected, words};
 use super::{DEGREES, PULSES, rconf};
 use crate::program::kit::Fault;
 use crate::program::script::{Span, short};
@@ -49,7 +49,7 @@ pub(super) type External = ([u8; 2], u32);
 pub(super) fn external(name: &[u8]) -> Option<External> {
     let (letters, digits) = name.split_first_chunk()?;
     let is_known = matches!(letters, b"BC" | b"BP" | b"EC" | b"EX");
-    whole(digits)
+    number::whole(digits)
         .filter(|_| is_known)
         .map(|number| (*letters, number))
 }
@@ -126,7 +126,7 @@ impl<'a> Header<'a> {
             return Ok(self);
         };
         let number = || {
-            value.and_then(whole).ok_or_else(|| {
+            value.and_then(number::whole).ok_or_else(|| {
                 let expected = "the number of a tool or frame";
                 unexpected(source, line.start, line.text, expected)
             })
@@ -323,7 +323,7 @@ impl<'a> Positions<'a> {
                 start: short(at),
                 end: short(at + first.len()),
             };
-            job.announced = whole(first).map(|count| (count, span));
+            job.announced = number::whole(first).map(|count| (count, span));
             return Ok(());
         }
         let present = self.headers.pop().expect("a job begins with a header");
@@ -356,7 +356,7 @@ impl<'a> Positions<'a> {
                 return Ok(());
             }
         };
-        let number = whole(digits).ok_or_else(|| wrong("the number of a position"))?;
+        let number = number::whole(digits).ok_or_else(|| wrong("the number of a position"))?;
         let header = self.headers.last().expect("a job begins with a header");
         let coordinates = header
             .coordinates()

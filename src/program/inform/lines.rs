@@ -79,15 +79,6 @@ pub(super) fn after<'a>(text: &'a [u8], prefix: &[u8]) -> Option<&'a [u8]> {
     }
 }
 
-/// The whole number that is all of a text.
-pub(super) fn whole(text: &[u8]) -> Option<u32> {
-    let digits = !text.is_empty() && text.len() <= 9 && text.iter().all(u8::is_ascii_digit);
-    digits.then(|| {
-        text.iter()
-            .fold(0, |value, b| 10 * value + u32::from(b - b'0'))
-    })
-}
-
 /// The numbers between commas of a part of a line.
 pub(super) fn numbers(source: &Source, from: usize, to: usize) -> Result<Vec<Number>, ReadError> {
     let mut found = Vec::with_capacity(8);

@@ -6,7 +6,6 @@ use super::job::{Letter, Positions};
 use super::lines::{Line, Lines, words};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
-use crate::finding::Severity;
 use crate::program::script::{
     Argument, Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId,
     ValueId, VariableId, Write, Written, short,
@@ -258,8 +257,11 @@ impl<'a> Reader<'a> {
             } else {
                 text
             };
-            let Some(value) = Operand::of(text).map(|operand| self.value(operand, place)) else {
-                continue;
+            let operand = Operand::of(text);
+            let value = match operand {
+                Some(operand) => self.value(operand, place),
+                // whatever it is: what another call gave is there no more
+                None => self.unknown(Cause::Computed),
             };
             for &callee in &callees {
                 let builder = &mut self.builder;
@@ -268,7 +270,7 @@ impl<'a> Reader<'a> {
                 let argument = given_to(Some(parameter), value);
                 self.builder.script.arguments.push(argument);
             }
-            if callees.is_empty() {
+            if callees.is_empty() && operand.is_some() {
                 self.builder.script.arguments.push(given_to(None, value));
             }
         }
@@ -426,12 +428,11 @@ impl<'a> Reader<'a> {
                 format!("only the running program knows where the {what} stands ({shown})")
             }
         };
-        let remark = Remark {
-            id: "external-axis",
-            severity: Severity::Error,
-            text: text.into(),
-            hint: "write the position in robot coordinates (POSTYPE ROBOT) or in pulses; positions with other axes at zero are compensated",
-        };
+        let remark = Remark::error(
+            "external-axis",
+            text,
+            "write the position in robot coordinates (POSTYPE ROBOT) or in pulses; positions with other axes at zero are compensated",
+        );
         let builder = &mut self.builder;
         let reason = &mut self.here.external[usize::from(is_station)];
         Some(*reason.get_or_insert_with(|| always(builder, remark)))

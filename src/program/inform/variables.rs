@@ -63,12 +63,9 @@ fn entry(
     };
     let declared = declared(builder);
     let made = builder.script.variable(Variable {
-        name: name.into(),
-        place,
-        declared,
         kept: routine.is_none(),
-        shared: false,
         routine,
+        ..Variable::new(name, place, declared)
     });
     let entries = &mut builder.script.tables[table as usize].entries;
     entries.insert(key, made);
@@ -230,14 +227,9 @@ pub(super) fn always(builder: &mut Builder, remark: Remark) -> VariableId {
 /// A state of the controller.
 fn constant(builder: &mut Builder, value: Held) -> VariableId {
     let declared = Expr::Value(builder.script.value(value));
-    builder.script.variable(Variable {
-        name: Box::default(),
-        place: NOWHERE,
-        declared,
-        kept: false,
-        shared: false,
-        routine: None,
-    })
+    builder
+        .script
+        .variable(Variable::new(Box::default(), NOWHERE, declared))
 }
 
 /// A tool or work frame.

@@ -2,7 +2,7 @@
 
 use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{angle, chosen, frame_assigned, moving, refusal};
+use super::remarks::{angle, chosen, frame_assigned, moving};
 use super::targets::Owner;
 use crate::geometry::Pose;
 use crate::program::names::Symbol;
@@ -200,15 +200,11 @@ impl Modal {
                 _ => Expr::Unknown(chosen),
             };
             script.variable(Variable {
-                name: State::NAMES[at].into(),
-                place: NOWHERE,
-                declared,
-                kept: false,
                 shared: true,
-                routine: None,
+                ..Variable::new(State::NAMES[at], NOWHERE, declared)
             })
         });
-        let external = script.remark(refusal(
+        let external = script.remark(Remark::error(
             "held-work-piece",
             "the robot holds the work piece and the tool stands still (#TCP)",
             "moves with a fixed tool are not compensated",
@@ -221,16 +217,7 @@ impl Modal {
             Expr::Value(external),
             Expr::Unknown(chosen),
         ]
-        .map(|declared| {
-            script.variable(Variable {
-                name: "the move".into(),
-                place: NOWHERE,
-                declared,
-                kept: false,
-                shared: false,
-                routine: None,
-            })
-        });
+        .map(|declared| script.variable(Variable::new("the move", NOWHERE, declared)));
         let mode = states[State::Ipo as usize];
         let mut guard = |of: &[VariableId]| {
             script.guards.push(of.into());
@@ -339,7 +326,7 @@ impl Reader {
             _ if table == Table::Base && self.declared.moving.contains(&at) => {
                 self.unknown(moving())
             }
-            Entry::Ambiguous => self.unknown(refusal(
+            Entry::Ambiguous => self.unknown(Remark::error(
                 "frame-name-ambiguous",
                 "the tool or base is declared more than once with different values",
                 "pass one $config.dat only",
@@ -355,12 +342,8 @@ impl Reader {
         };
         let script = &mut self.builder.script;
         let made = script.variable(Variable {
-            name: name.into(),
-            place: NOWHERE,
-            declared,
             kept: true,
-            shared: false,
-            routine: None,
+            ..Variable::new(name, NOWHERE, declared)
         });
         let entries = &mut script.tables[self.modal.tables[table as usize] as usize].entries;
         entries.insert(i64::from(at), made);

@@ -71,6 +71,8 @@ impl Reader {
         self.last = None;
         for (at, point) in points[..count].iter().enumerate() {
             if point.is_here {
+                // to its joints a program goes before its first move
+                self.stays.extend(point.is_pose.then_some(place));
                 continue;
             }
             let is_via = path == Path::Arc && at == 0 && count == 2;
@@ -246,8 +248,8 @@ impl Reader {
             if in_tool {
                 last.shift.in_tool = last.shift.in_tool * Pose::from_translation(x, y, z);
             } else {
-                let [a, b, c] = last.shift.in_frame_m;
-                last.shift.in_frame_m = [a + x, b + y, c + z];
+                let [a, b, c] = last.shift.in_frame.translation;
+                last.shift.in_frame.translation = [a + x, b + y, c + z];
             }
             let displacement = Displacement::By(Box::new(last.shift));
             let mut instruction = self.instruction(place, *motion, last.target, &rest);

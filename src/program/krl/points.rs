@@ -30,7 +30,8 @@ pub(super) struct Point {
 enum Operand {
     Inline(TargetId),
     Named(Symbol, Index),
-    Here,
+    /// Where the robot is, and whether that is asked as a pose.
+    Here(bool),
     /// Where the robot was.
     Actual,
     Other,
@@ -44,7 +45,7 @@ impl Reader {
             .displacements
             .get(point.displacement as usize)?
         {
-            Displacement::None => Some(Shift::in_frame([0.0; 3])),
+            Displacement::None => Some(Shift::along([0.0; 3])),
             _ => None,
         }
     }
@@ -109,14 +110,14 @@ impl Reader {
         if name.kind == Kind::Name {
             let mut buffer = [0; 24];
             match capitals(cursor.text(name), &mut buffer) {
-                b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MEAS" | b"$AXIS_ACT_MES"
-                | b"$POS_ACT_MES" => {
+                word @ (b"$AXIS_ACT" | b"$POS_ACT" | b"$AXIS_ACT_MEAS" | b"$AXIS_ACT_MES"
+                | b"$POS_ACT_MES") => {
                     cursor.brackets()?;
                     return Ok(if cursor.blanks() == b'.' {
                         cursor.skip();
                         Operand::Other
                     } else {
-                        Operand::Here
+                        Operand::Here(word.starts_with(b"$POS"))
                     });
                 }
                 b"$AXIS_INT" | b"$AXIS_RET" | b"$AXIS_BACK" | b"$AXIS_FOR" | b"$POS_INT"
@@ -156,8 +157,8 @@ impl Reader {
                     None => self.not_in_files(name),
                 }
             }
-            Operand::Here => {
-                point.is_here = true;
+            Operand::Here(is_pose) => {
+                (point.is_here, point.is_pose) = (true, is_pose);
                 self.actual()
             }
             Operand::Actual => self.actual(),
@@ -198,7 +199,7 @@ impl Reader {
         point.displacement = self.builder.script.displacement(displacement);
     }
 
-    /// What the operands beside the target add, where that is a motion of the tool or a translation in the base.
+    /// What the operands around the target add: a motion in the base and one of the tool.
     fn shift(&self, operands: &[Operand], at: usize) -> Option<Shift> {
         let product = |operands: &[Operand]| {
             let mut pose = Pose::identity();
@@ -207,12 +208,9 @@ impl Reader {
             }
             Some(pose)
         };
-        let before = product(&operands[..at])?;
-        let in_tool = product(&operands[at + 1..])?;
-        let in_frame_m = before.translation;
-        (before.rotation.angle() < 1e-12).then_some(Shift {
-            in_frame_m,
-            in_tool,
+        Some(Shift {
+            in_frame: product(&operands[..at])?,
+            in_tool: product(&operands[at + 1..])?,
         })
     }
 

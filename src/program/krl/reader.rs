@@ -35,6 +35,8 @@ pub(super) struct Reader {
     pub(super) missing: HashMap<Symbol, RemarkId>,
     /// Routines of interrupts and triggers.
     pub(super) beside: Vec<(Symbol, Context)>,
+    /// Moves to the pose where the robot is.
+    pub(super) stays: Vec<Place>,
     /// The present statement.
     pub(super) here: Place,
     /// What the spline that is open sets for its moves.
@@ -85,6 +87,7 @@ impl Reader {
             refused: HashSet::new(),
             missing: HashMap::new(),
             beside: Vec::new(),
+            stays: Vec::new(),
             here: Place { file: 0, offset: 0 },
             spline: super::moves::With::default(),
             last: None,

@@ -4,17 +4,8 @@ use crate::finding::Severity;
 use crate::program::script::Remark;
 
 /// Why a target has to stay: a sentence without its subject.
-pub(super) fn refusal(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Remark {
-    Remark {
-        id,
-        severity: Severity::Error,
-        text: text.into(),
-        hint,
-    }
-}
-
 pub(super) fn partial() -> Remark {
-    refusal(
+    Remark::error(
         "partial-target",
         "components are missing, which keep the value of the position before",
         "write X, Y, Z, A, B and C",
@@ -22,7 +13,7 @@ pub(super) fn partial() -> Remark {
 }
 
 pub(super) fn expressions() -> Remark {
-    refusal(
+    Remark::error(
         "target-has-expressions",
         "parts of this target are expressions, not numbers",
         "write the target with numbers in the offline system",
@@ -35,7 +26,7 @@ pub(super) fn external(axis: usize, value: f64) -> Remark {
     } else {
         value.to_string()
     };
-    refusal(
+    Remark::error(
         "external-axis",
         format!("external axis E{axis} goes to {to}, and what that moves is not known"),
         "targets with external axes in use are not compensated",
@@ -43,7 +34,7 @@ pub(super) fn external(axis: usize, value: f64) -> Remark {
 }
 
 pub(super) fn assigned() -> Remark {
-    refusal(
+    Remark::error(
         "target-assigned-at-run-time",
         "the running program changes elements of this array, and which only it knows",
         "correct the value where the program computes it, or keep the target out of the path",
@@ -51,7 +42,7 @@ pub(super) fn assigned() -> Remark {
 }
 
 pub(super) fn passed() -> Remark {
-    refusal(
+    Remark::error(
         "target-passed-to-routine",
         "elements of this array are given to a routine that is not in the files, which may use them with any tool and base",
         "give the file with the routine too, or move to the target where its tool and base are set",
@@ -59,7 +50,7 @@ pub(super) fn passed() -> Remark {
 }
 
 pub(super) fn ambiguous() -> Remark {
-    refusal(
+    Remark::error(
         "target-name-ambiguous",
         "this name is declared more than once, and a use does not tell which one is meant",
         "pass only the programs of one robot",
@@ -67,7 +58,7 @@ pub(super) fn ambiguous() -> Remark {
 }
 
 pub(super) fn accurate() -> Remark {
-    refusal(
+    Remark::error(
         "absolutely-accurate",
         "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets itself",
         "switch the correction of the controller off, or --force",
@@ -88,12 +79,11 @@ pub(super) fn computed() -> Remark {
 
 /// A position that a function makes of positions that may be rewritten.
 pub(super) fn copied() -> Remark {
-    Remark {
-        id: "target-copied",
-        severity: Severity::Error,
-        text: "this move goes to a position that the program computes from targets, which may be corrected for other moves".into(),
-        hint: "write the position with numbers",
-    }
+    Remark::error(
+        "target-copied",
+        "this move goes to a position that the program computes from targets, which may be corrected for other moves",
+        "write the position with numbers",
+    )
 }
 
 /// A joint target without numbers in the files.
@@ -108,7 +98,7 @@ pub(super) fn home(name: &str) -> Remark {
 
 /// Only the running program knows the tool or base.
 pub(super) fn chosen() -> Remark {
-    refusal(
+    Remark::error(
         "frame-chosen-at-run-time",
         "only the running program knows the tool or base",
         "set $TOOL and $BASE before the move in the same routine",
@@ -116,7 +106,7 @@ pub(super) fn chosen() -> Remark {
 }
 
 pub(super) fn frame_assigned() -> Remark {
-    refusal(
+    Remark::error(
         "frame-assigned-at-run-time",
         "the running program changes the tool or base",
         "assign it with numbers, or use another entry for each place",
@@ -124,7 +114,7 @@ pub(super) fn frame_assigned() -> Remark {
 }
 
 pub(super) fn moving() -> Remark {
-    refusal(
+    Remark::error(
         "moving-frame",
         "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
         "moves in a moving base are not compensated",
@@ -141,22 +131,20 @@ pub(super) fn turned() -> Remark {
 }
 
 pub(super) fn from_nowhere() -> Remark {
-    Remark {
-        id: "relative-move",
-        severity: Severity::Error,
-        text: "this move goes relative to a position that the text does not tell; it is not compensated".into(),
-        hint: "write the target, or put the move behind one to a known target",
-    }
+    Remark::error(
+        "relative-move",
+        "this move goes relative to a position that the text does not tell; it is not compensated",
+        "write the target, or put the move behind one to a known target",
+    )
 }
 
 /// Against arcs with an angle.
 pub(super) fn angle() -> Remark {
-    Remark {
-        id: "circular-angle",
-        severity: Severity::Error,
-        text: "this arc goes on to an angle (CA): where it ends is not where its points are".into(),
-        hint: "write the arc without CA, with the point where it ends",
-    }
+    Remark::error(
+        "circular-angle",
+        "this arc goes on to an angle (CA): where it ends is not where its points are",
+        "write the arc without CA, with the point where it ends",
+    )
 }
 
 /// A load that the text does not tell.

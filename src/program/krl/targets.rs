@@ -94,12 +94,9 @@ impl Reader {
             _ => spelled.to_owned(),
         };
         let made = self.builder.script.variable(Variable {
-            name: name.into(),
-            place,
-            declared,
             kept,
-            shared: false,
             routine,
+            ..Variable::new(name, place, declared)
         });
         self.variables.insert((owner, at), made);
         if at != Index::Whole {
@@ -241,15 +238,11 @@ impl Reader {
         let remark = if is_home(spelled) {
             home(spelled)
         } else {
-            Remark {
-                id: "target-not-in-files",
-                severity: Severity::Error,
-                text: format!(
-                    "{spelled} is not declared in the files; this move is not compensated"
-                )
-                .into(),
-                hint: "give the .dat file or the $config.dat that declares it, too",
-            }
+            Remark::error(
+                "target-not-in-files",
+                format!("{spelled} is not declared in the files; this move is not compensated"),
+                "give the .dat file or the $config.dat that declares it, too",
+            )
         };
         // each name once: no need to look for the same
         let remarks = &mut self.builder.script.remarks;
@@ -263,6 +256,12 @@ impl Reader {
     pub(super) fn finish(self, sources: &[Source], settings: &Settings) -> Script {
         let names = self.names;
         let mut script = self.builder.finish();
+        for Place { file, offset } in self.stays {
+            let message = "this move goes to where the robot is: it stays there".to_owned();
+            let (source, id) = (&sources[file as usize], "run-time-position");
+            let finding = source.finding(offset as usize, id, Severity::Note, message, "");
+            script.findings.push(finding);
+        }
         let mut kept = named_targets(&mut script);
         accurate_targets(&mut script, &kept, settings, sources);
         long_lines(sources, &mut script, &kept);

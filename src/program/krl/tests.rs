@@ -348,8 +348,7 @@ fn products_with_constant_frames_are_displaced_targets() {
     };
     assert!((first.in_tool.translation[2] + 0.05).abs() < 1e-12);
     assert!(
-        program.moves[1].displacement
-            == Displacement::By(Box::new(Shift::in_frame([0.0, 0.0, 0.1])))
+        program.moves[1].displacement == Displacement::By(Box::new(Shift::along([0.0, 0.0, 0.1])))
     );
     assert_eq!(told(&program), [""; 0]);
 }
@@ -364,11 +363,23 @@ fn products_that_the_text_does_not_tell_are_unknown_displacements_or_errors() {
 }
 
 #[test]
+fn frames_of_the_text_displace_by_what_they_are() {
+    let program = path("SLIN {X 10,Y 0,Z 0,A 90,B 0,C 0} : XP1 : {X 0,Y 0,Z 5,A 0,B 0,C 0}");
+    let Displacement::By(shift) = &program.moves[0].displacement else {
+        panic!("{:?}", program.moves[0].displacement);
+    };
+    assert!((shift.in_frame.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
+    let (before, behind) = (shift.in_frame.translation, shift.in_tool.translation);
+    assert_eq!((before, behind), ([0.01, 0.0, 0.0], [0.0, 0.0, 0.005]));
+    assert_eq!(told(&program), [""; 0]);
+}
+
+#[test]
 fn relative_moves_go_from_the_target_before() {
     let program = path("LIN XP1\nLIN_REL {Z 100} #BASE\nLIN_REL {X -10}#TOOL C_DIS\nLIN XP2");
     assert_eq!(to(&program), ["XP1", "XP1", "XP1", "XP2"]);
     let by = |at: usize| match &program.moves[at].displacement {
-        Displacement::By(shift) => (shift.in_frame_m, shift.in_tool.translation),
+        Displacement::By(shift) => (shift.in_frame.translation, shift.in_tool.translation),
         other => panic!("{other:?}"),
     };
     assert_eq!(by(1), ([0.0, 0.0, 0.1], [0.0; 3]));

@@ -167,13 +167,8 @@ impl Translator<'_> {
     pub(super) fn temporary(&mut self, name: &str, declared: Expr) -> u32 {
         self.builder
             .script
-            .variable(crate::program::script::Variable {
-                name: name.into(),
-                place: self.here,
-                declared,
-                kept: false,
-                shared: false,
-                routine: None,
-            })
+            .variable(crate::program::script::Variable::new(
+                name, self.here, declared,
+            ))
     }
 }

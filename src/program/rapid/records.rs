@@ -3,7 +3,6 @@
 use super::aggregate::{Leaf, UNIT_LIMIT};
 use super::arguments::{LARGEST, is_unit};
 use super::tokens::Fault;
-use crate::finding::Severity;
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Pose, Quaternion};
 use crate::program::script::{NamedFrame, Part, PartValue, Place, Remark};
@@ -107,21 +106,11 @@ impl Parts<'_> {
 
 /// The running program changes a part of a tool or work object.
 pub(super) fn assigned() -> Remark {
-    refused(
+    Remark::error(
         "frame-assigned-at-run-time",
         "the running program changes the tool or work object",
         "assign it once, with numbers, or declare one for each place",
     )
-}
-
-/// Why a move with this tool or work object stays.
-pub(super) fn refused(id: &'static str, text: &str, hint: &'static str) -> Remark {
-    Remark {
-        id,
-        severity: Severity::Error,
-        text: text.into(),
-        hint,
-    }
 }
 
 /// See [`crate::program::Language::frame_of`].
@@ -148,7 +137,7 @@ type Found = Result<Result<Option<Pose>, Remark>, ReadError>;
 
 fn tool(name: &str, parts: &Parts) -> Found {
     if parts.is(0, false) {
-        return Ok(Err(refused(
+        return Ok(Err(Remark::error(
             "stationary-tool",
             "the tool does not hang on the robot (robhold FALSE)",
             "moves with a stationary tool are not compensated",
@@ -169,14 +158,14 @@ fn tool(name: &str, parts: &Parts) -> Found {
 
 fn work_object(name: &str, parts: &Parts) -> Found {
     if parts.is(0, true) {
-        return Ok(Err(refused(
+        return Ok(Err(Remark::error(
             "held-work-piece",
             "the robot holds the work object (robhold TRUE)",
             "moves with a held work piece are not compensated",
         )));
     }
     if parts.is(1, false) || parts.value(2) == (PartValue::Text { empty: false }) {
-        return Ok(Err(refused(
+        return Ok(Err(Remark::error(
             "moving-frame",
             "a conveyor or another mechanical unit moves the work object (ufprog FALSE or ufmec named)",
             "moves in a moving frame are not compensated",

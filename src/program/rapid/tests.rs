@@ -6,8 +6,8 @@ mod samples;
 
 use super::*;
 use crate::finding::{Finding, Severity};
-use crate::motion;
 use crate::geometry::units::DEG;
+use crate::motion;
 use crate::program::{Displacement, Motion, Shape, Shift, Tool, Value};
 
 const POSE: Layout = Layout {
@@ -165,17 +165,19 @@ fn displacements_add_up_and_unknown_ones_are_told() {
         .collect();
     assert_eq!(
         by[0],
-        Displacement::By(Box::new(Shift::in_frame([0.001, -0.002, 0.003])))
+        Displacement::By(Box::new(Shift::along([0.001, -0.002, 0.003])))
     );
     assert_eq!(
         by[1],
-        Displacement::By(Box::new(Shift::in_frame([0.0, 0.0, -0.025])))
+        Displacement::By(Box::new(Shift::along([0.0, 0.0, -0.025])))
     );
     let Displacement::By(turn) = &by[2] else {
         panic!("in the tool");
     };
     assert!((turn.in_tool.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
-    assert!(matches!(&by[3], Displacement::By(both) if both.in_frame_m == [-0.05, 0.1, 0.1]));
+    assert!(
+        matches!(&by[3], Displacement::By(both) if both.in_frame.translation == [-0.05, 0.1, 0.1])
+    );
     assert_eq!(by[4..], [Displacement::Unknown, Displacement::Unknown]);
     assert!(program.moves.iter().all(|m| m.target.unwrap() == 0));
 }

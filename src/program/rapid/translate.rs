@@ -1,7 +1,6 @@
 //! From what was noted to statements: who may be where, is for [`crate::motion`].
 
 use super::handlers::Handlers;
-use super::records::refused;
 use super::resolved::{Entity, Resolved};
 use super::syntax::{
     Assigned, Component, Expression, Index, Mode, Part, Set, StatementKind, Storage, Type, indices,
@@ -148,27 +147,24 @@ impl Modes {
     fn new(script: &mut Script) -> Self {
         let on = script.value(Held::Flag(true));
         let off = script.value(Held::Flag(false));
-        let remark = script.remark(refused(
+        let remark = script.remark(Remark::error(
             "displacement-active",
             "a program displacement or external offset may be active",
             "switch it off with PDispOff or EOffsOff before the move",
         ));
         let displaced = script.value(Held::Remark(remark));
-        let remark = script.remark(refused(
+        let remark = script.remark(Remark::error(
             "target-name-ambiguous",
             "this name is declared more than once, and a use does not tell which one is meant",
             "pass only the modules of one task, or make the data LOCAL",
         ));
         let ambiguous = script.value(Held::Remark(remark));
         let mut mode = |name: &str, holds: ValueId| {
-            script.variable(Variable {
-                name: name.into(),
-                place: Place { file: 0, offset: 0 },
-                declared: Expr::Value(holds),
-                kept: false,
-                shared: false,
-                routine: None,
-            })
+            script.variable(Variable::new(
+                name,
+                Place { file: 0, offset: 0 },
+                Expr::Value(holds),
+            ))
         };
         let (conf_j, conf_l) = (mode("ConfJ", on), mode("ConfL", on));
         let wrist = mode("SingArea", off);
@@ -540,15 +536,10 @@ impl Translator<'_> {
             let remarks = &mut script.remarks;
             let remark = *known.entry((axis, value.to_bits())).or_insert_with(|| {
                 let name = char::from(b'a' + axis);
-                remarks.push(Remark {
-                    id: "external-axis",
-                    severity: Severity::Error,
-                    text: format!(
+                remarks.push(Remark::error("external-axis", format!(
                         "external axis eax_{name} is {value}, and where that carries the robot or the work piece is not known"
                     )
-                    .into(),
-                    hint: "targets with external axes are not compensated until the profile describes the unit",
-                });
+                    , "targets with external axes are not compensated until the profile describes the unit"));
                 crate::program::script::short(remarks.len() - 1)
             });
             script.refused.push((target, remark));

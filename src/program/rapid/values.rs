@@ -1,7 +1,7 @@
 //! Names and expressions as values: targets, tools, work objects, and the variables that hold them.
 
 use super::builtins::Known;
-use super::records::{assigned, load_of, part_of, refused};
+use super::records::{assigned, load_of, part_of};
 use super::resolved::Entity;
 use super::syntax::{
     Amount, Base, Element, Expression, Index, Part, Step, Storage, Stored, Type, indices,
@@ -80,7 +80,7 @@ impl Translator<'_> {
     }
 
     pub(super) fn frame_chosen(&mut self) -> Expr {
-        self.frame_refused(refused(
+        self.frame_refused(Remark::error(
             "frame-chosen-at-run-time",
             "only the running program knows the tool or work object",
             "name the tool and the work object in the move",
@@ -327,7 +327,7 @@ impl Translator<'_> {
             Meaning::One(datum) => Entity::Declared(datum),
             Meaning::Nothing => Entity::Undeclared(name),
             Meaning::Several(_) => {
-                return self.frame_refused(refused(
+                return self.frame_refused(Remark::error(
                     "frame-name-ambiguous",
                     "the tool or work object is declared more than once",
                     "pass only the modules of one task, or make the data LOCAL",
@@ -449,21 +449,18 @@ impl Translator<'_> {
                     _ => None,
                 };
                 Variable {
-                    name: name.unwrap_or_else(|| self.resolved.spelling(datum.name).into()),
-                    place: datum.place,
-                    declared: holds,
                     kept: datum.storage == Storage::Persistent,
-                    shared: false,
                     routine: datum.context.routine,
+                    ..Variable::new(
+                        name.unwrap_or_else(|| self.resolved.spelling(datum.name).into()),
+                        datum.place,
+                        holds,
+                    )
                 }
             }
             Entity::Undeclared(name) => Variable {
-                name: self.resolved.spelling(name).into(),
-                place: self.here,
-                declared: holds,
                 kept: true,
-                shared: false,
-                routine: None,
+                ..Variable::new(self.resolved.spelling(name), self.here, holds)
             },
         };
         let made = script.variable(variable);
@@ -506,10 +503,7 @@ impl Translator<'_> {
         let found = self.steps(&self.resolved.parsed.steps[indices(steps)]);
         let displacement = match found {
             None => Displacement::Unknown,
-            Some(Shift {
-                in_frame_m,
-                in_tool,
-            }) if in_frame_m == [0.0; 3] && in_tool == Pose::identity() => Displacement::None,
+            Some(shift) if shift == Shift::along([0.0; 3]) => Displacement::None,
             Some(shift) => Displacement::By(Box::new(shift)),
         };
         self.builder.script.displacement(displacement)
@@ -530,8 +524,8 @@ impl Translator<'_> {
             }
         }
         Some(Shift {
-            in_frame_m: frame_mm.map(m_from_mm),
             in_tool,
+            ..Shift::along(frame_mm.map(m_from_mm))
         })
     }
 

@@ -141,6 +141,21 @@ pub struct Variable {
     pub routine: Option<RoutineId>,
 }
 
+impl Variable {
+    /// One of the program's own, that begins anew with every run.
+    #[must_use]
+    pub fn new(name: impl Into<Box<str>>, place: Place, declared: Expr) -> Self {
+        Self {
+            name: name.into(),
+            place,
+            declared,
+            kept: false,
+            shared: false,
+            routine: None,
+        }
+    }
+}
+
 /// Variables that a running program reaches by a number, such as the entries of `UTOOL[…]`.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Table {
@@ -261,6 +276,19 @@ pub struct Remark {
     pub text: Box<str>,
     /// The way out.
     pub hint: &'static str,
+}
+
+impl Remark {
+    /// Why a move or a target is refused.
+    #[must_use]
+    pub fn error(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Self {
+        Self {
+            id,
+            severity: Severity::Error,
+            text: text.into(),
+            hint,
+        }
+    }
 }
 
 /// A routine, or the text of a file outside routines.

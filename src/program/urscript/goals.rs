@@ -244,8 +244,8 @@ impl Goals<'_, '_, '_> {
                     self.note_offset(goal.target, b, function);
                     let by = self.variables.constant(b, function).ok();
                     let by = by.map(|in_tool| Shift {
-                        in_frame_m: [0.0; 3],
                         in_tool,
+                        ..Shift::along([0.0; 3])
                     });
                     return self.displaced(goal, by);
                 }
@@ -306,8 +306,8 @@ impl Goals<'_, '_, '_> {
         let by = by
             .zip(base_from_feature)
             .map(|(by, base_from_feature)| Shift {
-                in_frame_m: base_from_feature.rotation.transpose() * by.translation,
                 in_tool: Pose::from_rotation(by.rotation),
+                ..Shift::along(base_from_feature.rotation.transpose() * by.translation)
             });
         self.displaced(goal, by)
     }
@@ -484,15 +484,13 @@ impl Goals<'_, '_, '_> {
             NotConstant::Changing(variable) => self.held[variable as usize].frame,
             NotConstant::Computed => None,
             NotConstant::Endless(angle) => {
-                let remark = Remark {
-                    id: "angle-too-large",
-                    severity: Severity::Error,
-                    text: format!(
+                let remark = Remark::error(
+                    "angle-too-large",
+                    format!(
                         "the rotation vector of its feature or tool has a part of {angle}; the limit is 4 pi rad"
-                    )
-                    .into(),
-                    hint: "rotation vectors are in radians; d2r(…) turns degrees into them",
-                };
+                    ),
+                    "rotation vectors are in radians; d2r(…) turns degrees into them",
+                );
                 let remark = self.builder.script.remark(remark);
                 return script::Expr::Unknown(remark);
             }

@@ -1,6 +1,6 @@
 //! Statements: functions, blocks, assignments.
 
-use super::syntax::{Assignment, Event, Expr, ExprId, Function, FunctionId, OTHER, Parsed, Reach};
+use super::syntax::{Assignment, Event, Expr, Function, FunctionId, OTHER, Parsed, Reach};
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
 use crate::program::kit::Fault;
@@ -353,9 +353,7 @@ impl<'a> Reader<'a> {
             if self.scanner.bytes.get(self.scanner.at) == Some(&b'=') {
                 return self.rest(next);
             }
-            let value = self.value(name.start)?;
-            self.assign(name, reach, value, false);
-            return Ok(());
+            return self.assign(name, reach, false);
         }
         if next.is(b'[') {
             self.next()?;
@@ -368,16 +366,17 @@ impl<'a> Reader<'a> {
             let compared = self.scanner.bytes.get(after.end) == Some(&b'=');
             if after.is(b'=') && !compared {
                 self.next()?;
-                let value = self.value(name.start)?;
-                self.assign(name, reach, value, true);
-                return Ok(());
+                return self.assign(name, reach, true);
             }
             return Ok(());
         }
         self.part(name)
     }
 
-    fn assign(&mut self, name: Token, reach: Reach, value: ExprId, part: bool) {
+    /// `= …` behind a name or an element of it.
+    fn assign(&mut self, name: Token, reach: Reach, part: bool) -> Read<()> {
+        let is_number = self.is_number();
+        let value = self.value(name.start)?;
         let text = self.text(name);
         // `a.b = …` changes a part of a
         let dot = memchr::memchr(b'.', text);
@@ -389,9 +388,22 @@ impl<'a> Reader<'a> {
             value,
             offset: short(name.start),
             part: part || dot.is_some(),
+            is_number,
         });
         let number = short(self.parsed.assignments.len() - 1);
         self.event(Event::Assign(number));
+        Ok(())
+    }
+
+    /// Whether nothing but a number stands up to the end of the statement.
+    fn is_number(&self) -> bool {
+        let mut ahead = self.scanner;
+        let mut next = || ahead.next().map_or(Kind::End, |token| token.kind);
+        let first = match next() {
+            Kind::Sign(b'-' | b'+') => next(),
+            other => other,
+        };
+        first == Kind::Number && matches!(next(), Kind::Line | Kind::End)
     }
 
     /// Everything to the end of the line.

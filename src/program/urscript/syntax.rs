@@ -121,6 +121,8 @@ pub(super) struct Assignment {
     pub offset: u32,
     /// Only a part of the variable is assigned.
     pub part: bool,
+    /// Nothing but a number is.
+    pub is_number: bool,
 }
 
 /// A move as the text has it.

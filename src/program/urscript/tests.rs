@@ -251,7 +251,7 @@ fn features_are_frames_and_offsets_of_targets_displacements() {
         .translation;
     assert!((nested[0] - 1.0).abs() < 1e-12 && (nested[2] - 1.0).abs() < 1e-12);
     let shift = |number: usize| match &program.moves[number].displacement {
-        Displacement::By(shift) => (shift.in_frame_m[2], shift.in_tool.translation[2]),
+        Displacement::By(shift) => (shift.in_frame.translation[2], shift.in_tool.translation[2]),
         other => panic!("{other:?}"),
     };
     assert_eq!(to(&program)[3..6], ["w", "w", "w"].map(String::from));

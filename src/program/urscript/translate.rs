@@ -75,32 +75,20 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         let unknown = common.no_tool(script);
         let mut variable = |name: &str, declared, shared| {
             script.variable(Variable {
-                name: name.into(),
-                place,
-                declared,
-                kept: false,
                 shared,
-                routine: None,
+                ..Variable::new(name, place, declared)
             })
         };
         let tcp = variable("tcp", unknown, true);
         let load = variable("load", script::Expr::Absent, true);
         let tracking = variable("tracking", script::Expr::Absent, false);
-        let streamed = Held::Remark(script.remark(Remark {
-            id: "streamed-motion",
-            severity: Severity::Error,
-            text: "servoing to poses is not compensated".into(),
-            hint: "use movel or movej, or servoj with joints",
-        }));
+        let streamed = Held::Remark(script.remark(Remark::error(
+            "streamed-motion",
+            "servoing to poses is not compensated",
+            "use movel or movej, or servoj with joints",
+        )));
         let declared = script::Expr::Value(script.value(streamed));
-        let stream = script.variable(Variable {
-            name: "stream".into(),
-            place,
-            declared,
-            kept: false,
-            shared: false,
-            routine: None,
-        });
+        let stream = script.variable(Variable::new("stream", place, declared));
         let guards = [vec![tracking], vec![stream], vec![tracking, stream]].map(|of| {
             script.guards.push(of.into());
             short(script.guards.len() - 1)
@@ -265,12 +253,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             let mut declare = |wanted: bool, declared| {
                 wanted.then(|| {
                     script.variable(Variable {
-                        name: (*name).into(),
-                        place,
-                        declared,
-                        kept: false,
-                        shared: false,
                         routine,
+                        ..Variable::new(&*name, place, declared)
                     })
                 })
             };
@@ -333,12 +317,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 }
                 Event::Tracking(on, offset) => {
                     let held = if on {
-                        Held::Remark(builder.script.remark(Remark {
-                        id: "moving-frame",
-                        severity: Severity::Error,
-                        text: "moves along a conveyor, with a path offset or on a part that moves are not compensated".into(),
-                        hint: "",
-                    }))
+                        Held::Remark(builder.script.remark(Remark::error("moving-frame", "moves along a conveyor, with a path offset or on a part that moves are not compensated", "")))
                     } else {
                         Held::Flag(false)
                     };
@@ -394,7 +373,12 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
         let held = self.goals.held[variable as usize];
         let (computed, changes) = (self.goals.common.computed, self.goals.common.frame_changes);
-        self.write(held.position, How::PartSomehow(computed), offset);
+        let how = if assignment.is_number {
+            How::PartNumber(computed)
+        } else {
+            How::PartSomehow(computed)
+        };
+        self.write(held.position, how, offset);
         self.write(held.frame, How::PartSomehow(changes), offset);
     }
 

@@ -195,7 +195,7 @@ fn broken_programs_are_refused_with_their_place() {
         ),
         (good.replacen("374.0", "1e400", 1), "1e400"),
         (good.replacen("374.0", "9E9", 1), "9E9"),
-        (good.replacen("374.0", "NaN", 1), "NaN is no number"),
+        (good.replacen("374.0", "NaN", 1), "`NaN` is no number"),
         (
             good.replacen("[0.5,0,0.8660254,0]", "[0,0,0,0]", 1),
             "quaternion",

@@ -382,6 +382,16 @@ fn numbers_written_over_a_part_of_a_copy_lose_their_correction() {
     };
     let over = done(&[PLAIN], &[("t.mod", &program("here.trans.z := 320;"))]);
     assert_eq!(errors(&over), ["target-overwritten"], "{:?}", over.findings);
+    let script = |write: &str| {
+        format!(
+            "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  p1 = p[0.43,0.0,0.3,0.0,3.14159,0.0]\n  movej([0,0,0,0,1.0,0])\n  movej(p1)\n  \
+             q = p1\n  {write}\n  movel(q)\nend\n"
+        )
+    };
+    let over = done(&[PLAIN], &[("t.script", &script("q[2] = 0.32 # above"))]);
+    assert_eq!(errors(&over), ["target-overwritten"], "{:?}", over.findings);
+    let more = done(&[PLAIN], &[("t.script", &script("q[2] = q[2] + 0.02"))]);
+    assert_eq!(errors(&more), [""; 0], "{:?}", more.findings);
     // what is added to the old value takes the correction along
     let more = done(
         &[PLAIN],

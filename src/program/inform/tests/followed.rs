@@ -200,6 +200,13 @@ fn jobs_take_positions_as_arguments() {
         .collect();
     names.sort_unstable();
     assert_eq!(names, ["P001".into(), "P002".into()] as [Box<str>; 2]);
+    // what one call gives the next does not find there
+    let main = job(
+        &positions,
+        "CALL JOB:GO ARGFP001 ARGFP001\nCALL JOB:GO ARGFP001 ARGFI001",
+    );
+    let program = read_files(&[&main, &go], &Settings::default()).expect("jobs");
+    assert!(program.findings.iter().any(|f| f.id == "computed-target"));
     // to a job that nobody has
     let program = read(&job(&positions, "CALL JOB:GO ARGFP001\nMOVL P001"));
     assert_eq!(errors(&program), ["target-passed-to-routine"]);

@@ -99,8 +99,14 @@ fn moves_to_positions_nobody_knows_are_moves() {
         assert_eq!(found[0].severity, severity, "{text}");
     }
     // to where it is the robot does not go
-    let program = path("PTP XP1\nPTP $AXIS_ACT\nLIN XP2");
-    assert_eq!(chain(&program)[1], ("XP2", vec![Some(0)]));
+    for (here, ids) in [
+        ("$AXIS_ACT", vec![]),
+        ("$POS_ACT", vec!["run-time-position"]),
+    ] {
+        let program = path(&format!("PTP XP1\nPTP {here}\nLIN XP2"));
+        assert_eq!(chain(&program)[1], ("XP2", vec![Some(0)]));
+        assert_eq!(told(&program), ids);
+    }
 }
 
 #[test]

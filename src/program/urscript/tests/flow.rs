@@ -122,7 +122,7 @@ fn poses_with_expressions_stay_or_stand_beside_the_targets_that_flow_into_them()
             panic!("{lines}")
         };
         assert_eq!(
-            (to.as_deref(), shift.in_frame_m),
+            (to.as_deref(), shift.in_frame.translation),
             (Some("x"), [0.0, 0.0, z])
         );
     }
@@ -173,7 +173,10 @@ fn a_sum_of_a_pose_in_a_feature_is_in_the_base() {
     let Displacement::By(shift) = &program.moves[0].displacement else {
         panic!("a shift")
     };
-    assert!((shift.in_frame_m[1] + 0.1).abs() < 1e-12 && shift.in_frame_m[0].abs() < 1e-12);
+    assert!(
+        (shift.in_frame.translation[1] + 0.1).abs() < 1e-12
+            && shift.in_frame.translation[0].abs() < 1e-12
+    );
 }
 
 #[test]
