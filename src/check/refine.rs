@@ -127,6 +127,9 @@ impl Job<'_> {
     /// The joints at a stop when the compensated program runs.
     fn joints_at(&self, index: usize) -> Option<[f64; 6]> {
         let stop = self.walk.stops[index]?;
+        if let Some(q) = self.compensation.own_joints.get(&self.walk.index(index)) {
+            return Some(*q);
+        }
         let target = self.walk.motion(index).target?;
         let report = &self.compensation.targets[target];
         Some(report.q.filter(|_| report.changed).unwrap_or(stop.q))

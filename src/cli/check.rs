@@ -1,7 +1,7 @@
 //! `check`: where the real robot goes with programs as they are, and what it comes near.
 
 use super::layout;
-use super::programs::{read_context, read_programs};
+use super::programs::{only, read_context, read_programs};
 use super::telling::ReportFile;
 use super::{Answer, Output, files, print, values};
 use crate::check::trace::trace;
@@ -74,6 +74,9 @@ pub(super) struct Check {
     /// Files and folders that are read for their declarations and calls only
     #[arg(long, value_name = "PATH")]
     with: Vec<PathBuf>,
+    /// Of the programs and originals only those of this name, with or without its ending; the others are read as with --with
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
     /// Take an error, by its id, everywhere or at one place
     #[arg(long, value_name = "ID[:FILE[:LINE]]")]
     accept: Vec<String>,
@@ -119,14 +122,15 @@ impl Check {
             .iter()
             .map(|text| acceptance(text))
             .collect::<Result<_, _>>()?;
-        let mut sources = read_programs(&self.programs, asked)?;
+        let mut sources = only(read_programs(&self.programs, asked)?, &self.only)?;
         sources.extend(read_context(&self.with, asked, &sources)?);
         let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
         self.refuse_reports(&sources)?;
         let nominal = if self.nominal.is_empty() {
             None
         } else {
-            let mut nominal = read_programs(&self.nominal, Some(language))?;
+            let originals = read_programs(&self.nominal, Some(language))?;
+            let mut nominal = only(originals, &self.only)?;
             nominal.extend(read_context(&self.with, Some(language), &nominal)?);
             Some(nominal)
         };

@@ -2,7 +2,7 @@
 
 use super::drawing::Drawing;
 use super::layout;
-use super::programs::{programs_in, read_context};
+use super::programs::{meant, programs_in, read_context};
 use super::telling::ReportFile;
 use super::{Answer, Output, files, print, values};
 use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
@@ -55,7 +55,7 @@ pub(super) struct Compensate {
     #[arg(long, value_name = "ID[:FILE[:LINE]]")]
     accept: Vec<String>,
     /// Write a target out at each of its moves where one set of numbers does not serve all
-    #[arg(long, conflicts_with = "max_path_error")]
+    #[arg(long)]
     split_targets: bool,
     /// A target at the wrist's singularity that the real arm does not reach on the meant side
     #[arg(long, value_enum, default_value = "refuse")]
@@ -313,7 +313,8 @@ impl Compensate {
                 "`poseshift languages` lists what is recognised",
             ));
         }
-        let meant = self.meant(&inputs)?;
+        let names: Vec<&Path> = inputs.iter().map(|(_, name)| name.as_path()).collect();
+        let meant = meant(&names, &self.only)?;
         let several = inputs.len() > 1 || self.programs.iter().any(|p| p.is_dir());
         let mut jobs = Vec::with_capacity(inputs.len());
         for ((input, name), is_meant) in inputs.into_iter().zip(meant) {
@@ -342,32 +343,6 @@ impl Compensate {
             });
         }
         Ok(jobs)
-    }
-
-    /// Which of the files --only means: all where it is not given.
-    fn meant(&self, inputs: &[(PathBuf, PathBuf)]) -> Result<Vec<bool>, Failure> {
-        let is = |path: &Path, name: &String| {
-            let same = |part: Option<&std::ffi::OsStr>| {
-                part.is_some_and(|part| part.to_string_lossy().eq_ignore_ascii_case(name))
-            };
-            same(path.file_name()) || same(path.file_stem())
-        };
-        for name in &self.only {
-            if !inputs.iter().any(|(path, _)| is(path, name)) {
-                let names: Vec<_> = inputs
-                    .iter()
-                    .map(|(_, name)| name.display().to_string())
-                    .collect();
-                return Err(Failure::with_hint(
-                    format!("--only {name}: no program is called so"),
-                    format!("they are: {}", names.join(", ")),
-                ));
-            }
-        }
-        let meant = |(path, _): &(PathBuf, PathBuf)| {
-            self.only.is_empty() || self.only.iter().any(|name| is(path, name))
-        };
-        Ok(inputs.iter().map(meant).collect())
     }
 }
 

@@ -66,6 +66,49 @@ pub(super) fn read_programs(
     Ok(sources)
 }
 
+/// Which of the program files `--only` means: all where it names none.
+pub(super) fn meant(files: &[&Path], only: &[String]) -> Result<Vec<bool>, Failure> {
+    let is = |path: &Path, name: &String| {
+        let same = |part: Option<&std::ffi::OsStr>| {
+            part.is_some_and(|part| part.to_string_lossy().eq_ignore_ascii_case(name))
+        };
+        same(path.file_name()) || same(path.file_stem())
+    };
+    for name in only {
+        if !files.iter().any(|path| is(path, name)) {
+            let names: Vec<_> = files
+                .iter()
+                .map(|path| path.display().to_string())
+                .collect();
+            return Err(Failure::with_hint(
+                format!("--only {name}: no program is called so"),
+                format!("they are: {}", names.join(", ")),
+            ));
+        }
+    }
+    let meant = |path: &&Path| only.is_empty() || only.iter().any(|name| is(path, name));
+    Ok(files.iter().map(meant).collect())
+}
+
+/// The programs that `--only` means, and behind them the others, which are read for what they declare.
+pub(super) fn only(programs: Vec<Source>, names: &[String]) -> Result<Vec<Source>, Failure> {
+    let paths: Vec<&Path> = programs
+        .iter()
+        .map(|source| Path::new(&source.name))
+        .collect();
+    let meant = meant(&paths, names)?;
+    let (mut own, mut others) = (Vec::new(), Vec::new());
+    for (source, is_meant) in programs.into_iter().zip(meant) {
+        if is_meant {
+            own.push(source);
+        } else {
+            others.push(Source::context(source.name, source.bytes));
+        }
+    }
+    own.extend(others);
+    Ok(own)
+}
+
 /// Files that are read for what they declare only, those left out that are programs of the run.
 pub(super) fn read_context(
     paths: &[PathBuf],

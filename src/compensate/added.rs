@@ -1,12 +1,13 @@
 //! Moves put between those of a program, and targets of their own for moves that share one.
 
-use super::Compensation;
 use super::written::without_configuration;
+use super::{Added, Compensation};
 use crate::program::{Edits, Insertion, Language, Program, Replacements, Source, number};
+use std::collections::BTreeMap;
 
 impl Compensation {
     /// Puts moves and targets into a file, in the place of what was to be changed there; for each insertion whether its move
-    /// can be written so.
+    /// can be written so. A move that was given a target of its own before keeps it.
     pub fn insert(
         &mut self,
         language: &dyn Language,
@@ -15,23 +16,66 @@ impl Compensation {
         file: usize,
         insertions: &[Insertion],
     ) -> Vec<bool> {
-        let inserted = language.insert(sources, program, file, insertions);
-        let mut spans: Replacements = Vec::new();
-        let mut done = Vec::with_capacity(insertions.len());
-        for (insertion, text) in insertions.iter().zip(inserted.moves) {
-            done.push(text.is_some());
-            let Some(text) = text else { continue };
-            spans.extend(text);
-            self.count(language, program, insertion);
+        let of_file = |motion: &usize| program.moves[*motion].file as usize == file;
+        let before: BTreeMap<usize, Insertion> = self
+            .inserted
+            .iter()
+            .filter(|(motion, _)| of_file(motion))
+            .map(|(motion, insertion)| (*motion, insertion.clone()))
+            .collect();
+        let mut wanted = before.clone();
+        for insertion in insertions {
+            let mut insertion = insertion.clone();
+            let own = before.get(&insertion.motion).and_then(|b| b.own.clone());
+            insertion.own = insertion.own.or(own);
+            wanted.insert(insertion.motion, insertion);
         }
-        spans.extend(inserted.rest);
+        // what cannot be written goes back to what was there before, if anything
+        let spans = loop {
+            let list: Vec<Insertion> = wanted.values().cloned().collect();
+            let text = language.insert(sources, program, file, &list);
+            let failed = list
+                .iter()
+                .zip(&text.moves)
+                .filter(|(_, text)| text.is_none());
+            let failed: Vec<usize> = failed.map(|(one, _)| one.motion).collect();
+            if failed.is_empty() {
+                let mut spans: Replacements = text.moves.into_iter().flatten().flatten().collect();
+                spans.extend(text.rest);
+                break spans;
+            }
+            for motion in failed {
+                let gone = wanted.remove(&motion);
+                let earlier = before
+                    .get(&motion)
+                    .filter(|earlier| gone.as_ref() != Some(*earlier));
+                wanted.extend(earlier.map(|earlier| (motion, earlier.clone())));
+            }
+        };
+        let is_done = |one: &Insertion| {
+            let written = wanted.get(&one.motion);
+            written.is_some_and(|written| written.between == one.between)
+        };
+        let done: Vec<bool> = insertions.iter().map(is_done).collect();
+        let untouched = self.untouched.entry(file);
+        let mut edits = untouched
+            .or_insert_with(|| self.edits[file].clone())
+            .clone();
         let mut some = Edits::default();
         for (span, text) in spans {
-            self.edits[file].take_back(&span);
+            edits.take_back(&span);
             some.replace(span, |out| out.extend(text));
         }
-        self.edits[file].append(&some);
+        edits.append(&some);
+        self.edits[file] = edits;
         self.compensated[file] |= done.contains(&true);
+        self.inserted.retain(|motion, _| !of_file(motion));
+        self.inserted.extend(wanted);
+        self.added = Added::default();
+        for insertion in std::mem::take(&mut self.inserted).into_values() {
+            self.count(language, program, &insertion);
+            self.inserted.insert(insertion.motion, insertion);
+        }
         done
     }
 

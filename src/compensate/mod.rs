@@ -263,6 +263,9 @@ pub fn compensate(
         &mut approaches,
         &mut findings,
     );
+    if solve::is_directed(&job) {
+        findings.extend(remarks::corners(&job, &approaches));
+    }
     singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
     drop(arrivals);
     let Rewritten {
@@ -288,6 +291,9 @@ pub fn compensate(
         compensated,
         refused: Vec::new(),
         added: Added::default(),
+        untouched: BTreeMap::new(),
+        inserted: BTreeMap::new(),
+        own_joints: BTreeMap::new(),
         configurations,
         decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
         summary,
@@ -316,18 +322,25 @@ impl Compensation {
         }
         let program = std::mem::take(&mut self.program);
         for file in 0..sources.len() {
-            let (insertions, refusals): (Vec<_>, Vec<_>) = splits
+            let of_file: Vec<&Split> = splits
                 .iter()
                 .filter(|split| program.moves[split.insertion.motion].file as usize == file)
-                .map(|split| (split.insertion.clone(), &split.refusal))
-                .unzip();
-            if insertions.is_empty() {
+                .collect();
+            if of_file.is_empty() {
                 continue;
             }
+            let insertions: Vec<_> = of_file
+                .iter()
+                .map(|split| split.insertion.clone())
+                .collect();
             let done = self.insert(language, sources, &program, file, &insertions);
-            let failed = done.iter().zip(refusals).filter(|(done, _)| !**done);
-            self.findings
-                .extend(failed.map(|(_, refusal)| refusal.clone()));
+            for (split, is_done) in of_file.iter().zip(done) {
+                if is_done {
+                    self.own_joints.insert(split.insertion.motion, split.joints);
+                } else {
+                    self.findings.push(split.refusal.clone());
+                }
+            }
         }
         self.program = program;
     }

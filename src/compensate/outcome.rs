@@ -5,7 +5,7 @@ use super::approach::Approach;
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
 use crate::inverse::{Branch, Method, Outcome, Status};
-use crate::program::{Edits, Program, Settings, Shape, Source, Target};
+use crate::program::{Edits, Insertion, Program, Settings, Shape, Source, Target};
 use std::collections::BTreeMap;
 
 /// A program with fake targets, not yet written.
@@ -27,6 +27,12 @@ pub struct Compensation {
     pub refused: Vec<bool>,
     /// Targets and moves that were put between those of the program.
     pub added: Added,
+    /// Edits of files before moves and targets were put into them, by file.
+    pub(super) untouched: BTreeMap<usize, Edits>,
+    /// What was put in, by move.
+    pub(super) inserted: BTreeMap<usize, Insertion>,
+    /// The controller's joints at targets that moves were given for their own, by move.
+    pub(crate) own_joints: BTreeMap<usize, [f64; 6]>,
     /// Configuration data that were written: index in the program's numbers, and the value.
     pub configurations: Vec<(u32, f64)>,
     /// What was decided against a default, for the marker.

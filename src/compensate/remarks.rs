@@ -6,7 +6,8 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::inverse::{Outcome, Status};
-use crate::program::{Role, Shape};
+use crate::program::{Move, Role, Shape};
+use std::collections::BTreeMap;
 
 /// Nearer to a singularity than this the joints move much for a small shift.
 const NEAR_STRAIGHT_RAD: f64 = 1.0 * DEG;
@@ -39,6 +40,32 @@ pub(super) fn rounding(
         message,
         "--decimals 4 writes more",
     )
+}
+
+/// From which side joints come where the robot cuts corners, as a note for each file.
+pub(super) fn corners(job: &Job, approaches: &[Approach]) -> Vec<Finding> {
+    let moves = &job.ground.program.moves;
+    let cut = approaches
+        .iter()
+        .filter_map(|approach| moves.get(approach.motion as usize))
+        .filter(|motion| job.ground.program.speed_zone(motion).cuts_corner());
+    let mut files: BTreeMap<u32, (usize, &Move)> = BTreeMap::new();
+    for motion in cut {
+        let (count, first) = files.entry(motion.file).or_insert((0, motion));
+        *count += 1;
+        if motion.offset < first.offset {
+            *first = motion;
+        }
+    }
+    let note = |(count, first): &(usize, &Move)| {
+        let message = format!(
+            "corners are cut at {count} targets of this file, here first: joints with backlash are taken to come from the side of \
+             the programmed path to the target"
+        );
+        let (id, hint) = ("corner-direction", "stop at targets that must be exact");
+        job.ground.at_move(id, Severity::Note, first, message, hint)
+    };
+    files.values().map(note).collect()
 }
 
 pub(super) fn kept_configuration(job: &Job, approach: &Approach, joint: usize) -> Finding {

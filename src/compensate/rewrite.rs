@@ -46,6 +46,8 @@ pub(super) struct Portion<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Split {
     pub insertion: Insertion,
+    /// The controller's joints there.
+    pub joints: [f64; 6],
     pub refusal: Finding,
 }
 
@@ -193,6 +195,7 @@ impl<'a> Portion<'a> {
                     between: Vec::new(),
                     own: Some(texts),
                 },
+                joints: fake.q,
                 refusal: refusal.clone(),
             });
         }

@@ -1,7 +1,7 @@
 //! `check` and `compensate --max-path-error` from the command line.
 
 use super::joint_move;
-use crate::support::{run, scratch};
+use crate::support::{repository, run, scratch};
 use serde_json::Value;
 use std::path::Path;
 
@@ -223,4 +223,110 @@ fn speed_zone_and_limits_are_told() {
     let (status, report) = json(&["check", name(&program), "--profile", PROFILE]);
     assert_eq!(status, 1);
     assert!(ids(&report).contains(&"joint-limit".to_owned()), "{report}");
+}
+
+#[test]
+fn only_some_programs_of_a_folder_are_checked_and_the_others_declare() {
+    let folder = scratch();
+    let programs = folder.path().join("in");
+    std::fs::create_dir(&programs).expect("scratch");
+    // the tool and a target stand in the other file
+    let data: Vec<&str> = PROGRAM.lines().filter(|line| line.contains(":=")).collect();
+    let rest: Vec<&str> = PROGRAM
+        .lines()
+        .filter(|line| !line.contains(":="))
+        .collect();
+    std::fs::write(programs.join("a_main.mod"), rest.join("\n") + "\n").expect("scratch");
+    let other = format!(
+        "MODULE other\n{}\n  PROC aside()\n    MoveJ p1,v100,fine,artifact;\n  ENDPROC\nENDMODULE\n",
+        data.join("\n")
+    );
+    std::fs::write(programs.join("b_data.mod"), other).expect("scratch");
+    let check = |more: &[&str]| {
+        let all = ["check", name(&programs), "--profile", PROFILE];
+        json(&[&all[..], more].concat())
+    };
+    let files = |report: &Value| -> Vec<String> {
+        let moves = report["moves"].as_array().expect("a list");
+        let mut files: Vec<String> = moves
+            .iter()
+            .map(|one| one["file"].as_str().expect("a name").to_owned())
+            .collect();
+        files.dedup();
+        files
+    };
+    let (_, all) = check(&[]);
+    assert_eq!(files(&all).len(), 2, "{all}");
+    for (only, file) in [("A_MAIN", "a_main.mod"), ("b_data.mod", "b_data.mod")] {
+        let (_, some) = check(&["--only", only]);
+        let path = programs.join(file).display().to_string();
+        assert_eq!(files(&some), std::slice::from_ref(&path), "{some}");
+        assert_eq!(some["input"], path);
+        let of_file = |report: &Value| -> Vec<Value> {
+            let moves = report["moves"].as_array().expect("a list").iter();
+            moves.filter(|one| one["file"] == path).cloned().collect()
+        };
+        assert_eq!(of_file(&some), of_file(&all), "{file}");
+    }
+    let unknown = [
+        "check",
+        name(&programs),
+        "--profile",
+        PROFILE,
+        "--only",
+        "c",
+    ];
+    let (status, _, error) = run(&unknown);
+    assert_eq!(status, 2);
+    assert!(
+        error.contains("--only c") && error.contains("b_data.mod"),
+        "{error}"
+    );
+}
+
+#[test]
+fn targets_are_split_and_paths_refined_in_one_run() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
+    let plain = &plain[..plain.find("calibration:").expect("a list of effects")];
+    let effects = "calibration: {effects: [{effect: backlash, joint: 2, width_deg: -0.1}, \
+                   {effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}]}\n";
+    std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");
+    // p is come to from both sides of joint 2, and on the lines from there it goes on as it came
+    let (joints, pose) = (
+        "[9E9,9E9,9E9,9E9,9E9,9E9]",
+        "[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]",
+    );
+    let program = format!(
+        "MODULE t\nCONST robtarget p := [[430,0,400],{pose};\nPROC main()\n\
+         MoveAbsJ [[0,-20,0,0,60,0],{joints}],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveL [[430,150,300],{pose},v100,fine,tool0;\n\
+         MoveAbsJ [[0,60,0,0,60,0],{joints}],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveL [[350,-150,420],{pose},v100,fine,tool0;\n\
+         ENDPROC\nENDMODULE\n"
+    );
+    std::fs::write(at("t.mod"), program).expect("scratch");
+    let (profile, input, output) = (at("robot.yaml"), at("t.mod"), at("out.mod"));
+    let compensate = |more: &[&str]| {
+        let all = ["compensate", &input, "--profile", &profile, "-o", &output];
+        run(&[&all[..], more].concat())
+    };
+    let (status, out, _) = compensate(&["--max-path-error", "0.01"]);
+    assert!(status == 1 && out.contains("target-shared"), "{out}");
+    let (status, out, error) = compensate(&["--split-targets", "--max-path-error", "0.01"]);
+    assert_eq!(status, 0, "{out}{error}");
+    let written = std::fs::read_to_string(&output).expect("written");
+    assert!(written.matches("MoveL").count() > 2, "{written}");
+    assert!(!written.contains("MoveJ p"), "{written}");
+    let (_, found) = json(&["check", &output, "--nominal", &input, "--profile", &profile]);
+    let moves = found["moves"].as_array().expect("a list");
+    let number = |one: &Value, key: &str| one[key].as_f64().expect("a number");
+    let mut lines = 0;
+    for one in moves.iter().filter(|one| one["joint_target"] == false) {
+        assert!(number(one, "target_error_mm") < 0.002, "{one}");
+        if one["kind"] == "linear" {
+            assert!(number(one, "max_path_error_mm") < 0.01, "{one}");
+            lines += 1;
+        }
+    }
+    assert!(lines > 2, "{found}");
 }

@@ -43,8 +43,14 @@ fn from_both_sides() -> Vec<(&'static str, String)> {
                  P[1]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -20.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n\
                  P[2]{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = 180.000 deg, P = 0.000 deg, R = 0.000 deg\n};\n\
                  P[3]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = 60.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n/END\n";
+    let inform = "/JOB\n//NAME T\n//POS\n///NPOS 3,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\n\
+        C00000=0.0000,-20.0000,0.0000,0.0000,60.0000,0.0000\nC00001=0.0000,60.0000,0.0000,0.0000,60.0000,0.0000\n\
+        ///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00002=430.000,0.000,400.000,180.0000,0.0000,0.0000\n\
+        //INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=10.00\nMOVJ C00002 VJ=10.00\n\
+        MOVJ C00001 VJ=10.00\nMOVJ C00002 VJ=10.00\nEND\n";
     vec![
         ("t.mod", rapid),
+        ("t.jbi", inform.into()),
         ("t.src", krl.into()),
         ("t.script", urscript.into()),
         ("t.ls", fanuc.into()),
@@ -76,6 +82,24 @@ fn a_shared_target_is_split_into_one_for_each_move() {
         let checked = super::landings(&[BACKLASH], &again, &files);
         assert!(checked < 0.002, "{name}: {checked} mm\n{}", after[0]);
     }
+}
+
+#[test]
+fn corners_that_are_cut_are_noted_where_directions_count() {
+    let (_, text) = from_both_sides().swap_remove(0);
+    let cut = text.replace("MoveJ p,v100,fine", "MoveJ p,v100,z10");
+    let notes = |text: &str, effect: &str| -> Vec<usize> {
+        let done = try_with(given(), &[effect], &[("t.mod", text)]).expect("read");
+        let notes = done.findings.iter().filter(|f| f.id == "corner-direction");
+        notes.map(|note| note.line).collect()
+    };
+    let line = 1 + cut
+        .lines()
+        .position(|line| line.contains("z10"))
+        .expect("a corner");
+    assert_eq!(notes(&cut, BACKLASH), [line]);
+    assert_eq!(notes(&text, BACKLASH), [0; 0]);
+    assert_eq!(notes(&cut, PLAIN), [0; 0]);
 }
 
 #[test]
