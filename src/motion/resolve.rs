@@ -54,7 +54,7 @@ pub(super) fn resolve(
         full: false,
     };
     resolver.used = vec![false; resolver.report.program.targets.len()];
-    resolver.as_written = resolver.used.clone();
+    resolver.as_written.clone_from(&resolver.used);
     resolver.list()?;
     resolver.link();
     resolver.judge_doubts();

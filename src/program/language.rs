@@ -33,6 +33,11 @@ pub trait Language: Sync {
     /// Its names and what it handles.
     fn about(&self) -> &'static About;
 
+    /// Whether lengths are in metres in its text; millimetres elsewhere.
+    fn is_in_metres(&self) -> bool {
+        false
+    }
+
     /// Whether the content looks like a program of this language (for files whose ending does not tell).
     fn recognises(&self, source: &Source) -> bool;
 

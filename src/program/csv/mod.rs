@@ -33,9 +33,9 @@ use super::{
 };
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion};
+use foldhash::HashMap;
 use header::{Header, Wrong};
 use records::{Cell, Records};
-use std::collections::HashMap;
 
 /// Poses or joints as CSV.
 #[derive(Debug)]

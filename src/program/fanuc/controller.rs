@@ -8,7 +8,8 @@ use crate::program::script::{
     Expected, Expr, Held, NamedFrame, Place, Remark, RemarkId, Script, Table, TableId, ValueId,
     Variable, VariableId, short,
 };
-use std::collections::{BTreeMap, HashMap};
+use foldhash::{HashMap, HashMapExt};
+use std::collections::BTreeMap;
 
 /// The highest number of a tool or frame.
 const MOST_FRAMES: u32 = 255;

@@ -14,7 +14,8 @@ use crate::program::script::{
     Builder, Expr, How, Place, RoutineId, Script, Start, Variable, VariableId, short,
 };
 use crate::program::{Layout, ReadError, Shape, Source, Target, TargetId};
-use std::collections::{BTreeSet, HashMap};
+use foldhash::{HashMap, HashMapExt};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A tool, a frame, and any of the points taught with them.

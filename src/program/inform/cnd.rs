@@ -9,7 +9,7 @@ use crate::geometry::units::m_from_mm;
 use crate::program::kit::Fault;
 use crate::program::notation::pose_of_angles;
 use crate::program::{Load, Number, ReadError, Source, number};
-use std::collections::HashMap;
+use foldhash::HashMap;
 
 /// No tool or frame is turned by more, degrees.
 const MOST_ANGLE: f64 = 720.0;

@@ -9,8 +9,8 @@ use super::{DEGREES, PULSES, rconf};
 use crate::program::kit::Fault;
 use crate::program::script::{Span, short};
 use crate::program::{Layout, Number, ReadError, Shape, Source, Target, TargetId, number};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use memchr::memmem;
-use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// How a post names itself in `///COMM` that writes rear, lower arm, flip where flip, lower arm, rear belong.

@@ -6,7 +6,7 @@ use super::remarks::Cause;
 use crate::finding::Severity;
 use crate::program::TargetId;
 use crate::program::script::Place;
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet};
 
 impl Reader<'_> {
     pub(super) fn say(

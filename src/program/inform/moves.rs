@@ -10,7 +10,7 @@ use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::script::{Expr, Instruction, Script, Span, VariableId, Written, short};
 use crate::program::{Motion, Place, Shape, SpeedZone, TargetId, number};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Tags that say how fast and how near to go.
 const PLAIN: &[&[u8]] = &[
@@ -328,7 +328,7 @@ impl<'a> Reader<'a> {
 
     /// The poses that a variable may be, by its declaration or copied into it.
     fn poses_of(&self, variable: VariableId) -> Vec<TargetId> {
-        let (mut seen, mut open) = (HashSet::from([variable]), vec![variable]);
+        let (mut seen, mut open) = (HashSet::from_iter([variable]), vec![variable]);
         let mut found = Vec::new();
         while let Some(variable) = open.pop() {
             let targets = self.targets_of(Expr::Variable(variable)).into_iter();

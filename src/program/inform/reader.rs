@@ -11,7 +11,7 @@ use crate::program::script::{
     ValueId, VariableId, Write, Written, short,
 };
 use crate::program::{Source, TargetId};
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// The statements of all jobs.
 pub(super) fn script<'a>(

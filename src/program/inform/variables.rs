@@ -9,7 +9,8 @@ use crate::program::script::{
     VariableId, short,
 };
 use crate::program::{Load, TargetId};
-use std::collections::{BTreeMap, HashMap};
+use foldhash::{HashMap, HashMapExt};
+use std::collections::BTreeMap;
 
 /// Name of the tool of positions that tell none.
 const NO_TOOL: &str = "none";

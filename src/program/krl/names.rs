@@ -4,7 +4,8 @@ use super::tokens::Cursor;
 use crate::program::names::{Context, Meaning, Scopes, Symbol, Symbols};
 use crate::program::script::{Place, short};
 use crate::program::{TargetId, number};
-use std::collections::{BTreeSet, HashSet};
+use foldhash::HashSet;
+use std::collections::BTreeSet;
 
 /// Which element of an array is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -235,7 +235,7 @@ fn points_that_the_program_changes_are_refused() {
     for (change, moves, expected) in [
         (
             "XP1.X=XP1.X+10.0",
-            vec!["XP1", "XP1", "XP1"],
+            vec!["XP1", "?", "?"],
             "target-assigned-at-run-time",
         ),
         ("xp1 = $POS_ACT", vec!["XP1", "?", "?"], "run-time-position"),

@@ -95,6 +95,10 @@ impl Language for UrScript {
         &ABOUT
     }
 
+    fn is_in_metres(&self) -> bool {
+        true
+    }
+
     fn recognises(&self, source: &Source) -> bool {
         sniff::recognises(&source.bytes)
     }

@@ -133,9 +133,9 @@ fn targets_that_nobody_can_correct_are_errors() {
         ("movel(p[1,2,3])", "target-has-expressions", "-!"),
         ("movel(nowhere)", "target-not-in-files", "?"),
         (
-            "x=p[1,2,3,0,0,0]\nx[2]=x[2]+.1\nmovel(x)",
+            "x=p[1,2,3,0,0,0]\nmovel(x)\nx[2]=x[2]+.1\nmovel(x)",
             "target-assigned-at-run-time",
-            "x!",
+            "x!,?",
         ),
         (
             "f=p[1,0,0,0,0,0]\nf[0]=2\nmovel(pose_trans(f,p[1,2,3,0,0,0]))",

@@ -64,7 +64,7 @@ fn moves_that_cannot_be_compensated_are_errors() {
             "target-assigned-at-run-time",
         ),
         (
-            "ADD P001 P002\nMOVL P001 V=5",
+            "MOVL P001 V=5\nADD P001 P002",
             "target-assigned-at-run-time",
         ),
     ] {

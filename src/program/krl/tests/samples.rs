@@ -75,7 +75,6 @@ fn the_sample_of_refusals_has_each_of_them() {
         "held-work-piece",
         "partial-target",
         "relative-move",
-        "target-assigned-at-run-time",
         "target-has-expressions",
         "target-not-in-files",
         "target-passed-to-routine",
