@@ -8,6 +8,7 @@ use super::{Answer, Output, files, print, values};
 use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
 use crate::geometry::units::m_from_mm;
 use crate::model::profile::Profile;
+use crate::nearest;
 use crate::program::{Language, Source};
 use crate::report;
 use crate::task::compensate::{Compensated, DespiteErrors, Header, Request, prepare};
@@ -360,7 +361,7 @@ impl Compensate {
                     .collect();
                 return Err(Failure::with_hint(
                     format!("--only {name}: no program is called so"),
-                    format!("they are: {}", names.join(", ")),
+                    nearest::hint(name, "programs", names.iter().map(String::as_str)),
                 ));
             }
         }

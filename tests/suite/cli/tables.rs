@@ -126,7 +126,7 @@ fn profile_faults_name_the_place_and_the_way_out() {
         (
             "effect: base_frame",
             "effect: base_shift",
-            "effects are: base_frame",
+            "`base_frame`",
         ),
         (
             "effect: joint_compliance, joint: 2, rad_per_n_m",
@@ -169,7 +169,7 @@ fn a_new_profile_is_the_built_in_one_and_is_not_written_over() {
         stdout(&["profile", "diff", path, "robots/abb_irb120.yaml"]),
         ""
     );
-    assert!(refused(&["profile", "new", "--robot", "r2d2"]).contains("abb_irb120"));
+    assert!(refused(&["profile", "new", "--robot", "r2d2"]).contains("robots --search"));
     let output = poseshift()
         .current_dir(repository(""))
         .args(["profile", "diff", path, PROFILE])
