@@ -48,7 +48,7 @@ impl Target {
     }
 }
 
-/// Set values of a profile, its comments and layout kept: kinematics.joints.3.max_deg=70 robot.serial=120-500123
+/// Set values of a profile, its comments and layout kept: robot.serial=120-500123
 #[derive(Args)]
 pub(super) struct Set {
     #[command(flatten)]

@@ -19,7 +19,7 @@ pub(super) struct FromUrdf {
     /// The link where the world is (default: base, where the controller counts from, else the link without a parent)
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// The link that tools are mounted on (default: tool0, fanuc_flange, flange, or the only end)
+    /// The link that tools are mounted on (default: tool0, flange as the maker names it, or the only end)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
     /// The maker (default: the one whose name stands in the file); FANUC's J3 is counted together with J2

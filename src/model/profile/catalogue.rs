@@ -95,6 +95,9 @@ impl CatalogueArm {
     }
 
     /// The nominal arm.
+    ///
+    /// # Panics
+    /// Never: the table is part of the program, and tested.
     #[must_use]
     pub fn profile(&self) -> Profile {
         let rows = self.joints().map(|row| {
@@ -123,12 +126,15 @@ impl CatalogueArm {
             coupling: Vec::new(),
         };
         if !self.coupling.is_empty() {
-            let [joint, on, ratio] = numbers(&self.coupling);
-            mechanism.couple(Coupling {
-                joint: joint as usize - 1,
-                on: on as usize - 1,
-                ratio,
-            });
+            let mut words = self.coupling.split(' ');
+            let mut index = || {
+                let number: usize = words.next()?.parse().ok()?;
+                number.checked_sub(1)
+            };
+            let pair = index().zip(index());
+            let (joint, on) = pair.expect("the catalogue is tested");
+            let [_, _, ratio] = numbers(&self.coupling);
+            mechanism.couple(Coupling { joint, on, ratio });
         }
         Profile {
             manufacturer: self.manufacturer.clone(),

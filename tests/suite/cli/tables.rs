@@ -123,11 +123,7 @@ fn profile_faults_name_the_place_and_the_way_out() {
             "whole number from 1 to 6",
         ),
         ("joint: 3, rad_per_n_m", "joint: 2, rad_per_n_m", "twice"),
-        (
-            "effect: base_frame",
-            "effect: base_shift",
-            "`base_frame`",
-        ),
+        ("effect: base_frame", "effect: base_shift", "`base_frame`"),
         (
             "effect: joint_compliance, joint: 2, rad_per_n_m",
             "effect: joint_compliance, joint: 2, rad_per_nm",

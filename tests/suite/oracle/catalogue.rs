@@ -70,9 +70,10 @@ fn numbers(text: &str) -> Vec<f64> {
 /// Where tool 0 is at the controller's joints, by the row's numbers alone.
 fn forward(row: &Row, q: &[f64; 6]) -> Matrix {
     let mut u = *q;
-    if !row.text("coupling").is_empty() {
-        let c = numbers(row.text("coupling"));
-        u[c[0] as usize - 1] += c[2] * q[c[1] as usize - 1];
+    let coupling: Vec<&str> = row.text("coupling").split_whitespace().collect();
+    if let [joint, on, ratio] = coupling[..] {
+        let index = |text: &str| text.parse::<usize>().expect("a joint") - 1;
+        u[index(joint)] += ratio.parse::<f64>().expect("a number") * q[index(on)];
     }
     let mut pose = frame(row.text("base"));
     for (i, u) in u.iter().enumerate() {
