@@ -40,6 +40,7 @@ pub mod identify;
 pub mod inverse;
 pub mod model;
 pub mod motion;
+mod nearest;
 pub mod program;
 pub mod register;
 mod report;

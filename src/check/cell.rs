@@ -182,7 +182,7 @@ impl Cell {
                 if !names.contains(name) {
                     return Err(Fault::UnknownBody {
                         name: name.clone(),
-                        known: names.join(", "),
+                        known: names.clone(),
                     }
                     .at(at));
                 }
@@ -234,7 +234,11 @@ fn carrier(name: &str, at: Location) -> Result<Carrier, ProfileError> {
     link.map(Carrier::Link).ok_or_else(|| {
         Fault::UnknownBody {
             name: name.into(),
-            known: format!("flange, {}", LINKS.join(", ")),
+            known: ["flange"]
+                .iter()
+                .chain(&LINKS)
+                .map(|name| (*name).to_owned())
+                .collect(),
         }
         .at(at)
     })

@@ -6,9 +6,13 @@ use crate::report::Report;
 use crate::task::{Failure, catalogue};
 use clap::Args;
 
-/// List the robots whose profiles are built in
+/// List the robots that are built in
 #[derive(Args)]
-pub(super) struct Robots {}
+pub(super) struct Robots {
+    /// Only those whose name, maker or model have every word of this: `--search "kuka r1100"`
+    #[arg(long, value_name = "TEXT")]
+    search: Option<String>,
+}
 
 /// List the physical effects that a calibration may have, with their keys and units
 #[derive(Args)]
@@ -25,7 +29,7 @@ fn tell(found: &impl Report, output: Output) -> Result<Answer, Failure> {
 
 impl Robots {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        tell(&catalogue::robots(), output)
+        tell(&catalogue::robots(self.search.as_deref())?, output)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Files in.
 
 use crate::program::Source;
+use crate::task::profile::way_to_built_in;
 use crate::task::{Failure, ProfileFile};
 use std::path::Path;
 
@@ -16,7 +17,15 @@ pub(super) fn source(path: &Path) -> Result<Source, Failure> {
 
 /// A profile.
 pub(super) fn profile(path: &Path) -> Result<ProfileFile, Failure> {
-    ProfileFile::read(&source(path)?)
+    let source = source(path).map_err(|failure| {
+        let name = path.file_stem().and_then(|name| name.to_str());
+        let built_in = name.and_then(way_to_built_in).filter(|_| !path.exists());
+        Failure {
+            hint: built_in.unwrap_or(failure.hint),
+            ..failure
+        }
+    })?;
+    ProfileFile::read(&source)
 }
 
 /// That a profile which is made is not written over another.

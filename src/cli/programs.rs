@@ -1,6 +1,7 @@
 //! Program files on the command line: files, and folders of them.
 
 use super::files;
+use crate::nearest;
 use crate::program::{LANGUAGES, Language, Source, has_extension};
 use crate::task::Failure;
 use crate::task::files::same_file;
@@ -82,7 +83,7 @@ pub(super) fn meant(files: &[&Path], only: &[String]) -> Result<Vec<bool>, Failu
                 .collect();
             return Err(Failure::with_hint(
                 format!("--only {name}: no program is called so"),
-                format!("they are: {}", names.join(", ")),
+                nearest::hint(name, "programs", names.iter().map(String::as_str)),
             ));
         }
     }

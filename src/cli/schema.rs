@@ -2,6 +2,7 @@
 
 use super::telling::print_schema;
 use super::{Answer, print};
+use crate::nearest;
 use crate::task::{Failure, SCHEMAS};
 use clap::Args;
 
@@ -24,10 +25,10 @@ impl Schema {
         let name = name.split('/').next().unwrap_or_default();
         let format = SCHEMAS.iter().find(|format| format.name == name);
         let format = format.ok_or_else(|| {
-            let names: Vec<&str> = SCHEMAS.iter().map(|format| format.name).collect();
+            let names = SCHEMAS.iter().map(|format| format.name);
             Failure::with_hint(
                 format!("no format is called `{name}`"),
-                format!("formats are: {}", names.join(", ")),
+                nearest::hint(name, "formats", names),
             )
         })?;
         print_schema(&(format.schema)())?;

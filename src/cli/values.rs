@@ -3,6 +3,7 @@
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Separation, Vector};
 use crate::model::profile::{Mounted, Profile};
+use crate::nearest;
 use crate::task::Failure;
 
 /// No tool or frame is turned by more, degrees.
@@ -102,11 +103,10 @@ pub(super) fn tool(text: &str, profile: &Profile) -> Result<(Option<String>, Mou
             load: None,
         })
     });
-    let names: Vec<_> = profile.tools.keys().map(String::as_str).collect();
     let found = found.ok_or_else(|| {
         Failure::with_hint(
             format!("--tool {text}: `{value}` is neither a tool of the profile nor x,y,z,rx,ry,rz in mm and degrees"),
-            if names.is_empty() { "the profile has no tools".into() } else { format!("tools of the profile: {}", names.join(", ")) },
+            nearest::hint(value, "tools of the profile", profile.tools.keys().map(String::as_str)),
         )
     })?;
     Ok((name, found))

@@ -1,6 +1,7 @@
 //! What can keep an identification from its answer.
 
 use super::line::Line;
+use crate::nearest;
 
 /// A word that names no parameter.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -157,7 +158,9 @@ impl IdentifyError {
             Self::UnknownTool { tool, known, .. } if known.is_empty() => {
                 format!("write it under `tools` of the profile: `{tool}: {{frame: {{x_mm: …, rz_deg: …}}}}`; or leave the column tool out and points are on the flange")
             }
-            Self::UnknownTool { .. } => "check the column tool, or `tools` of the profile".into(),
+            Self::UnknownTool { tool, known, .. } => {
+                nearest::hint(tool, "tools of the profile", known.iter().map(String::as_str))
+            }
             Self::AmbiguousTool { .. } => "add a column tool".into(),
             Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or --fix".into(),
             Self::Suspicious { hint, .. } => hint.clone(),

@@ -7,6 +7,7 @@
 
 use super::effects::Deflection;
 use super::geometry::{Body, Geometry, Link, Mechanism};
+use super::rows::Axes;
 use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, norm, scale, sub};
 
 /// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(u1) · F1 · Rz(u2) · … · Rz(u6) · F6`, with
@@ -105,6 +106,24 @@ fn crossing<S: Scalar>(link: &Link<S>) -> Pose<S> {
     Pose {
         rotation: turn_x * Rotation::about_y(link.beta_rad),
         translation: [link.a_m, S::zero(), S::zero()],
+    }
+}
+
+impl Chain {
+    /// The axes with what stands between them.
+    #[must_use]
+    pub fn axes(&self) -> Axes {
+        let [a, b, c, d, e, f, last] = self.fixed;
+        Axes {
+            steps: [a, b, c, d, e, f],
+            last,
+        }
+    }
+
+    /// The frame after a row, seen from the frame that its joint turns.
+    #[must_use]
+    pub fn turning_from_link(&self, row: usize) -> Pose {
+        self.turning_from_link[row]
     }
 }
 

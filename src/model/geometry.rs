@@ -78,6 +78,17 @@ impl Mechanism {
         u
     }
 
+    /// Counts a joint together with another one from now on. Whether the joint's limits are those of the controller's own angle
+    /// or of the chain's is not known where they come from a file without couplings: they are widened to hold both.
+    pub fn couple(&mut self, coupling: Coupling) {
+        let on = &self.joints[coupling.on];
+        let by = [coupling.ratio * on.min_rad, coupling.ratio * on.max_rad];
+        let joint = &mut self.joints[coupling.joint];
+        joint.min_rad -= by[0].max(by[1]).max(0.0);
+        joint.max_rad -= by[0].min(by[1]).min(0.0);
+        self.coupling.push(coupling);
+    }
+
     /// The controller's joint angles of these mechanical ones: the inverse of [`Mechanism::commanded`].
     #[inline(always)]
     #[must_use]

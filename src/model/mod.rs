@@ -20,6 +20,7 @@
 
 pub(crate) mod batch;
 mod chain;
+mod classic;
 mod conditions;
 pub mod effects;
 mod geometry;
@@ -31,6 +32,7 @@ pub mod shape;
 
 pub use batch::forward_batch;
 pub use chain::{Chain, Frames};
+pub use classic::{ClassicRow, classic};
 pub use conditions::Conditions;
 pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};
 pub use real::Model;

@@ -1,19 +1,35 @@
 //! `robots`, `effects`, `languages`: what is built in.
 
-use super::Document;
+use super::{Document, Failure};
 use crate::finding::TABLE;
 use crate::inverse::Arm;
 use crate::model::effects::{self, REGISTRY};
-use crate::model::profile::{Mounted, Profile, SHIPPED};
+use crate::model::profile::{Mounted, Profile, SHIPPED, catalogue};
+use crate::nearest;
 use crate::program::LANGUAGES;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// A robot whose profile is built in.
+/// Where the numbers of a built-in robot are from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Origin {
+    /// A profile that was put together by hand, with data sheets.
+    Profile,
+    /// A row of the catalogue, made of one public file.
+    Catalogue,
+}
+
+/// A robot that is built in.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Robot {
     /// Its name here.
-    pub name: &'static str,
+    pub name: String,
+    /// Where its numbers are from.
+    pub origin: Origin,
+    /// Repository, commit and file of a row of the catalogue.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
     /// Its maker.
     pub manufacturer: String,
     /// Its model.
@@ -26,7 +42,7 @@ pub struct Robot {
     pub effects: usize,
 }
 
-/// The robots whose profiles are built in.
+/// The robots that are built in.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Robots {
     /// By name.
@@ -37,27 +53,63 @@ impl Document for Robots {
     const KIND: &'static str = "robots/1";
 }
 
-/// The robots whose profiles are built in.
-///
-/// # Panics
-/// Never: the profiles are part of the program, and tested.
-#[must_use]
-pub fn robots() -> Robots {
-    let robot = |(name, text): &(&'static str, &str)| {
-        let profile = Profile::from_yaml(text).expect("shipped profiles are tested");
+impl Robot {
+    fn of(name: &str, profile: Profile, source: Option<String>) -> Self {
         let arm = Arm::of(&profile.geometry(&Mounted::flange()), &profile.mechanism);
-        Robot {
-            name,
+        Self {
+            name: name.into(),
+            origin: match source {
+                Some(_) => Origin::Catalogue,
+                None => Origin::Profile,
+            },
+            source,
             closed_form_inverse: arm.map_or("none", |arm| arm.kind()),
             effects: profile.effects.len(),
             manufacturer: profile.manufacturer,
             model: profile.model,
             language: profile.language,
         }
-    };
-    Robots {
-        robots: SHIPPED.iter().map(robot).collect(),
     }
+
+    /// Whether every word of a search stands in its name, maker or model, whatever the case and punctuation.
+    fn is_found_by(&self, search: &str) -> bool {
+        let all = nearest::plain(&format!("{}{}{}", self.name, self.manufacturer, self.model));
+        let mut words = search.split_whitespace().map(nearest::plain);
+        words.all(|word| all.contains(&word))
+    }
+}
+
+/// The robots that are built in: those whose name, maker or model have every word of `search`.
+///
+/// # Errors
+/// No robot is found.
+///
+/// # Panics
+/// Never: the profiles are part of the program, and tested.
+pub fn robots(search: Option<&str>) -> Result<Robots, Failure> {
+    let shipped = SHIPPED.iter().map(|(name, text)| {
+        let profile = Profile::from_yaml(text).expect("shipped profiles are tested");
+        Robot::of(name, profile, None)
+    });
+    let rows = catalogue();
+    let rows = rows
+        .iter()
+        .map(|arm| Robot::of(&arm.name, arm.profile(), Some(arm.source())));
+    let mut robots: Vec<Robot> = shipped.chain(rows).collect();
+    robots.sort_by(|a, b| a.name.cmp(&b.name));
+    let Some(search) = search else {
+        return Ok(Robots { robots });
+    };
+    let names: Vec<String> = robots.iter().map(|robot| robot.name.clone()).collect();
+    robots.retain(|robot| robot.is_found_by(search));
+    if robots.is_empty() {
+        let names = names.iter().map(String::as_str);
+        return Err(Failure::with_hint(
+            format!("no built-in robot has `{search}` in its name, maker or model"),
+            nearest::hint(search, "robots", names) + " (`poseshift robots` lists them)",
+        ));
+    }
+    Ok(Robots { robots })
 }
 
 /// A parameter of an effect.

@@ -3,6 +3,7 @@
 use super::Document;
 use super::failure::Failure;
 use crate::finding::{Kind, Severity, TABLE, kind};
+use crate::nearest;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -64,19 +65,10 @@ pub fn explain(id: Option<&str>) -> Result<Explanations, Failure> {
         });
     };
     let found = kind(id).ok_or_else(|| {
-        let word = id.split('-').next().unwrap_or(id);
-        let near: Vec<&str> = TABLE
-            .iter()
-            .map(|kind| kind.id)
-            .filter(|other| !word.is_empty() && other.contains(word))
-            .collect();
+        let ids = TABLE.iter().map(|kind| kind.id);
         Failure::with_hint(
             format!("no finding is called `{id}`"),
-            if near.is_empty() {
-                "`poseshift explain` lists them".to_owned()
-            } else {
-                format!("is it one of: {}?", near.join(", "))
-            },
+            nearest::hint(id, "findings", ids) + " (`poseshift explain` lists them)",
         )
     })?;
     Ok(Explanations {

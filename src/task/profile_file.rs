@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use crate::model::profile::{Mounted, Profile, rewritten};
+use crate::nearest;
 use crate::program::Source;
 use crate::program::sha256;
 use crate::register::frame_file::Frame;
@@ -56,7 +57,7 @@ impl ProfileFile {
             (Some(name), _) => profile.tool(name).ok_or_else(|| {
                 Failure::with_hint(
                     format!("the profile has no tool `{name}`"),
-                    format!("its tools: {}", names.join(", ")),
+                    nearest::hint(name, "tools of the profile", names.iter().copied()),
                 )
             }),
             (None, []) => Ok(Mounted::flange()),

@@ -3,9 +3,10 @@
 use super::failure::Failure;
 use super::profile_file::ProfileFile;
 use crate::compensate::CompensateError;
-use crate::finding::{Acceptance, AcceptanceError};
+use crate::finding::{Acceptance, AcceptanceError, TABLE};
 use crate::model::effects::Effect;
 use crate::model::profile::{ControllerModel, Profile};
+use crate::nearest;
 use crate::program::{Found, LANGUAGES, Language, Marker, Source, language_of, sha256};
 
 /// The language of this id.
@@ -35,9 +36,16 @@ pub fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
 /// No finding has this id, or it is not for the user to take.
 pub fn acceptance(text: &str) -> Result<Acceptance, Failure> {
     text.parse().map_err(|error: AcceptanceError| {
+        let meant = match &error {
+            AcceptanceError::Unknown(id) => {
+                nearest::hint(id, "findings", TABLE.iter().map(|k| k.id))
+            }
+            AcceptanceError::Never(..) | AcceptanceError::Line(_) => String::new(),
+        };
+        let lists = "`poseshift explain` lists the findings, and which can be accepted";
         Failure::with_hint(
             format!("--accept {text}: {error}"),
-            "`poseshift explain` lists the findings, and which can be accepted",
+            format!("{meant} {lists}").trim_start(),
         )
     })
 }

@@ -68,6 +68,16 @@ pub const SCHEMAS: &[Format] = &[
         "profile import-ur --json",
         of::<profile::Imported>,
     ),
+    format(
+        "changed-profile",
+        "profile set and profile add-tool --json",
+        of::<profile::Changed>,
+    ),
+    format(
+        "exported-profile",
+        "profile export --json",
+        of::<profile::Exported>,
+    ),
     format("profile-facts", "profile show --json", of::<profile::Facts>),
     format("profile-diff", "profile diff --json", of::<profile::Diff>),
     format("robots", "robots --json", of::<catalogue::Robots>),

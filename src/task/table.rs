@@ -4,6 +4,7 @@ use super::failure::Failure;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion};
 use crate::identify::doubt::csv::not_csv;
+use crate::nearest;
 use crate::program::Source;
 
 /// A table read whole.
@@ -93,7 +94,15 @@ impl<'a> Table<'a> {
             .copied()
             .collect();
         if !missing.is_empty() {
-            let hint = format!("the header has: {}", self.header.join(", "));
+            let header = || self.header.iter().map(String::as_str);
+            let meant = missing.iter().filter_map(|column| {
+                let near = nearest::nearest(column, header());
+                let near = near.into_iter().find(|name| !columns.contains(name))?;
+                Some(format!("is `{near}` meant as `{column}`?"))
+            });
+            let mut hint: Vec<String> = meant.collect();
+            hint.push(format!("the header has: {}", self.header.join(", ")));
+            let hint = hint.join(" ");
             return Err(Failure::with_hint(
                 format!(
                     "{}: columns are missing: {}",

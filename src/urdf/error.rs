@@ -1,5 +1,7 @@
 //! What a URDF can have that no profile has.
 
+use crate::nearest;
+
 /// Why no profile can be made of a URDF.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UrdfError {
@@ -23,12 +25,12 @@ pub enum UrdfError {
         second: String,
     },
     /// A link that is not there.
-    #[error("there is no link `{link}`; links are {known}")]
+    #[error("there is no link `{link}`")]
     NoLink {
         /// Its name.
         link: String,
         /// Those there are.
-        known: String,
+        known: Vec<String>,
     },
     /// Several links that nothing hangs on.
     #[error("the chain has several ends: {ends}")]
@@ -51,6 +53,18 @@ pub enum UrdfError {
         base: String,
         /// To.
         tip: String,
+    },
+    /// A base that moves against the arm.
+    #[error(
+        "joint `{joint}` moves link `{base}` against the arm that ends in `{tip}`: the world stands still"
+    )]
+    MovingBase {
+        /// The base.
+        base: String,
+        /// The tip.
+        tip: String,
+        /// The joint between the base and where the two meet.
+        joint: String,
     },
     /// A joint that does not turn.
     #[error("joint `{joint}` is {kind}; only joints that turn are supported")]
@@ -135,9 +149,16 @@ impl UrdfError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
-            Self::Xacro => "run `xacro FILE > robot.urdf` where ROS is installed, and give that".into(),
+            Self::Xacro => "install xacro (`pip install xacro`, or ROS), then it is expanded here; or run `xacro FILE > robot.urdf` elsewhere and give that".into(),
+            Self::NoLink { link, known } => {
+                nearest::hint(link, "links", known.iter().map(String::as_str))
+            }
+            Self::MovingBase { .. } => "--base names a link that is fixed to the foot of the arm".into(),
             Self::SeveralTips { .. } => "--tip names the link that the tool is mounted on".into(),
             Self::Roots { .. } => "--base names the link that stands still".into(),
+            Self::NotSix { found, .. } if *found > 6 => {
+                "an arm of more than six axes has endlessly many postures at a pose, and no program tells which: --base and --tip choose six axes where the others stand still".into()
+            }
             Self::NotSix { .. } => "--base and --tip choose a part of the robot".into(),
             Self::Mesh { .. } => {
                 "--package-path FOLDER (the folder that holds the package, or NAME=FOLDER), or --no-shapes".into()

@@ -26,23 +26,31 @@
 
 mod chain;
 mod error;
+mod export;
 mod tree;
 mod write;
 
 pub use error::UrdfError;
-pub use write::profile_text;
+pub(crate) use export::yaw_pitch_roll;
+pub use export::{Drawing, urdf_text};
+pub(crate) use tree::is_xacro;
+pub use write::{About, Meshes, profile_text};
 
 use crate::geometry::{Pose, Vector};
+use std::collections::BTreeSet;
 
 /// What to take of a URDF.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
-    /// The link that stands; by default the one without a parent.
+    /// The link where the world is; by default `base`, by convention where the controller counts from, else the one without
+    /// a parent. Only fixed joints may be between it and the arm.
     pub base: Option<String>,
-    /// The link that the tool is mounted on; by default `tool0`, `flange`, or the only end.
+    /// The link that the tool is mounted on; by default `tool0`, `fanuc_flange`, `flange`, or the only end.
     pub tip: Option<String>,
     /// Take the collision shapes.
     pub shapes: bool,
+    /// Take every angle of a frame as it is written, also one beside a multiple of 45°.
+    pub exact: bool,
 }
 
 /// An arm of six axes as a URDF has it. Metres, radians.
@@ -60,6 +68,8 @@ pub struct UrdfArm {
     pub masses: Vec<(usize, f64, Vector)>,
     /// Collision shapes, likewise, from 0.
     pub shapes: Vec<UrdfShape>,
+    /// Names of the packages that its meshes are in.
+    pub packages: BTreeSet<String>,
     /// What was taken differently from what stands there.
     pub notes: Vec<String>,
 }

@@ -1,35 +1,57 @@
 //! The way from the base to the tip.
 
 use super::{Choice, UrdfArm, UrdfError, UrdfForm, UrdfJoint, UrdfShape};
-use crate::geometry::units::DEG;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation, Vector, norm, scale};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 
 /// Angles of frames that are this near to a multiple of 45° are rounded ones of it, radians: files with four digits write
 /// 1.571 for a right angle, 2.04e-4 off, and none of 348 files of makers means an angle so near to one.
 const ROUNDED_RAD: f64 = 3e-4;
 /// Names that a flange has by convention, best first.
-const FLANGES: [&str; 3] = ["tool0", "flange", "ee_link"];
+const FLANGES: [&str; 4] = ["tool0", "fanuc_flange", "flange", "ee_link"];
+/// Names of links where controllers count from, best first, and whose convention that is.
+const BASES: [(&str, &str); 2] = [
+    (
+        "base",
+        "by ROS's convention where the controller counts from",
+    ),
+    ("wbase", "in FANUC's files where the controller counts from"),
+];
 
-fn angle(found: f64, notes: &mut f64) -> f64 {
-    let step = 45.0 * DEG;
-    let exact = step * (found / step).round();
-    let by = (found - exact).abs();
-    if by < ROUNDED_RAD {
-        *notes = notes.max(by);
-        exact
-    } else {
-        found
-    }
+/// Stands in files whose angles are meant as they are written, such as exported calibrations.
+pub(crate) const EXACT: &str = "poseshift: every angle is exact";
+
+/// What is taken differently from what stands in frames.
+#[derive(Clone, Copy)]
+struct Rounding {
+    /// Nothing is.
+    exact: bool,
+    /// Angles that were taken as multiples of 45°: how far they are off at most, radians.
+    by: f64,
 }
 
-/// Exact rotations where the angles are multiples of 45°.
-fn pose(origin: &urdf_rs::Pose, rounded: &mut f64) -> Pose {
-    let [r, p, y] = origin.rpy.0.map(|a| angle(a, rounded));
-    Pose {
-        rotation: Rotation::from_rzryrx([y, p, r]),
-        translation: origin.xyz.0,
+impl Rounding {
+    fn angle(&mut self, found: f64) -> f64 {
+        let step = 45.0 * DEG;
+        let exact = step * (found / step).round();
+        let by = (found - exact).abs();
+        if !self.exact && by < ROUNDED_RAD {
+            self.by = self.by.max(by);
+            exact
+        } else {
+            found
+        }
+    }
+
+    /// Exact rotations where the angles are multiples of 45°.
+    fn pose(&mut self, origin: &urdf_rs::Pose) -> Pose {
+        let [r, p, y] = origin.rpy.0.map(|a| self.angle(a));
+        Pose {
+            rotation: Rotation::from_rzryrx([y, p, r]),
+            translation: origin.xyz.0,
+        }
     }
 }
 
@@ -47,6 +69,8 @@ fn kind(joint: &Joint) -> &'static str {
 
 struct Tree<'a> {
     robot: &'a Robot,
+    /// Whether angles are taken as they are written.
+    exact: bool,
     links: BTreeMap<&'a str, &'a Link>,
     /// The joint above each link.
     above: BTreeMap<&'a str, &'a Joint>,
@@ -54,16 +78,33 @@ struct Tree<'a> {
 
 pub(super) fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
     let code = without_comments(text);
-    if code.contains("<xacro:") || (code.contains("xmlns:xacro") && code.contains("${")) {
+    if has_macros(&code) {
         return Err(UrdfError::Xacro);
     }
-    let robot = urdf_rs::read_from_string(text).map_err(|error| UrdfError::Unreadable {
-        message: error.to_string(),
+    let robot = urdf_rs::read_from_string(&without_looks(&code)).map_err(|error| {
+        UrdfError::Unreadable {
+            message: error.to_string(),
+        }
     })?;
-    let tree = Tree::of(&robot)?;
-    let base = tree.base(choice)?;
-    let tip = tree.tip(base, choice)?;
-    tree.arm(base, tip, choice)
+    let tree = Tree::of(&robot, choice.exact || text.contains(EXACT))?;
+    let mut notes = Vec::new();
+    let base = tree.base(choice, &mut notes)?;
+    let tip = tree.tip(tree.foot(base).0, choice)?;
+    let mut arm = tree.arm(base, tip, choice)?;
+    arm.notes.splice(0..0, notes);
+    let packages = code.split("package://").skip(1);
+    let names = packages.filter_map(|rest| rest.split(['/', '"', '\'']).next());
+    arm.packages = names.map(str::to_owned).collect();
+    Ok(arm)
+}
+
+/// Whether a text is a xacro file whose macros nobody has expanded.
+pub(crate) fn is_xacro(text: &str) -> bool {
+    has_macros(&without_comments(text))
+}
+
+fn has_macros(code: &str) -> bool {
+    code.contains("<xacro:") || (code.contains("xmlns:xacro") && code.contains("${"))
 }
 
 /// XML without its comments.
@@ -77,8 +118,48 @@ fn without_comments(text: &str) -> String {
     out + rest
 }
 
+/// XML without what robots look like: a colour that stands there twice is none of an arm's business.
+fn without_looks(code: &str) -> String {
+    let mut out = code.to_owned();
+    for name in ["visual", "material"] {
+        let (open, close) = (format!("<{name}"), format!("</{name}>"));
+        let mut kept = String::with_capacity(out.len());
+        let mut rest = out.as_str();
+        while let Some(at) = rest.find(&open) {
+            let behind = &rest[at + open.len()..];
+            let is_whole = behind.starts_with(|c: char| c.is_whitespace() || c == '>' || c == '/');
+            let end = behind.find('>').filter(|_| is_whole);
+            let Some(end) = end else {
+                let next = at + open.len();
+                kept.push_str(&rest[..next]);
+                rest = &rest[next..];
+                continue;
+            };
+            kept.push_str(&rest[..at]);
+            rest = &behind[end + 1..];
+            if !behind[..end].ends_with('/') {
+                rest = rest.split_once(&close).map_or("", |(_, behind)| behind);
+            }
+        }
+        kept.push_str(rest);
+        out = kept;
+    }
+    out
+}
+
+/// Where a frame is, for people.
+fn place(pose: &Pose) -> String {
+    let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
+    let mm = [x, y, z].map(|x| (mm_from_m(x) * 1e3).round() / 1e3 + 0.0);
+    let deg = [rx, ry, rz].map(|a| (a / DEG * 1e3).round() / 1e3 + 0.0);
+    format!(
+        "{} {} {} mm, turned {} {} {} deg",
+        mm[0], mm[1], mm[2], deg[0], deg[1], deg[2]
+    )
+}
+
 impl<'a> Tree<'a> {
-    fn of(robot: &'a Robot) -> Result<Self, UrdfError> {
+    fn of(robot: &'a Robot, exact: bool) -> Result<Self, UrdfError> {
         let links: BTreeMap<&str, &Link> =
             robot.links.iter().map(|l| (l.name.as_str(), l)).collect();
         let mut above: BTreeMap<&str, &Joint> = BTreeMap::new();
@@ -99,6 +180,7 @@ impl<'a> Tree<'a> {
         }
         let tree = Self {
             robot,
+            exact,
             links,
             above,
         };
@@ -122,33 +204,78 @@ impl<'a> Tree<'a> {
         Ok(tree)
     }
 
-    fn base(&self, choice: &'a Choice) -> Result<&'a str, UrdfError> {
+    fn link(&self, name: &str) -> Result<&'a str, UrdfError> {
+        let found = self.links.get_key_value(name);
+        found
+            .map(|(name, _)| *name)
+            .ok_or_else(|| no_link(name, &self.links))
+    }
+
+    /// Where the world is, and why it is there where that was not asked for.
+    fn base(&self, choice: &Choice, notes: &mut Vec<String>) -> Result<&'a str, UrdfError> {
         if let Some(name) = &choice.base {
-            let found = self.links.get_key_value(name.as_str());
-            return found
-                .map(|(name, _)| *name)
-                .ok_or_else(|| no_link(name, &self.links));
+            return self.link(name);
         }
-        let roots: Vec<&str> = self
-            .links
-            .keys()
-            .copied()
-            .filter(|link| !self.above.contains_key(link))
-            .collect();
-        match roots[..] {
-            [one] => Ok(one),
-            _ => Err(UrdfError::Roots {
+        let free = |link: &&str| !self.above.contains_key(*link);
+        let roots: Vec<&str> = self.links.keys().copied().filter(free).collect();
+        let [root] = roots[..] else {
+            return Err(UrdfError::Roots {
                 count: roots.len(),
                 roots: roots.join(", "),
-            }),
+            });
+        };
+        for (name, whose) in BASES {
+            let Some((name, _)) = self.links.get_key_value(name) else {
+                continue;
+            };
+            if self.foot(name).0 == root {
+                if *name != root {
+                    notes.push(format!(
+                        "the world is link `{name}`, {whose}: {} in the root `{root}`; --base {root} has the root instead",
+                        place(&self.foot(name).1)
+                    ));
+                }
+                return Ok(name);
+            }
+        }
+        if let Some((foot, _)) = self.links.get_key_value("base_link")
+            && self.foot(foot).0 == root
+            && norm(self.foot(foot).1.translation) > 1e-9
+        {
+            notes.push(format!(
+                "link `base_link` is {} in the root `{root}`, as on a pedestal: --base base_link leaves that out",
+                place(&self.foot(foot).1)
+            ));
+        }
+        Ok(root)
+    }
+
+    fn rounding(&self) -> Rounding {
+        Rounding {
+            exact: self.exact,
+            by: 0.0,
         }
     }
 
-    /// The joints from the base to a link.
-    fn way(&self, base: &str, tip: &str) -> Option<Vec<&'a Joint>> {
+    /// The highest link that a link is fixed to, and where the link is in its frame.
+    fn foot(&self, link: &'a str) -> (&'a str, Pose) {
+        let (mut at, mut seen) = (link, Pose::identity());
+        while let Some(joint) = self
+            .above
+            .get(at)
+            .filter(|j| j.joint_type == JointType::Fixed)
+        {
+            seen = self.rounding().pose(&joint.origin) * seen;
+            at = &joint.parent.link;
+        }
+        (at, seen)
+    }
+
+    /// The joints from a link down to another one.
+    fn way(&self, from: &str, to: &str) -> Option<Vec<&'a Joint>> {
         let mut way = Vec::new();
-        let mut at = tip;
-        while at != base {
+        let mut at = to;
+        while at != from {
             let joint = self.above.get(at)?;
             way.push(*joint);
             at = &joint.parent.link;
@@ -157,15 +284,13 @@ impl<'a> Tree<'a> {
         Some(way)
     }
 
-    fn tip(&self, base: &str, choice: &'a Choice) -> Result<&'a str, UrdfError> {
+    /// The tip, where `foot` is the highest link that the base is fixed to.
+    fn tip(&self, foot: &str, choice: &Choice) -> Result<&'a str, UrdfError> {
         if let Some(name) = &choice.tip {
-            let found = self.links.get_key_value(name.as_str());
-            return found
-                .map(|(name, _)| *name)
-                .ok_or_else(|| no_link(name, &self.links));
+            return self.link(name);
         }
         let axes = |link: &str| {
-            let way = self.way(base, link).unwrap_or_default();
+            let way = self.way(foot, link).unwrap_or_default();
             way.iter()
                 .filter(|j| j.joint_type != JointType::Fixed)
                 .count()
@@ -199,18 +324,17 @@ impl<'a> Tree<'a> {
         }
     }
 
-    fn arm(&self, base: &str, tip: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
-        let way = self.way(base, tip).ok_or_else(|| UrdfError::NoWay {
-            base: base.into(),
-            tip: tip.into(),
-        })?;
-        let mut rounded = 0.0;
+    fn arm(&self, base: &'a str, tip: &'a str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
+        let (foot, foot_from_base) = self.foot(base);
+        let way = self.way(foot, tip).ok_or_else(|| self.no_way(base, tip))?;
+        let mut rounding = self.rounding();
         let mut joints = Vec::new();
         let mut notes = Vec::new();
-        let mut fixed = Pose::identity();
+        let base_from_foot = foot_from_base.inverse();
+        let mut fixed = base_from_foot;
         for joint in &way {
             finite("an origin", &joint.name, &joint.origin)?;
-            fixed = fixed * pose(&joint.origin, &mut rounded);
+            fixed = fixed * rounding.pose(&joint.origin);
             match joint.joint_type {
                 JointType::Fixed => continue,
                 JointType::Revolute | JointType::Continuous => {}
@@ -249,30 +373,59 @@ impl<'a> Tree<'a> {
             last_from_tip: fixed,
             masses: Vec::new(),
             shapes: Vec::new(),
+            packages: BTreeSet::new(),
             notes,
         };
-        self.contents(base, &mut arm, choice, &mut rounded)?;
-        if rounded > 0.0 {
+        self.contents((foot, base_from_foot), &mut arm, choice, &mut rounding)?;
+        if rounding.by > 0.0 {
             arm.notes.push(format!(
-                "angles of frames within {rounded:.1e} rad of a multiple of 45 deg are taken as exact"
+                "angles of frames within {:.1e} rad of a multiple of 45 deg are taken as exact; --exact-angles takes them as written",
+                rounding.by
             ));
         }
         Ok(arm)
     }
 
-    /// Masses and shapes of all links that the six joints, or none of them, move.
+    /// Why there is no way: the tip hangs elsewhere, or a joint that moves is between it and the base's side.
+    fn no_way(&self, base: &'a str, tip: &'a str) -> UrdfError {
+        let mut above_base = vec![base];
+        while let Some(joint) = self.above.get(above_base[above_base.len() - 1]) {
+            above_base.push(&joint.parent.link);
+        }
+        let mut at = tip;
+        while !above_base.contains(&at) {
+            let Some(joint) = self.above.get(at) else {
+                return UrdfError::NoWay {
+                    base: base.into(),
+                    tip: tip.into(),
+                };
+            };
+            at = &joint.parent.link;
+        }
+        let below = above_base.iter().take_while(|link| **link != at);
+        let moving = below
+            .filter_map(|link| self.above.get(link))
+            .find(|joint| joint.joint_type != JointType::Fixed);
+        UrdfError::MovingBase {
+            base: base.into(),
+            tip: tip.into(),
+            joint: moving.map_or_else(String::new, |joint| joint.name.clone()),
+        }
+    }
+
+    /// Masses and shapes of all links that the six joints, or none of them, move; the foot with the base's view of it.
     fn contents(
         &self,
-        base: &str,
+        (foot, base_from_foot): (&str, Pose),
         arm: &mut UrdfArm,
         choice: &Choice,
-        rounded: &mut f64,
+        rounding: &mut Rounding,
     ) -> Result<(), UrdfError> {
         for (name, link) in &self.links {
-            let Some(way) = self.way(base, name) else {
+            let Some(way) = self.way(foot, name) else {
                 continue;
             };
-            let (mut moved_by, mut place) = (0, Pose::identity());
+            let (mut moved_by, mut place) = (0, base_from_foot);
             let mut beside = false;
             for joint in way {
                 let is_next = arm
@@ -283,7 +436,7 @@ impl<'a> Tree<'a> {
                     moved_by += 1;
                     place = Pose::identity();
                 } else if joint.joint_type == JointType::Fixed {
-                    place = place * pose(&joint.origin, rounded);
+                    place = place * rounding.pose(&joint.origin);
                 } else {
                     // a finger of a gripper or another arm
                     beside = true;
@@ -310,7 +463,7 @@ impl<'a> Tree<'a> {
                     arm.shapes.push(UrdfShape {
                         moved_by,
                         link: (*name).into(),
-                        joint_from_shape: place * pose(&collision.origin, rounded),
+                        joint_from_shape: place * rounding.pose(&collision.origin),
                         form: form(name, &collision.geometry)?,
                     });
                 }
@@ -323,7 +476,7 @@ impl<'a> Tree<'a> {
 fn no_link(link: &str, links: &BTreeMap<&str, &Link>) -> UrdfError {
     UrdfError::NoLink {
         link: link.into(),
-        known: links.keys().copied().collect::<Vec<_>>().join(", "),
+        known: links.keys().map(|name| (*name).to_owned()).collect(),
     }
 }
 

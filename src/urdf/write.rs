@@ -1,143 +1,194 @@
-//! A profile's text from an arm.
+//! A profile from an arm.
 
 use super::chain::rows;
 use super::{UrdfArm, UrdfError, UrdfForm};
-use crate::geometry::units::{DEG, mm_from_m};
-use crate::geometry::{Pose, Vector};
-use crate::model::Conditions;
-use crate::model::profile::{Mounted, Profile};
+use crate::geometry::Pose;
+use crate::model::profile::{
+    Comments, Maker, Mounted, Profile, ToolOfProfile, coupled, flange_remark, made,
+};
+use crate::model::shape::{Form, LinkShape, Shape};
+use crate::model::{Body, Conditions, JointSense, Mechanism};
+use std::collections::BTreeMap;
 
 /// How far the profile's chain may be from the URDF's own, metres and radians.
 const AGREES: f64 = 1e-9;
 /// Postures at which they are compared.
 const POSTURES: u64 = 1000;
+/// The path that a mesh's name in the URDF stands for; `None` where there is no such file.
+pub type Meshes<'a> = &'a dyn Fn(&str) -> Option<String>;
 
-/// The shortest decimals that give the number again, without the noise of a change of units.
-fn number(value: f64) -> String {
-    let rounded = (value * 1e9).round() / 1e9;
-    let value = if (value - rounded).abs() <= 1e-12 * value.abs().max(1.0) {
-        rounded
-    } else {
-        value
-    };
-    format!("{}", value + 0.0)
+/// What a URDF does not say.
+pub struct About<'a> {
+    /// The URDF's name in the profile's comments.
+    pub source: &'a str,
+    /// The maker; where it is not given, the one whose name stands in the robot's or its packages' names.
+    pub maker: Option<&'a str>,
+    /// The controller's language; where it is not given, the one of the maker's controllers.
+    pub language: Option<&'a str>,
+    /// The robot's serial number.
+    pub serial: Option<&'a str>,
+    /// Tools by name.
+    pub tools: BTreeMap<String, ToolOfProfile>,
+    /// Where meshes are.
+    pub meshes: Meshes<'a>,
 }
 
-fn mm(v: Vector) -> String {
-    let parts = v.map(|x| number(mm_from_m(x)));
-    format!("[{}]", parts.join(", "))
+impl<'a> About<'a> {
+    /// Nothing but the URDF's name, and where its meshes are.
+    #[must_use]
+    pub fn of(source: &'a str, meshes: Meshes<'a>) -> Self {
+        Self {
+            source,
+            maker: None,
+            language: None,
+            serial: None,
+            tools: BTreeMap::new(),
+            meshes,
+        }
+    }
 }
 
-fn pose(pose: &Pose) -> String {
-    let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
-    let [x, y, z] = [x, y, z].map(|x| number(mm_from_m(x)));
-    let [rx, ry, rz] = [rx, ry, rz].map(|a| number(a / DEG));
-    format!("{{x_mm: {x}, y_mm: {y}, z_mm: {z}, rx_deg: {rx}, ry_deg: {ry}, rz_deg: {rz}}}")
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
-}
-
-/// The text of a profile for an arm, its chain compared with the URDF's own. `mesh` gives the path that a mesh's name in the
-/// URDF stands for.
+/// The text of a profile for an arm, its chain compared with the URDF's own, and what is to be known of it.
 ///
 /// # Errors
 /// If two axes are one line, a mesh is not found, or the chains differ.
-pub fn profile_text(
-    arm: &UrdfArm,
-    source: &str,
-    mesh: &dyn Fn(&str) -> Option<String>,
-) -> Result<String, UrdfError> {
+pub fn profile_text(arm: &UrdfArm, about: &About) -> Result<(String, Vec<String>), UrdfError> {
+    let mut notes = arm.notes.clone();
+    let profile = profile(arm, about, &mut notes)?;
+    let mut top = vec![format!(
+        "Made by `poseshift profile from-urdf` from {}, {} to {}.",
+        about.source, arm.ends[0], arm.ends[1]
+    )];
+    top.extend(notes.iter().cloned());
+    top.push(
+        "Joints of the controller are taken to be those of the URDF: compare sense and zero with the pendant.".into(),
+    );
+    let names: Vec<String> = arm.joints.iter().map(|joint| joint.name.clone()).collect();
+    let comments = Comments {
+        top,
+        joints: names.try_into().unwrap_or_default(),
+    };
+    let text = made(&profile, &comments);
+    compare(arm, &text)?;
+    Ok((text, notes))
+}
+
+fn profile(arm: &UrdfArm, about: &About, notes: &mut Vec<String>) -> Result<Profile, UrdfError> {
     let rows = rows(arm)?;
-    let urdf = arm.frames();
-    let mut out = format!(
-        "# Made by `poseshift profile from-urdf` from {source}, {} to {}.\n",
-        arm.ends[0], arm.ends[1]
-    );
-    for note in &arm.notes {
-        out += &format!("# {note}\n");
+    let mut mechanism = Mechanism {
+        joints: std::array::from_fn(|i| JointSense {
+            sign: 1.0,
+            offset_rad: 0.0,
+            min_rad: arm.joints[i].min_rad,
+            max_rad: arm.joints[i].max_rad,
+        }),
+        coupling: Vec::new(),
+    };
+    let maker = maker(arm, about, notes);
+    if let Some(coupling) = maker.and_then(|maker| maker.coupling) {
+        notes.extend(coupled(&coupling));
+        mechanism.couple(coupling);
     }
-    out += &format!(
-        "# Joints of the controller are taken to be those of the URDF: compare sense and zero with the pendant.\n\
-         poseshift: profile/1\n\
-         robot: {{manufacturer: unknown, model: {}, serial: unknown}}\n\
-         controller: {{model: nominal}}\n\
-         kinematics:\n  base: {}\n  joints:\n",
-        quoted(&arm.name),
-        pose(&rows.base)
+    notes.extend(
+        maker
+            .map(|maker| maker.remark.to_owned())
+            .filter(|remark| !remark.is_empty()),
     );
-    for (link, joint) in rows.links.iter().zip(&arm.joints) {
-        let speed = joint.speed_rad_s.map_or(String::new(), |v| {
-            format!(", speed_deg_s: {}", number(v / DEG))
-        });
-        out += &format!(
-            "    - {{alpha_deg: {}, a_mm: {}, theta_deg: {}, d_mm: {}, min_deg: {}, max_deg: {}{speed}}}   # {}\n",
-            number(link.alpha_rad / DEG),
-            number(mm_from_m(link.a_m)),
-            number(link.theta_rad / DEG),
-            number(mm_from_m(link.d_m)),
-            number(joint.min_rad / DEG),
-            number(joint.max_rad / DEG),
-            joint.name.replace(['\n', '\r'], " "),
-        );
-    }
-    out += &format!("  coupling: []\n  flange: {}\n", pose(&rows.flange));
+    notes.extend(flange_remark(&rows.flange));
     // from a joint's frame to the frame after its row, both at zero
+    let urdf = arm.frames();
     let seen = |moved_by: usize| rows.frames[moved_by].inverse() * urdf[moved_by];
-    if !arm.masses.is_empty() {
-        out += "bodies:\n";
-    }
-    for (moved_by, mass, cog) in &arm.masses {
-        let cog = seen(*moved_by).transform(*cog);
-        out += &format!(
-            "  - {{link: {moved_by}, mass_kg: {}, cog_mm: {}}}\n",
-            number(*mass),
-            mm(cog)
-        );
-    }
-    if !arm.shapes.is_empty() {
-        out += "shapes:\n";
-    }
+    let body = |(moved_by, mass_kg, cog): &(usize, f64, _)| Body {
+        link: moved_by - 1,
+        mass_kg: *mass_kg,
+        cog_m: seen(*moved_by).transform(*cog),
+    };
+    let bodies: Vec<Body> = arm.masses.iter().map(body).collect();
+    notes.extend(missing_masses(&bodies));
+    let mut shapes = Vec::new();
     for shape in &arm.shapes {
-        let place = seen(shape.moved_by) * shape.joint_from_shape;
-        let form = match &shape.form {
-            UrdfForm::Box(size) => format!("box_mm: {}", mm(*size)),
-            UrdfForm::Cylinder(radius, long) => format!(
-                "cylinder_mm: {{radius: {}, height: {}}}",
-                number(mm_from_m(*radius)),
-                number(mm_from_m(*long))
-            ),
-            UrdfForm::Capsule(radius, long) => format!(
-                "capsule_mm: {{from: {}, to: {}, radius: {}}}",
-                mm([0.0, 0.0, -0.5 * long]),
-                mm([0.0, 0.0, 0.5 * long]),
-                number(mm_from_m(*radius))
-            ),
-            UrdfForm::Sphere(radius) => {
-                format!("sphere_mm: {{radius: {}}}", number(mm_from_m(*radius)))
-            }
-            UrdfForm::Mesh(file, scale) => {
-                let found = mesh(file).ok_or_else(|| UrdfError::Mesh {
-                    file: file.clone(),
-                    link: shape.link.clone(),
-                })?;
-                format!(
-                    "mesh: {}, scale: {}",
-                    quoted(&found),
-                    number(1000.0 * scale)
-                )
-            }
-        };
-        out += &format!(
-            "  - {{link: {}, {form}, at: {}}}\n",
-            shape.moved_by,
-            pose(&place)
-        );
+        shapes.push(LinkShape {
+            link: shape.moved_by,
+            shape: Shape {
+                form: form(&shape.form, &shape.link, about.meshes)?,
+                frame_from_shape: seen(shape.moved_by) * shape.joint_from_shape,
+            },
+        });
     }
-    out += "gravity_m_s2: [0, 0, -9.81]\ntools: {}\npoints: {}\ncalibration:\n  effects: []\n";
-    compare(arm, &out)?;
-    Ok(out)
+    let language = about.language.or(maker.map(|maker| maker.language));
+    let manufacturer = maker.map(|maker| maker.name).or(about.maker);
+    Ok(Profile {
+        manufacturer: manufacturer.unwrap_or("unknown").into(),
+        model: arm.name.clone(),
+        serial: about.serial.map(Into::into),
+        language: language.map(Into::into),
+        world_from_base: rows.base,
+        joint_speeds: std::array::from_fn(|i| arm.joints[i].speed_rad_s),
+        link6_from_flange: rows.flange,
+        bodies,
+        shapes,
+        tools: about.tools.clone(),
+        ..Profile::nominal(rows.links, mechanism)
+    })
+}
+
+/// The maker that is given, or that the names tell.
+fn maker(arm: &UrdfArm, about: &About, notes: &mut Vec<String>) -> Option<&'static Maker> {
+    if let Some(given) = about.maker {
+        return Maker::by_name(given);
+    }
+    let packages: Vec<&str> = arm.packages.iter().map(String::as_str).collect();
+    let found = Maker::marked_in(&format!("{} {}", arm.name, packages.join(" ")))?;
+    notes.push(format!(
+        "the maker is {}, by the names of the robot and its packages; --maker names another",
+        found.name
+    ));
+    Some(found)
+}
+
+/// What effects of compliance cannot know without the masses that the file does not have.
+fn missing_masses(bodies: &[Body]) -> Option<String> {
+    let without: Vec<String> = (0..6)
+        .filter(|link| !bodies.iter().any(|body| body.link == *link))
+        .map(|link| (link + 1).to_string())
+        .collect();
+    let add = "add them under `bodies` (link, mass_kg, cog_mm in the link's frame)";
+    match bodies {
+        [] => Some(format!(
+            "no link has a mass: effects of compliance see the tool alone; {add}"
+        )),
+        [first, rest @ ..] if rest.len() > 2 && rest.iter().all(|b| b.mass_kg == first.mass_kg) => {
+            Some(format!(
+                "every mass is {} kg, which is no arm: before a calibration with compliance put the real ones under `bodies`",
+                first.mass_kg
+            ))
+        }
+        _ if without.is_empty() => None,
+        _ => Some(format!("links {} have no mass: {add}", without.join(", "))),
+    }
+}
+
+fn form(form: &UrdfForm, link: &str, meshes: Meshes) -> Result<Form, UrdfError> {
+    Ok(match form {
+        UrdfForm::Box(size) => Form::Box { size_m: *size },
+        UrdfForm::Cylinder(radius, long) => Form::Cylinder {
+            radius_m: *radius,
+            height_m: *long,
+        },
+        UrdfForm::Capsule(radius, long) => Form::Capsule {
+            from_m: [0.0, 0.0, -0.5 * long],
+            to_m: [0.0, 0.0, 0.5 * long],
+            radius_m: *radius,
+        },
+        UrdfForm::Sphere(radius) => Form::Sphere { radius_m: *radius },
+        UrdfForm::Mesh(file, scale) => Form::Mesh {
+            file: meshes(file).ok_or_else(|| UrdfError::Mesh {
+                file: file.clone(),
+                link: link.into(),
+            })?,
+            scale: Some([1000.0 * scale; 3]),
+        },
+    })
 }
 
 /// Reads the text again and compares its chain with the URDF's.
@@ -157,13 +208,12 @@ fn compare(arm: &UrdfArm, text: &str) -> Result<(), UrdfError> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     };
     for _ in 0..POSTURES {
-        let q: [f64; 6] = std::array::from_fn(|i| {
+        let u: [f64; 6] = std::array::from_fn(|i| {
             let joint = &arm.joints[i];
             joint.min_rad + (joint.max_rad - joint.min_rad) * part()
         });
-        let gap = model
-            .forward(&q, &Conditions::default())
-            .separation(&arm.forward(&q));
+        let real: Pose = model.forward(&profile.mechanism.controller(&u), &Conditions::default());
+        let gap = real.separation(&arm.forward(&u));
         gap_m = gap_m.max(gap.distance_m);
         gap_rad = gap_rad.max(gap.angle_rad);
     }

@@ -2,6 +2,7 @@
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
+use crate::nearest;
 use serde_json::{Map, Value, json};
 
 /// What is wrong with an entry, and which of its keys is to blame.
@@ -71,16 +72,15 @@ impl EntryError {
     #[allow(clippy::missing_panics_doc)]
     pub fn hint(&self) -> String {
         match self {
-            Self::NoEffect | Self::UnknownEffect { .. } => {
-                let ids: Vec<_> = REGISTRY.iter().map(|kind| kind.definition().id).collect();
-                format!("effects are: {}", ids.join(", "))
-            }
+            Self::NoEffect => nearest::hint("", "effects", ids()),
+            Self::UnknownEffect { id } => nearest::hint(id, "effects", ids()),
             Self::UnknownKey { id, .. } | Self::MissingKey { id, .. } => {
                 let kind = Kind::by_id(id).expect("the name came from the registry");
-                format!(
-                    "keys of `{id}`: {}",
-                    keys(kind.definition()).collect::<Vec<_>>().join(", ")
-                )
+                let meant = match self {
+                    Self::UnknownKey { key, .. } => key,
+                    _ => "",
+                };
+                nearest::hint(meant, &format!("keys of `{id}`"), keys(kind.definition()))
             }
             Self::BadValue { .. } | Self::SameJoint { .. } => {
                 "`poseshift effects` lists every key with its unit".into()
@@ -106,6 +106,10 @@ fn usual_limit(parameter: &Parameter) -> Option<f64> {
         Unit::RadPerNm => Some(MOST_RAD_PER_N_M),
         _ => None,
     }
+}
+
+fn ids() -> impl Iterator<Item = &'static str> {
+    REGISTRY.iter().map(|kind| kind.definition().id)
 }
 
 fn keys(definition: &Definition) -> impl Iterator<Item = &'static str> {

@@ -1,6 +1,7 @@
 //! What can be wrong with a profile, and where.
 
 use crate::model::effects::EntryError;
+use crate::nearest;
 use serde_yaml::Location;
 
 /// A fault at its place in the file.
@@ -126,7 +127,7 @@ pub enum Fault {
         /// The name.
         name: String,
         /// Names there are.
-        known: String,
+        known: Vec<String>,
     },
     /// A pair that says nothing, or two things.
     #[error("a pair has either clearance_mm or allow: true")]
@@ -241,13 +242,24 @@ impl ProfileError {
                 reads: super::FORMAT,
                 ..
             } => "`poseshift profile schema` prints the format".into(),
-            Fault::Yaml { .. } => {
-                "docs/formats.md and `poseshift profile schema` describe the formats".into()
+            Fault::Yaml { message } => {
+                let formats = "docs/formats.md and `poseshift profile schema` describe the formats";
+                // the parser names a key that it does not know, and then those it knows
+                let rest = message.strip_prefix("unknown field `");
+                let names = rest.and_then(|rest| rest.split_once("`, expected one of "));
+                let near = names.map(|(key, known)| nearest::nearest(key, known.split(", ")));
+                let meant = near.and_then(|near| near.first().copied());
+                meant.map_or_else(
+                    || formats.to_owned(),
+                    |meant| format!("did you mean `{meant}`? {formats}"),
+                )
             }
             Fault::NotOneShape { .. } => {
                 "one of capsule_mm, box_mm, sphere_mm, cylinder_mm, plane, mesh".into()
             }
-            Fault::UnknownBody { known, .. } => format!("bodies are: {known}"),
+            Fault::UnknownBody { name, known } => {
+                nearest::hint(name, "bodies", known.iter().map(String::as_str))
+            }
             Fault::MovingPlane { .. } => "a box does the same".into(),
             Fault::EffectsOfNominal => "set `model: calibrated`, or take the effects away".into(),
             Fault::Large { .. } => "is it in the unit of its key? `large: true` with `reason: \"…\"` in the entry says that it is meant".into(),

@@ -60,7 +60,7 @@ pub struct ProfileFile {
     pub calibration: CalibrationFile,
 }
 
-fn earth() -> [Number; 3] {
+pub(super) fn earth() -> [Number; 3] {
     [Number(0.0), Number(0.0), Number(-9.81)]
 }
 

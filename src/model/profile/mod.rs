@@ -1,17 +1,27 @@
 //! A robot's profile: read strictly, and made into models.
 
+mod catalogue;
+mod edit;
 mod error;
 pub(crate) mod file;
+mod makers;
 mod rewrite;
 pub(crate) mod shape;
 mod shipped;
+mod text;
 pub mod universal_robots;
 mod write;
 
+pub use catalogue::{CatalogueArm, catalogue};
+pub(crate) use catalogue::{coupled, flange_remark};
+pub use edit::{EditError, with_value};
 pub use error::{Fault, ProfileError};
 pub use file::{ControllerModel, FORMAT, ProfileFile};
+pub use makers::{MAKERS, Maker};
 pub use rewrite::with_controller;
 pub use shipped::SHIPPED;
+pub(crate) use text::flow_tool;
+pub use text::{Comments, made};
 pub use write::{WriteError, rewritten};
 
 use super::effects::{Effect, Kind, Need};
@@ -130,6 +140,35 @@ impl Profile {
     pub fn from_yaml(text: &str) -> Result<Self, ProfileError> {
         let file: ProfileFile = serde_yaml::from_str(text).map_err(ProfileError::from)?;
         Self::from_file(file)
+    }
+
+    /// A nominal arm of these rows that stands at the world's origin, without anything else.
+    #[must_use]
+    pub fn nominal(links: [Link; 6], mechanism: Mechanism) -> Self {
+        Self {
+            manufacturer: "unknown".into(),
+            model: "unknown".into(),
+            serial: None,
+            payload_kg: None,
+            language: None,
+            controller: ControllerModel::Nominal,
+            own_effects: None,
+            pulses_per_deg: None,
+            world_from_base: Pose::identity(),
+            links,
+            mechanism,
+            joint_speeds: [None; 6],
+            link6_from_flange: Pose::identity(),
+            bodies: Vec::new(),
+            shapes: Vec::new(),
+            gravity_m_s2: file::earth().map(|n| n.0),
+            tools: BTreeMap::new(),
+            points: BTreeMap::new(),
+            effects: Vec::new(),
+            large: Reasons::default(),
+            quality: None,
+            provenance: None,
+        }
     }
 
     fn from_file(file: ProfileFile) -> Result<Self, ProfileError> {

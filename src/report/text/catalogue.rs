@@ -2,18 +2,28 @@
 
 use crate::finding::Severity;
 use crate::report::Style;
-use crate::task::catalogue::{Effects, Languages, Robots};
+use crate::task::catalogue::{Effects, Languages, Origin, Robots};
 use crate::task::explain::Explanations;
 
 pub(super) fn robots(found: &Robots, _: Style) -> String {
     let mut text = String::new();
+    let width = found.robots.iter().map(|r| r.name.len()).max();
+    let width = width.unwrap_or(0);
     for r in &found.robots {
         let calibrated = if r.effects == 0 { "" } else { ", calibrated" };
+        let profile = match r.origin {
+            Origin::Profile => ", data sheet",
+            Origin::Catalogue => "",
+        };
         text += &format!(
-            "{:24} {} {} ({}{calibrated})\n",
+            "{:width$} {} {} ({}{calibrated}{profile})\n",
             r.name, r.manufacturer, r.model, r.closed_form_inverse
         );
     }
+    text += &format!(
+        "{} robots; where no data sheet is named the numbers are those of one public file: set the limits from the data sheet\n",
+        found.robots.len()
+    );
     text + "`poseshift profile new --robot NAME` starts a profile from one of them\n"
 }
 

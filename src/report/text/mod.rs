@@ -81,6 +81,8 @@ reports! {
     task::profile::NewProfile: profile::new;
     task::profile::FromUrdf: profile::from_urdf;
     task::profile::Imported: profile::imported;
+    task::profile::Changed: profile::changed;
+    task::profile::Exported: profile::exported;
     task::profile::Facts: profile::facts;
     task::profile::Diff: profile::diff;
     task::catalogue::Robots: catalogue::robots;

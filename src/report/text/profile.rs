@@ -1,16 +1,18 @@
 //! The texts of `profile`.
 
 use crate::report::Style;
-use crate::task::profile::{Diff, Facts, FromUrdf, Imported, NewProfile};
+use crate::task::profile::{
+    Changed, Diff, Difference, Exported, Facts, FromUrdf, Imported, NewProfile,
+};
 use std::collections::BTreeMap;
 
 pub(super) fn new(found: &NewProfile, _: Style) -> String {
-    match (&found.output, found.profile) {
-        (Some(path), _) => {
-            format!("written to {path}; set the serial number, the base and the tools\n")
-        }
-        (None, text) => text.unwrap_or_default().to_owned(),
-    }
+    let Some(path) = &found.output else {
+        return found.profile.clone().unwrap_or_default();
+    };
+    let mut told: String = found.notes.iter().map(|note| format!("{note}\n")).collect();
+    told += &format!("written to {path}; set the serial number, the base and the tools\n");
+    told
 }
 
 pub(super) fn from_urdf(found: &FromUrdf, _: Style) -> String {
@@ -90,9 +92,41 @@ pub(super) fn facts(found: &Facts, _: Style) -> String {
     text
 }
 
+pub(super) fn changed(found: &Changed, _: Style) -> String {
+    let mut told = differences(&found.differences);
+    told.extend(found.notes.iter().map(|note| format!("note: {note}\n")));
+    told + &format!("written to {}\n", found.output)
+}
+
+pub(super) fn exported(found: &Exported, _: Style) -> String {
+    if let Some(text) = &found.text {
+        return text.clone();
+    }
+    let mut told = String::new();
+    told.extend(
+        found
+            .not_carried
+            .iter()
+            .map(|what| format!("not in it: {what}\n")),
+    );
+    let d = &found.deviation;
+    told += &format!(
+        "the real tool is {:.4} mm (mean), at most {:.4} mm, from where it has it, over {} postures\n",
+        d.mean_mm, d.max_mm, d.postures
+    );
+    if let Some(path) = &found.output {
+        told += &format!("written to {path}\n");
+    }
+    told
+}
+
 pub(super) fn diff(found: &Diff, _: Style) -> String {
+    differences(&found.differences)
+}
+
+fn differences(found: &[Difference]) -> String {
     let mut text = String::new();
-    for difference in &found.differences {
+    for difference in found {
         let key = &difference.key;
         let line = |sign: char, value: &String| format!("  {sign} {}\n", glued(key, value));
         text += &format!("{key}\n");

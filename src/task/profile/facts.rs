@@ -131,13 +131,18 @@ pub(super) fn typical_deviation_of(a: &Profile, b: &Profile) -> Deviation {
     deviation(a, &models.0, &models.1, &Conditions::default())
 }
 
-fn first_tool(profile: &Profile) -> Mounted {
+pub(super) fn first_tool(profile: &Profile) -> Mounted {
     let name = profile.tools.keys().next();
     name.and_then(|name| profile.tool(name))
         .unwrap_or_else(Mounted::flange)
 }
 
-fn deviation(profile: &Profile, a: &Model, b: &Model, conditions: &Conditions) -> Deviation {
+pub(super) fn deviation(
+    profile: &Profile,
+    a: &Model,
+    b: &Model,
+    conditions: &Conditions,
+) -> Deviation {
     /// Postures: enough for two digits of the mean.
     const POSTURES: u32 = 1000;
     let distances: Vec<f64> = (1..=POSTURES)

@@ -1,17 +1,24 @@
 //! `profile`: make and inspect profiles.
 
+mod change;
+mod export;
 mod facts;
 mod import_ur;
+mod tool;
 mod urdf;
 
+pub use change::{Changed, add_tool, set};
+pub use export::{Coupled, Exported, ExportedChain, Form, Row, export};
 pub use facts::Deviation;
 pub use import_ur::{Imported, import_ur};
-pub use urdf::{FromUrdf, Inputs, Meshes, from_urdf};
+pub use tool::tool;
+pub use urdf::{FromUrdf, Inputs, from_urdf};
 
 use super::Document;
 use super::failure::Failure;
 use crate::inverse::Arm;
-use crate::model::profile::{ControllerModel, Mounted, Profile, SHIPPED};
+use crate::model::profile::{ControllerModel, Mounted, Profile, SHIPPED, catalogue};
+use crate::nearest;
 use facts::{facts, typical_deviation};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -22,10 +29,13 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct NewProfile {
     /// Its name, as `poseshift robots` lists it.
-    pub robot: &'static str,
+    pub robot: String,
+    /// Where its numbers are from, and what is to be set in it: nothing of a profile that was put together by hand.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// Its text, where it is not written to a file.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub profile: Option<&'static str>,
+    pub profile: Option<String>,
     /// The file written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
@@ -40,19 +50,37 @@ impl Document for NewProfile {
 /// # Errors
 /// No built-in robot has this name.
 pub fn new(robot: &str) -> Result<NewProfile, Failure> {
-    let found = SHIPPED.iter().find(|(name, _)| *name == robot);
-    let (name, text) = found.ok_or_else(|| {
-        let names: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
-        Failure::with_hint(
-            format!("no built-in robot is called `{robot}`"),
-            format!("robots are: {}", names.join(", ")),
-        )
-    })?;
-    Ok(NewProfile {
-        robot: name,
+    let made = |notes: Vec<String>, text: String| NewProfile {
+        robot: robot.into(),
+        notes,
         profile: Some(text),
         output: None,
-    })
+    };
+    if let Some((_, text)) = SHIPPED.iter().find(|(name, _)| *name == robot) {
+        return Ok(made(Vec::new(), (*text).to_owned()));
+    }
+    let rows = catalogue();
+    if let Some(arm) = rows.iter().find(|arm| arm.name == robot) {
+        let text = arm.text();
+        // what is told is what stands in the file
+        let notes = text.lines().map_while(|line| line.strip_prefix("# "));
+        return Ok(made(notes.map(str::to_owned).collect(), text.clone()));
+    }
+    let names = SHIPPED.iter().map(|(name, _)| *name);
+    let names = names.chain(rows.iter().map(|arm| arm.name.as_str()));
+    Err(Failure::with_hint(
+        format!("no built-in robot is called `{robot}`"),
+        nearest::hint(robot, "robots", names) + " (`poseshift robots --search TEXT` looks for one)",
+    ))
+}
+
+/// How a built-in robot becomes a profile that can be given; `None` where no robot has this name.
+#[must_use]
+pub fn way_to_built_in(robot: &str) -> Option<String> {
+    let found = new(robot).ok()?.robot;
+    Some(format!(
+        "`{found}` is a built-in robot: `poseshift profile new --robot {found} -o {found}.yaml` makes a profile of it"
+    ))
 }
 
 /// What a person wants to know of a profile.

@@ -1,15 +1,14 @@
 //! A profile of a URDF.
 
 use super::inverse;
-use crate::model::profile::Profile;
-use crate::program::Source;
+use crate::model::profile::{MAKERS, Maker, Profile, ToolOfProfile};
+use crate::nearest;
+use crate::program::{LANGUAGES, Source};
 use crate::task::{Document, Failure, text};
-use crate::urdf::{Choice, UrdfArm, UrdfError, profile_text};
+use crate::urdf::{About, Choice, Meshes, UrdfArm, UrdfError, profile_text};
 use schemars::JsonSchema;
 use serde::Serialize;
-
-/// Where a mesh file that the URDF names is; `None` where it is not.
-pub type Meshes<'a> = &'a dyn Fn(&str) -> Option<String>;
+use std::collections::BTreeMap;
 
 /// A URDF and what to take of it.
 pub struct Inputs<'a> {
@@ -21,6 +20,10 @@ pub struct Inputs<'a> {
     pub choice: Choice,
     /// Where its meshes are.
     pub meshes: Meshes<'a>,
+    /// The maker, the controller's language and the serial number where they are told.
+    pub about: [Option<&'a str>; 3],
+    /// Tools by name.
+    pub tools: BTreeMap<String, ToolOfProfile>,
 }
 
 /// A profile made of a URDF.
@@ -28,13 +31,13 @@ pub struct Inputs<'a> {
 pub struct FromUrdf {
     /// The robot's name.
     pub robot: String,
-    /// The link that stands.
+    /// The link where the world is.
     pub base: String,
     /// The link that tools are mounted on.
     pub tip: String,
     /// Whether and how the arm has an inverse.
     pub inverse: String,
-    /// What was taken differently from what stands in the URDF.
+    /// What was taken differently from what stands in the URDF, what was added, and what is missing.
     pub notes: Vec<String>,
     /// The profile's text.
     pub profile: String,
@@ -49,22 +52,61 @@ impl Document for FromUrdf {
 /// Makes a profile of a URDF: its six axes, limits, masses and collision shapes.
 ///
 /// # Errors
-/// A URDF that is no arm of six turning joints.
+/// A URDF that is no arm of six turning joints, an unknown language.
 pub fn from_urdf(inputs: &Inputs) -> Result<FromUrdf, Failure> {
     let name = &inputs.urdf.name;
     let told = |error: UrdfError| Failure::with_hint(format!("{name}: {error}"), error.hint());
+    let [maker, language, serial] = inputs.about;
+    if let Some(language) = language {
+        check_language(language)?;
+    }
     let arm = UrdfArm::read(&text(inputs.urdf)?, &inputs.choice).map_err(told)?;
-    let yaml = profile_text(&arm, inputs.origin, inputs.meshes).map_err(told)?;
+    let about = About {
+        maker,
+        language,
+        serial,
+        tools: inputs.tools.clone(),
+        ..About::of(inputs.origin, inputs.meshes)
+    };
+    let (yaml, mut notes) = profile_text(&arm, &about).map_err(told)?;
+    notes.extend(maker.and_then(unknown_maker));
     let profile =
         Profile::from_yaml(&yaml).map_err(|error| Failure::profile(name, &yaml, &error))?;
+    if profile.language.is_none() {
+        notes.push("the controller's language is not known: --language names it".into());
+    }
     let [base, tip] = arm.ends;
     Ok(FromUrdf {
         robot: arm.name,
         base,
         tip,
         inverse: inverse(&profile),
-        notes: arm.notes,
+        notes,
         profile: yaml,
         output: None,
     })
+}
+
+/// That a language is one of those that are read.
+pub(super) fn check_language(language: &str) -> Result<(), Failure> {
+    let ids = || LANGUAGES.iter().map(|known| known.about().id);
+    if ids().any(|id| id == language) {
+        return Ok(());
+    }
+    Err(Failure::with_hint(
+        format!("no language is called `{language}`"),
+        nearest::hint(language, "languages", ids()),
+    ))
+}
+
+/// A maker that may be a misspelt one.
+fn unknown_maker(maker: &str) -> Option<String> {
+    if Maker::by_name(maker).is_some() {
+        return None;
+    }
+    let near = nearest::nearest(maker, MAKERS.iter().map(|maker| maker.name));
+    let meant = near.first()?;
+    Some(format!(
+        "nothing is known of the controllers of `{maker}`; did you mean `{meant}`?"
+    ))
 }

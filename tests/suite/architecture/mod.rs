@@ -8,9 +8,13 @@ use std::path::{Component, Path};
 const ALLOWED: &[(&str, &[&str])] = &[
     ("finding", &[]),
     ("geometry", &[]),
-    ("model", &["geometry"]),
+    ("nearest", &[]),
+    ("model", &["geometry", "nearest"]),
     ("inverse", &["geometry", "model"]),
-    ("identify", &["geometry", "inverse", "model", "register"]),
+    (
+        "identify",
+        &["geometry", "inverse", "model", "nearest", "register"],
+    ),
     ("register", &["geometry", "inverse", "model"]),
     ("diagnose", &["geometry", "identify", "model"]),
     ("program", &["geometry", "finding"]),
@@ -24,7 +28,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "finding", "geometry", "inverse", "model", "motion", "program",
         ],
     ),
-    ("urdf", &["geometry", "model"]),
+    ("urdf", &["geometry", "model", "nearest"]),
     (
         "check",
         &[
@@ -49,6 +53,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "inverse",
             "model",
             "motion",
+            "nearest",
             "program",
             "register",
             "urdf",
@@ -80,6 +85,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "identify",
             "model",
             "motion",
+            "nearest",
             "program",
             "register",
             "report",

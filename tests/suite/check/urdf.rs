@@ -5,7 +5,7 @@ use crate::support::{poseshift, scratch};
 use poseshift::inverse::Arm;
 use poseshift::model::Conditions;
 use poseshift::model::profile::{Mounted, Profile};
-use poseshift::urdf::{Choice, UrdfArm, UrdfError, profile_text};
+use poseshift::urdf::{About, Choice, UrdfArm, UrdfError, profile_text};
 
 /// A URDF with six joints of these origins (xyz, rpy) and axes, a flange behind, and some more.
 fn urdf(joints: &[([f64; 6], [f64; 3])], more: &str) -> String {
@@ -44,7 +44,7 @@ fn choice() -> Choice {
 
 fn convert(text: &str) -> Result<(UrdfArm, Profile), UrdfError> {
     let arm = UrdfArm::read(text, &choice())?;
-    let yaml = profile_text(&arm, "r.urdf", &|_| None)?;
+    let (yaml, _) = profile_text(&arm, &About::of("r.urdf", &|_| None))?;
     Ok((
         arm,
         Profile::from_yaml(&yaml).expect("its text is a profile"),

@@ -9,6 +9,7 @@ mod limits;
 mod outputs;
 mod planning;
 pub mod reports;
+mod robots;
 mod tables;
 mod validating;
 mod widths;

@@ -97,6 +97,34 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "profile-facts/1",
     ),
     ("profile new --robot abb_irb120", 0, "new-profile/1"),
+    ("profile new --robot fanuc_m20ia", 0, "new-profile/1"),
+    ("robots --search kuka", 0, "robots/1"),
+    ("robots --search nothing-like-it", 2, ""),
+    (
+        "profile set @robots/abb_irb120.yaml robot.serial=120-1 -o numbered.yaml",
+        0,
+        "changed-profile/1",
+    ),
+    (
+        "profile add-tool @robots/abb_irb120.yaml gripper=0,0,150,0,0,0,2.5 -o tooled.yaml",
+        0,
+        "changed-profile/1",
+    ),
+    (
+        "profile export @robots/abb_irb120_thesis.yaml --urdf -o arm.urdf",
+        0,
+        "exported-profile/1",
+    ),
+    (
+        "profile export @robots/abb_irb120_thesis.yaml",
+        0,
+        "exported-profile/1",
+    ),
+    (
+        "profile from-urdf arm.urdf -o back.yaml",
+        0,
+        "new-profile/1",
+    ),
     (
         "profile diff @robots/abb_irb120.yaml @robots/abb_irb120_thesis.yaml",
         1,

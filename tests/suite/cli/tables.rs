@@ -123,11 +123,7 @@ fn profile_faults_name_the_place_and_the_way_out() {
             "whole number from 1 to 6",
         ),
         ("joint: 3, rad_per_n_m", "joint: 2, rad_per_n_m", "twice"),
-        (
-            "effect: base_frame",
-            "effect: base_shift",
-            "effects are: base_frame",
-        ),
+        ("effect: base_frame", "effect: base_shift", "`base_frame`"),
         (
             "effect: joint_compliance, joint: 2, rad_per_n_m",
             "effect: joint_compliance, joint: 2, rad_per_nm",
@@ -169,7 +165,7 @@ fn a_new_profile_is_the_built_in_one_and_is_not_written_over() {
         stdout(&["profile", "diff", path, "robots/abb_irb120.yaml"]),
         ""
     );
-    assert!(refused(&["profile", "new", "--robot", "r2d2"]).contains("abb_irb120"));
+    assert!(refused(&["profile", "new", "--robot", "r2d2"]).contains("robots --search"));
     let output = poseshift()
         .current_dir(repository(""))
         .args(["profile", "diff", path, PROFILE])

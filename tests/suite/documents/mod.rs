@@ -4,6 +4,7 @@
 
 use crate::support::{files_below, is_tracked, poseshift, repository, scratch, text};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::{Component, PathBuf};
 
 fn listed(command: &str, key: &str) -> Vec<Value> {
@@ -40,7 +41,14 @@ fn languages() -> String {
 
 fn robots() -> String {
     let mut table = String::from("| robot | profile | closed-form inverse |\n|---|---|---|\n");
+    let mut makers: BTreeMap<String, usize> = BTreeMap::new();
     for row in listed("robots", "robots") {
+        if row["origin"] == "catalogue" {
+            *makers
+                .entry(word(&row, "manufacturer").to_owned())
+                .or_default() += 1;
+            continue;
+        }
         let calibrated = if row["effects"] == 0 {
             ""
         } else {
@@ -54,7 +62,14 @@ fn robots() -> String {
             word(&row, "closed_form_inverse")
         );
     }
+    let all: usize = makers.values().sum();
+    let makers = makers.iter().map(|(maker, arms)| format!("{maker} {arms}"));
+    let makers: Vec<String> = makers.collect();
     table
+        + &format!(
+            "\nand {all} more from public files, whose limits are to be set from the data sheet: {} (`poseshift robots --search TEXT`).\n",
+            makers.join(", ")
+        )
 }
 
 fn findings() -> String {
@@ -177,7 +192,7 @@ fn commands_of_the_readme_do_what_it_says() {
             command.current_dir(scratch.path());
             for word in arguments {
                 // what an earlier command of the reader wrote is not an input
-                if is_tracked(word) {
+                if word.contains('/') && is_tracked(word) {
                     command.arg(repository(word));
                 } else {
                     command.arg(word);

@@ -91,7 +91,9 @@ fn the_page_of_compensate_has_the_numbers_of_its_json() {
         ("shift", Some("deg"), "shift_deg", 4),
         ("residual", Some("mm"), "residual_mm", 2),
         ("rounding", Some("mm"), "rounding_mm", 3),
-        ("iterations", None, "iterations", 9),
+        ("method", None, "method", 9),
+        ("shift evaluations", None, "shift_evaluations", 9),
+        ("newton evaluations", None, "newton_evaluations", 9),
         ("branch", None, "branch", 9),
         ("status", None, "status", 9),
     ] {

@@ -8,6 +8,7 @@ use crate::check::trace::Traced;
 use crate::compensate::Compensation;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::inverse::Method;
 use crate::report::html::cell::{Along, Cell, Path, Points, Robot, bodies};
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::{Page, Section, Tone};
@@ -144,9 +145,19 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
             "mm",
             number(&|r| mm_from_m(reports[*r].rounding.distance_m), 3),
         ),
+        Column::names(
+            "method",
+            rows.iter().map(|row| reports[*row].method.map(Method::id)),
+        ),
         Column::counts(
-            "iterations",
-            rows.iter().map(|row| reports[*row].iterations as usize),
+            "shift evaluations",
+            rows.iter()
+                .map(|row| reports[*row].shift_evaluations as usize),
+        ),
+        Column::counts(
+            "newton evaluations",
+            rows.iter()
+                .map(|row| reports[*row].newton_evaluations as usize),
         ),
         Column::names("branch", branches.iter().map(Option::as_deref)),
         Column::names(

@@ -1,13 +1,19 @@
 //! `profile`: make and inspect profiles.
 
+mod change;
+mod export;
+mod from_urdf;
+
 use super::telling::{Told, finish, print_schema, print_table};
 use super::{Answer, Output, files};
 use crate::model::profile::Profile;
 use crate::report::Report;
 use crate::task::Failure;
-use crate::task::profile::{Inputs, diff, from_urdf, import_ur, new, show};
-use crate::urdf::Choice;
+use crate::task::profile::{diff, import_ur, new, show};
+use change::{AddTool, Set};
 use clap::{Args, Subcommand};
+use export::Export;
+use from_urdf::FromUrdf;
 use std::path::{Path, PathBuf};
 
 /// Make and inspect robot profiles
@@ -43,30 +49,10 @@ enum Sub {
     ImportUr(ImportUr),
     /// Print the JSON Schema of the format
     Schema,
-    /// Make a profile of a URDF: its six axes, limits, masses and collision shapes
     FromUrdf(FromUrdf),
-}
-
-/// A URDF and what to take of it
-#[derive(Args)]
-struct FromUrdf {
-    /// The URDF (what xacro makes of a xacro file)
-    file: PathBuf,
-    /// The link that stands still (default: the one without a parent)
-    #[arg(long, value_name = "LINK")]
-    base: Option<String>,
-    /// The link that tools are mounted on (default: tool0, flange, or the only end)
-    #[arg(long, value_name = "LINK")]
-    tip: Option<String>,
-    /// Where packages are: a folder that holds them, or NAME=FOLDER of one
-    #[arg(long, value_name = "[NAME=]FOLDER")]
-    package_path: Vec<String>,
-    /// Leave the collision shapes out
-    #[arg(long)]
-    no_shapes: bool,
-    /// Where to write it (default: standard output)
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    Set(Set),
+    AddTool(AddTool),
+    Export(Export),
 }
 
 /// Put the factory calibration of a Universal Robots arm into its profile, as what the controller computes with
@@ -96,7 +82,7 @@ impl ProfileCommand {
                 };
                 let text = found.profile.take().unwrap_or_default();
                 found.output = Some(path.display().to_string());
-                make(path, text, &found, output)
+                make(path, &text, &found, output)
             }
             Sub::Show { profile } => tell(&show(&files::profile(profile)?.profile), output),
             Sub::Diff { a, b } => {
@@ -111,6 +97,9 @@ impl ProfileCommand {
                 Ok(Answer::Yes)
             }
             Sub::FromUrdf(command) => command.run(output),
+            Sub::Set(command) => command.run(output),
+            Sub::AddTool(command) => command.run(output),
+            Sub::Export(command) => command.run(output),
         }
     }
 }
@@ -137,48 +126,5 @@ impl ImportUr {
         let name = self.output.display().to_string();
         let found = import_ur(&calibration, &profile, &name)?;
         make(&self.output, &found.text, &found, output)
-    }
-}
-
-impl FromUrdf {
-    fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let origin = self.file.file_name().unwrap_or_default().to_string_lossy();
-        let mut found = from_urdf(&Inputs {
-            urdf: &files::source(&self.file)?,
-            origin: &origin,
-            choice: Choice {
-                base: self.base.clone(),
-                tip: self.tip.clone(),
-                shapes: !self.no_shapes,
-            },
-            meshes: &|file| self.mesh(file),
-        })?;
-        let Some(path) = &self.output else {
-            print_table(&found, output)?;
-            return Ok(Answer::Yes);
-        };
-        found.output = Some(path.display().to_string());
-        make(path, &found.profile, &found, output)
-    }
-
-    /// Where a mesh is; `None` where it is not.
-    fn mesh(&self, file: &str) -> Option<String> {
-        let beside = self.file.parent().unwrap_or(Path::new(""));
-        let candidates: Vec<PathBuf> = if let Some(rest) = file.strip_prefix("package://") {
-            let (package, inside) = rest.split_once('/')?;
-            let place = |given: &String| match given.split_once('=') {
-                Some((name, folder)) if name == package => Some(Path::new(folder).join(inside)),
-                Some(_) => None,
-                None => Some(Path::new(given).join(rest)),
-            };
-            self.package_path.iter().filter_map(place).collect()
-        } else {
-            let plain = file.strip_prefix("file://").unwrap_or(file);
-            vec![beside.join(plain)]
-        };
-        let found = candidates.into_iter().find(|path| path.is_file())?;
-        // profiles name meshes relative to themselves, wherever they are written
-        let whole = std::fs::canonicalize(&found).ok()?;
-        Some(whole.display().to_string())
     }
 }

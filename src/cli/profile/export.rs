@@ -1,0 +1,78 @@
+//! `profile export`.
+
+use super::super::telling::{Told, finish, print_table};
+use super::super::{Answer, Output, files};
+use super::make;
+use crate::task::Failure;
+use crate::task::profile::{Form, export};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Write the real arm as other programs read it, with what the form does not carry and how large that is
+#[derive(Args)]
+#[command(
+    after_help = "With --json and no form, the JSON has the geometry with what was identified of it, and every effect."
+)]
+pub(super) struct Export {
+    /// The profile
+    profile: PathBuf,
+    #[command(flatten)]
+    form: Forms,
+    /// Where to write it (default: standard output)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+#[group(multiple = false)]
+struct Forms {
+    /// A URDF
+    #[arg(long)]
+    urdf: bool,
+    /// Classic Denavit-Hartenberg parameters: Rz(theta) Tz(d) Tx(a) Rx(alpha)
+    #[arg(long)]
+    dh_csv: bool,
+    /// Modified ones: Rx(alpha) Tx(a) Ry(beta) Rz(theta) Tz(d)
+    #[arg(long)]
+    mdh_csv: bool,
+    /// The kinematics file of the ROS driver of Universal Robots
+    #[arg(long)]
+    ur_kinematics: bool,
+}
+
+impl Forms {
+    fn chosen(&self) -> Option<Form> {
+        let forms = [
+            (self.urdf, Form::Urdf),
+            (self.dh_csv, Form::DhCsv),
+            (self.mdh_csv, Form::MdhCsv),
+            (self.ur_kinematics, Form::UrKinematics),
+        ];
+        let chosen = forms.into_iter().find(|(is_given, _)| *is_given);
+        chosen.map(|(_, form)| form)
+    }
+}
+
+impl Export {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let form = self.form.chosen();
+        if form.is_none() && (self.output.is_some() || !output.json) {
+            return Err(Failure::with_hint(
+                "no form is given",
+                "--urdf, --dh-csv, --mdh-csv or --ur-kinematics; --json alone prints the geometry",
+            ));
+        }
+        let mut found = export(&files::profile(&self.profile)?, form)?;
+        let Some(path) = &self.output else {
+            if form.is_none() {
+                finish(&found, Vec::new(), None, (Told::Main, ""), output)?;
+            } else {
+                print_table(&found, output)?;
+            }
+            return Ok(Answer::Yes);
+        };
+        found.output = Some(path.display().to_string());
+        let text = found.text.take().unwrap_or_default();
+        make(path, &text, &found, output)
+    }
+}
