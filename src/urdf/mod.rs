@@ -26,6 +26,7 @@
 
 mod chain;
 mod error;
+mod read;
 mod tree;
 mod write;
 

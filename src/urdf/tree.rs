@@ -1,10 +1,10 @@
 //! The way from the base to the tip.
 
+use super::read::{self, Geometry, Joint, JointType, Link, Origin, Robot};
 use super::{Choice, UrdfArm, UrdfError, UrdfForm, UrdfJoint, UrdfShape};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation, Vector, norm, scale};
 use std::collections::BTreeMap;
-use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 
 /// Angles of frames that are this near to a multiple of 45° are rounded ones of it, radians: files with four digits write
 /// 1.571 for a right angle, 2.04e-4 off, and none of 348 files of makers means an angle so near to one.
@@ -25,23 +25,11 @@ fn angle(found: f64, notes: &mut f64) -> f64 {
 }
 
 /// Exact rotations where the angles are multiples of 45°.
-fn pose(origin: &urdf_rs::Pose, rounded: &mut f64) -> Pose {
-    let [r, p, y] = origin.rpy.0.map(|a| angle(a, rounded));
+fn pose(origin: &Origin, rounded: &mut f64) -> Pose {
+    let [r, p, y] = origin.rpy.map(|a| angle(a, rounded));
     Pose {
         rotation: Rotation::from_rzryrx([y, p, r]),
-        translation: origin.xyz.0,
-    }
-}
-
-fn kind(joint: &Joint) -> &'static str {
-    match joint.joint_type {
-        JointType::Revolute => "revolute",
-        JointType::Continuous => "continuous",
-        JointType::Prismatic => "prismatic",
-        JointType::Fixed => "fixed",
-        JointType::Floating => "floating",
-        JointType::Planar => "planar",
-        JointType::Spherical => "spherical",
+        translation: origin.xyz,
     }
 }
 
@@ -57,9 +45,7 @@ pub(super) fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
     if code.contains("<xacro:") || (code.contains("xmlns:xacro") && code.contains("${")) {
         return Err(UrdfError::Xacro);
     }
-    let robot = urdf_rs::read_from_string(text).map_err(|error| UrdfError::Unreadable {
-        message: error.to_string(),
-    })?;
+    let robot = read::robot(text)?;
     let tree = Tree::of(&robot)?;
     let base = tree.base(choice)?;
     let tip = tree.tip(base, choice)?;
@@ -83,12 +69,12 @@ impl<'a> Tree<'a> {
             robot.links.iter().map(|l| (l.name.as_str(), l)).collect();
         let mut above: BTreeMap<&str, &Joint> = BTreeMap::new();
         for joint in &robot.joints {
-            for link in [&joint.parent.link, &joint.child.link] {
+            for link in [&joint.parent, &joint.child] {
                 if !links.contains_key(link.as_str()) {
                     return Err(no_link(link, &links));
                 }
             }
-            let child = joint.child.link.as_str();
+            let child = joint.child.as_str();
             if let Some(other) = above.insert(child, joint) {
                 return Err(UrdfError::Loop {
                     link: child.into(),
@@ -108,7 +94,7 @@ impl<'a> Tree<'a> {
             for _ in 0..=tree.links.len() {
                 match tree.above.get(at) {
                     None => break,
-                    Some(joint) => at = &joint.parent.link,
+                    Some(joint) => at = &joint.parent,
                 }
             }
             if let Some(joint) = tree.above.get(at) {
@@ -151,7 +137,7 @@ impl<'a> Tree<'a> {
         while at != base {
             let joint = self.above.get(at)?;
             way.push(*joint);
-            at = &joint.parent.link;
+            at = &joint.parent;
         }
         way.reverse();
         Some(way)
@@ -217,14 +203,14 @@ impl<'a> Tree<'a> {
                 _ => {
                     return Err(UrdfError::Kind {
                         joint: joint.name.clone(),
-                        kind: kind(joint).into(),
+                        kind: joint.joint_type.name().into(),
                     });
                 }
             }
             if let Some(mimic) = &joint.mimic {
                 return Err(UrdfError::Mimic {
                     joint: joint.name.clone(),
-                    by: mimic.joint.clone(),
+                    by: mimic.clone(),
                 });
             }
             joints.push(turning(joint, fixed, &mut notes)?);
@@ -292,7 +278,7 @@ impl<'a> Tree<'a> {
             if beside {
                 continue;
             }
-            let mass = link.inertial.mass.value;
+            let mass = link.mass_kg;
             if !mass.is_finite() || mass < 0.0 {
                 return Err(UrdfError::Number {
                     what: "the mass",
@@ -301,7 +287,7 @@ impl<'a> Tree<'a> {
                 });
             }
             if mass > 0.0 && moved_by > 0 {
-                let cog = place.transform(link.inertial.origin.xyz.0);
+                let cog = place.transform(link.centre.xyz);
                 arm.masses.push((moved_by, mass, cog));
             }
             if choice.shapes {
@@ -327,8 +313,8 @@ fn no_link(link: &str, links: &BTreeMap<&str, &Link>) -> UrdfError {
     }
 }
 
-fn finite(what: &'static str, name: &str, origin: &urdf_rs::Pose) -> Result<(), UrdfError> {
-    let numbers = origin.xyz.0.into_iter().chain(origin.rpy.0);
+fn finite(what: &'static str, name: &str, origin: &Origin) -> Result<(), UrdfError> {
+    let numbers = origin.xyz.into_iter().chain(origin.rpy);
     match numbers.into_iter().find(|x| !x.is_finite()) {
         None => Ok(()),
         Some(found) => Err(UrdfError::Number {
@@ -349,7 +335,7 @@ fn turning(
         name: joint.name.clone(),
         found,
     };
-    let axis: Vector = joint.axis.xyz.0;
+    let axis: Vector = joint.axis;
     let long = norm(axis);
     if !(long.is_finite() && long > 1e-9) {
         return Err(number("the axis", format!("{axis:?}")));
@@ -383,7 +369,7 @@ fn turning(
 
 fn form(link: &str, geometry: &Geometry) -> Result<UrdfForm, UrdfError> {
     let (form, numbers) = match geometry {
-        Geometry::Box { size } => (UrdfForm::Box(size.0), size.0.to_vec()),
+        Geometry::Box { size } => (UrdfForm::Box(*size), size.to_vec()),
         Geometry::Cylinder { radius, length } => {
             (UrdfForm::Cylinder(*radius, *length), vec![*radius, *length])
         }
@@ -392,7 +378,7 @@ fn form(link: &str, geometry: &Geometry) -> Result<UrdfForm, UrdfError> {
         }
         Geometry::Sphere { radius } => (UrdfForm::Sphere(*radius), vec![*radius]),
         Geometry::Mesh { filename, scale } => {
-            let s = scale.map_or([1.0; 3], |scale| scale.0);
+            let s = scale.unwrap_or([1.0; 3]);
             if !(s[0] > 0.0 && s[0] == s[1] && s[1] == s[2]) {
                 return Err(UrdfError::Scale {
                     link: link.into(),

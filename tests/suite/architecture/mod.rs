@@ -24,7 +24,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "finding", "geometry", "inverse", "model", "motion", "program",
         ],
     ),
-    ("urdf", &["geometry", "model"]),
+    ("xml", &[]),
+    ("urdf", &["geometry", "model", "xml"]),
     (
         "check",
         &[
@@ -35,6 +36,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "model",
             "motion",
             "program",
+            "xml",
         ],
     ),
     (
