@@ -41,7 +41,7 @@ pub(crate) struct Element<'a> {
     pub(crate) line: usize,
 }
 
-impl<'a> Element<'a> {
+impl Element<'_> {
     /// The value of an attribute.
     pub(crate) fn attribute(&self, name: &str) -> Option<&str> {
         let mut attributes = self.attributes.iter();

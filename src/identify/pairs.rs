@@ -215,7 +215,7 @@ fn shuffled(count: usize) -> Vec<usize> {
     };
     let mut order: Vec<usize> = (0..count).collect();
     for last in (1..count).rev() {
-        let below = u128::from(random()) * (last as u128 + 1) >> 64;
+        let below = (u128::from(random()) * (last as u128 + 1)) >> 64;
         order.swap(last, usize::try_from(below).expect("at most `last`"));
     }
     order

@@ -17,6 +17,7 @@ use crate::geometry::Vector;
 use crate::geometry::units::DEG;
 use crate::xml::{self, Element, XmlError};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Nodes in each other, those that others name included.
 const DEEPEST: usize = 256;
@@ -133,10 +134,8 @@ impl<'e, 'a> Document<'e, 'a> {
                         let geometry = self.named(child, "url", "geometry")?;
                         let known = geometries.entry(std::ptr::from_ref(geometry));
                         let triangles = match known {
-                            std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
-                            std::collections::hash_map::Entry::Vacant(new) => {
-                                new.insert(self.geometry(geometry)?)
-                            }
+                            Entry::Occupied(known) => known.into_mut(),
+                            Entry::Vacant(new) => new.insert(self.geometry(geometry)?),
                         };
                         if out.len() + triangles.len() > MOST {
                             return Err(child.fault(format!("more than {MOST} triangles")));
@@ -182,12 +181,12 @@ impl<'e, 'a> Document<'e, 'a> {
                 return Err(primitive.fault(format!("<{name}> has no input VERTEX")));
             };
             let vertices = self.named(input, "source", "vertices")?;
-            let key = std::ptr::from_ref(vertices);
-            if !points.contains_key(&key) {
-                points.insert(key, self.points(vertices)?);
-            }
+            let points = match points.entry(std::ptr::from_ref(vertices)) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => new.insert(self.points(vertices)?),
+            };
             let corners = Corners {
-                points: &points[&key],
+                points,
                 stride,
                 offset,
             };
@@ -312,7 +311,7 @@ impl Corners<'_> {
             .split_ascii_whitespace()
             .map(|word| whole(list, word))
             .collect::<Result<_, _>>()?;
-        if indices.len() % self.stride != 0 {
+        if !indices.len().is_multiple_of(self.stride) {
             return Err(list.fault(format!(
                 "{} indices are no corners of {} each",
                 indices.len(),
@@ -371,7 +370,7 @@ fn local(node: &Element) -> Result<Affine, XmlError> {
                 let [x, y, z, degrees] = numbers::<4>(child)?;
                 let long = x.hypot(y).hypot(z);
                 // an axis without length rotates by nothing, if the angle is none
-                if !(long > 0.0) && degrees != 0.0 {
+                if long == 0.0 && degrees != 0.0 {
                     return Err(child.fault("a <rotate> about no axis"));
                 }
                 let long = if long > 0.0 { long } else { 1.0 };

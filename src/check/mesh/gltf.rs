@@ -250,12 +250,8 @@ impl Opened<'_> {
             None => points,
             Some(indices) => {
                 let indices: Vec<[f64; 1]> = self.items(indices, "SCALAR", &WHOLE)?;
-                let indices = indices
-                    .iter()
-                    .map(|[index]| at(&points, index_of(*index), "corner"));
-                indices
-                    .map(|point| point.copied())
-                    .collect::<Result<_, _>>()?
+                let corner = |[index]: &[f64; 1]| at(&points, index_of(*index), "corner").copied();
+                indices.iter().map(corner).collect::<Result<_, _>>()?
             }
         };
         if out.len() + corners.len() > MOST {
@@ -405,7 +401,7 @@ fn local(node: &Node) -> Result<Affine, String> {
     }
     let [x, y, z, w] = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
     let square: f64 = [w, x, y, z].iter().map(|part| part * part).sum();
-    if !((square - 1.0).abs() < UNIT) {
+    if !square.is_finite() || (square - 1.0).abs() >= UNIT {
         return Err(format!(
             "a node's rotation {x}, {y}, {z}, {w} is no unit quaternion"
         ));

@@ -35,6 +35,11 @@ fn wall() -> ([[f64; 3]; 8], [[usize; 3]; 12]) {
     (corners, faces)
 }
 
+#[allow(clippy::cast_possible_truncation, reason = "formats of 32 bits")]
+fn f32_of(number: f64) -> f32 {
+    number as f32
+}
+
 fn stl_ascii() -> Vec<u8> {
     let (corners, faces) = wall();
     let mut text = "solid wall\n".to_owned();
@@ -55,7 +60,7 @@ fn stl_binary() -> Vec<u8> {
     for face in faces {
         bytes.extend([0; 12]);
         for number in face.iter().flat_map(|k| corners[*k]) {
-            bytes.extend((number as f32).to_le_bytes());
+            bytes.extend(f32_of(number).to_le_bytes());
         }
         bytes.extend([0; 2]);
     }
@@ -116,7 +121,7 @@ fn gltf(buffer: &str) -> (String, Vec<u8>) {
     let (corners, faces) = wall();
     let mut bytes = Vec::new();
     for number in corners.iter().flat_map(|c| y_up(*c)) {
-        bytes.extend(((number / 1000.0) as f32).to_le_bytes());
+        bytes.extend(f32_of(number / 1000.0).to_le_bytes());
     }
     bytes.extend(
         faces
@@ -224,9 +229,10 @@ fn a_mesh_in_metres_is_not_taken_for_one_in_millimetres() {
         _ => word.to_owned(),
     };
     let lines = text.lines().map(|line| {
-        let words: Vec<String> = match line.starts_with('v') {
-            true => line.split(' ').map(metres).collect(),
-            false => vec![line.to_owned()],
+        let words: Vec<String> = if line.starts_with('v') {
+            line.split(' ').map(metres).collect()
+        } else {
+            vec![line.to_owned()]
         };
         words.join(" ") + "\n"
     });
