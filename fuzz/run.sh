@@ -1,15 +1,18 @@
 #!/usr/bin/env bash
-# Feeds random and mutated programs to every language, SECONDS each (default 60), beginning with the samples.
-# What makes one fail is in fuzz/artifacts: mend it, and keep the file in tests/data/fuzz/<language>.
+# Feeds random and mutated files to every reader (languages, meshes, URDF, profiles, cells, measurements), SECONDS each
+# (default 60), beginning with the samples.
+# What makes one fail is in fuzz/artifacts: mend it, and keep a program in tests/data/fuzz/<language>, another file as a test.
 # Needs: rustup toolchain install nightly; cargo install cargo-fuzz
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
 for target in fuzz/fuzz_targets/*.rs; do
-  language=$(basename "$target" .rs)
-  corpus=fuzz/corpus/$language
+  reader=$(basename "$target" .rs)
+  corpus=fuzz/corpus/$reader
   mkdir -p "$corpus"
-  find "programs/$language" "tests/data/fuzz/$language" -path '*/out/*' -prune -o -type f -size -32k -print 2>/dev/null |
+  samples=("programs/$reader" "tests/data/fuzz/$reader" "fuzz/seeds/$reader")
+  [ "$reader" = profile ] && samples+=(robots)
+  find "${samples[@]}" -path '*/out/*' -prune -o -type f -size -32k -print 2>/dev/null |
     while read -r seed; do cp "$seed" "$corpus/$(sha256sum <"$seed" | cut -c1-16)"; done || true
-  cargo +nightly fuzz run --sanitizer none "$language" "$corpus" -- -max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 -max_len=32768 -print_final_stats=1 2>&1 | tail -n 12
+  cargo +nightly fuzz run --sanitizer none "$reader" "$corpus" -- -max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 -max_len=32768 -print_final_stats=1 2>&1 | tail -n 12
 done

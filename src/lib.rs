@@ -46,5 +46,6 @@ pub mod register;
 mod report;
 pub mod task;
 pub mod urdf;
+mod xml;
 
 pub use cli::run_with;

@@ -1,18 +1,31 @@
-//! Triangle meshes from files: STL, OBJ and COLLADA by a crate, glTF here.
+//! Triangle meshes from files: STL and OBJ by a crate, COLLADA and glTF here.
+//!
+//! COLLADA and glTF say how long their unit is and which axis points up: what is read is in metres, and z points up. STL and
+//! OBJ say neither: they are taken as they stand, and their unit, where nobody says, as a millimetre.
 
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, cross, norm, sub};
 use std::collections::HashMap;
 use std::path::Path;
 
+mod affine;
+mod collada;
 mod gltf;
 
 /// A mesh with a longer side than this is in other units, metres.
 const LARGEST_M: f64 = 100.0;
 /// A mesh whose longest side is shorter than this is in other units, metres.
 const SMALLEST_M: f64 = 0.5e-3;
+/// Most triangles of a file.
+const MOST: usize = 20_000_000;
 /// A triangle whose area is below this part of its longest edge squared is degenerate.
 const DEGENERATE: f64 = 1e-12;
+
+/// Three corners.
+type Triangle = [Vector; 3];
+
+/// Reads a file that a mesh file names: it stands in the same folder or below it. An error says why it cannot be read.
+pub type Neighbour<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// Triangles in metres.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -23,6 +36,10 @@ pub struct Mesh {
     pub degenerate: usize,
     /// Edges that belong to an odd number of triangles: a closed mesh has none.
     pub open_edges: usize,
+    /// The file that it was read from; empty where it is of none.
+    pub file: String,
+    /// Neither the file nor anybody else says how long its unit is: a millimetre is assumed.
+    pub unit_assumed: bool,
 }
 
 /// Why a mesh cannot be used.
@@ -82,13 +99,9 @@ impl MeshError {
     }
 }
 
-/// Millimetres of one unit of a file where nobody says: glTF is in metres by its specification, the others in millimetres.
-#[must_use]
-pub fn default_scale(name: &str) -> f64 {
-    match ending(name).as_str() {
-        "gltf" | "glb" => 1000.0,
-        _ => 1.0,
-    }
+/// Whether files of this name say how long their unit is: they are in metres once it is applied.
+fn says_its_unit(name: &str) -> bool {
+    matches!(ending(name).as_str(), "dae" | "gltf" | "glb")
 }
 
 fn ending(name: &str) -> String {
@@ -97,7 +110,8 @@ fn ending(name: &str) -> String {
 }
 
 impl Mesh {
-    /// Reads a mesh file's bytes; `scale` is millimetres of a unit on each axis. `beside` reads a file that this one names.
+    /// Reads a mesh file's bytes; `scale` is millimetres of a unit on each axis, of files that say their unit of a metre in
+    /// them. `neighbour` reads a file that this one names.
     ///
     /// # Errors
     /// If it is no mesh, has no area, or a size that cannot be meant.
@@ -105,58 +119,78 @@ impl Mesh {
         name: &str,
         bytes: &[u8],
         scale: Option<Vector>,
-        beside: &dyn Fn(&str) -> Option<Vec<u8>>,
+        neighbour: Neighbour,
     ) -> Result<Self, MeshError> {
-        let scale = scale.unwrap_or([default_scale(name); 3]);
+        let default = if says_its_unit(name) { 1000.0 } else { 1.0 };
+        let (unit_assumed, scale) = match scale {
+            Some(scale) => (false, scale),
+            None => (!says_its_unit(name), [default; 3]),
+        };
         let raw = match ending(name).as_str() {
-            "stl" | "obj" | "dae" => by_crate(name, bytes)?,
-            "gltf" | "glb" => {
-                gltf::read(bytes, beside).map_err(|message| MeshError::Unreadable { message })?
-            }
+            "stl" | "obj" => by_crate(name, bytes),
+            "dae" => collada::read(bytes),
+            "gltf" | "glb" => gltf::read(bytes, neighbour),
             other => {
                 return Err(MeshError::Ending {
                     ending: other.into(),
                 });
             }
         };
+        let raw = raw.map_err(|message| MeshError::Unreadable { message })?;
         let scaled = |point: Vector| std::array::from_fn(|i| m_from_mm(point[i] * scale[i]));
-        let triangles: Vec<[Vector; 3]> = raw.iter().map(|t| t.map(scaled)).collect();
-        Self::of(&triangles, scale[0])
+        let triangles: Vec<Triangle> = raw.iter().map(|t| t.map(scaled)).collect();
+        Ok(Self {
+            file: name.into(),
+            unit_assumed,
+            ..Self::of(&triangles, scale[0])?
+        })
     }
 
     /// A mesh of triangles in metres.
     ///
     /// # Errors
     /// If it has no area, or a size that cannot be meant.
-    pub fn of(all: &[[Vector; 3]], scale: f64) -> Result<Self, MeshError> {
+    pub fn of(all: &[Triangle], scale: f64) -> Result<Self, MeshError> {
         if all.iter().flatten().flatten().any(|x| !x.is_finite()) {
             return Err(MeshError::NotFinite);
         }
-        let has_area = |[a, b, c]: &&[Vector; 3]| {
+        let has_area = |[a, b, c]: &&Triangle| {
             let (u, v, w) = (sub(*b, *a), sub(*c, *a), sub(*c, *b));
             let longest = norm(u).max(norm(v)).max(norm(w));
             norm(cross(u, v)) > DEGENERATE * longest * longest && longest > 0.0
         };
-        let triangles: Vec<[Vector; 3]> = all.iter().filter(has_area).copied().collect();
+        let triangles: Vec<Triangle> = all.iter().filter(has_area).copied().collect();
         if triangles.is_empty() {
             return Err(MeshError::Empty { found: all.len() });
         }
-        let corners = || triangles.iter().flatten();
-        let size_m = (0..3)
-            .map(|i| {
-                let low = corners().map(|c| c[i]).fold(f64::INFINITY, f64::min);
-                let high = corners().map(|c| c[i]).fold(f64::NEG_INFINITY, f64::max);
-                high - low
-            })
-            .fold(0.0, f64::max);
-        if !(SMALLEST_M..=LARGEST_M).contains(&size_m) {
-            return Err(MeshError::Size { size_m, scale });
-        }
-        Ok(Self {
+        let mesh = Self {
             degenerate: all.len() - triangles.len(),
             open_edges: open_edges(&triangles),
             triangles,
-        })
+            ..Self::default()
+        };
+        let size_m = mesh.longest_side_m();
+        if !(SMALLEST_M..=LARGEST_M).contains(&size_m) {
+            return Err(MeshError::Size { size_m, scale });
+        }
+        Ok(mesh)
+    }
+
+    /// The corner of least coordinates of the box about it, and that of largest, metres.
+    #[must_use]
+    pub fn bounds(&self) -> [Vector; 2] {
+        let corners = || self.triangles.iter().flatten();
+        let of = |start: f64, pick: fn(f64, f64) -> f64| {
+            std::array::from_fn(|i| corners().map(|c| c[i]).fold(start, pick))
+        };
+        [of(f64::INFINITY, f64::min), of(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// The longest side of that box, metres.
+    #[must_use]
+    pub fn longest_side_m(&self) -> f64 {
+        let [low, high] = self.bounds();
+        sub(high, low).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether a point is inside: an odd number of triangles lies on a ray from it. Meaningless where the mesh is open.
@@ -179,32 +213,34 @@ impl Mesh {
     }
 }
 
-fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<[Vector; 3]>, MeshError> {
-    // only this file's bytes are read: no material library or texture beside it
+/// A polygon as triangles about its first corner.
+fn fan(corners: &[Vector], out: &mut Vec<Triangle>) {
+    if let [first, others @ ..] = corners {
+        out.extend(others.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+    }
+}
+
+fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
+    // only this file's bytes are read: no material library or texture that it names
     fn none(_: &Path) -> std::io::Result<Vec<u8>> {
         Err(std::io::ErrorKind::NotFound.into())
     }
-    let unreadable = |error: std::io::Error| MeshError::Unreadable {
-        message: error.to_string(),
-    };
     let loader = mesh_loader::Loader::default().custom_reader(none);
     let scene = match ending(name).as_str() {
         "stl" => loader.load_stl_from_slice(bytes, name),
-        "obj" => loader.load_obj_from_slice(bytes, name),
-        _ => loader.load_collada_from_slice(bytes, name),
+        _ => loader.load_obj_from_slice(bytes, name),
     }
-    .map_err(unreadable)?;
+    .map_err(|error| error.to_string())?;
     let mut triangles = Vec::new();
     for mesh in &scene.meshes {
+        if triangles.len() + mesh.faces.len() > MOST {
+            return Err(format!("more than {MOST} triangles"));
+        }
         for face in &mesh.faces {
             let corner = |i: u32| mesh.vertices.get(i as usize).map(|v| v.map(f64::from));
             match face.map(corner) {
                 [Some(a), Some(b), Some(c)] => triangles.push([a, b, c]),
-                _ => {
-                    return Err(MeshError::Unreadable {
-                        message: "a face names a corner that is not there".into(),
-                    });
-                }
+                _ => return Err("a face names a corner that is not there".into()),
             }
         }
     }
@@ -212,7 +248,7 @@ fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<[Vector; 3]>, MeshError> {
 }
 
 /// Edges that an odd number of triangles share; corners are the same where their coordinates are.
-fn open_edges(triangles: &[[Vector; 3]]) -> usize {
+fn open_edges(triangles: &[Triangle]) -> usize {
     let mut edges: HashMap<[[u64; 3]; 2], usize> = HashMap::new();
     // 0.0 and -0.0 are one place
     let key = |point: &Vector| point.map(|x| (x + 0.0).to_bits());
@@ -251,7 +287,9 @@ mod tests {
     }
 
     fn read(name: &str, text: &str, scale: Option<f64>) -> Result<Mesh, MeshError> {
-        Mesh::read(name, text.as_bytes(), scale.map(|s| [s; 3]), &|_| None)
+        Mesh::read(name, text.as_bytes(), scale.map(|s| [s; 3]), &|_| {
+            Err(String::new())
+        })
     }
 
     #[test]

@@ -47,6 +47,7 @@ pub mod posture;
 mod query;
 pub mod refine;
 mod scene;
+mod sizes;
 pub mod trace;
 mod uncertainty;
 mod walk;
@@ -70,6 +71,8 @@ use walk::Walk;
 
 /// Moves judged by one thread at a time.
 const CHUNK: usize = 16;
+/// Moves judged by all of them before these are put to the others.
+const BATCH: usize = 4096;
 
 /// What the user decides.
 #[derive(Clone, Debug)]
@@ -242,6 +245,18 @@ impl Check {
 /// If a program cannot be read, a tool or frame is unknown, the arm has no closed-form inverse, or the original has other
 /// moves. What a move does wrong is a [`Finding`].
 pub fn check(subject: &Subject, options: &Options) -> Result<Check, CheckError> {
+    check_telling(subject, options, &mut |_, _| ())
+}
+
+/// As [`check`]; `tell` hears how many of how many moves are done.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_telling(
+    subject: &Subject,
+    options: &Options,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Check, CheckError> {
     let walk = Walk::of(subject.language, subject.sources, subject.profile, options)?;
     let original = subject
         .nominal
@@ -264,23 +279,24 @@ pub fn check(subject: &Subject, options: &Options) -> Result<Check, CheckError> 
     };
     let is_own = |stop: &usize| !subject.sources[walk.motion(*stop).file as usize].is_context;
     let indices: Vec<usize> = (0..walk.stops.len()).filter(is_own).collect();
-    let judged: Vec<(Option<MoveReport>, Vec<Finding>)> = indices
-        .par_chunks(CHUNK)
-        .flat_map_iter(|chunk| {
-            chunk
-                .iter()
-                .map(|&index| job.judge(index))
-                .collect::<Vec<_>>()
-        })
-        .collect();
     let mut findings = walk.findings.clone();
+    findings.extend(subject.scene.findings.iter().cloned());
     if let Some(original) = &original {
         soften(&mut findings, &original.findings);
     }
-    let mut moves = Vec::new();
-    for (report, found) in judged {
-        moves.extend(report);
-        findings.extend(found);
+    let mut moves = Vec::with_capacity(indices.len());
+    // a batch after another: a million moves are in memory once
+    for (number, batch) in indices.chunks(BATCH).enumerate() {
+        tell(number * BATCH, indices.len());
+        let judged: Vec<(Option<MoveReport>, Vec<Finding>)> = batch
+            .par_iter()
+            .with_min_len(CHUNK)
+            .map(|&index| job.judge(index))
+            .collect();
+        for (report, found) in judged {
+            moves.extend(report);
+            findings.extend(found);
+        }
     }
     let order = |file: &str| subject.sources.iter().position(|s| s.name == file);
     findings.sort_by_cached_key(|f| (order(&f.file), f.line, f.column, f.id));

@@ -3,6 +3,7 @@
 use super::cell::{Carrier, Cell, LINKS};
 use super::mesh::Mesh;
 use super::query::{Body, Triangles};
+use crate::finding::Finding;
 use crate::geometry::{Pose, Vector};
 use crate::model::profile::Profile;
 use crate::model::shape::{Form, Shape};
@@ -66,6 +67,8 @@ pub struct Scene {
     pub(crate) moving: Vec<Moving>,
     pub(crate) fixed: Vec<Fixed>,
     pub(crate) watched: Vec<Watched>,
+    /// Bodies whose size is hardly meant.
+    pub(crate) findings: Vec<Finding>,
 }
 
 /// A mesh that was not given.
@@ -170,6 +173,7 @@ impl Scene {
             scene.names.push(body.name.clone());
         }
         scene.watch(cell);
+        scene.findings = super::sizes::doubted(profile, cell, meshes);
         Ok(scene)
     }
 

@@ -2,6 +2,7 @@
 
 use super::layout;
 use super::programs::{only, read_context, read_programs};
+use super::progress::Progress;
 use super::telling::ReportFile;
 use super::{Answer, Output, files, print, values};
 use crate::check::trace::trace;
@@ -105,7 +106,7 @@ impl Check {
         let file = files::profile(&self.profile)?;
         let mut profile = file.profile.clone();
         let (name, profile_sha256) = (file.name.clone(), file.sha256.clone());
-        let mut meshes = Loader::new(&|path| std::fs::read(path));
+        let mut meshes = Loader::new(&files::mesh);
         for shape in &mut profile.shapes {
             meshes.load(&mut shape.shape, &name)?;
         }
@@ -145,7 +146,12 @@ impl Check {
             scene: &scene,
         };
         let options = self.options(&profile)?;
-        let mut found = check::check(&subject, &options).map_err(|error| match error {
+        let progress = Progress::new(output, "checking");
+        let found = check::check_telling(&subject, &options, &mut |done, of| {
+            progress.tell(done, of);
+        });
+        drop(progress);
+        let mut found = found.map_err(|error| match error {
             CheckError::Program(error) => explain(&error, &sources),
             CheckError::Nominal(error) => explain(&error, nominal.as_deref().unwrap_or(&[])),
             CheckError::NoCounterpart { .. } => Failure::with_hint(

@@ -3,6 +3,7 @@
 use super::drawing::Drawing;
 use super::layout;
 use super::programs::{meant, programs_in, read_context};
+use super::progress::Progress;
 use super::telling::ReportFile;
 use super::{Answer, Output, files, print, values};
 use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
@@ -166,6 +167,7 @@ impl Compensate {
                 _ => DespiteErrors::Nothing,
             },
         };
+        let progress = Progress::new(output, "compensating");
         let prepared = prepare(&request)?;
         let refused = prepared.is_refused();
         let will_write = prepared.will_write();
@@ -196,6 +198,7 @@ impl Compensate {
         let mut outputs = Vec::new();
         if header.written.contains(&true) {
             let language = prepared.language;
+            progress.say("reading what is written");
             let written = prepared.written()?;
             if let Some(drawing) = &mut drawing {
                 drawing.tell_inserted(inserted);
@@ -209,7 +212,9 @@ impl Compensate {
             }
         }
         outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
+        progress.say("writing");
         write_all(&outputs)?;
+        drop(progress);
         if !output.json && !output.quiet {
             said += &self.report.told();
         }

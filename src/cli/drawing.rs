@@ -1,5 +1,6 @@
 //! The page of `compensate` while it is made: a program is read again, once as it was and once as it is written.
 
+use super::files;
 use crate::check::trace::{Traced, trace};
 use crate::compensate::{Compensation, Options};
 use crate::model::profile::Profile;
@@ -27,7 +28,7 @@ impl Drawing {
         let profile = &file.profile;
         let original = traced(header.language, header.sources, None, profile, options);
         let mut drawn = profile.clone();
-        let mut meshes = Loader::new(&|path| std::fs::read(path));
+        let mut meshes = Loader::new(&files::mesh);
         for shape in &mut drawn.shapes {
             // a body whose file is missing is not drawn
             let _ = meshes.load(&mut shape.shape, &file.name);

@@ -178,7 +178,7 @@ impl PlanCommand {
             &selection,
             &request,
             wanted.as_ref(),
-            &|path| std::fs::read(path),
+            &files::mesh,
             &mut |done, of| progress.tell(done, of),
         )?;
         drop(progress);

@@ -4,7 +4,8 @@ use super::files;
 use crate::nearest;
 use crate::program::{LANGUAGES, Language, Source, has_extension};
 use crate::task::Failure;
-use crate::task::files::same_file;
+use crate::task::files::existing;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// Program files in a folder and below, with their paths relative to it.
@@ -119,10 +120,9 @@ pub(super) fn read_context(
     if paths.is_empty() {
         return Ok(Vec::new());
     }
-    let is_program = |source: &Source| {
-        let mut others = programs.iter().map(|program| Path::new(&program.name));
-        others.any(|other| same_file(other, Path::new(&source.name)))
-    };
+    let at = |source: &Source| existing(Path::new(&source.name));
+    let programs: HashSet<_> = programs.iter().filter_map(at).collect();
+    let is_program = |source: &Source| at(source).is_some_and(|at| programs.contains(&at));
     let found = read_programs(paths, asked)?.into_iter();
     Ok(found
         .filter(|source| !is_program(source))

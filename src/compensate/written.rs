@@ -45,13 +45,16 @@ impl Compensation {
             .map(|(source, refused)| !(source.is_context || only_good && *refused))
             .collect();
         let mut meant = Vec::with_capacity(sources.len());
+        let program = &self.program;
+        let mut numbers = numbers_by_file(&program.targets, &program.numbers, sources.len());
         let mut written = Vec::with_capacity(sources.len());
         for (file, source) in sources.iter().enumerate() {
             let mut edits = std::mem::take(&mut self.edits[file]);
             if !is_written[file] {
                 edits = Edits::default();
             }
-            meant.push(Meant::of(&self, file, &edits));
+            let own = std::mem::take(&mut numbers[file]);
+            meant.push(Meant::of(&self, own, &edits));
             if self.compensated[file] && is_written[file] {
                 let marker = Marker {
                     version: env!("CARGO_PKG_VERSION").into(),
@@ -86,9 +89,10 @@ impl Compensation {
             .script(&written, &settings)
             .map_err(|error| differs(0, error.to_string()))?;
         let mut new: Vec<Vec<f64>> = Vec::new();
-        for (file, meant) in meant.iter().enumerate() {
+        let found = numbers_by_file(&after.targets, &after.numbers, sources.len());
+        for (file, (meant, found)) in meant.iter().zip(found).enumerate() {
             meant
-                .compare(&after, file, language, &mut new)
+                .compare(&after, (file, found), language, &mut new)
                 .map_err(|what| differs(file, what))?;
         }
         if let Some(mut added) = added {
@@ -131,10 +135,10 @@ struct Meant {
 }
 
 impl Meant {
-    fn of(compensation: &Compensation, file: usize, edits: &Edits) -> Self {
+    /// `numbers`: those of the file's targets, in its order.
+    fn of(compensation: &Compensation, numbers: Vec<u32>, edits: &Edits) -> Self {
         let program = &compensation.program;
-        let order = numbers_of(&program.targets, &program.numbers, file);
-        let mut next = order.into_iter().peekable();
+        let mut next = numbers.into_iter().peekable();
         let mut meant = Self {
             numbers: Vec::new(),
             freed: BTreeSet::new(),
@@ -199,11 +203,11 @@ impl Meant {
         }
     }
 
-    /// Compares with what was read again; adds the numbers of new targets.
+    /// Compares with what was read again: a file and the numbers of its targets. Adds the numbers of new targets.
     fn compare(
         &self,
         after: &Script,
-        file: usize,
+        (file, mut found): (usize, Vec<u32>),
         language: &dyn Language,
         new: &mut Vec<Vec<f64>>,
     ) -> Result<(), String> {
@@ -215,7 +219,6 @@ impl Meant {
                 .get(behind)
                 .is_some_and(|range| range.contains(&(offset as usize)))
         };
-        let mut found = numbers_of(&after.targets, &after.numbers, file);
         if !self.new.is_empty() {
             found.retain(|index| !is_new(after.numbers[*index as usize].start));
             let of_file = after.targets.iter().filter(|t| t.file as usize == file);
@@ -267,14 +270,18 @@ pub(super) fn without_configuration(
         .collect()
 }
 
-/// The numbers of a file's targets in the order of the file, each place once.
-fn numbers_of(targets: &[Target], numbers: &[Number], file: usize) -> Vec<u32> {
-    let of_file = targets.iter().filter(|t| t.file as usize == file);
-    let mut found: Vec<u32> = of_file.flat_map(|target| target.numbers.clone()).collect();
-    let start = |index: &u32| numbers[*index as usize].start;
-    if !found.is_sorted_by_key(start) {
-        found.sort_by_key(start);
+/// The numbers of each file's targets in the order of the file, each place once.
+fn numbers_by_file(targets: &[Target], numbers: &[Number], files: usize) -> Vec<Vec<u32>> {
+    let mut all = vec![Vec::new(); files];
+    for target in targets {
+        all[target.file as usize].extend(target.numbers.clone());
     }
-    found.dedup_by_key(|index| start(index));
-    found
+    let start = |index: &u32| numbers[*index as usize].start;
+    for found in &mut all {
+        if !found.is_sorted_by_key(start) {
+            found.sort_by_key(start);
+        }
+        found.dedup_by_key(|index| start(index));
+    }
+    all
 }

@@ -16,8 +16,7 @@ const ROWS_BESIDE: usize = 5;
 /// Every candidate seen from a fit without effects: good as long as its weights are.
 #[derive(Debug)]
 struct Seen {
-    base: Fit,
-    projections: Vec<Projection>,
+    base: Weighted,
     groups: Vec<Group>,
     /// Of candidates that begin at a row.
     steps: Vec<Option<Steps>>,
@@ -46,11 +45,17 @@ struct Side {
 }
 
 impl Side {
-    fn of(world: &World, seen: &Seen, full: &Fit, chosen: &[Chosen]) -> Self {
+    fn of(
+        world: &World,
+        (seen, products): (&Seen, &[Products]),
+        full: &Fit,
+        chosen: &[Chosen],
+    ) -> Self {
         let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
-        let beside = Beside::of(&seen.base, full, &effects);
-        let projections = seen.projections.par_iter();
-        let cross = projections.map(|p| beside.cross(p)).collect();
+        let beside = Beside::of(&seen.base.fit, full, &effects);
+        let columns = (0..products.len()).into_par_iter();
+        let cross = columns.map(|i| beside.cross(&projection(world, &seen.base, products, i)));
+        let cross = cross.collect();
         let from = |steps: &Option<Steps>| match steps {
             Some(steps) => steps.cross(world.layout, &beside),
             None => Vec::new(),
@@ -64,28 +69,33 @@ impl Side {
     }
 }
 
+/// A candidate's column seen from a fit. It holds a number for each measured one: where there are many, it is cheaper to make
+/// again than to keep.
+fn projection(world: &World, base: &Weighted, products: &[Products], column: usize) -> Projection {
+    let (own, products) = (&world.candidates.columns[column], &products[column]);
+    world.plain.projection(base, own, products)
+}
+
 impl Seen {
-    fn of(world: &World, products: &[Products], base: &Weighted) -> Self {
-        let columns = world.candidates.columns.par_iter().zip(products);
-        let seen = columns.map(|(column, own)| world.plain.projection(base, column, own));
-        let projections: Vec<Projection> = seen.collect();
-        let base = base.fit.clone();
+    fn of(world: &World, products: &[Products], base: Weighted) -> Self {
         let group = |candidate: &Candidate| {
-            let own = candidate.columns.iter().map(|i| &projections[*i]);
-            Group::of(&base, &own.collect::<Vec<_>>())
+            let own = candidate.columns.iter();
+            let own: Vec<Projection> = own
+                .map(|i| projection(world, &base, products, *i))
+                .collect();
+            Group::of(&base.fit, &own.iter().collect::<Vec<_>>())
         };
         let groups = world.candidates.list.par_iter().map(group).collect();
         let begins = |candidate: &Candidate| {
             candidate.row.map(|_| {
                 let own = candidate.columns.iter();
                 let own: Vec<&Column> = own.map(|i| &world.candidates.columns[*i]).collect();
-                Steps::of(&base, world.layout, &own, ROWS_BESIDE)
+                Steps::of(&base.fit, world.layout, &own, ROWS_BESIDE)
             })
         };
         let steps = world.candidates.list.par_iter().map(begins).collect();
         Self {
             base,
-            projections,
             groups,
             steps,
         }
@@ -99,9 +109,9 @@ impl View {
         let columns = world.candidates.columns.par_iter();
         let products: Vec<Products> = columns.map(|c| world.plain.products(c)).collect();
         let (base, full) = world.fits(&[]);
-        let seen = Seen::of(world, &products, &base);
+        let seen = Seen::of(world, &products, base);
         Self {
-            side: Side::of(world, &seen, &full, &[]),
+            side: Side::of(world, (&seen, &products), &full, &[]),
             products,
             seen,
             full,
@@ -117,10 +127,10 @@ impl View {
         }
         let (base, full) = world.fits(chosen);
         self.full = full;
-        if self.seen.base.roots != self.full.roots {
-            self.seen = Seen::of(world, &self.products, &base);
+        if self.seen.base.fit.roots != self.full.roots {
+            self.seen = Seen::of(world, &self.products, base);
         }
-        self.side = Side::of(world, &self.seen, &self.full, chosen);
+        self.side = Side::of(world, (&self.seen, &self.products), &self.full, chosen);
         self.shown = chosen.iter().map(|c| c.columns.clone()).collect();
     }
 
@@ -147,7 +157,7 @@ impl View {
     /// Every candidate beside other effects than those shown, with the weights and the scale of those shown.
     #[must_use]
     pub(super) fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
-        let side = Side::of(world, &self.seen, &self.full, others);
+        let side = Side::of(world, (&self.seen, &self.products), &self.full, others);
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
 
@@ -173,8 +183,12 @@ impl View {
         let columns: Vec<usize> = own.iter().map(|i| list[*i].columns[0]).collect();
         let bound = |i: &usize| list[*i].least[0].filter(|_| bounded);
         let least: Vec<Option<f64>> = own.iter().map(bound).collect();
-        let seen = columns.iter().map(|c| &self.seen.projections[*c]);
-        let group = Group::of(&self.seen.base, &seen.collect::<Vec<_>>());
+        let base = &self.seen.base;
+        let seen = columns
+            .iter()
+            .map(|c| projection(world, base, &self.products, *c));
+        let seen: Vec<Projection> = seen.collect();
+        let group = Group::of(&base.fit, &seen.iter().collect::<Vec<_>>());
         let cross = columns.iter().map(|c| self.side.cross[*c].as_slice());
         let cross: Vec<&[f64]> = cross.collect();
         let kept = self.side.beside.kept(keep);

@@ -132,6 +132,7 @@ pub const TABLE: &[Kind] = &[
     row("load-beyond-payload", Error, "the load of a tool is more than robot.payload_kg of the profile; a warning of `check`", "masses are in kg; correct the load, or robot.payload_kg", &["compensate", "check"], &[]),
     row("load-chosen-at-run-time", Warning, "only the running program knows the load that the robot carries; that of the tool is taken", "write the load with numbers, or choose an entry of LOAD_DATA", &["compensate", "check"], &["krl"]),
     row("long-line", Warning, "new numbers may make the line longer than the controller takes", "break the line before compensating, or use fewer decimals", &["compensate", "check"], &["krl"]),
+    row("mesh-unit", Error, "a mesh in a format without units is a hundred times smaller than another body or the arm, if its unit is a millimetre", "write `scale: 1000` beside `mesh` if the file is in metres, `scale: 1` if it is in millimetres", &["check"], &[]),
     row("motion-without-target", Note, "moves by speed or force: they have no target", "they stay as they are", &["compensate", "check"], &["urscript"]),
     row("move-not-supported", Error, "other moves: conveyors, external reference points", "move to targets with MOVJ, MOVL, MOVC or MOVS", &["compensate", "check"], &["inform"]),
     row("moving-frame", Error, "a conveyor or another mechanical unit moves the frame", "moves in a moving frame are not compensated", &["compensate", "check"], &["rapid", "krl", "fanuc", "urscript", "inform"]).was(&["coordinated-move", "line-tracking"]),

@@ -219,6 +219,20 @@ mod tests {
     }
 
     #[test]
+    fn of_many_points_a_sample_of_pairs_stands_for_all() {
+        let count = 21_000;
+        let (measured, expected) = cloud(count, 1e-3);
+        let mine = pairs(&measured, &expected).expect("some pairs");
+        // each with thousands of others, in the order of the file no neighbours
+        let each = mine.pairs as f64 / count as f64;
+        assert!((7_000.0..11_000.0).contains(&each), "{each}");
+        let plain: Vec<f64> = plain(&measured[..3_000], &expected[..3_000]);
+        let peer = Spread::of(&plain).expect("some pairs");
+        assert!((mine.mean / peer.mean - 1.0).abs() < 0.01);
+        assert!((mine.std / peer.std - 1.0).abs() < 0.01);
+    }
+
+    #[test]
     fn points_that_coincide_have_the_error_of_their_distance() {
         let measured = vec![[0.5, 0.5, 0.5]; 20];
         let expected: Vec<Vector> = (0..20)

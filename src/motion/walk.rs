@@ -18,6 +18,8 @@ use std::collections::BinaryHeap;
 
 /// A joint that moves less than this on a joint move keeps the direction in which it moved before, radians.
 const STANDSTILL_RAD: f64 = 1e-6;
+/// A joint that stands beyond this is written in another unit: 278 rotations, as of orientations.
+const MOST_JOINT_RAD: f64 = 1e5 * DEG;
 /// Numbers above this are written with an exponent.
 const READABLE: f64 = 1e6;
 /// Arrivals at one move that are told apart.
@@ -290,6 +292,10 @@ impl Walker<'_, '_> {
         };
         let direction = before.map_or([0; 6], |before| before.direction);
         if let Value::Joints(q) = decoded.value {
+            if let Some(angle) = q.iter().find(|angle| angle.abs() > MOST_JOINT_RAD) {
+                self.say_endless(target, ("a joint", angle / DEG, MOST_JOINT_RAD / DEG));
+                return nowhere;
+            }
             let arm = ground.arms.iter().flatten().next();
             return Arrival {
                 q,
@@ -304,7 +310,10 @@ impl Walker<'_, '_> {
             return nowhere;
         }
         if let Some(angle) = self.endless_angle(target) {
-            self.say_endless(target, angle);
+            let limit = ground
+                .language
+                .most_orientation(ground.program.targets[target].layout);
+            self.say_endless(target, ("the orientation", angle, limit));
             return nowhere;
         }
         let (value, displaced) = match (&decoded.value, &motion.displacement) {
@@ -514,7 +523,7 @@ impl Walker<'_, '_> {
         angles.find_map(|(number, _)| Some(number.value).filter(|angle| angle.abs() > limit))
     }
 
-    fn say_endless(&mut self, target: TargetId, angle: f64) {
+    fn say_endless(&mut self, target: TargetId, (what, angle, limit): (&str, f64, f64)) {
         let ground = self.ground;
         let shown = if angle.abs() < READABLE {
             angle.to_string()
@@ -526,11 +535,8 @@ impl Walker<'_, '_> {
             Severity::Error,
             target,
             format!(
-                "an angle of {shown} in the orientation of {}; the limit is {:.3}",
+                "an angle of {shown} in {what} of {}; the limit is {limit:.3}",
                 ground.name_of(target),
-                ground
-                    .language
-                    .most_orientation(ground.program.targets[target].layout)
             ),
             "is it in the unit of the language (radians in URScript, else degrees)? write angles of a few rotations at most",
         ));

@@ -1,15 +1,18 @@
 //! Several files as one: hashes, what may not be written over, and writing that happens whole or not at all.
 
 use super::failure::Failure;
+use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+/// Where a file is that exists, whatever name leads there: two names of one file give the same.
+pub fn existing(path: &Path) -> Option<PathBuf> {
+    std::fs::canonicalize(path).ok()
+}
+
 /// Whether two names lead to one file that exists.
 pub fn same_file(a: &Path, b: &Path) -> bool {
-    match (std::fs::canonicalize(a), std::fs::canonicalize(b)) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    }
+    existing(a).is_some_and(|a| existing(b) == Some(a))
 }
 
 /// Where a file is or would be, whatever name leads there.
@@ -18,11 +21,10 @@ fn place(path: &Path) -> PathBuf {
         let folder = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty());
-        let folder = std::fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
+        let folder = existing(folder.unwrap_or(Path::new(".")))?;
         Some(folder.join(path.file_name()?))
     };
-    std::fs::canonicalize(path)
-        .ok()
+    existing(path)
         .or_else(folder)
         .unwrap_or_else(|| path.to_owned())
 }
@@ -35,17 +37,16 @@ pub fn refuse_over<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Path>,
 ) -> Result<(), Failure> {
-    let outputs: Vec<(&Path, PathBuf)> = outputs.into_iter().map(|o| (o, place(o))).collect();
-    for input in inputs {
-        if let Some((output, _)) = outputs.iter().find(|(output, _)| same_file(input, output)) {
+    let read: HashSet<PathBuf> = inputs.into_iter().filter_map(existing).collect();
+    let mut written = HashSet::new();
+    for output in outputs {
+        if existing(output).is_some_and(|at| read.contains(&at)) {
             return Err(Failure::with_hint(
                 format!("{} is read and would be written over", output.display()),
                 "name another file for what is written",
             ));
         }
-    }
-    for (number, (output, at)) in outputs.iter().enumerate() {
-        if outputs[..number].iter().any(|(_, other)| other == at) {
+        if !written.insert(place(output)) {
             return Err(Failure::with_hint(
                 format!("two outputs would be written to {}", output.display()),
                 "name another file for one of them",

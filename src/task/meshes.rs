@@ -4,10 +4,11 @@ use super::failure::Failure;
 use crate::check::Meshes;
 use crate::check::cell::Cell;
 use crate::check::mesh::Mesh;
+use crate::geometry::units::mm_from_m;
 use crate::model::shape::{Form, Shape};
 use crate::program::Source;
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 /// How a file that another one names is read.
 pub type Reader<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
@@ -53,10 +54,15 @@ impl<'a> Loader<'a> {
                     "mesh files are looked for beside the file that names them",
                 )
             })?;
-            let beside = |name: &str| (self.read)(&path.parent()?.join(name)).ok();
+            let neighbour = |uri: &str| {
+                let folder = path.parent().unwrap_or(Path::new(""));
+                let path = folder.join(below(uri)?);
+                (self.read)(&path).map_err(|error| error.to_string())
+            };
             let name = path.display().to_string();
-            let mesh = Mesh::read(&name, &bytes, *scale, &beside)
+            let mesh = Mesh::read(&name, &bytes, *scale, &neighbour)
                 .map_err(|error| Failure::with_hint(format!("{name}: {error}"), error.hint()))?;
+            self.notes.push(bounds(&name, &mesh));
             if mesh.degenerate > 0 {
                 self.notes.push(format!(
                     "{name}: {} triangles have no area and are left out",
@@ -92,4 +98,52 @@ impl<'a> Loader<'a> {
         }
         Ok(cell)
     }
+}
+
+/// What a mesh is like, with the box about it in mm.
+fn bounds(name: &str, mesh: &Mesh) -> String {
+    let [low, high] = mesh.bounds();
+    let sides = ["x", "y", "z"].iter().zip(low.iter().zip(&high));
+    let sides: Vec<String> = sides
+        .map(|(axis, (low, high))| {
+            format!("{axis} {:.1} to {:.1}", mm_from_m(*low), mm_from_m(*high))
+        })
+        .collect();
+    format!(
+        "{name}: {} triangles, {} mm",
+        mesh.triangles.len(),
+        sides.join(", ")
+    )
+}
+
+/// The path of a file that a mesh file names by a URI (RFC 3986, relative): in its folder or below.
+fn below(uri: &str) -> Result<PathBuf, String> {
+    let outside = || "only files in the mesh's folder, or below it, are read".to_owned();
+    let mut bytes = Vec::new();
+    let mut rest = uri.as_bytes();
+    while let [first, others @ ..] = rest {
+        let (byte, others) = match (first, others) {
+            (b'%', [high, low, others @ ..]) => {
+                let digit = |byte: &u8| char::from(*byte).to_digit(16);
+                let code = digit(high)
+                    .zip(digit(low))
+                    .map(|(high, low)| 16 * high + low);
+                let code = code.and_then(|code| u8::try_from(code).ok());
+                (code.ok_or("a `%` without two digits")?, others)
+            }
+            (byte, others) => (*byte, others),
+        };
+        bytes.push(byte);
+        rest = others;
+    }
+    let name = String::from_utf8(bytes).map_err(|error| error.to_string())?;
+    let path = PathBuf::from(&name);
+    let stays = path
+        .components()
+        .all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    // a drive or another scheme, whatever system this is
+    if !stays || name.is_empty() || name.contains([':', '\\', '\0']) {
+        return Err(outside());
+    }
+    Ok(path)
 }

@@ -11,6 +11,14 @@ pub enum UrdfError {
         /// What the parser says.
         message: String,
     },
+    /// More links than any robot has.
+    #[error("the file has {found} links or joints; at most {most} are read")]
+    TooMany {
+        /// How many.
+        found: usize,
+        /// The limit.
+        most: usize,
+    },
     /// Macros that nobody has expanded.
     #[error("this is a xacro file, with macros in it; a URDF is what `xacro` makes of it")]
     Xacro,

@@ -3,9 +3,12 @@
 use super::{Choice, UrdfArm, UrdfError, UrdfForm, UrdfJoint, UrdfShape};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation, Vector, norm, scale};
+use crate::xml;
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 
+/// Links of a file: several arms with their grippers have some hundred.
+const MOST_LINKS: usize = 2_000;
 /// Angles of frames that are this near to a multiple of 45° are rounded ones of it, radians: files with four digits write
 /// 1.571 for a right angle, 2.04e-4 off, and none of 348 files of makers means an angle so near to one.
 const ROUNDED_RAD: f64 = 3e-4;
@@ -81,6 +84,7 @@ pub(super) fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
     if has_macros(&code) {
         return Err(UrdfError::Xacro);
     }
+    judge_size(text)?;
     let robot = urdf_rs::read_from_string(&without_looks(&code)).map_err(|error| {
         UrdfError::Unreadable {
             message: error.to_string(),
@@ -96,6 +100,27 @@ pub(super) fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
     let names = packages.filter_map(|rest| rest.split(['/', '"', '\'']).next());
     arm.packages = names.map(str::to_owned).collect();
     Ok(arm)
+}
+
+/// Refuses what no robot is: elements that nest too deep, or too many of them, before anything is built of it.
+fn judge_size(text: &str) -> Result<(), UrdfError> {
+    let root = xml::read(text).map_err(|error| UrdfError::Unreadable {
+        message: error.to_string(),
+    })?;
+    if root.name != "robot" {
+        let message = root.fault(format!("the file is a <{}>, not a <robot>", root.name));
+        return Err(UrdfError::Unreadable {
+            message: message.to_string(),
+        });
+    }
+    let found = root.all("link").count().max(root.all("joint").count());
+    if found > MOST_LINKS {
+        return Err(UrdfError::TooMany {
+            found,
+            most: MOST_LINKS,
+        });
+    }
+    Ok(())
 }
 
 /// Whether a text is a xacro file whose macros nobody has expanded.

@@ -35,7 +35,7 @@ macro_rules! with_shape {
             /// A mesh file: STL, OBJ, DAE or glTF, relative to this file.
             #[serde(default)]
             pub mesh: Option<String>,
-            /// Millimetres of one unit of the mesh file (default 1; glTF, which is in metres, 1000).
+            /// Millimetres of one unit of the mesh file (default 1; DAE and glTF, in metres by their own unit, 1000).
             #[serde(default)]
             pub scale: Option<$crate::model::profile::file::Number>,
             /// Where the shape is in its frame.

@@ -50,6 +50,10 @@ impl<'a> Driving<'a> {
         }
         let scene = Scene::new(&shaped, None, &meshes.meshes)
             .map_err(|missing| Failure::new(missing.to_string()))?;
+        if let Some(found) = scene.findings.first() {
+            let message = format!("{}: {}", found.file, found.message);
+            return Err(Failure::with_hint(message, found.hint.clone()));
+        }
         Ok(Self {
             arm: profile.real_model(tool, &Conditions::default()),
             guard: Guard::new(profile, tool, constraints),

@@ -28,7 +28,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "finding", "geometry", "inverse", "model", "motion", "program",
         ],
     ),
-    ("urdf", &["geometry", "model", "nearest"]),
+    ("xml", &[]),
+    ("urdf", &["geometry", "model", "nearest", "xml"]),
     (
         "check",
         &[
@@ -39,6 +40,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "model",
             "motion",
             "program",
+            "xml",
         ],
     ),
     (

@@ -4,6 +4,8 @@ mod command;
 mod findings;
 mod insert;
 mod laws;
+mod meshes;
+mod mutated;
 mod urdf;
 
 use poseshift::check::cell::Cell;
