@@ -348,10 +348,10 @@ mod tests {
         let found = with_value(&windows, "controller.language", "krl").expect("a layout");
         assert_eq!(found.matches("\r\n").count(), found.matches('\n').count());
         let block = "tools:\n  a:\n    x: 1\n  # behind\nlast: 2\n";
-        let found = with_value(block, "tools.b", "{x: 2}").expect("a layout");
+        let found = with_value(block, "tools.torch", "{x: 2}").expect("a layout");
         assert_eq!(
             found,
-            "tools:\n  a:\n    x: 1\n  b: {x: 2}\n  # behind\nlast: 2\n"
+            "tools:\n  a:\n    x: 1\n  torch: {x: 2}\n  # behind\nlast: 2\n"
         );
     }
 
