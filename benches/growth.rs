@@ -4,6 +4,7 @@
 //! Memory is read from `/proc` while the program runs, where there is one.
 
 #[path = "../tests/suite/path.rs"]
+#[allow(dead_code, reason = "one language is enough here")]
 mod path;
 
 use std::fmt::Write;
@@ -139,12 +140,7 @@ fn row(folder: &Path, count: u32) -> Vec<Taken> {
         compensate(&program, &out, &["--json"]),
         run(&[&["check", name(&program)], &tool[..]].concat()),
         run(&[&["check", name(&program), "--json"], &tool[..]].concat()),
-        run(&[
-            &["calibrate"],
-            &measuring[..],
-            &["--force", "-o", name(&better)],
-        ]
-        .concat()),
+        run(&[&["calibrate"], &measuring[..], &["-o", name(&better)]].concat()),
         run(&[&["validate"], &measuring[..]].concat()),
         run(&[&["diagnose"], &measuring[..]].concat()),
         compensate(&programs, &compensated, &[]),
