@@ -251,7 +251,7 @@ fn points_that_the_program_changes_are_refused() {
         ),
         (
             "sensor(XP1)",
-            vec!["XP1", "XP1", "XP1"],
+            vec!["XP1", "?", "?"],
             "target-passed-to-routine",
         ),
     ] {
