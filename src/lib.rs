@@ -41,6 +41,7 @@ pub mod inverse;
 pub mod model;
 pub mod motion;
 mod nearest;
+mod printable;
 pub mod program;
 pub mod register;
 mod report;

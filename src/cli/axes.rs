@@ -1,7 +1,8 @@
 //! `axes`: base and tool from sweeps of single joints.
 
-use super::telling::{ReportFile, Told, finish};
-use super::{Answer, Output, files};
+use super::files::Files;
+use super::telling::{Ending, ReportFile, Told, finish};
+use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::axes::axes;
 use clap::Args;
@@ -29,16 +30,16 @@ pub(super) struct Axes {
 
 impl Axes {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        self.report
-            .refuse_over([self.profile.as_path(), self.sweeps.as_path()], [])?;
-        let profile = files::profile(&self.profile)?;
-        let found = axes(
-            &profile,
-            &files::source(&self.sweeps)?,
-            self.point.as_deref(),
-        )?;
-        let told = (Told::All, "");
-        finish(&found, Vec::new(), Some(&self.report), told, output)?;
-        Ok(Answer::Yes)
+        let files = Files::default();
+        let profile = files.profile(&self.profile)?;
+        let sweeps = files.source(&self.sweeps)?;
+        self.report.refuse_over(&files, [])?;
+        let found = axes(&profile, &sweeps, self.point.as_deref())?;
+        let ending = Ending {
+            report: Some(&self.report),
+            told: Told::All,
+            ..Ending::default()
+        };
+        finish(&files, &found, ending, output)
     }
 }

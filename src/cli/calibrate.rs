@@ -1,12 +1,14 @@
 //! `calibrate`: measurements to a profile.
 
+use super::files::Files;
 use super::measurements::{MeasurementFiles, level, picks};
 use super::progress::Progress;
-use super::telling::{ReportFile, Told, finish};
-use super::{Answer, Output, files};
+use super::telling::{Ending, ReportFile, Told, finish};
+use super::{Answer, Output};
 use crate::identify::calibration::{BasePolicy, Options};
 use crate::identify::parameters::Selection;
 use crate::identify::robust::Shape;
+use crate::printable::name_of;
 use crate::task::Failure;
 use crate::task::calibrate::calibrate;
 use clap::{Args, ValueEnum};
@@ -110,11 +112,10 @@ impl Calibrate {
 
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = self.options()?;
-        let profile = files::profile(&self.profile)?;
-        let read = self.measurements.paths().chain([self.profile.as_path()]);
-        let outputs = self.output.iter().map(PathBuf::as_path);
-        self.report.refuse_over(read, outputs)?;
-        let measurements = self.measurements.read()?;
+        let files = Files::default();
+        let profile = files.profile(&self.profile)?;
+        let measurements = self.measurements.read(&files)?;
+        self.report.refuse_over(&files, self.output.as_deref())?;
         let progress = Progress::new(output, "identifying");
         let mut found = calibrate(&profile, measurements, &options)?;
         drop(progress);
@@ -122,16 +123,16 @@ impl Calibrate {
         if let Some(path) = &self.output {
             let text = found.profile_text(&profile, self.date.as_deref())?;
             written.push((path.clone(), text.into_bytes()));
-            found.output = Some(path.display().to_string());
-            also = format!("\nwritten to {}\n", path.display());
+            also = format!("\nwritten to {}\n", name_of(path));
+            found.output = Some(name_of(path));
         }
-        finish(
-            &found,
+        let ending = Ending {
             written,
-            Some(&self.report),
-            (Told::All, &also),
-            output,
-        )?;
-        Ok(Answer::Yes)
+            report: Some(&self.report),
+            told: Told::All,
+            also: &also,
+            answer: Answer::Yes,
+        };
+        finish(&files, &found, ending, output)
     }
 }

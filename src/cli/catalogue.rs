@@ -1,6 +1,7 @@
 //! `robots`, `effects`, `languages`: what is built in.
 
-use super::telling::{Told, finish};
+use super::files::Files;
+use super::telling::{Ending, finish};
 use super::{Answer, Output};
 use crate::report::Report;
 use crate::task::{Failure, catalogue};
@@ -23,8 +24,7 @@ pub(super) struct Effects {}
 pub(super) struct Languages {}
 
 fn tell(found: &impl Report, output: Output) -> Result<Answer, Failure> {
-    finish(found, Vec::new(), None, (Told::Main, ""), output)?;
-    Ok(Answer::Yes)
+    finish(&Files::default(), found, Ending::default(), output)
 }
 
 impl Robots {

@@ -1,21 +1,22 @@
 //! `check`: where the real robot goes with programs as they are, and what it comes near.
 
+use super::files::Files;
 use super::layout;
-use super::programs::{only, read_context, read_programs};
+use super::programs::{Ignored, gather, read_context};
 use super::progress::Progress;
-use super::telling::ReportFile;
-use super::{Answer, Output, files, print, values};
+use super::telling::{ReportFile, Said, deliver};
+use super::{Answer, Output, values};
 use crate::check::trace::trace;
 use crate::check::{self, CheckError, Options, Scene, Subject, Turning, baseline};
 use crate::finding::{Acceptance, accept_errors};
 use crate::geometry::units::{DEG, MM};
 use crate::model::profile::Profile;
 use crate::motion::Given;
+use crate::printable::name_of;
 use crate::program::Source;
 use crate::report;
 use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
 use crate::task::check::{Checked as Run, Header};
-use crate::task::files::write_all;
 use crate::task::meshes::Loader;
 use crate::task::programs::{
     acceptance, common_language, explain, language_by_id, refuse_other_origin,
@@ -27,7 +28,7 @@ use std::path::{Path, PathBuf};
 /// Predict where the real robot goes with programs as they are: accuracy along the path, limits, collisions
 #[derive(Args)]
 pub(super) struct Check {
-    /// Program files that belong together, or folders of them
+    /// Program files that belong together, or folders of them; `-` is one program on standard input
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
     /// Robot profile (YAML)
@@ -88,6 +89,8 @@ pub(super) struct Check {
     #[arg(long, value_name = "ID")]
     language: Option<String>,
     #[command(flatten)]
+    ignored: Ignored,
+    #[command(flatten)]
     report: ReportFile,
 }
 
@@ -103,17 +106,19 @@ enum Orientation {
 impl Check {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         self.refuse_nonsense()?;
-        let file = files::profile(&self.profile)?;
+        let files = Files::default();
+        let file = files.profile(&self.profile)?;
         let mut profile = file.profile.clone();
         let (name, profile_sha256) = (file.name.clone(), file.sha256.clone());
-        let mut meshes = Loader::new(&files::mesh);
+        let read = |path: &Path| files.mesh(path);
+        let mut meshes = Loader::new(&read);
         for shape in &mut profile.shapes {
             meshes.load(&mut shape.shape, &name)?;
         }
         let cell = self
             .cell
             .as_ref()
-            .map(|path| meshes.cell(&files::source(path)?))
+            .map(|path| meshes.cell(&files.source(path)?))
             .transpose()?;
         let scene = Scene::new(&profile, cell.as_ref(), &meshes.meshes)
             .map_err(|missing| Failure::new(missing.to_string()))?;
@@ -123,18 +128,27 @@ impl Check {
             .iter()
             .map(|text| acceptance(text))
             .collect::<Result<_, _>>()?;
-        let mut sources = only(read_programs(&self.programs, asked)?, &self.only)?;
-        sources.extend(read_context(&self.with, asked, &sources)?);
+        let gathered = gather(&files, &self.programs, asked, &self.ignored)?;
+        let left_out = gathered.left_out.clone();
+        let paths = gathered.paths();
+        let mut sources = gathered.only(&self.only)?;
+        let with = |asked, programs: &[PathBuf]| {
+            read_context(&files, &self.with, asked, &self.ignored, programs)
+        };
+        sources.extend(with(asked, &paths)?);
         let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
-        self.refuse_reports(&sources)?;
         let nominal = if self.nominal.is_empty() {
             None
         } else {
-            let originals = read_programs(&self.nominal, Some(language))?;
-            let mut nominal = only(originals, &self.only)?;
-            nominal.extend(read_context(&self.with, Some(language), &nominal)?);
+            let gathered = gather(&files, &self.nominal, Some(language), &self.ignored)?;
+            let paths = gathered.paths();
+            let mut nominal = gathered.only(&self.only)?;
+            nominal.extend(with(Some(language), &paths)?);
             Some(nominal)
         };
+        let written = self.baseline.iter().filter(|_| self.update_baseline);
+        let written = written.chain(&self.junit).map(PathBuf::as_path);
+        self.report.refuse_over(&files, written)?;
         if let Some(originals) = nominal.as_deref().filter(|_| !self.force) {
             refuse_other_origin(&sources, originals, &file)?;
         }
@@ -173,10 +187,11 @@ impl Check {
             nominal: &originals,
             language,
             profile_sha256: &profile_sha256,
+            left_out: &left_out,
             scene: &scene,
         };
         let run = Run::new(&header, &found, None);
-        let comparison = self.compare(&run)?;
+        let comparison = self.compare(&files, &run)?;
         let mut outputs = Vec::new();
         if let (Some(path), true) = (&self.baseline, self.update_baseline) {
             outputs.push((path.clone(), run.json().into_bytes()));
@@ -203,28 +218,18 @@ impl Check {
             })
         });
         outputs.extend(self.report.output(page.as_ref()));
-        write_all(&outputs)?;
-        print(&self.tell(
-            &Run::new(&header, &found, comparison.as_ref()),
-            found.is_refused(),
-            &meshes.notes,
-            output,
-        ))?;
-        let worse = worse > 0;
-        Ok(if found.is_refused() || worse {
+        let answer = if found.is_refused() || worse > 0 {
             Answer::No
         } else {
             Answer::Yes
-        })
-    }
-
-    /// A report takes the place of nothing that is read, nor of another output.
-    fn refuse_reports(&self, sources: &[Source]) -> Result<(), Failure> {
-        let read = sources.iter().map(|source| Path::new(&source.name));
-        let named = [&self.profile].into_iter().chain(&self.cell);
-        let read = read.chain(named.chain(&self.nominal).map(PathBuf::as_path));
-        let written = self.baseline.iter().chain(&self.junit);
-        self.report.refuse_over(read, written.map(PathBuf::as_path))
+        };
+        let run = Run::new(&header, &found, comparison.as_ref());
+        let said = if output.json {
+            Said::data(run.json())
+        } else {
+            Said::text(self.tell(&run, found.is_refused(), &meshes.notes, output))
+        };
+        deliver(&files, &outputs, said, answer)
     }
 
     fn refuse_nonsense(&self) -> Result<(), Failure> {
@@ -275,7 +280,7 @@ impl Check {
     }
 
     /// The comparison with the stored run; none where there is no baseline, or where it is to be written for the first time.
-    fn compare(&self, now: &Run) -> Result<Option<baseline::Comparison>, Failure> {
+    fn compare(&self, files: &Files, now: &Run) -> Result<Option<baseline::Comparison>, Failure> {
         let Some(path) = &self.baseline else {
             return Ok(None);
         };
@@ -284,12 +289,12 @@ impl Check {
         }
         if !path.exists() {
             return Err(Failure::with_hint(
-                format!("there is no baseline {}", path.display()),
+                format!("there is no baseline {}", name_of(path)),
                 "--update-baseline stores this run",
             ));
         }
-        let before = baseline::read(&text(&files::source(path)?)?)
-            .map_err(|error| Failure::new(format!("{}: {error}", path.display())))?;
+        let before = baseline::read(&text(&files.source(path)?)?)
+            .map_err(|error| Failure::new(format!("{}: {error}", name_of(path))))?;
         let tolerances = baseline::Tolerances {
             mm: self.tolerance,
             deg: self.tolerance,
@@ -299,9 +304,6 @@ impl Check {
     }
 
     fn tell(&self, found: &Run, refused: bool, notes: &[String], output: Output) -> String {
-        if output.json {
-            return found.json();
-        }
         let mut text = String::new();
         if output.verbose {
             let lines = notes.iter().map(|note| format!("note: {note}\n"));
@@ -318,7 +320,7 @@ impl Check {
             text += &layout::fitted(&report::check::text(found));
         }
         if let (Some(path), true) = (&self.baseline, self.update_baseline && !output.quiet) {
-            text += &format!("stored as {}\n", path.display());
+            text += &format!("stored as {}\n", name_of(path));
         }
         if !output.quiet {
             text += &self.report.told();

@@ -1,18 +1,19 @@
 //! `compensate`: program files in, program files with fake targets out.
 
 use super::drawing::Drawing;
+use super::files::{Files, is_standard_output, is_stream};
 use super::layout;
-use super::programs::{meant, programs_in, read_context};
+use super::programs::{Gathered, Ignored, ProgramFile, gather, meant, read_context};
 use super::progress::Progress;
-use super::telling::ReportFile;
-use super::{Answer, Output, files, print, values};
+use super::telling::{ReportFile, Said, deliver};
+use super::{Answer, Output, values};
 use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
 use crate::geometry::units::m_from_mm;
 use crate::model::profile::Profile;
-use crate::program::{Language, Source};
+use crate::printable::name_of;
+use crate::program::Source;
 use crate::report;
 use crate::task::compensate::{Compensated, DespiteErrors, Header, Request, prepare};
-use crate::task::files::{same_file, write_all};
 use crate::task::programs::{acceptance, language_by_id};
 use crate::task::{Document, Failure, frame};
 use clap::{Args, ValueEnum};
@@ -21,13 +22,13 @@ use std::path::{Path, PathBuf};
 /// Rewrite the targets of programs so that the real tool arrives where the simulation wanted it
 #[derive(Args)]
 pub(super) struct Compensate {
-    /// Program files that belong together, or folders of them
+    /// Program files that belong together, or folders of them; `-` is one program on standard input
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
     /// Robot profile (YAML) with a calibration
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
-    /// Where to write: a file, or a folder for several programs
+    /// Where to write: a file, `-` for standard output, or a folder for several programs
     #[arg(
         short,
         long,
@@ -103,6 +104,8 @@ pub(super) struct Compensate {
     #[arg(long, value_name = "ID")]
     language: Option<String>,
     #[command(flatten)]
+    ignored: Ignored,
+    #[command(flatten)]
     report: ReportFile,
 }
 
@@ -135,25 +138,29 @@ enum Singularity {
     Nearest,
 }
 
-/// A program file and where its compensated version goes; nowhere where it is read for its declarations only.
-struct Job {
-    input: PathBuf,
-    output: Option<PathBuf>,
-}
-
 impl Compensate {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let file = files::profile(&self.profile)?;
+        let files = Files::default();
+        let file = files.profile(&self.profile)?;
         let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
-        let options = self.options(&file.profile, each)?;
+        let options = self.options(&files, &file.profile, each)?;
         let language = self.language.as_deref().map(language_by_id).transpose()?;
-        let jobs = self.find_programs(language)?;
-        self.refuse_over_inputs(&jobs)?;
-        let mut sources = jobs
+        let Gathered { programs, left_out } =
+            gather(&files, &self.programs, language, &self.ignored)?;
+        let paths: Vec<PathBuf> = programs
             .iter()
-            .map(Job::read)
-            .collect::<Result<Vec<_>, Failure>>()?;
-        sources.extend(read_context(&self.with, language, &sources)?);
+            .map(|program| program.path.clone())
+            .collect();
+        let (mut sources, places) = self.jobs(&files, programs)?;
+        sources.extend(read_context(
+            &files,
+            &self.with,
+            language,
+            &self.ignored,
+            &paths,
+        )?);
+        let outputs = places.iter().flatten().map(PathBuf::as_path);
+        self.report.refuse_over(&files, outputs)?;
         let request = Request {
             sources: &sources,
             language,
@@ -171,30 +178,31 @@ impl Compensate {
         let prepared = prepare(&request)?;
         let refused = prepared.is_refused();
         let will_write = prepared.will_write();
-        let places = |at: usize| jobs.get(at).and_then(|job| job.output.clone());
+        let places = |at: usize| places.get(at).cloned().flatten();
         let outputs = (0..sources.len())
             .filter(|at| will_write[*at])
             .filter_map(places);
         let header = Header {
             inputs: sources.iter().map(|s| s.name.clone()).collect(),
-            outputs: outputs.map(|path| path.display().to_string()).collect(),
+            outputs: outputs.map(|path| name_of(&path)).collect(),
             written: will_write,
             sources: &sources,
             language: prepared.language,
             profile_sha256: &file.sha256,
+            left_out: &left_out,
         };
-        let mut said = tell(&header, &prepared.compensation, output);
+        let mut said = self.tell(&header, &prepared.compensation, output);
         let inserted = prepared.compensation.added.moves;
-        if inserted > 0 && !output.json && !output.quiet {
-            said += &format!(
+        if inserted > 0 && !output.quiet {
+            said.text += &format!(
                 "{inserted} moves inserted, so that the path is within {} mm\n",
                 self.max_path_error.unwrap_or_default()
             );
         }
-        let mut drawing = self
-            .report
-            .is_wanted()
-            .then(|| Drawing::begin(&header, &prepared.compensation, &file, &request.options));
+        let mut drawing = self.report.is_wanted().then(|| {
+            let (compensation, options) = (&prepared.compensation, &request.options);
+            Drawing::begin(&header, compensation, &file, options, &files)
+        });
         let mut outputs = Vec::new();
         if header.written.contains(&true) {
             let language = prepared.language;
@@ -212,36 +220,27 @@ impl Compensate {
             }
         }
         outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
-        progress.say("writing");
-        write_all(&outputs)?;
         drop(progress);
-        if !output.json && !output.quiet {
-            said += &self.report.told();
+        if !output.quiet {
+            said.text += &self.report.told();
         }
-        print(&said)?;
-        Ok(if refused { Answer::No } else { Answer::Yes })
+        if output.json {
+            said.text.clear();
+        } else if self.is_to_stream() {
+            // whether or not there is a program, nothing else is taken for it
+            said.beside = std::mem::take(&mut said.text);
+        }
+        let answer = if refused { Answer::No } else { Answer::Yes };
+        deliver(&files, &outputs, said, answer)
     }
 
-    /// That nothing which is read is written over, but by --in-place.
-    fn refuse_over_inputs(&self, jobs: &[Job]) -> Result<(), Failure> {
-        let inputs = jobs.iter().map(|job| job.input.as_path());
-        let read = [&self.profile].into_iter().chain(&self.work_offset);
-        let placed = self.wobjs.iter().filter_map(|text| text.split_once('='));
-        let placed = placed.map(|(_, file)| Path::new(file.trim()));
-        let context = self.with.iter().filter(|path| path.is_file());
-        let read = read.chain(context).map(PathBuf::as_path).chain(placed);
-        let outputs = || jobs.iter().filter_map(|job| job.output.as_deref());
-        // in place, every program is its own output
-        if self.in_place {
-            self.report.refuse_over(inputs, [])?;
-            self.report.refuse_over(read, outputs())
-        } else {
-            self.report.refuse_over(inputs.chain(read), outputs())
-        }
+    /// Whether the program goes to standard output.
+    fn is_to_stream(&self) -> bool {
+        self.output.as_deref().is_some_and(is_standard_output)
     }
 
     /// `each`: each target is reported on.
-    fn options(&self, profile: &Profile, each: bool) -> Result<Options, Failure> {
+    fn options(&self, files: &Files, profile: &Profile, each: bool) -> Result<Options, Failure> {
         let mut given = Given::default();
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
@@ -256,11 +255,11 @@ impl Compensate {
             let name = name.ok_or_else(|| {
                 Failure::new(format!("--wobj {text}: it must be NAME=FRAME.yaml"))
             })?;
-            let frame = frame(&files::source(Path::new(file))?)?;
+            let frame = frame(&files.source(Path::new(file))?)?;
             given.measured_frames.insert(name, frame.to_from_from);
         }
         let work_offset = match &self.work_offset {
-            Some(path) => Some(frame(&files::source(path)?)?.to_from_from),
+            Some(path) => Some(frame(&files.source(path)?)?.to_from_from),
             None => None,
         };
         Ok(Options {
@@ -299,91 +298,91 @@ impl Compensate {
         })
     }
 
-    /// The program files that are meant, in the order of the arguments; folders give theirs by name.
-    fn find_programs(&self, asked: Option<&'static dyn Language>) -> Result<Vec<Job>, Failure> {
-        let mut inputs: Vec<(PathBuf, PathBuf)> = Vec::new();
-        for program in &self.programs {
-            if program.is_dir() {
-                inputs.extend(programs_in(program, asked)?);
-            } else {
-                let name = program
-                    .file_name()
-                    .map_or_else(|| program.clone(), PathBuf::from);
-                inputs.push((program.clone(), name));
-            }
-        }
-        if inputs.is_empty() {
+    /// The sources, and where each one's compensated version goes: nowhere where it is read for its declarations only.
+    fn jobs(
+        &self,
+        files: &Files,
+        programs: Vec<ProgramFile>,
+    ) -> Result<(Vec<Source>, Vec<Option<PathBuf>>), Failure> {
+        let meant = meant(&programs, &self.only)?;
+        let several = programs.len() > 1 || self.programs.iter().any(|p| p.is_dir());
+        if several && self.is_to_stream() {
             return Err(Failure::with_hint(
-                "no program files in these folders",
-                "`poseshift languages` lists what is recognised",
+                format!(
+                    "{} programs would be written to standard output",
+                    programs.len()
+                ),
+                "name a folder for them",
             ));
         }
-        let names: Vec<&Path> = inputs.iter().map(|(_, name)| name.as_path()).collect();
-        let meant = meant(&names, &self.only)?;
-        let several = inputs.len() > 1 || self.programs.iter().any(|p| p.is_dir());
-        let mut jobs = Vec::with_capacity(inputs.len());
-        for ((input, name), is_meant) in inputs.into_iter().zip(meant) {
-            if !is_meant {
-                jobs.push(Job {
-                    input,
-                    output: None,
-                });
-                continue;
-            }
-            let output = match &self.output {
-                None => input.clone(),
-                Some(out) if several || out.is_dir() => out.join(name),
-                Some(out) => out.clone(),
+        if let Some(output) = &self.output {
+            files.settle(output)?;
+        }
+        let mut jobs = (Vec::new(), Vec::new());
+        for (
+            ProgramFile {
+                path,
+                below,
+                source,
+            },
+            is_meant,
+        ) in programs.into_iter().zip(meant)
+        {
+            let place = match &self.output {
+                _ if !is_meant => None,
+                None if is_stream(&path) => {
+                    return Err(Failure::new("standard input is no file to write over"));
+                }
+                None => {
+                    files.replace(&path);
+                    Some(path)
+                }
+                Some(out) if !several && !out.is_dir() => Some(out.clone()),
+                Some(out) if is_stream(&path) => {
+                    return Err(Failure::with_hint(
+                        format!(
+                            "{} is a folder, and standard input has no name",
+                            name_of(out)
+                        ),
+                        "name the file, or `-` for standard output",
+                    ));
+                }
+                Some(out) => Some(out.join(below)),
             };
-            if !self.in_place && same_file(&input, &output) {
-                let hint = "--in-place says that this is meant";
-                return Err(Failure::with_hint(
-                    format!("{} would be written over", input.display()),
-                    hint,
-                ));
-            }
-            jobs.push(Job {
-                input,
-                output: Some(output),
+            jobs.0.push(if place.is_some() {
+                source
+            } else {
+                Source::context(source.name, source.bytes)
             });
+            jobs.1.push(place);
         }
         Ok(jobs)
     }
-}
 
-impl Job {
-    fn read(&self) -> Result<Source, Failure> {
-        let source = files::source(&self.input)?;
-        Ok(match self.output {
-            Some(_) => source,
-            None => Source::context(source.name, source.bytes),
-        })
-    }
-}
-
-/// What is printed when all is done.
-fn tell(header: &Header, compensation: &Compensation, output: Output) -> String {
-    let found = Compensated::new(header, compensation);
-    if output.json {
-        return found.json();
-    }
-    let written = !header.outputs.is_empty();
-    let mut text = String::new();
-    if !output.quiet || !written {
-        text += &layout::findings(&compensation.findings, output.verbose);
-    }
-    if !output.quiet {
-        text += &layout::fitted(&report::compensation::text(&found, header.language));
-    }
-    match header.outputs.as_slice() {
-        [] => {
-            text += &layout::fitted(
-                "nothing is written: not every target could be compensated (--keep-going leaves those as they are)",
-            );
+    /// What is printed when all is done.
+    fn tell(&self, header: &Header, compensation: &Compensation, output: Output) -> Said {
+        let found = Compensated::new(header, compensation);
+        if output.json {
+            return Said::data(found.json());
         }
-        _ if output.quiet => {}
-        [one] => text += &format!("written to {one}\n"),
-        many => text += &format!("{} files written\n", many.len()),
+        let written = !header.outputs.is_empty();
+        let mut text = String::new();
+        if !output.quiet || !written {
+            text += &layout::findings(&compensation.findings, output.verbose);
+        }
+        if !output.quiet {
+            text += &layout::fitted(&report::compensation::text(&found, header.language));
+        }
+        match header.outputs.as_slice() {
+            [] => {
+                text += &layout::fitted(
+                    "nothing is written: not every target could be compensated (--keep-going leaves those as they are)",
+                );
+            }
+            _ if output.quiet || self.is_to_stream() => {}
+            [one] => text += &format!("written to {one}\n"),
+            many => text += &format!("{} files written\n", many.len()),
+        }
+        Said::text(text)
     }
-    text
 }

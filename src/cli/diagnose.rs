@@ -1,10 +1,12 @@
 //! `diagnose`: where model and measurement disagree, and which effect is missing.
 
+use super::files::Files;
 use super::measurements::{MeasurementFiles, picks};
 use super::progress::Progress;
-use super::telling::{ReportFile, Told, finish};
-use super::{Answer, Output, files};
+use super::telling::{Ending, ReportFile, Told, finish};
+use super::{Answer, Output};
 use crate::diagnose::Options;
+use crate::printable::name_of;
 use crate::task::Failure;
 use crate::task::diagnose::diagnose;
 use clap::Args;
@@ -45,11 +47,11 @@ impl Diagnose {
             quick: self.quick,
             steps: self.report.is_wanted(),
         };
-        let profile = files::profile(&self.profile)?;
-        let read = self.measurements.paths().chain([self.profile.as_path()]);
+        let files = Files::default();
+        let profile = files.profile(&self.profile)?;
+        let measurements = self.measurements.read(&files)?;
         let outputs = self.output.iter().chain(&self.poses).map(PathBuf::as_path);
-        self.report.refuse_over(read, outputs)?;
-        let measurements = self.measurements.read()?;
+        self.report.refuse_over(&files, outputs)?;
         let progress = Progress::new(output, "diagnosing");
         let mut found = diagnose(&profile, measurements, &options, &mut |what| {
             progress.say(what);
@@ -61,8 +63,8 @@ impl Diagnose {
             if is_sure {
                 let text = found.profile_text(&profile)?;
                 written.push((path.clone(), text.into_bytes()));
-                found.output = Some(path.display().to_string());
-                also += &format!("\nwritten to {}\n", path.display());
+                found.output = Some(name_of(path));
+                also += &format!("\nwritten to {}\n", name_of(path));
             } else {
                 also += "\nnothing written: --accept EFFECT overrules\n";
             }
@@ -70,19 +72,19 @@ impl Diagnose {
         if let Some(path) = &self.poses {
             if let Some(csv) = found.poses_csv() {
                 written.push((path.clone(), csv.into_bytes()));
-                found.poses = Some(path.display().to_string());
-                also += &format!("\nwritten to {}\n", path.display());
+                found.poses = Some(name_of(path));
+                also += &format!("\nwritten to {}\n", name_of(path));
             } else {
                 also += "\nno alternatives to tell apart: no poses written\n";
             }
         }
-        finish(
-            &found,
+        let ending = Ending {
             written,
-            Some(&self.report),
-            (Told::All, &also),
-            output,
-        )?;
-        Ok(if is_sure { Answer::Yes } else { Answer::No })
+            report: Some(&self.report),
+            told: Told::All,
+            also: &also,
+            answer: if is_sure { Answer::Yes } else { Answer::No },
+        };
+        finish(&files, &found, ending, output)
     }
 }

@@ -1,6 +1,6 @@
 //! The page of `compensate` while it is made: a program is read again, once as it was and once as it is written.
 
-use super::files;
+use super::files::Files;
 use crate::check::trace::{Traced, trace};
 use crate::compensate::{Compensation, Options};
 use crate::model::profile::Profile;
@@ -10,6 +10,7 @@ use crate::report::html::programs::{Compensated, SAMPLES, Scenery, add_written, 
 use crate::task::ProfileFile;
 use crate::task::compensate::Header;
 use crate::task::meshes::Loader;
+use std::path::Path;
 
 /// The report while it is made: the program as it was, then as it is written.
 pub(super) struct Drawing {
@@ -24,11 +25,13 @@ impl Drawing {
         compensation: &Compensation,
         file: &ProfileFile,
         options: &Options,
+        files: &Files,
     ) -> Self {
         let profile = &file.profile;
         let original = traced(header.language, header.sources, None, profile, options);
         let mut drawn = profile.clone();
-        let mut meshes = Loader::new(&files::mesh);
+        let read = |path: &Path| files.mesh(path);
+        let mut meshes = Loader::new(&read);
         for shape in &mut drawn.shapes {
             // a body whose file is missing is not drawn
             let _ = meshes.load(&mut shape.shape, &file.name);

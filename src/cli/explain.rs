@@ -1,6 +1,7 @@
 //! `explain`: what a finding means and what to do.
 
-use super::telling::{Told, finish};
+use super::files::Files;
+use super::telling::{Ending, finish};
 use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::explain::explain;
@@ -16,7 +17,6 @@ pub(super) struct Explain {
 impl Explain {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let found = explain(self.id.as_deref())?;
-        finish(&found, Vec::new(), None, (Told::Main, ""), output)?;
-        Ok(Answer::Yes)
+        finish(&Files::default(), &found, Ending::default(), output)
     }
 }

@@ -1,6 +1,7 @@
 //! What is told on standard error when a command could not do its work.
 
 use super::layout;
+use crate::printable::printable_lines;
 use crate::report::layout::flush;
 use crate::task::{Blame, Failure};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
@@ -15,7 +16,8 @@ pub(super) fn render(failure: &Failure) -> String {
         Blame::Given => ("error: ", failure.hint.as_str()),
         Blame::Program => ("internal error: ", REPORT_IT),
     };
-    let (message, hint) = (&broken(&failure.message, label), &broken(hint, " = help: "));
+    let (message, hint) = (printable_lines(&failure.message), printable_lines(hint));
+    let (message, hint) = (&broken(&message, label), &broken(&hint, " = help: "));
     let level = match failure.blame {
         Blame::Given => Level::ERROR,
         Blame::Program => Level::ERROR.with_name("internal error"),

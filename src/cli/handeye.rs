@@ -1,7 +1,8 @@
 //! `handeye`: where a camera is.
 
-use super::telling::{ReportFile, Told, finish};
-use super::{Answer, Output, files};
+use super::files::Files;
+use super::telling::{Ending, ReportFile, finish};
+use super::{Answer, Output};
 use crate::register::handeye::Setup;
 use crate::task::Failure;
 use crate::task::handeye::{Inputs, handeye};
@@ -52,20 +53,19 @@ enum SetupArg {
 
 impl Handeye {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let read = [&self.robot, &self.board].into_iter();
-        let read = read.chain(&self.corners).chain(&self.profile);
-        let outputs = self.output.iter().map(PathBuf::as_path);
-        self.report
-            .refuse_over(read.map(PathBuf::as_path), outputs)?;
-        let profile = self.profile.as_deref().map(files::profile).transpose()?;
-        let corners = self.corners.as_deref().map(files::source).transpose()?;
+        let files = Files::default();
+        let profile = self.profile.as_deref();
+        let profile = profile.map(|path| files.profile(path)).transpose()?;
+        let corners = self.corners.as_deref();
+        let corners = corners.map(|path| files.source(path)).transpose()?;
         let inputs = Inputs {
-            robot: &files::source(&self.robot)?,
-            board: &files::source(&self.board)?,
+            robot: &files.source(&self.robot)?,
+            board: &files.source(&self.board)?,
             profile: profile.as_ref(),
             tool: self.tool.as_deref(),
             corners: corners.as_ref(),
         };
+        self.report.refuse_over(&files, self.output.as_deref())?;
         let setup = match self.setup {
             SetupArg::EyeToHand => Setup::EyeToHand,
             SetupArg::EyeInHand => Setup::EyeInHand,
@@ -75,13 +75,11 @@ impl Handeye {
             let text = found.frame_text.clone();
             (path.clone(), text.into_bytes())
         });
-        finish(
-            &found,
-            frame.collect(),
-            Some(&self.report),
-            (Told::Main, ""),
-            output,
-        )?;
-        Ok(Answer::Yes)
+        let ending = Ending {
+            written: frame.collect(),
+            report: Some(&self.report),
+            ..Ending::default()
+        };
+        finish(&files, &found, ending, output)
     }
 }

@@ -1,12 +1,12 @@
 //! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot can measure.
 
-use super::telling::{ReportFile, Told, finish};
-use super::{Answer, Output, files, print, values};
+use super::files::{Files, is_standard_output};
+use super::telling::{Ending, ReportFile, Said, deliver, finish};
+use super::{Answer, Output, values};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
 use crate::register::hexapod::Device;
 use crate::report::Report;
-use crate::task::files::write_all;
 use crate::task::hexapod::{base, measurable_poses, poses};
 use crate::task::{Failure, frame};
 use clap::Args;
@@ -68,33 +68,30 @@ impl Hexapod {
                 self.sigma_mm
             )));
         }
-        let read = self.lengths.iter().chain(&self.frame);
-        let read = read.chain(&self.taught).chain(&self.profile);
-        let outputs = self.output.iter().map(PathBuf::as_path);
-        self.report
-            .refuse_over(read.map(PathBuf::as_path), outputs)?;
+        let files = Files::default();
         if let Some(path) = &self.taught {
-            return self.set_base(path, output);
+            return self.set_base(&files, path, output);
         }
         if self.reach {
-            return self.list(output);
+            return self.list(&files, output);
         }
         let path = self.lengths.as_ref();
         let path = path.expect("clap asks for LENGTHS where nothing else is asked");
-        let found = poses(&files::source(path)?, m_from_mm(self.sigma_mm))?;
+        let found = poses(&files.source(path)?, m_from_mm(self.sigma_mm))?;
         let measurements = self.output.as_ref().map(|_| {
             let world_from_base = match &self.frame {
-                Some(path) => frame(&files::source(path)?)?.to_from_from,
+                Some(path) => frame(&files.source(path)?)?.to_from_from,
                 None => Pose::identity(),
             };
             found.measurements(&world_from_base)
         });
-        self.finish(&found, measurements.transpose()?, output)
+        self.finish(&files, &found, measurements.transpose()?, output)
     }
 
     /// Tells a result; `text` is what is written to the output.
     fn finish(
         &self,
+        files: &Files,
         found: &impl Report,
         text: Option<String>,
         output: Output,
@@ -104,33 +101,38 @@ impl Hexapod {
             .iter()
             .cloned()
             .zip(text.map(String::into_bytes));
-        let told = (Told::Main, "");
-        finish(found, written.collect(), Some(&self.report), told, output)?;
-        Ok(Answer::Yes)
+        let ending = Ending {
+            written: written.collect(),
+            report: Some(&self.report),
+            ..Ending::default()
+        };
+        finish(files, found, ending, output)
     }
 
-    fn set_base(&self, path: &Path, output: Output) -> Result<Answer, Failure> {
+    fn set_base(&self, files: &Files, path: &Path, output: Output) -> Result<Answer, Failure> {
         let base_m = three("--base-mm", self.base_mm.as_deref())?;
-        let found = base(&files::source(path)?, base_m)?;
+        let found = base(&files.source(path)?, base_m)?;
         if output.json {
-            return self.finish(&found, Some(found.frame_text.clone()), output);
+            return self.finish(files, &found, Some(found.frame_text.clone()), output);
         }
         let text = found.frame_text.clone().into_bytes();
         let written = self.output.iter().map(|path| (path.clone(), text.clone()));
+        let written = written.chain(self.report.output(found.page().as_ref()));
+        let written: Vec<_> = written.collect();
+        let to_stream = self.output.as_deref().is_some_and(is_standard_output);
         // the frame file is what is printed: it stays one that can be read
-        write_all(
-            &written
-                .chain(self.report.output(found.page().as_ref()))
-                .collect::<Vec<_>>(),
-        )?;
-        if !output.quiet {
-            print(&found.frame_text)?;
-            anstream::eprint!("{}", self.report.told());
-        }
-        Ok(Answer::Yes)
+        let said = match (output.quiet, to_stream) {
+            (true, _) => Said::default(),
+            (false, true) => Said::text(self.report.told()),
+            (false, false) => Said {
+                beside: self.report.told(),
+                ..Said::data(text)
+            },
+        };
+        deliver(files, &written, said, Answer::Yes)
     }
 
-    fn list(&self, output: Output) -> Result<Answer, Failure> {
+    fn list(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
         let device = Device {
             base_m: three("--base-mm", self.base_mm.as_deref())?,
             tool_m: three("--tool-mm", self.tool_mm.as_deref())?,
@@ -138,10 +140,10 @@ impl Hexapod {
             range_m: m_from_mm(self.range_mm),
         };
         let missing = "clap asks for it with --reach";
-        let profile = files::profile(self.profile.as_ref().expect(missing))?;
-        let frame = files::source(self.frame.as_ref().expect(missing))?;
+        let profile = files.profile(self.profile.as_ref().expect(missing))?;
+        let frame = files.source(self.frame.as_ref().expect(missing))?;
         let found = measurable_poses(&profile, self.tool.as_deref(), &frame, &device)?;
-        self.finish(&found, Some(found.csv()), output)
+        self.finish(files, &found, Some(found.csv()), output)
     }
 }
 

@@ -1,7 +1,8 @@
 //! `fk` and `ik`: the models themselves, over tables.
 
+use super::files::Files;
 use super::telling::print_table;
-use super::{Answer, Output, files};
+use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::fk::{self, Options, fk};
 use crate::task::ik::ik;
@@ -66,24 +67,25 @@ fn options(which: Which, tool: Option<&String>) -> Options {
 
 impl Fk {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let profile = files::profile(&self.profile)?;
+        let files = Files::default();
+        let profile = files.profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
-        let found = fk(&profile, &files::source(&self.joints)?, &options)?;
-        print_table(&found, output)?;
-        Ok(Answer::Yes)
+        let found = fk(&profile, &files.source(&self.joints)?, &options)?;
+        print_table(&found, output, Answer::Yes)
     }
 }
 
 impl Ik {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let profile = files::profile(&self.profile)?;
+        let files = Files::default();
+        let profile = files.profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
-        let found = ik(&profile, &files::source(&self.poses)?, &options, self.all)?;
-        print_table(&found, output)?;
-        Ok(if found.reached || self.all {
+        let found = ik(&profile, &files.source(&self.poses)?, &options, self.all)?;
+        let answer = if found.reached || self.all {
             Answer::Yes
         } else {
             Answer::No
-        })
+        };
+        print_table(&found, output, answer)
     }
 }

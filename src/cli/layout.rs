@@ -1,10 +1,8 @@
 //! How wide the output is: `COLUMNS` where it is set, else the terminal, else 80. The one place that knows it.
 
-use super::print;
 use crate::finding::Finding;
 use crate::report;
 use crate::report::layout::wrapped_lines;
-use crate::task::Failure;
 
 /// Columns where nobody tells: of a pipe or a file, so that the same text is written everywhere.
 const UNTOLD: usize = 80;
@@ -40,11 +38,6 @@ pub(super) fn seen_of_errors() -> Option<usize> {
         .map(bounded)
 }
 
-/// Prints text for people to standard output, no line wider than it but for words that are.
-pub(super) fn print_text(text: &str) -> Result<(), Failure> {
-    print(&fitted(text))
-}
-
 /// Every line of a text broken to the columns of standard output.
 pub(super) fn fitted(text: &str) -> String {
     wrapped_lines(text, width())
@@ -55,9 +48,9 @@ pub(super) fn findings(findings: &[Finding], every: bool) -> String {
     of_findings(findings, every, seen())
 }
 
-/// Findings on standard error, as [`findings`] has them.
-pub(super) fn print_findings(findings: &[Finding], every: bool) {
-    anstream::eprint!("{}", of_findings(findings, every, seen_of_errors()));
+/// Findings for standard error, as [`findings`] has them.
+pub(super) fn findings_beside(findings: &[Finding], every: bool) -> String {
+    of_findings(findings, every, seen_of_errors())
 }
 
 fn of_findings(findings: &[Finding], every: bool, width: Option<usize>) -> String {

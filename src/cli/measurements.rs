@@ -1,6 +1,6 @@
 //! What commands that read measurements share.
 
-use super::files;
+use super::files::Files;
 use crate::identify::parameters::{Level, Pick};
 use crate::task::{Failure, Rows};
 use clap::Args;
@@ -16,8 +16,8 @@ pub(super) struct MeasurementFiles {
 
 impl MeasurementFiles {
     /// All rows.
-    pub(super) fn read(&self) -> Result<Rows, Failure> {
-        let sources = self.paths().map(files::source);
+    pub(super) fn read(&self, files: &Files) -> Result<Rows, Failure> {
+        let sources = self.paths().map(|path| files.source(path));
         Rows::read(&sources.collect::<Result<Vec<_>, _>>()?)
     }
 

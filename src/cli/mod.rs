@@ -21,6 +21,7 @@ mod programs;
 mod progress;
 mod register;
 mod schema;
+mod screen;
 mod shell;
 mod simulate;
 mod telling;
@@ -115,8 +116,11 @@ pub fn run_with<A>(arguments: impl IntoIterator<Item = A>) -> ExitCode
 where
     A: Into<OsString> + Clone,
 {
-    let CommandLine { command, output } = CommandLine::parse_from(arguments);
-    ExitCode::from(guarded(|| command.run(output)))
+    let status = match CommandLine::try_parse_from(arguments) {
+        Ok(CommandLine { command, output }) => guarded(|| command.run(output)),
+        Err(error) => screen::print_usage(&error),
+    };
+    ExitCode::from(status)
 }
 
 /// The exit status of what a command does; a panic is a fault of poseshift itself.
@@ -127,7 +131,7 @@ fn guarded(command: impl FnOnce() -> Result<Answer, Failure>) -> u8 {
         let message = panic.payload_as_str().unwrap_or("no message");
         let place = place.unwrap_or_else(|| "somewhere".into());
         let failure = Failure::internal(format!("{message} (at {place})"));
-        anstream::eprintln!("{}", failure::render(&failure));
+        screen::complain(&failure);
     }));
     // a command that panicked is not gone on with
     let answer = std::panic::catch_unwind(std::panic::AssertUnwindSafe(command));
@@ -136,7 +140,7 @@ fn guarded(command: impl FnOnce() -> Result<Answer, Failure>) -> u8 {
         Ok(Ok(Answer::Yes)) => 0,
         Ok(Ok(Answer::No)) => 1,
         Ok(Err(failure)) => {
-            anstream::eprintln!("{}", failure::render(&failure));
+            screen::complain(&failure);
             match failure.blame {
                 Blame::Given => 2,
                 Blame::Program => 3,
@@ -171,18 +175,6 @@ impl Command {
             Self::Completions(command) => command.run(),
             Self::Man(command) => command.run(),
         }
-    }
-}
-
-/// Prints text to standard output. Whoever reads it may have gone: then there is nobody to tell.
-fn print(text: &str) -> Result<(), Failure> {
-    use std::io::Write;
-    let mut out = anstream::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::new(format!(
-            "cannot write to standard output: {error}"
-        ))),
-        _ => Ok(()),
     }
 }
 

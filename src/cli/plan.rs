@@ -1,12 +1,14 @@
 //! `plan`: which configurations to measure.
 
+use super::files::Files;
 use super::measurements::{level, picks};
 use super::progress::Progress;
-use super::telling::{ReportFile, Told, finish, finish_beside};
-use super::{Answer, Output, files, print, values};
+use super::telling::{Ending, ReportFile, finish, finish_beside};
+use super::{Answer, Output, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::parameters::Selection;
 use crate::identify::plan::{Constraints, Request};
+use crate::printable::name_of;
 use crate::task::Failure;
 use crate::task::plan::{Wanted, given, plan};
 use clap::Args;
@@ -91,10 +93,10 @@ fn metres_box(option: &str, text: &str) -> Result<[[f64; 3]; 2], Failure> {
 }
 
 impl PlanCommand {
-    fn request(&self) -> Result<Request, Failure> {
+    fn request(&self, files: &Files) -> Result<Request, Failure> {
         let given = match &self.given {
             None => Vec::new(),
-            Some(path) => given(&files::source(path)?)?,
+            Some(path) => given(&files.source(path)?)?,
         };
         for (option, value, most) in [
             ("--sigma-mm", self.sigma_mm, 1e6),
@@ -154,19 +156,19 @@ impl PlanCommand {
     }
 
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let request = self.request()?;
-        let read = self.given.iter().chain([&self.profile]);
+        let files = Files::default();
+        let request = self.request(&files)?;
+        let profile = files.profile(&self.profile)?;
         let outputs = self.output.iter().chain(&self.program);
         self.report
-            .refuse_over(read.map(PathBuf::as_path), outputs.map(PathBuf::as_path))?;
-        let profile = files::profile(&self.profile)?;
+            .refuse_over(&files, outputs.map(PathBuf::as_path))?;
         let selection = Selection {
             level: level(self.level),
             identify: picks("--identify", self.identify.as_deref())?,
             fix: picks("--fix", self.fix.as_deref())?,
             priors: false,
         };
-        let name = self.program.as_ref().map(|path| path.display().to_string());
+        let name = self.program.as_deref().map(name_of);
         let wanted = name.as_deref().map(|name| Wanted {
             name,
             language: self.language.as_deref(),
@@ -178,7 +180,7 @@ impl PlanCommand {
             &selection,
             &request,
             wanted.as_ref(),
-            &files::mesh,
+            &|path| files.mesh(path),
             &mut |done, of| progress.tell(done, of),
         )?;
         drop(progress);
@@ -187,17 +189,18 @@ impl PlanCommand {
         let program = self.program.iter().zip(found.program.clone());
         for (path, text) in table.chain(program) {
             written.push((path.clone(), text.into_bytes()));
-            found.output.push(path.display().to_string());
+            found.output.push(name_of(path));
         }
         found.output.extend(self.report.name());
-        let told = (Told::Main, "");
+        let ending = Ending {
+            written,
+            report: Some(&self.report),
+            ..Ending::default()
+        };
         if self.output.is_some() || output.json {
-            finish(&found, written, Some(&self.report), told, output)?;
-            return Ok(Answer::Yes);
+            return finish(&files, &found, ending, output);
         }
         // the table is the answer; what it is worth stands beside it
-        finish_beside(&found, written, Some(&self.report), output)?;
-        print(&found.csv())?;
-        Ok(Answer::Yes)
+        finish_beside(&files, &found, found.csv(), ending, output)
     }
 }

@@ -1,75 +1,320 @@
-//! Program files on the command line: files, and folders of them.
+//! Program files on the command line: files, folders of them, and standard input.
 
-use super::files;
+use super::files::{Files, Identity, PREFIX, is_stream};
 use crate::nearest;
+use crate::printable::name_of;
 use crate::program::{LANGUAGES, Language, Source, has_extension};
 use crate::task::Failure;
-use crate::task::files::existing;
+use crate::task::programs::LeftOut;
+use clap::Args;
+use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// Program files in a folder and below, with their paths relative to it.
-pub(super) fn programs_in(
-    folder: &Path,
-    asked: Option<&'static dyn Language>,
-) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
-    let mut found = Vec::new();
-    for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
-        let entry = entry.map_err(|error| {
-            Failure::new(format!(
-                "cannot read the folder {}: {error}",
-                folder.display()
-            ))
-        })?;
-        let path = entry.path();
-        let known = LANGUAGES
-            .iter()
-            .filter(|l| asked.is_none_or(|a| a.about().id == l.about().id));
-        let mut candidates = known.filter(|l| has_extension(**l, path)).peekable();
-        if !entry.file_type().is_file() || candidates.peek().is_none() {
-            continue;
-        }
-        let source = Source::new("", files::read(path)?);
-        if candidates.any(|language| language.recognises(&source)) {
-            let below = path
-                .strip_prefix(folder)
-                .expect("a walk stays below its top");
-            found.push((path.to_owned(), below.to_owned()));
-        }
-    }
-    Ok(found)
+/// Bytes that tell whether a file is text.
+const LOOKED_AT: usize = 1 << 16;
+
+/// What of folders is no matter.
+#[derive(Args)]
+pub(super) struct Ignored {
+    /// Leave files and folders out that are called so: `*.bak`, `old/**`; may be given again. The summary lists them
+    #[arg(long, value_name = "GLOB")]
+    ignore: Vec<String>,
 }
 
-/// Program files in the order of the arguments; folders give theirs by name.
-pub(super) fn read_programs(
-    paths: &[PathBuf],
+impl Ignored {
+    fn globs(&self) -> Result<GlobSet, Failure> {
+        let mut all = GlobSetBuilder::new();
+        for text in &self.ignore {
+            let fault = |error: globset::Error| {
+                Failure::with_hint(
+                    format!("--ignore {text}: {}", error.kind()),
+                    "a pattern is such as `*.bak`, `old/**` or `{a,b}.mod`",
+                )
+            };
+            let pattern = text.trim_end_matches('/');
+            // a name without a folder is meant in every folder
+            let pattern = if pattern.contains('/') {
+                pattern.trim_start_matches("./").to_owned()
+            } else {
+                format!("**/{pattern}")
+            };
+            let glob = GlobBuilder::new(&pattern).literal_separator(true).build();
+            all.add(glob.map_err(fault)?);
+        }
+        all.build()
+            .map_err(|error| Failure::new(format!("--ignore: {error}")))
+    }
+}
+
+/// A program file.
+pub(super) struct ProgramFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// As it is called in a folder of outputs.
+    pub below: PathBuf,
+    /// Its name and its bytes.
+    pub source: Source,
+}
+
+/// The programs that are meant, and what lies beside them.
+pub(super) struct Gathered {
+    /// In the order of the arguments; folders give theirs by name.
+    pub programs: Vec<ProgramFile>,
+    /// What of folders is none.
+    pub left_out: LeftOut,
+}
+
+impl Gathered {
+    /// Where the programs are.
+    pub(super) fn paths(&self) -> Vec<PathBuf> {
+        let paths = self.programs.iter().map(|program| program.path.clone());
+        paths.collect()
+    }
+
+    /// The programs that `--only` means, and behind them the others, which are read for what they declare.
+    pub(super) fn only(self, names: &[String]) -> Result<Vec<Source>, Failure> {
+        let meant = meant(&self.programs, names)?;
+        let (mut own, mut others) = (Vec::new(), Vec::new());
+        for (program, is_meant) in self.programs.into_iter().zip(meant) {
+            let source = program.source;
+            if is_meant {
+                own.push(source);
+            } else {
+                others.push(Source::context(source.name, source.bytes));
+            }
+        }
+        own.extend(others);
+        Ok(own)
+    }
+}
+
+/// Why bytes are no text of a program.
+fn no_text(bytes: &[u8]) -> Option<&'static str> {
+    let head = &bytes[..bytes.len().min(LOOKED_AT)];
+    if head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]) {
+        Some("it is UTF-16; save it as UTF-8 or in the controller's encoding")
+    } else if memchr::memchr(0, head).is_some() {
+        Some("it holds bytes that are 0: UTF-16, or no text")
+    } else if bytes.trim_ascii().is_empty() {
+        Some("it is empty")
+    } else {
+        None
+    }
+}
+
+/// What a folder holds.
+#[derive(Default)]
+struct Walk {
+    /// A run that was stopped there was finished or undone meanwhile.
+    was_settled: bool,
+    /// What is no folder, with its path below the top.
+    entries: Vec<(walkdir::DirEntry, PathBuf)>,
+    ignored: Vec<String>,
+    wrong: Vec<String>,
+}
+
+/// Reads programs.
+struct Reading<'a> {
+    files: &'a Files,
     asked: Option<&'static dyn Language>,
-) -> Result<Vec<Source>, Failure> {
-    let mut sources = Vec::new();
-    for path in paths {
-        let found = if path.is_dir() {
-            programs_in(path, asked)?
-                .into_iter()
-                .map(|(path, _)| path)
-                .collect()
+    ignored: GlobSet,
+    found: Gathered,
+    /// What in folders can be neither read nor passed over, with the reason.
+    wrong: Vec<String>,
+}
+
+impl Reading<'_> {
+    /// A file that is named.
+    fn file(&mut self, path: &Path) -> Result<(), Failure> {
+        let below = path.file_name().map_or_else(|| path.into(), PathBuf::from);
+        if self.ignored.is_match(&below) {
+            self.found.left_out.ignored.push(name_of(path));
+            return Ok(());
+        }
+        let bytes = if is_stream(path) {
+            self.files.standard_input()?
         } else {
-            vec![path.clone()]
+            self.files.read(path)?
         };
-        for path in found {
-            sources.push(files::source(&path)?);
+        if let Some(why) = no_text(&bytes) {
+            return Err(Failure::new(format!("{}: {why}", name_of(path))));
+        }
+        self.found.programs.push(ProgramFile {
+            path: path.to_owned(),
+            below,
+            source: Source::new(name_of(path), bytes),
+        });
+        Ok(())
+    }
+
+    /// All files of a folder and below.
+    fn folder(&mut self, folder: &Path) -> Result<(), Failure> {
+        let mut walk = self.walk(folder)?;
+        while walk.was_settled {
+            // what is there has changed
+            walk = self.walk(folder)?;
+        }
+        self.wrong.extend(walk.wrong);
+        self.found.left_out.ignored.extend(walk.ignored);
+        for (entry, below) in walk.entries {
+            self.entry(&entry, below);
+        }
+        Ok(())
+    }
+
+    fn walk(&self, folder: &Path) -> Result<Walk, Failure> {
+        let mut found = Walk {
+            was_settled: self.files.settle(folder)?,
+            ..Walk::default()
+        };
+        let mut walk = walkdir::WalkDir::new(folder)
+            .min_depth(1)
+            .sort_by_file_name()
+            .into_iter();
+        while let Some(entry) = walk.next() {
+            let entry = match entry {
+                Ok(entry) => entry,
+                Err(error) => {
+                    let path = name_of(error.path().unwrap_or(folder));
+                    let why = error.io_error().map(ToString::to_string);
+                    let why = why.unwrap_or_else(|| error.to_string());
+                    found.wrong.push(format!("{path}: {why}"));
+                    continue;
+                }
+            };
+            let is_folder = entry.file_type().is_dir();
+            // what a run that is at work has beside its places is none of the folder's
+            let is_own = entry.file_name().to_string_lossy().starts_with(PREFIX);
+            let below = entry.path().strip_prefix(folder);
+            let below = below.expect("a walk stays below its top").to_owned();
+            if is_own || self.ignored.is_match(&below) {
+                if is_folder {
+                    walk.skip_current_dir();
+                }
+                if !is_own {
+                    let sign = if is_folder { "/" } else { "" };
+                    found.ignored.push(name_of(entry.path()) + sign);
+                }
+            } else if is_folder {
+                found.was_settled |= self.files.settle(entry.path())?;
+            } else {
+                found.entries.push((entry, below));
+            }
+        }
+        Ok(found)
+    }
+
+    /// A file of a folder.
+    fn entry(&mut self, entry: &walkdir::DirEntry, below: PathBuf) {
+        let path = entry.path();
+        let name = name_of(path);
+        let kind = entry.file_type();
+        if kind.is_symlink() {
+            let why = "it is a link, and links in folders are not followed";
+            self.wrong.push(format!("{name}: {why}"));
+            return;
+        }
+        let asked = |l: &&&dyn Language| self.asked.is_none_or(|a| a.about().id == l.about().id);
+        let known: Vec<&dyn Language> = LANGUAGES
+            .iter()
+            .filter(asked)
+            .filter(|language| has_extension(**language, path))
+            .copied()
+            .collect();
+        if known.is_empty() {
+            self.found.left_out.other.push(name);
+            return;
+        }
+        if !kind.is_file() {
+            let why = "it is a device, a pipe or a socket";
+            self.wrong.push(format!("{name}: {why}"));
+            return;
+        }
+        let bytes = match self.files.bytes(path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                self.wrong
+                    .push(format!("{name}: it cannot be read: {error}"));
+                return;
+            }
+        };
+        let why = no_text(&bytes);
+        let source = Source::new(name, bytes);
+        let recognised = known.iter().any(|language| language.recognises(&source));
+        if let Some(why) = why {
+            self.wrong.push(format!("{}: {why}", source.name));
+        } else if !recognised {
+            let names: Vec<&str> = known.iter().map(|language| language.about().name).collect();
+            let why = format!(
+                "it is called as {}, and is none: truncated?",
+                names.join(" or ")
+            );
+            self.wrong.push(format!("{}: {why}", source.name));
+        } else {
+            self.found.programs.push(ProgramFile {
+                path: path.to_owned(),
+                below,
+                source,
+            });
         }
     }
-    if sources.is_empty() {
+}
+
+/// The program files that are meant.
+///
+/// # Errors
+/// One cannot be read; a folder holds what can be neither read nor passed over in silence; there is none.
+pub(super) fn gather(
+    files: &Files,
+    paths: &[PathBuf],
+    asked: Option<&'static dyn Language>,
+    ignored: &Ignored,
+) -> Result<Gathered, Failure> {
+    let mut reading = Reading {
+        files,
+        asked,
+        ignored: ignored.globs()?,
+        found: Gathered {
+            programs: Vec::new(),
+            left_out: LeftOut::default(),
+        },
+        wrong: Vec::new(),
+    };
+    for path in paths {
+        files.settle(path)?;
+        if path.is_dir() {
+            reading.folder(path)?;
+        } else {
+            reading.file(path)?;
+        }
+    }
+    if !reading.wrong.is_empty() {
+        return Err(Failure::with_hint(
+            format!(
+                "nothing of a folder is passed over in silence: {}",
+                reading.wrong.join("; ")
+            ),
+            "mend them, or leave them out with --ignore GLOB",
+        ));
+    }
+    if reading.found.programs.is_empty() {
         return Err(Failure::with_hint(
             "no program files in these folders",
             "`poseshift languages` lists what is recognised",
         ));
     }
-    Ok(sources)
+    if paths.len() > 1 && paths.iter().any(|path| is_stream(path)) {
+        return Err(Failure::with_hint(
+            "`-` is one program, without others beside it",
+            "give files, or one program on standard input",
+        ));
+    }
+    Ok(reading.found)
 }
 
 /// Which of the program files `--only` means: all where it names none.
-pub(super) fn meant(files: &[&Path], only: &[String]) -> Result<Vec<bool>, Failure> {
+pub(super) fn meant(programs: &[ProgramFile], only: &[String]) -> Result<Vec<bool>, Failure> {
     let is = |path: &Path, name: &String| {
         let same = |part: Option<&std::ffi::OsStr>| {
             part.is_some_and(|part| part.to_string_lossy().eq_ignore_ascii_case(name))
@@ -77,55 +322,40 @@ pub(super) fn meant(files: &[&Path], only: &[String]) -> Result<Vec<bool>, Failu
         same(path.file_name()) || same(path.file_stem())
     };
     for name in only {
-        if !files.iter().any(|path| is(path, name)) {
-            let names: Vec<_> = files
-                .iter()
-                .map(|path| path.display().to_string())
-                .collect();
+        if !programs.iter().any(|program| is(&program.path, name)) {
+            let names = programs.iter().map(|program| name_of(&program.below));
+            let names: Vec<String> = names.collect();
             return Err(Failure::with_hint(
                 format!("--only {name}: no program is called so"),
                 nearest::hint(name, "programs", names.iter().map(String::as_str)),
             ));
         }
     }
-    let meant = |path: &&Path| only.is_empty() || only.iter().any(|name| is(path, name));
-    Ok(files.iter().map(meant).collect())
-}
-
-/// The programs that `--only` means, and behind them the others, which are read for what they declare.
-pub(super) fn only(programs: Vec<Source>, names: &[String]) -> Result<Vec<Source>, Failure> {
-    let paths: Vec<&Path> = programs
-        .iter()
-        .map(|source| Path::new(&source.name))
-        .collect();
-    let meant = meant(&paths, names)?;
-    let (mut own, mut others) = (Vec::new(), Vec::new());
-    for (source, is_meant) in programs.into_iter().zip(meant) {
-        if is_meant {
-            own.push(source);
-        } else {
-            others.push(Source::context(source.name, source.bytes));
-        }
-    }
-    own.extend(others);
-    Ok(own)
+    let meant =
+        |program: &ProgramFile| only.is_empty() || only.iter().any(|name| is(&program.path, name));
+    Ok(programs.iter().map(meant).collect())
 }
 
 /// Files that are read for what they declare only, those left out that are programs of the run.
 pub(super) fn read_context(
+    files: &Files,
     paths: &[PathBuf],
     asked: Option<&'static dyn Language>,
-    programs: &[Source],
+    ignored: &Ignored,
+    programs: &[PathBuf],
 ) -> Result<Vec<Source>, Failure> {
     if paths.is_empty() {
         return Ok(Vec::new());
     }
-    let at = |source: &Source| existing(Path::new(&source.name));
-    let programs: HashSet<_> = programs.iter().filter_map(at).collect();
-    let is_program = |source: &Source| at(source).is_some_and(|at| programs.contains(&at));
-    let found = read_programs(paths, asked)?.into_iter();
-    Ok(found
-        .filter(|source| !is_program(source))
-        .map(|source| Source::context(source.name, source.bytes))
+    let known: HashSet<Identity> = programs
+        .iter()
+        .filter_map(|path| Identity::of(path))
+        .collect();
+    let found = gather(files, paths, asked, ignored)?.programs.into_iter();
+    let others = found.filter(|program| {
+        !Identity::of(&program.path).is_some_and(|identity| known.contains(&identity))
+    });
+    Ok(others
+        .map(|program| Source::context(program.source.name, program.source.bytes))
         .collect())
 }

@@ -1,8 +1,10 @@
 //! `register`: the rigid motion between two sets of points, or a frame from probe touches.
 
-use super::telling::{ReportFile, Told, finish};
-use super::{Answer, Output, files, values};
+use super::files::Files;
+use super::telling::{Ending, ReportFile, finish};
+use super::{Answer, Output, values};
 use crate::geometry::units::m_from_mm;
+use crate::printable::name_of;
 use crate::register::icp::{self, Metric};
 use crate::task::Failure;
 use crate::task::register::{self, Options, Pairing, register};
@@ -160,12 +162,11 @@ impl Register {
 
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = self.options()?;
-        let read = [&self.from].into_iter().chain(&self.to);
-        let outputs = self.output.iter().map(PathBuf::as_path);
-        self.report
-            .refuse_over(read.map(PathBuf::as_path), outputs)?;
-        let from = files::source(&self.from)?;
-        let to = self.to.as_deref().map(files::source).transpose()?;
+        let files = Files::default();
+        let from = files.source(&self.from)?;
+        let to = self.to.as_deref();
+        let to = to.map(|path| files.source(path)).transpose()?;
+        self.report.refuse_over(&files, self.output.as_deref())?;
         let pairing = match (&to, self.frame) {
             (_, Some(Construction::ThreePoints)) => {
                 Pairing::Frame(register::Construction::ThreePoints)
@@ -184,15 +185,14 @@ impl Register {
         let mut written = Vec::new();
         if let Some(path) = self.output.as_ref().filter(|_| !refused) {
             written.push((path.clone(), found.frame_text().into_bytes()));
-            found.output = Some(path.display().to_string());
+            found.output = Some(name_of(path));
         }
-        finish(
-            &found,
+        let ending = Ending {
             written,
-            Some(&self.report),
-            (Told::Main, ""),
-            output,
-        )?;
-        Ok(if refused { Answer::No } else { Answer::Yes })
+            report: Some(&self.report),
+            answer: if refused { Answer::No } else { Answer::Yes },
+            ..Ending::default()
+        };
+        finish(&files, &found, ending, output)
     }
 }

@@ -1,7 +1,7 @@
 //! `schema`: the JSON Schema of a file or a report.
 
 use super::telling::print_schema;
-use super::{Answer, print};
+use super::{Answer, screen};
 use crate::nearest;
 use crate::task::{Failure, SCHEMAS};
 use clap::Args;
@@ -19,7 +19,7 @@ impl Schema {
             let lines = SCHEMAS
                 .iter()
                 .map(|format| format!("{:14} {}\n", format.name, format.what));
-            print(&lines.collect::<String>())?;
+            screen::print(&lines.collect::<String>())?;
             return Ok(Answer::Yes);
         };
         let name = name.split('/').next().unwrap_or_default();
@@ -31,7 +31,6 @@ impl Schema {
                 nearest::hint(name, "formats", names),
             )
         })?;
-        print_schema(&(format.schema)())?;
-        Ok(Answer::Yes)
+        print_schema(&(format.schema)())
     }
 }

@@ -1,6 +1,6 @@
 //! `completions` and `man`: what shells and readers want to know of the command line.
 
-use super::{Answer, CommandLine, print};
+use super::{Answer, CommandLine, screen};
 use crate::task::Failure;
 use clap::{Args, CommandFactory};
 
@@ -24,7 +24,7 @@ impl Completions {
             "poseshift",
             &mut text,
         );
-        print(&String::from_utf8_lossy(&text))?;
+        screen::print_data(&text)?;
         Ok(Answer::Yes)
     }
 }
@@ -42,7 +42,7 @@ impl Man {
         for sub in command.get_subcommands() {
             page(sub.clone())?;
         }
-        print(&String::from_utf8_lossy(&text))?;
+        screen::print_data(&text)?;
         Ok(Answer::Yes)
     }
 }

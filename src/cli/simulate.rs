@@ -1,11 +1,12 @@
 //! `simulate`: measurements of the robot that a profile describes.
 
-use super::telling::{Told, finish, print_table};
-use super::{Answer, Output, files, values};
+use super::files::Files;
+use super::telling::{Ending, Told, finish, print_table};
+use super::{Answer, Output, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::simulate::{Device, Session};
+use crate::printable::name_of;
 use crate::task::Failure;
-use crate::task::files::refuse_over;
 use crate::task::simulate::simulate;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -110,21 +111,21 @@ impl Simulate {
 
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let session = self.session()?;
-        refuse_over(
-            [self.profile.as_path(), self.joints.as_path()],
-            self.output.as_deref(),
-        )?;
-        let profile = files::profile(&self.profile)?;
-        let joints = files::source(&self.joints)?;
+        let files = Files::default();
+        let profile = files.profile(&self.profile)?;
+        let joints = files.source(&self.joints)?;
+        files.refuse_over(self.output.as_deref())?;
         let mut found = simulate(&profile, &joints, self.tool.as_deref(), &session)?;
         let Some(path) = &self.output else {
-            print_table(&found, output)?;
-            return Ok(Answer::Yes);
+            return print_table(&found, output, Answer::Yes);
         };
         let csv = found.csv.take().unwrap_or_default();
-        found.output = Some(path.display().to_string());
-        let written = vec![(path.clone(), csv.into_bytes())];
-        finish(&found, written, None, (Told::All, ""), output)?;
-        Ok(Answer::Yes)
+        found.output = Some(name_of(path));
+        let ending = Ending {
+            written: vec![(path.clone(), csv.into_bytes())],
+            told: Told::All,
+            ..Ending::default()
+        };
+        finish(&files, &found, ending, output)
     }
 }

@@ -1,10 +1,13 @@
 //! What a command does with its result: files, a page, then JSON alone, or findings and text.
 
-use super::{Output, layout, print};
+use super::files::{Files, NewFile, is_standard_output};
+use super::screen::{self, Stop};
+use super::{Answer, Output, layout};
 use crate::finding::Severity;
+use crate::printable::name_of;
 use crate::report::html::page::Page;
 use crate::report::{Report, Style};
-use crate::task::{Failure, files};
+use crate::task::Failure;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -22,36 +25,32 @@ impl ReportFile {
         self.file.is_some()
     }
 
-    /// Neither the report nor another output may take the place of what is read, nor of one another.
+    /// Neither the report nor another output may take the place of what was read, nor of one another.
     pub(super) fn refuse_over<'a>(
         &'a self,
-        inputs: impl IntoIterator<Item = &'a Path>,
+        files: &Files,
         outputs: impl IntoIterator<Item = &'a Path>,
     ) -> Result<(), Failure> {
-        let own = self.file.iter().map(PathBuf::as_path);
-        files::refuse_over(inputs, outputs.into_iter().chain(own))
+        files.refuse_over(outputs.into_iter().chain(self.file.as_deref()))
     }
 
     /// The page as one more output.
-    pub(super) fn output(&self, page: Option<&Page>) -> Option<(PathBuf, Vec<u8>)> {
+    pub(super) fn output(&self, page: Option<&Page>) -> Option<NewFile> {
         let file = self.file.as_ref()?;
         Some((file.clone(), page?.html().into_bytes()))
     }
 
     /// Its name.
     pub(super) fn name(&self) -> Option<String> {
-        self.file.as_ref().map(|file| file.display().to_string())
+        self.file.as_deref().map(name_of)
     }
 
     /// What is told when it is written.
     pub(super) fn told(&self) -> String {
-        let told = |file: &PathBuf| format!("report written to {}\n", file.display());
-        self.file.as_ref().map_or(String::new(), told)
+        let told = |name: String| format!("report written to {name}\n");
+        self.name().map_or(String::new(), told)
     }
 }
-
-/// A file to write.
-pub(super) type File = (PathBuf, Vec<u8>);
 
 /// Which findings are told without `--verbose`.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -62,62 +61,161 @@ pub(super) enum Told {
     Main,
 }
 
-/// Writes the files and the page, all or none, then prints the JSON alone, or findings to standard error and the text to
-/// standard output. `also` is told after the text.
+/// How a command ends.
+pub(super) struct Ending<'a> {
+    /// The files that it writes, the page apart.
+    pub written: Vec<NewFile>,
+    /// The page that is asked for.
+    pub report: Option<&'a ReportFile>,
+    /// Which findings are told.
+    pub told: Told,
+    /// What is told behind the text.
+    pub also: &'a str,
+    /// What the exit status says.
+    pub answer: Answer,
+}
+
+impl Default for Ending<'_> {
+    fn default() -> Self {
+        Self {
+            written: Vec::new(),
+            report: None,
+            told: Told::Main,
+            also: "",
+            answer: Answer::Yes,
+        }
+    }
+}
+
+/// What is printed.
+#[derive(Default)]
+pub(super) struct Said {
+    /// For people, to standard output; to standard error where that is taken by what programs read.
+    pub text: String,
+    /// For programs, to standard output.
+    pub data: Option<Vec<u8>>,
+    /// For people, to standard error.
+    pub beside: String,
+}
+
+impl Said {
+    /// A text for people.
+    pub(super) fn text(text: String) -> Self {
+        Self {
+            text,
+            ..Self::default()
+        }
+    }
+
+    /// What programs read.
+    pub(super) fn data(data: impl Into<Vec<u8>>) -> Self {
+        Self {
+            data: Some(data.into()),
+            ..Self::default()
+        }
+    }
+
+    fn print(self) -> Result<(), Stop> {
+        screen::print_beside(&self.beside)?;
+        match self.data {
+            Some(data) => {
+                screen::print_beside(&self.text)?;
+                screen::print_data(&data)
+            }
+            None => screen::print(&self.text),
+        }
+    }
+}
+
+/// Writes files and prints, both or neither. A reader that has gone changes no answer but to worse.
+pub(super) fn deliver(
+    files: &Files,
+    written: &[NewFile],
+    mut said: Said,
+    answer: Answer,
+) -> Result<Answer, Failure> {
+    if let Some((_, bytes)) = written.iter().find(|(path, _)| is_standard_output(path)) {
+        if said.data.is_some() {
+            return Err(Failure::with_hint(
+                "an output and the result would both be written to standard output",
+                "name a file for the output",
+            ));
+        }
+        said.data = Some(bytes.clone());
+    }
+    match files.write(written, || said.print()) {
+        Ok(()) => Ok(answer),
+        Err(Stop::Closed(_)) if answer == Answer::No => Ok(answer),
+        Err(stop) => Err(stop.into()),
+    }
+}
+
+/// Writes the files and the page, all or none, and prints the JSON alone, or findings to standard error and the text to
+/// standard output.
 pub(super) fn finish(
+    files: &Files,
     found: &impl Report,
-    written: Vec<File>,
-    report: Option<&ReportFile>,
-    (told, also): (Told, &str),
+    ending: Ending,
     output: Output,
-) -> Result<(), Failure> {
-    write(found, written, report)?;
-    if output.json {
-        return print(&found.json());
-    }
-    print_findings(found, told, output);
-    if output.quiet {
-        return Ok(());
-    }
-    layout::print_text(&text(found, output))?;
-    print(also)?;
-    print(&report.map_or_else(String::new, ReportFile::told))
+) -> Result<Answer, Failure> {
+    let told = ending.report.map_or_else(String::new, ReportFile::told);
+    let said = if output.json {
+        Said::data(found.json())
+    } else if output.quiet {
+        Said {
+            beside: findings(found, ending.told, output),
+            ..Said::default()
+        }
+    } else {
+        Said {
+            text: layout::fitted(&text(found, output)) + ending.also + &told,
+            beside: findings(found, ending.told, output),
+            data: None,
+        }
+    };
+    deliver_with_page(files, found, ending, said)
 }
 
 /// As [`finish`] of a result whose answer is printed alone: everything else goes to standard error.
 pub(super) fn finish_beside(
+    files: &Files,
     found: &impl Report,
-    written: Vec<File>,
-    report: Option<&ReportFile>,
+    data: String,
+    ending: Ending,
     output: Output,
-) -> Result<(), Failure> {
-    write(found, written, report)?;
-    print_findings(found, Told::Main, output);
+) -> Result<Answer, Failure> {
+    let mut beside = findings(found, ending.told, output);
     if !output.quiet {
-        let report = report.map_or_else(String::new, ReportFile::told);
-        anstream::eprint!("{}{report}", text(found, output));
+        beside += &text(found, output);
+        beside += &ending.report.map_or_else(String::new, ReportFile::told);
     }
-    Ok(())
+    let said = Said {
+        beside,
+        ..Said::data(data)
+    };
+    deliver_with_page(files, found, ending, said)
 }
 
-fn write(
+fn deliver_with_page(
+    files: &Files,
     found: &impl Report,
-    mut written: Vec<File>,
-    report: Option<&ReportFile>,
-) -> Result<(), Failure> {
-    if let Some(report) = report.filter(|report| report.is_wanted()) {
+    ending: Ending,
+    said: Said,
+) -> Result<Answer, Failure> {
+    let mut written = ending.written;
+    if let Some(report) = ending.report.filter(|report| report.is_wanted()) {
         written.extend(report.output(found.page().as_ref()));
     }
-    files::write_all(&written)
+    deliver(files, &written, said, ending.answer)
 }
 
-fn print_findings(found: &impl Report, told: Told, output: Output) {
+fn findings(found: &impl Report, told: Told, output: Output) -> String {
     if output.quiet {
         let mut errors = found.findings().to_vec();
         errors.retain(|finding| finding.severity == Severity::Error);
-        layout::print_findings(&errors, true);
+        layout::findings_beside(&errors, true)
     } else {
-        layout::print_findings(found.findings(), output.verbose || told == Told::All);
+        layout::findings_beside(found.findings(), output.verbose || told == Told::All)
     }
 }
 
@@ -129,17 +227,23 @@ fn text(found: &impl Report, output: Output) -> String {
 }
 
 /// Prints a table that is the result itself, whole lines and whatever else is asked for; with `--json` the document.
-pub(super) fn print_table(found: &impl Report, output: Output) -> Result<(), Failure> {
-    if output.json {
-        return print(&found.json());
-    }
-    print(&found.text(Style {
-        width: usize::MAX,
-        every: true,
-    }))
+pub(super) fn print_table(
+    found: &impl Report,
+    output: Output,
+    answer: Answer,
+) -> Result<Answer, Failure> {
+    let text = if output.json {
+        found.json()
+    } else {
+        found.text(Style {
+            width: usize::MAX,
+            every: true,
+        })
+    };
+    deliver(&Files::default(), &[], Said::data(text), answer)
 }
 
 /// Prints a JSON Schema.
-pub(super) fn print_schema(schema: &serde_json::Value) -> Result<(), Failure> {
-    print(&format!("{schema:#}\n"))
+pub(super) fn print_schema(schema: &serde_json::Value) -> Result<Answer, Failure> {
+    Ok(screen::print_data(format!("{schema:#}\n").as_bytes()).map(|()| Answer::Yes)?)
 }

@@ -1,9 +1,10 @@
 //! `validate`: what a profile is worth on measurements it has not seen.
 
+use super::files::Files;
 use super::measurements::MeasurementFiles;
 use super::progress::Progress;
-use super::telling::{ReportFile, Told, finish};
-use super::{Answer, Output, files};
+use super::telling::{Ending, ReportFile, Told, finish};
+use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::validate::{Options, validate};
 use clap::Args;
@@ -33,27 +34,25 @@ pub(super) struct Validate {
 
 impl Validate {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
-        let profile = files::profile(&self.profile)?;
-        let read = self.measurements.paths().chain([self.profile.as_path()]);
-        self.report.refuse_over(read, [])?;
+        let files = Files::default();
+        let profile = files.profile(&self.profile)?;
         let options = Options {
             refit_frames: self.refit_frames,
             folds: self.folds.map(|n| n as usize),
             all_sets: self.all_sets,
         };
-        let measurements = self.measurements.read()?;
+        let measurements = self.measurements.read(&files)?;
+        self.report.refuse_over(&files, [])?;
         let progress = Progress::new(output, "validating");
         let found = validate(&profile, measurements, &options, &mut |done, of| {
             progress.tell(done, of);
         })?;
         drop(progress);
-        finish(
-            &found,
-            Vec::new(),
-            Some(&self.report),
-            (Told::All, ""),
-            output,
-        )?;
-        Ok(Answer::Yes)
+        let ending = Ending {
+            report: Some(&self.report),
+            told: Told::All,
+            ..Ending::default()
+        };
+        finish(&files, &found, ending, output)
     }
 }

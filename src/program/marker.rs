@@ -7,7 +7,9 @@ use sha2::{Digest, Sha256};
 const WORD: &str = "poseshift compensated this file";
 /// The fewest digits of a hash that a language keeps.
 const LEAST_DIGITS: usize = 16;
-/// Digits of a hash in one comment of INFORM.
+/// Characters of a comment that short lines have at most.
+pub(super) const WIDEST_COMMENT: usize = 32;
+/// Digits of a hash in one comment of INFORM in files of version 0.1.
 const HALF_HASH: usize = 32;
 /// Bytes between the words of a marker, at most.
 const WIDEST_GAP: usize = 24;
@@ -37,6 +39,25 @@ impl Marker {
             format!("source {}", self.source_sha256),
         ];
         lines.extend(self.decided.iter().cloned());
+        lines
+    }
+
+    /// The marker as lines of at most [`WIDEST_COMMENT`] characters, for languages whose controllers keep no longer comments: the
+    /// first 24 and 16 digits of the hashes.
+    #[must_use]
+    pub fn short_lines(&self) -> Vec<String> {
+        let profile = format!("profile {:.24}", self.profile_sha256);
+        let source = format!("source {:.16} v{}", self.source_sha256, self.version);
+        // a finding with a long name is named alone
+        let short = |text: &String| match text.split_once(' ') {
+            Some((_, last)) if text.len() > WIDEST_COMMENT => last.to_owned(),
+            _ => text.clone(),
+        };
+        let mut lines = vec![WORD.to_owned(), profile, source];
+        lines.extend(self.decided.iter().map(short));
+        for line in &mut lines {
+            line.truncate(WIDEST_COMMENT);
+        }
         lines
     }
 
@@ -149,7 +170,7 @@ fn digest(bytes: &[u8], at: usize, name: &[u8]) -> Option<String> {
     is_hash.then(|| String::from_utf8_lossy(digits).to_ascii_lowercase())
 }
 
-/// Whether a line is half a hash, as INFORM's short comments hold it.
+/// Whether a line is half a hash, as comments of INFORM held it.
 fn is_rest(line: &[u8]) -> bool {
     let digits = line.trim_ascii().strip_prefix(b"'");
     let digits = digits.map(<[u8]>::trim_ascii_start);
@@ -161,8 +182,11 @@ fn decided(text: &[u8]) -> bool {
     let Some(text) = text.get(..text.len().min(WIDEST_DECISION)) else {
         return false;
     };
-    let is = |first: &[u8]| word(text, 0, first).is_some();
-    if !is(b"accepted") && !is(b"max-shift") {
+    let first = text
+        .iter()
+        .take_while(|b| b.is_ascii_alphanumeric() || **b == b'-');
+    let first = &text[..first.count()];
+    if !first.eq_ignore_ascii_case(b"accepted") && !first.contains(&b'-') {
         return false;
     }
     let text = String::from_utf8_lossy(text).to_ascii_lowercase();
@@ -170,6 +194,8 @@ fn decided(text: &[u8]) -> bool {
     let mut words = words.by_ref().filter(|word| !word.is_empty());
     match (words.next(), words.next(), words.next()) {
         (Some("accepted"), Some(id), None) => kind(id).is_some(),
+        // named alone where both are too long for a line
+        (Some(id), None, None) => id.contains('-') && kind(id).is_some(),
         (Some("max-shift"), Some(limit), None) => limit.contains("mm,") && limit.ends_with("deg"),
         _ => false,
     }
@@ -226,6 +252,36 @@ mod tests {
             "! poseshift did not compensate this file",
         ] {
             assert_eq!(Marker::find(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn each_short_line_is_a_marker() {
+        let longest = crate::finding::TABLE
+            .iter()
+            .max_by_key(|kind| kind.id.len());
+        let longest = longest.expect("a finding").id;
+        assert!(longest.len() <= WIDEST_COMMENT, "{longest} does not fit");
+        let marker = Marker {
+            version: "0.1.0".into(),
+            profile_sha256: "a".repeat(64),
+            source_sha256: "b".repeat(64),
+            decided: vec![
+                "accepted target-shared".into(),
+                format!("accepted {longest}"),
+                "max-shift 123.456mm,12.5deg".into(),
+            ],
+        };
+        let lines = marker.short_lines();
+        assert_eq!(lines.len(), 6);
+        for line in lines {
+            assert!(line.len() <= WIDEST_COMMENT, "{line}");
+            for text in [
+                format!("'{line}\r\n"),
+                format!("  12:  !{} ;\n", line.to_uppercase()),
+            ] {
+                assert!(Marker::find(text.as_bytes()).is_some(), "{text}");
+            }
         }
     }
 

@@ -16,6 +16,7 @@ use super::uncertainty::PoseCovariance;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{Number, PoseFile, ProfileError, file};
+use crate::printable::quoted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::Spanned;
@@ -191,9 +192,7 @@ impl Frame {
         if !self.provenance.is_empty() {
             text += "provenance:\n";
             for (key, value) in &self.provenance {
-                // a JSON string is a YAML string
-                let value = serde_json::Value::from(value.as_str());
-                writeln!(text, "  {key}: {value}").expect(ok);
+                writeln!(text, "  {key}: {}", quoted(value)).expect(ok);
             }
         }
         text

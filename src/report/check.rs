@@ -1,7 +1,7 @@
 //! The text of `check`, and its `JUnit` XML.
 
 use super::junit;
-use super::text::fixed;
+use super::text::{fixed, left_out};
 use crate::check::baseline::{Comparison, text as baseline_text};
 use crate::finding::{Finding, Severity};
 use crate::task::check::{Checked, Move, Summary};
@@ -90,6 +90,7 @@ pub(crate) fn text(found: &Checked) -> String {
             "  {with_zone} moves have a corner that the robot cuts; the path here goes through it"
         ));
     }
+    lines.extend(left_out(&found.summary.left_out));
     let mut text = lines.join("\n") + "\n";
     if let Some(comparison) = found.baseline {
         text += &baseline_text(comparison);

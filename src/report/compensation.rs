@@ -1,5 +1,6 @@
 //! The text of `compensate`.
 
+use super::text::left_out as left_out_lines;
 use crate::program::Language;
 use crate::task::compensate::{Compensated, Summary};
 
@@ -21,6 +22,7 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
         max_rounding_deg,
         added,
         ref files,
+        ref left_out,
     } = found.summary;
     let mut lines = vec![format!(
         "{} file(s) of {}, {targets} targets: {compensated} shifted, {unchanged} unchanged",
@@ -55,5 +57,6 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
         lines.push(format!("  written   {}", files.written.join(", ")));
         lines.push(format!("  refused   {}", files.refused.join(", ")));
     }
+    lines.extend(left_out_lines(left_out));
     lines.join("\n") + "\n"
 }

@@ -1,6 +1,8 @@
 //! Findings as lines of text.
 
+use super::layout::{BLUE, PLAIN, RED, YELLOW};
 use crate::finding::{Finding, Severity};
+use crate::printable::printable;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -40,18 +42,21 @@ fn line(finding: &Finding, with_hint: bool, out: &mut String) {
         hint,
         accepted,
     } = finding;
-    let word = match severity {
-        _ if *accepted => "\x1b[1;33maccepted\x1b[0m",
-        Severity::Error => "\x1b[1;31merror\x1b[0m",
-        Severity::Warning => "\x1b[1;33mwarning\x1b[0m",
-        Severity::Note => "\x1b[1;34mnote\x1b[0m",
+    let (colour, word) = match severity {
+        _ if *accepted => (YELLOW, "accepted"),
+        Severity::Error => (RED, "error"),
+        Severity::Warning => (YELLOW, "warning"),
+        Severity::Note => (BLUE, "note"),
     };
+    // one line stays one, whatever a name in it holds
+    let (message, hint) = (printable(message), printable(hint));
     let place = if *line == 0 {
         file.clone()
     } else {
         format!("{file}:{line}:{column}")
     };
-    writeln!(out, "{place}: {word}[{id}]: {message}").expect("a string takes all text");
+    writeln!(out, "{place}: {colour}{word}{PLAIN}[{id}]: {message}")
+        .expect("a string takes all text");
     if with_hint && !hint.is_empty() {
         writeln!(out, "    {hint}").expect("a string takes all text");
     }

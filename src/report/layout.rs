@@ -2,19 +2,35 @@
 
 use crate::task::parts::Statistics;
 
-/// Letters that are seen: colours are not.
-fn letters(text: &str) -> usize {
-    let mut count = 0;
-    let mut is_colour = false;
+/// Signs that begin and end a colour in a text for people, and what a terminal takes for it. Unicode keeps them for use inside
+/// a program: whatever else steers a terminal can be kept from it.
+const COLOURS: [(char, &str); 4] = [
+    (RED, "\x1b[1;31m"),
+    (YELLOW, "\x1b[1;33m"),
+    (BLUE, "\x1b[1;34m"),
+    (PLAIN, "\x1b[0m"),
+];
+pub(crate) const RED: char = '\u{fdd0}';
+pub(crate) const YELLOW: char = '\u{fdd1}';
+pub(crate) const BLUE: char = '\u{fdd2}';
+pub(crate) const PLAIN: char = '\u{fdd3}';
+
+/// A text with the colours of a terminal.
+pub(crate) fn coloured(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
-        match letter {
-            '\x1b' => is_colour = true,
-            'm' if is_colour => is_colour = false,
-            _ if is_colour => {}
-            _ => count += 1,
+        match COLOURS.iter().find(|(sign, _)| *sign == letter) {
+            Some((_, colour)) => out += colour,
+            None => out.push(letter),
         }
     }
-    count
+    out
+}
+
+/// Letters that are seen: colours are not.
+fn letters(text: &str) -> usize {
+    let is_seen = |letter: &char| !(RED..=PLAIN).contains(letter);
+    text.chars().filter(is_seen).count()
 }
 
 /// Where the rest of a broken line begins: below what stands behind its label, else a little further in.
@@ -194,9 +210,10 @@ mod tests {
 
     #[test]
     fn colours_take_no_room_and_spaces_that_do_not_break_do_not() {
-        let line = "\x1b[1;31merror\x1b[0m[id]: a word and another";
+        let line = &format!("{RED}error{PLAIN}[id]: a word and another");
         assert_eq!(wrapped(line, 29), format!("{line}\n"));
         assert_eq!(wrapped(line, 28).lines().count(), 2);
+        assert!(coloured(line).starts_with("\x1b[1;31merror\x1b[0m[id]"));
         assert_eq!(wrapped("aaaa bb\u{a0}cc dd", 9), "aaaa\n  bb cc\n  dd\n");
     }
 

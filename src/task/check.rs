@@ -2,6 +2,7 @@
 
 use super::Document;
 use super::parts::{Names, finite};
+use super::programs::LeftOut;
 use crate::check::baseline::Comparison;
 use crate::check::collision::Clearance as Near;
 use crate::check::{Check, MoveReport, Scene};
@@ -21,6 +22,8 @@ pub struct Header<'a> {
     pub language: &'a dyn Language,
     /// Hash of the profile file.
     pub profile_sha256: &'a str,
+    /// What of folders is no program of the run.
+    pub left_out: &'a LeftOut,
     /// The bodies.
     pub scene: &'a Scene,
 }
@@ -245,6 +248,8 @@ pub struct Summary {
     pub uncertified: usize,
     /// Moves with a corner that the robot cuts.
     pub with_zone: usize,
+    /// What of folders is no program of the run.
+    pub left_out: LeftOut,
 }
 
 /// Where the real robot goes with programs.
@@ -302,6 +307,7 @@ impl<'a> Checked<'a> {
                 too_near: s.too_near,
                 uncertified: s.uncertified,
                 with_zone: s.with_zone,
+                left_out: header.left_out.clone(),
             },
             findings: &check.findings,
             baseline: comparison,

@@ -1,7 +1,7 @@
 //! `compensate`: program files in, program files with fake targets out, and what became of every target.
 
 use super::parts::{Names, Pose};
-use super::programs::{common_language, explain, refuse_doubtful, refuse_marked};
+use super::programs::{LeftOut, common_language, explain, refuse_doubtful, refuse_marked};
 use super::{Document, Failure, ProfileFile};
 use crate::check::CheckError;
 use crate::check::refine::refine;
@@ -173,6 +173,8 @@ pub struct Header<'a> {
     pub language: &'a dyn Language,
     /// Hash of the profile file.
     pub profile_sha256: &'a str,
+    /// What of folders is no program of the run.
+    pub left_out: &'a LeftOut,
 }
 
 /// What became of a target.
@@ -336,6 +338,8 @@ pub struct Summary {
     pub added: usize,
     /// Which programs are written.
     pub files: Files,
+    /// What of folders is no program of the run.
+    pub left_out: LeftOut,
 }
 
 /// Which programs are written.
@@ -423,6 +427,7 @@ impl<'a> Compensated<'a> {
                 max_rounding_deg: s.max_rounding_rad / DEG,
                 added: compensation.added.targets.len(),
                 files: Files::of(header),
+                left_out: header.left_out.clone(),
             },
             findings: &compensation.findings,
         }

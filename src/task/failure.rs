@@ -1,6 +1,7 @@
 //! Why a task could not be done, as data: a message, the way out, and the place in a text that is to blame.
 
 use crate::model::profile::ProfileError;
+use crate::printable::name_of;
 use crate::program::Source;
 use std::ops::Range;
 use std::path::Path;
@@ -71,7 +72,7 @@ impl Failure {
 
     /// A file that could not be read or written.
     pub fn file(path: &Path, doing: &str, error: &std::io::Error) -> Self {
-        Self::new(format!("cannot {doing} {}: {error}", path.display()))
+        Self::new(format!("cannot {doing} {}: {error}", name_of(path)))
     }
 
     /// A fault of a profile, with its line.

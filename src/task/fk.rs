@@ -4,7 +4,7 @@ use super::Document;
 use super::failure::Failure;
 use super::parts::Pose;
 use super::profile_file::ProfileFile;
-use super::table::{JOINTS, POSE, Table, cell};
+use super::table::{JOINTS, POSE, Table, cell, text_cell};
 use crate::identify::measurements::{DIRECTION_COLUMNS, FORCE_COLUMNS};
 use crate::model::Conditions;
 use crate::program::Source;
@@ -98,7 +98,7 @@ impl Poses {
                 .chain(&pose.quaternion)
                 .map(|v| cell(*v))
                 .collect();
-            text += &format!("{id},{}\n", cells.join(","));
+            text += &format!("{},{}\n", text_cell(id), cells.join(","));
         }
         text
     }

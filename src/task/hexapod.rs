@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::parts::{Ellipsoid, Pose, Sigma};
 use super::profile_file::ProfileFile;
 use super::register::points::Points;
-use super::table::{JOINTS, POSE, Row, Table, cell};
+use super::table::{JOINTS, POSE, Row, Table, cell, text_cell};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose as Motion, Quaternion, Vector};
 use crate::model::profile::{Mounted, Profile};
@@ -189,9 +189,8 @@ impl Poses {
                 let numbers =
                     |list: &[f64]| list.iter().map(|v| cell(*v)).collect::<Vec<_>>().join(",");
                 text += &format!(
-                    "{}-T{},{},T{},{},{}\n",
-                    pose.id,
-                    k + 1,
+                    "{},{},T{},{},{}\n",
+                    text_cell(&format!("{}-T{}", pose.id, k + 1)),
                     numbers(&q),
                     k + 1,
                     numbers(&p),

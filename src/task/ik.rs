@@ -4,7 +4,7 @@ use super::Document;
 use super::failure::Failure;
 use super::fk::{Options, Which};
 use super::profile_file::ProfileFile;
-use super::table::{JOINTS, POSE, Row, Table, cell, pose};
+use super::table::{JOINTS, POSE, Row, Table, cell, pose, text_cell};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Arm, Branch, Inverse, Outcome, Status};
 use crate::model::Conditions;
@@ -176,7 +176,7 @@ impl Solutions {
             let root = s.root.map_or_else(String::new, |root| format!("/{root}"));
             text += &format!(
                 "{},{}{root},{},{},{}\n",
-                s.id,
+                text_cell(&s.id),
                 s.solution,
                 numbers.join(","),
                 s.iterations,

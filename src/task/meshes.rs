@@ -6,6 +6,7 @@ use crate::check::cell::Cell;
 use crate::check::mesh::Mesh;
 use crate::geometry::units::mm_from_m;
 use crate::model::shape::{Form, Shape};
+use crate::printable::name_of;
 use crate::program::Source;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -59,7 +60,7 @@ impl<'a> Loader<'a> {
                 let path = folder.join(below(uri)?);
                 (self.read)(&path).map_err(|error| error.to_string())
             };
-            let name = path.display().to_string();
+            let name = name_of(&path);
             let mesh = Mesh::read(&name, &bytes, *scale, &neighbour)
                 .map_err(|error| Failure::with_hint(format!("{name}: {error}"), error.hint()))?;
             self.notes.push(bounds(&name, &mesh));

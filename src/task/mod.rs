@@ -26,7 +26,6 @@ pub mod compensate;
 pub mod diagnose;
 pub mod explain;
 mod failure;
-pub mod files;
 pub mod fk;
 pub mod handeye;
 pub mod hexapod;

@@ -8,6 +8,17 @@ use crate::model::effects::Effect;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::nearest;
 use crate::program::{Found, LANGUAGES, Language, Marker, Source, language_of, sha256};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Files in folders that are no programs of the run.
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+pub struct LeftOut {
+    /// Those that `--ignore` means.
+    pub ignored: Vec<String>,
+    /// Those whose names end as programs of no language do, or of another than `--language`.
+    pub other: Vec<String>,
+}
 
 /// The language of this id.
 ///

@@ -3,7 +3,7 @@
 use super::Document;
 use super::failure::Failure;
 use super::profile_file::ProfileFile;
-use super::table::{JOINTS, Row, Table, cell};
+use super::table::{JOINTS, Row, Table, cell, text_cell};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::measurements::{
     DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Observed, POSITION_COLUMNS,
@@ -108,15 +108,9 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
             .map(|(_, name)| *name),
     );
     let mut out = header.join(",") + "\n";
-    let quoted = |text: &str| {
-        if text.contains([',', '"', '\n']) {
-            format!("\"{}\"", text.replace('"', "\"\""))
-        } else {
-            text.to_owned()
-        }
-    };
+    let text = |text: &str| text_cell(text).into_owned();
     for row in rows {
-        let mut cells = vec![row.id.clone()];
+        let mut cells = vec![text_cell(&row.id).into_owned()];
         cells.extend(row.q.map(|q| cell(q / DEG)));
         match row.observed {
             Observed::Position(p) => cells.extend(p.map(|x| cell(mm_from_m(x)))),
@@ -135,8 +129,8 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
         if forces {
             cells.extend(row.conditions.force_n.map(cell));
         }
-        cells.extend(row.tool.as_deref().filter(|_| named_tool).map(quoted));
-        cells.extend(row.point.as_deref().map(quoted));
+        cells.extend(row.tool.as_deref().filter(|_| named_tool).map(text));
+        cells.extend(row.point.as_deref().map(text));
         cells.extend(row.conditions.temperature_c.map(cell));
         cells.extend(row.conditions.time_s.map(cell));
         cells.extend(row.sigma_m.map(|s| cell(mm_from_m(s))));

@@ -6,6 +6,7 @@ use crate::geometry::{Pose, Quaternion};
 use crate::identify::doubt::csv::not_csv;
 use crate::nearest;
 use crate::program::Source;
+use std::borrow::Cow;
 
 /// A table read whole.
 pub(super) struct Table<'a> {
@@ -225,6 +226,15 @@ pub(super) const POSE: [&str; 7] = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "q
 /// A number for output tables: every digit that a reader needs to get the same number back.
 pub(super) fn cell(value: f64) -> String {
     format!("{}", if value == 0.0 { 0.0 } else { value })
+}
+
+/// A cell with text, in quotes where it needs them.
+pub(super) fn text_cell(text: &str) -> Cow<'_, str> {
+    if text.contains([',', '"', '\n', '\r']) || text.starts_with(['#', ' ']) {
+        format!("\"{}\"", text.replace('"', "\"\"")).into()
+    } else {
+        text.into()
+    }
 }
 
 /// Seven columns of a pose, mm and a quaternion whose length is 1 to [`UNIT_TOLERANCE`].

@@ -1,7 +1,9 @@
 //! `profile set`, `profile add-tool`.
 
-use super::super::telling::{Told, finish};
-use super::super::{Answer, Output, files};
+use super::super::files::{Files, refuse_existing};
+use super::super::telling::{Ending, finish};
+use super::super::{Answer, Output};
+use crate::printable::name_of;
 use crate::task::profile::{Changed, add_tool, set, tool};
 use crate::task::{Failure, ProfileFile};
 use clap::Args;
@@ -34,17 +36,23 @@ impl Target {
     /// Reads the profile, changes it and writes what came out; everything that is not changed stays byte by byte.
     fn change(
         &self,
+        files: &Files,
         output: Output,
         change: impl FnOnce(&ProfileFile, &str) -> Result<Changed, Failure>,
     ) -> Result<Answer, Failure> {
         if let Some(path) = &self.output {
-            files::refuse_existing(path)?;
+            refuse_existing(path)?;
         }
         let path = self.path();
-        let found = change(&files::profile(&self.profile)?, &path.display().to_string())?;
-        let written = vec![(path.to_owned(), found.text.as_bytes().to_vec())];
-        finish(&found, written, None, (Told::Main, ""), output)?;
-        Ok(Answer::Yes)
+        let found = change(&files.profile(&self.profile)?, &name_of(path))?;
+        if self.in_place {
+            files.replace(&self.profile);
+        }
+        let ending = Ending {
+            written: vec![(path.to_owned(), found.text.as_bytes().to_vec())],
+            ..Ending::default()
+        };
+        finish(files, &found, ending, output)
     }
 }
 
@@ -59,9 +67,9 @@ pub(super) struct Set {
 }
 
 impl Set {
-    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
         self.target
-            .change(output, |file, name| set(file, &self.values, name))
+            .change(files, output, |file, name| set(file, &self.values, name))
     }
 }
 
@@ -76,9 +84,9 @@ pub(super) struct AddTool {
 }
 
 impl AddTool {
-    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
         let tool = tool(&self.tool)?;
         self.target
-            .change(output, |file, name| add_tool(file, &tool, name))
+            .change(files, output, |file, name| add_tool(file, &tool, name))
     }
 }

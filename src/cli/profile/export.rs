@@ -1,8 +1,10 @@
 //! `profile export`.
 
-use super::super::telling::{Told, finish, print_table};
-use super::super::{Answer, Output, files};
+use super::super::files::Files;
+use super::super::telling::{Ending, finish, print_table};
+use super::super::{Answer, Output};
 use super::make;
+use crate::printable::name_of;
 use crate::task::Failure;
 use crate::task::profile::{Form, export};
 use clap::Args;
@@ -54,7 +56,7 @@ impl Forms {
 }
 
 impl Export {
-    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
         let form = self.form.chosen();
         if form.is_none() && (self.output.is_some() || !output.json) {
             return Err(Failure::with_hint(
@@ -62,17 +64,16 @@ impl Export {
                 "--urdf, --dh-csv, --mdh-csv or --ur-kinematics; --json alone prints the geometry",
             ));
         }
-        let mut found = export(&files::profile(&self.profile)?, form)?;
+        let mut found = export(&files.profile(&self.profile)?, form)?;
         let Some(path) = &self.output else {
-            if form.is_none() {
-                finish(&found, Vec::new(), None, (Told::Main, ""), output)?;
+            return if form.is_none() {
+                finish(files, &found, Ending::default(), output)
             } else {
-                print_table(&found, output)?;
-            }
-            return Ok(Answer::Yes);
+                print_table(&found, output, Answer::Yes)
+            };
         };
-        found.output = Some(path.display().to_string());
+        found.output = Some(name_of(path));
         let text = found.text.take().unwrap_or_default();
-        make(path, &text, &found, output)
+        make(files, path, &text, &found, output)
     }
 }

@@ -1,7 +1,10 @@
 //! `profile from-urdf`.
 
-use super::super::{Answer, Output, files, telling::print_table};
+use super::super::files::Files;
+use super::super::telling::print_table;
+use super::super::{Answer, Output};
 use super::make;
+use crate::printable::name_of;
 use crate::program::Source;
 use crate::task::profile::{Inputs, from_urdf, tool};
 use crate::task::{Failure, text};
@@ -56,7 +59,7 @@ pub(super) struct FromUrdf {
 }
 
 impl FromUrdf {
-    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
         let origin = self.file.file_name().unwrap_or_default().to_string_lossy();
         let mut tools = BTreeMap::new();
         for text in &self.tools {
@@ -66,7 +69,7 @@ impl FromUrdf {
             }
         }
         let mut found = from_urdf(&Inputs {
-            urdf: &self.urdf()?,
+            urdf: &self.urdf(files)?,
             origin: &origin,
             choice: Choice {
                 base: self.base.clone(),
@@ -79,16 +82,15 @@ impl FromUrdf {
             tools,
         })?;
         let Some(path) = &self.output else {
-            print_table(&found, output)?;
-            return Ok(Answer::Yes);
+            return print_table(&found, output, Answer::Yes);
         };
-        found.output = Some(path.display().to_string());
-        make(path, &found.profile, &found, output)
+        found.output = Some(name_of(path));
+        make(files, path, &found.profile, &found, output)
     }
 
     /// The URDF, macros expanded where there is a program for it.
-    fn urdf(&self) -> Result<Source, Failure> {
-        let file = files::source(&self.file)?;
+    fn urdf(&self, files: &Files) -> Result<Source, Failure> {
+        let file = files.source(&self.file)?;
         if !text(&file).is_ok_and(|text| is_xacro(&text)) {
             return Ok(file);
         }

@@ -4,9 +4,11 @@ mod change;
 mod export;
 mod from_urdf;
 
-use super::telling::{Told, finish, print_schema, print_table};
-use super::{Answer, Output, files};
+use super::files::{Files, refuse_existing};
+use super::telling::{Ending, finish, print_schema, print_table};
+use super::{Answer, Output};
 use crate::model::profile::Profile;
+use crate::printable::name_of;
 use crate::report::Report;
 use crate::task::Failure;
 use crate::task::profile::{diff, import_ur, new, show};
@@ -70,6 +72,7 @@ struct ImportUr {
 
 impl ProfileCommand {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
+        let files = Files::default();
         match &self.command {
             Sub::New {
                 robot,
@@ -77,54 +80,61 @@ impl ProfileCommand {
             } => {
                 let mut found = new(robot)?;
                 let Some(path) = file else {
-                    print_table(&found, output)?;
-                    return Ok(Answer::Yes);
+                    return print_table(&found, output, Answer::Yes);
                 };
                 let text = found.profile.take().unwrap_or_default();
-                found.output = Some(path.display().to_string());
-                make(path, &text, &found, output)
+                found.output = Some(name_of(path));
+                make(&files, path, &text, &found, output)
             }
-            Sub::Show { profile } => tell(&show(&files::profile(profile)?.profile), output),
+            Sub::Show { profile } => {
+                let found = show(&files.profile(profile)?.profile);
+                finish(&files, &found, Ending::default(), output)
+            }
             Sub::Diff { a, b } => {
-                let found = diff(&files::profile(a)?.profile, &files::profile(b)?.profile);
-                let same = found.differences.is_empty();
-                tell(&found, output)?;
-                Ok(if same { Answer::Yes } else { Answer::No })
+                let found = diff(&files.profile(a)?.profile, &files.profile(b)?.profile);
+                let ending = Ending {
+                    answer: if found.differences.is_empty() {
+                        Answer::Yes
+                    } else {
+                        Answer::No
+                    },
+                    ..Ending::default()
+                };
+                finish(&files, &found, ending, output)
             }
-            Sub::ImportUr(command) => command.run(output),
-            Sub::Schema => {
-                print_schema(&Profile::schema())?;
-                Ok(Answer::Yes)
-            }
-            Sub::FromUrdf(command) => command.run(output),
-            Sub::Set(command) => command.run(output),
-            Sub::AddTool(command) => command.run(output),
-            Sub::Export(command) => command.run(output),
+            Sub::ImportUr(command) => command.run(&files, output),
+            Sub::Schema => print_schema(&Profile::schema()),
+            Sub::FromUrdf(command) => command.run(&files, output),
+            Sub::Set(command) => command.run(&files, output),
+            Sub::AddTool(command) => command.run(&files, output),
+            Sub::Export(command) => command.run(&files, output),
         }
     }
 }
 
-/// Tells what is looked at.
-fn tell(found: &impl Report, output: Output) -> Result<Answer, Failure> {
-    finish(found, Vec::new(), None, (Told::Main, ""), output)?;
-    Ok(Answer::Yes)
-}
-
 /// Writes a profile that is made, over none.
-fn make(path: &Path, text: &str, found: &impl Report, output: Output) -> Result<Answer, Failure> {
-    files::refuse_existing(path)?;
-    let written = vec![(path.to_owned(), text.as_bytes().to_vec())];
-    finish(found, written, None, (Told::Main, ""), output)?;
-    Ok(Answer::Yes)
+fn make(
+    files: &Files,
+    path: &Path,
+    text: &str,
+    found: &impl Report,
+    output: Output,
+) -> Result<Answer, Failure> {
+    refuse_existing(path)?;
+    let ending = Ending {
+        written: vec![(path.to_owned(), text.as_bytes().to_vec())],
+        ..Ending::default()
+    };
+    finish(files, found, ending, output)
 }
 
 impl ImportUr {
-    fn run(&self, output: Output) -> Result<Answer, Failure> {
-        files::refuse_existing(&self.output)?;
-        let profile = files::profile(&self.profile)?;
-        let calibration = files::source(&self.calibration)?;
-        let name = self.output.display().to_string();
+    fn run(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
+        refuse_existing(&self.output)?;
+        let profile = files.profile(&self.profile)?;
+        let calibration = files.source(&self.calibration)?;
+        let name = name_of(&self.output);
         let found = import_ur(&calibration, &profile, &name)?;
-        make(&self.output, &found.text, &found, output)
+        make(files, &self.output, &found.text, &found, output)
     }
 }

@@ -3,6 +3,7 @@
 use super::Profile;
 use super::file::ControllerModel;
 use crate::model::effects::Effect;
+use crate::printable::{flow, quoted};
 use std::fmt::Write;
 
 /// The text of a profile with a calibrated controller that has these effects; comments and all other blocks stay.
@@ -93,17 +94,14 @@ fn entry(effect: &Effect) -> String {
     let mut out = String::from("{");
     for (number, (key, value)) in effect.to_entry().iter().enumerate() {
         let comma = if number == 0 { "" } else { ", " };
-        let value = value
-            .as_str()
-            .map_or_else(|| value.to_string(), ToOwned::to_owned);
+        let value = match value.as_str() {
+            Some(id) if *key == "effect" => id.to_owned(),
+            _ => flow(value),
+        };
         write!(out, "{comma}{key}: {value}").expect("a text takes all");
     }
     if effect.beyond_usual().is_some() {
         out += ", large: true, reason: \"the controller computes with it\"";
     }
     out + "}"
-}
-
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
 }

@@ -193,7 +193,10 @@ fn an_effect_beyond_the_usual_says_that_it_is_meant_and_why() {
         // both stay when the profile is written again
         let text = ur5_text(&format!("calibration:\n  effects:\n    - {meant}\n"));
         let again = rewritten(&text, &profile).expect("a plain layout");
-        assert!(again.contains("large: true, reason: measured}"), "{again}");
+        assert!(
+            again.contains("large: true, reason: \"measured\"}"),
+            "{again}"
+        );
         assert_eq!(
             Profile::from_yaml(&again).expect("read back").large,
             profile.large

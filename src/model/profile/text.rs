@@ -4,6 +4,7 @@ use super::{ControllerModel, FORMAT, Profile};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector};
 use crate::model::shape::{Form, LinkShape};
+use crate::printable::{printable, quoted};
 
 /// What a made profile says beside its numbers.
 #[derive(Clone, Debug, Default)]
@@ -36,16 +37,6 @@ pub(super) fn flow_pose(pose: &Pose) -> String {
     let [x, y, z] = [x, y, z].map(|x| number(mm_from_m(x)));
     let [rx, ry, rz] = [rx, ry, rz].map(|a| number(a / DEG));
     format!("{{x_mm: {x}, y_mm: {y}, z_mm: {z}, rx_deg: {rx}, ry_deg: {ry}, rz_deg: {rz}}}")
-}
-
-/// A text in quotes.
-pub(super) fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
-}
-
-/// A comment stays one line.
-fn comment(text: &str) -> String {
-    text.replace(['\n', '\r'], " ")
 }
 
 fn form(form: &Form) -> String {
@@ -110,7 +101,7 @@ pub fn made(profile: &Profile, comments: &Comments) -> String {
     );
     let mut out = String::new();
     for line in &comments.top {
-        out += &format!("# {}\n", comment(line));
+        out += &format!("# {}\n", printable(line));
     }
     let serial = profile.serial.as_deref().unwrap_or("unknown");
     let language = profile
@@ -149,7 +140,7 @@ pub fn made(profile: &Profile, comments: &Comments) -> String {
         }
         row.push('}');
         if !comments.joints[i].is_empty() {
-            row += &format!("   # {}", comment(&comments.joints[i]));
+            row += &format!("   # {}", printable(&comments.joints[i]));
         }
         out += &(row + "\n");
     }

@@ -4,6 +4,7 @@ use super::{Profile, ProfileError};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::effects::Effect;
+use crate::printable::{flow, quoted};
 use serde_json::{Value, json};
 
 /// Why a profile could not be written.
@@ -86,10 +87,6 @@ fn with_base(section: &str, base: &Pose) -> String {
     out
 }
 
-fn flow(value: &Value) -> String {
-    value.to_string()
-}
-
 /// The effects that a profile has: those of one session's measurements are none of the robot's.
 fn of_robot(profile: &Profile) -> impl Iterator<Item = &Effect> {
     let all = profile.effects.iter();
@@ -122,7 +119,10 @@ fn calibration(profile: &Profile) -> String {
         }
         let entry: Vec<String> = entry
             .into_iter()
-            .map(|(key, value)| format!("{key}: {}", plain_or_flow(&value)))
+            .map(|(key, value)| match value.as_str() {
+                Some(id) if key == "effect" => format!("{key}: {id}"),
+                _ => format!("{key}: {}", flow(&value)),
+            })
             .collect();
         out += &format!("    - {{{}}}\n", entry.join(", "));
     }
@@ -158,15 +158,6 @@ fn rows(value: &Value) -> String {
     }
 }
 
-fn plain_or_flow(value: &Value) -> String {
-    let plain =
-        |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_lowercase() || c == '_');
-    match value.as_str() {
-        Some(text) if plain(text) => text.to_owned(),
-        _ => flow(value),
-    }
-}
-
 /// The section `points`.
 fn points(profile: &Profile) -> String {
     if profile.points.is_empty() {
@@ -175,7 +166,7 @@ fn points(profile: &Profile) -> String {
     let mut out = String::from("points:\n");
     for (name, point) in &profile.points {
         let [x, y, z] = point.map(|m| json!(mm_from_m(m)));
-        out += &format!("  {}: [{x}, {y}, {z}]\n", json!(name));
+        out += &format!("  {}: [{x}, {y}, {z}]\n", quoted(name));
     }
     out
 }

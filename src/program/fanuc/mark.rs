@@ -8,9 +8,6 @@
 use super::sections::{Sections, line_end};
 use crate::program::{Marker, Source};
 
-/// Characters of a remark that a controller keeps.
-const WIDEST_REMARK: usize = 32;
-
 /// Where the marker goes, and its text.
 pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
@@ -24,27 +21,13 @@ pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     if !matches!(bytes[..at].last(), Some(b'\n' | b'\r')) {
         text.extend_from_slice(end);
     }
-    for remark in remarks(marker) {
+    for remark in marker.short_lines() {
         number = number.map(|number| number + 1);
         let line = number.map_or_else(|| "    ".into(), |number| format!("{number:4}"));
         text.extend_from_slice(format!("{line}:  !{remark} ;").as_bytes());
         text.extend_from_slice(end);
     }
     (at, text)
-}
-
-fn remarks(marker: &Marker) -> Vec<String> {
-    let first = marker.lines().swap_remove(0);
-    let word = first.split(" (").next().unwrap_or_default();
-    let profile = format!("profile {:.24}", marker.profile_sha256);
-    let source = format!("source {:.16} v{}", marker.source_sha256, marker.version);
-    // what was decided may be longer than a remark: a remark for each word
-    let decided = marker.decided.iter().flat_map(|text| text.split(' '));
-    [word, &profile, &source]
-        .into_iter()
-        .chain(decided)
-        .map(|remark| remark.chars().take(WIDEST_REMARK).collect())
-        .collect()
 }
 
 /// The number of the last line; `None` where lines have no numbers. Blocks inside moves number their own lines.

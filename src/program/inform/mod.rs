@@ -78,9 +78,6 @@ const PULSES: u8 = 0;
 /// Variant of joints in degrees.
 const DEGREES: u8 = 1;
 
-/// Letters of a comment that every controller shows.
-const COMMENT: usize = 32;
-
 impl Language for Inform {
     fn about(&self) -> &'static About {
         &ABOUT
@@ -162,21 +159,10 @@ impl Language for Inform {
         if !is_closed(at) {
             text.extend_from_slice(end);
         }
-        for line in marker.lines() {
-            let mut comment: Vec<u8> = Vec::new();
-            for word in line.as_bytes().split(|&b| b == b' ') {
-                for part in word.chunks(COMMENT) {
-                    if !comment.is_empty() && comment.len() + 1 + part.len() > COMMENT {
-                        push_comment(&comment, end, &mut text);
-                        comment.clear();
-                    }
-                    if !comment.is_empty() {
-                        comment.push(b' ');
-                    }
-                    comment.extend_from_slice(part);
-                }
-            }
-            push_comment(&comment, end, &mut text);
+        for line in marker.short_lines() {
+            text.push(b'\'');
+            text.extend_from_slice(line.as_bytes());
+            text.extend_from_slice(end);
         }
         (at, text)
     }
@@ -198,12 +184,6 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
         }
     }
     Ok(reader::script(sources, positions, &conditions))
-}
-
-fn push_comment(comment: &[u8], end: &[u8], text: &mut Vec<u8>) {
-    text.push(b'\'');
-    text.extend_from_slice(comment);
-    text.extend_from_slice(end);
 }
 
 /// Behind the NOP of the first job, else at the end.

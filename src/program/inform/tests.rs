@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::geometry::Rotation;
-use crate::program::{Motion, Posture, Shape, Value};
+use crate::program::marker::WIDEST_COMMENT;
+use crate::program::{Motion, Posture, Program, Shape, Value};
 
 mod followed;
 mod posts;
@@ -389,9 +390,9 @@ fn the_marker_is_a_comment_behind_nop_in_short_lines() {
         assert!(
             lines
                 .iter()
-                .all(|line| line.starts_with('\'') && line.len() <= COMMENT + 1)
+                .all(|line| line.starts_with('\'') && line.len() <= WIDEST_COMMENT + 1)
         );
-        assert_eq!(lines.len(), 8);
+        assert_eq!(lines.len(), 3);
         assert_eq!(read(&marked).moves.len(), 1);
     }
 }

@@ -23,6 +23,23 @@ use super::{Report, Style};
 use crate::finding::Finding;
 use crate::report::html::page::Page;
 use crate::task;
+use crate::task::programs::LeftOut;
+
+/// Files that a line lists.
+const LISTED: usize = 5;
+
+/// What of folders is no program of the run, as lines of a summary.
+pub(super) fn left_out(found: &LeftOut) -> Vec<String> {
+    let line = |what: &str, names: &[String], why: &str| {
+        let shown = names[..names.len().min(LISTED)].join(", ");
+        let more = if names.len() > LISTED { ", …" } else { "" };
+        let line = format!("  {what} {} ({why}): {shown}{more}", names.len());
+        (!names.is_empty()).then_some(line)
+    };
+    let ignored = line("ignored  ", &found.ignored, "--ignore");
+    let other = line("others   ", &found.other, "no programs, by their names");
+    ignored.into_iter().chain(other).collect()
+}
 
 /// A number that may be none with so many decimals.
 pub(super) fn fixed(value: Option<f64>, decimals: usize) -> String {

@@ -7,15 +7,16 @@ use std::path::{Component, Path};
 /// Who may use whom. A module not named here is used by nobody it should not be.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("finding", &[]),
+    ("printable", &[]),
     ("geometry", &[]),
     ("nearest", &[]),
-    ("model", &["geometry", "nearest"]),
+    ("model", &["geometry", "nearest", "printable"]),
     ("inverse", &["geometry", "model"]),
     (
         "identify",
         &["geometry", "inverse", "model", "nearest", "register"],
     ),
-    ("register", &["geometry", "inverse", "model"]),
+    ("register", &["geometry", "inverse", "model", "printable"]),
     ("diagnose", &["geometry", "identify", "model"]),
     ("program", &["geometry", "finding"]),
     (
@@ -56,6 +57,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "model",
             "motion",
             "nearest",
+            "printable",
             "program",
             "register",
             "urdf",
@@ -72,6 +74,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "identify",
             "inverse",
             "model",
+            "printable",
             "program",
             "task",
         ],
@@ -88,6 +91,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "model",
             "motion",
             "nearest",
+            "printable",
             "program",
             "register",
             "report",

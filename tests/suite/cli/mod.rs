@@ -1,15 +1,22 @@
 //! The command line as a user meets it: files, exit statuses, messages.
 
 mod compensate;
+mod control;
+mod folders;
 mod fuzzed;
 mod hostile;
 mod identify;
+mod inputs;
 mod jobs_and_tables_of_poses;
 mod limits;
+mod marked;
 mod outputs;
+mod outputs_kept;
 mod planning;
 pub mod reports;
 mod robots;
+mod streams;
 mod tables;
 mod validating;
+mod whole;
 mod widths;

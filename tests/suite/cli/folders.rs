@@ -1,0 +1,260 @@
+//! A folder passes nothing over in silence.
+
+use crate::support::{files_below, poseshift, repository, scratch};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Output;
+
+const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
+const SAMPLE: &str = "programs/rapid/olp/in/Deburr.mod";
+
+/// A folder `in` with one program.
+fn world() -> tempfile::TempDir {
+    let folder = scratch();
+    std::fs::copy(repository(PROFILE), folder.path().join("p.yaml")).expect("scratch");
+    std::fs::create_dir(folder.path().join("in")).expect("scratch");
+    std::fs::copy(repository(SAMPLE), folder.path().join("in/Deburr.mod")).expect("scratch");
+    folder
+}
+
+fn run(folder: &Path, command: &[&str]) -> Output {
+    let output = poseshift()
+        .current_dir(folder)
+        .args(command)
+        .args(["--profile", "p.yaml"])
+        .output();
+    output.expect("the program starts")
+}
+
+fn told(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout)
+}
+
+/// Asserts that the folder is refused with these words, and taken when the files are left out.
+fn refused(folder: &Path, words: &[&str], glob: &str) {
+    let before = files_below(folder);
+    for command in [&["compensate", "in", "-o", "out"][..], &["check", "in"]] {
+        let output = run(folder, command);
+        let said = told(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        for word in words {
+            assert!(flat.contains(word), "{word}: {said}");
+        }
+        assert!(said.contains("--ignore"), "{said}");
+        assert_eq!(files_below(folder), before);
+        let taken = run(folder, &[command, &["--ignore", glob]].concat());
+        let said = told(&taken);
+        assert!(
+            said.contains("--ignore)") && said.contains("ignored"),
+            "{said}"
+        );
+        assert_eq!(taken.status.code(), Some(0), "{said}");
+        let _ = std::fs::remove_dir_all(folder.join("out"));
+    }
+}
+
+fn utf_16(text: &str, little: bool) -> Vec<u8> {
+    let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+    units
+        .flat_map(|unit: u16| {
+            if little {
+                unit.to_le_bytes()
+            } else {
+                unit.to_be_bytes()
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn texts_that_cannot_be_read_as_programs_are_named() {
+    let sample = std::fs::read_to_string(repository(SAMPLE)).expect("the sample");
+    for (content, words) in [
+        (Vec::new(), "x.mod: it is empty"),
+        (b" \r\n\r\n".to_vec(), "x.mod: it is empty"),
+        (utf_16(&sample, true), "x.mod: it is UTF-16"),
+        (utf_16(&sample, false), "x.mod: it is UTF-16"),
+        (
+            utf_16(&sample, true)[2..].to_vec(),
+            "x.mod: it holds bytes that are 0",
+        ),
+        (vec![0; 4096], "x.mod: it holds bytes that are 0"),
+        (
+            b"MODU".to_vec(),
+            "x.mod: it is called as ABB RAPID, and is none",
+        ),
+        (
+            b"\xff\xd8\xff\xe0 a picture".to_vec(),
+            "x.mod: it is called as ABB RAPID, and is none",
+        ),
+    ] {
+        let folder = world();
+        std::fs::write(folder.path().join("in/x.mod"), content).expect("scratch");
+        refused(folder.path(), &[words], "x.mod");
+    }
+    // given alone likewise
+    let folder = world();
+    std::fs::write(folder.path().join("x.mod"), utf_16(&sample, true)).expect("scratch");
+    std::fs::write(folder.path().join("y.mod"), "").expect("scratch");
+    for (name, word) in [("x.mod", "UTF-16"), ("y.mod", "empty")] {
+        let output = run(folder.path(), &["compensate", name, "-o", "out.mod"]);
+        assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+        assert!(told(&output).contains(word), "{}", told(&output));
+    }
+}
+
+#[test]
+fn a_program_that_ends_too_early_is_named() {
+    let sample = std::fs::read_to_string(repository(SAMPLE)).expect("the sample");
+    for end in [
+        sample.len() / 2,
+        sample.len() / 3,
+        sample.trim_end().len() - 2,
+    ] {
+        let folder = world();
+        std::fs::write(folder.path().join("in/Deburr.mod"), &sample[..end]).expect("scratch");
+        let output = run(folder.path(), &["compensate", "in", "-o", "out"]);
+        assert_eq!(output.status.code(), Some(2), "{end}: {}", told(&output));
+        assert!(told(&output).contains("Deburr.mod"), "{}", told(&output));
+        assert!(!folder.path().join("out").exists());
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_pipes_and_what_may_not_be_read_are_named() {
+    use std::os::unix::fs::symlink;
+    let folder = world();
+    let path = folder.path();
+    std::fs::copy(repository(SAMPLE), path.join("other.mod")).expect("scratch");
+    std::fs::create_dir(path.join("elsewhere")).expect("scratch");
+    for (link, target) in [
+        ("in/l.mod", "../other.mod"),
+        ("in/l.mod", "nothing"),
+        ("in/l.mod", "l.mod"),
+        ("in/l", "../elsewhere"),
+    ] {
+        symlink(target, path.join(link)).expect("scratch");
+        refused(path, &[&format!("{link}: it is a link")], "l*");
+        std::fs::remove_file(path.join(link)).expect("scratch");
+    }
+    let pipe = std::process::Command::new("mkfifo")
+        .arg(path.join("in/f.mod"))
+        .status();
+    assert!(pipe.expect("mkfifo").success());
+    refused(
+        path,
+        &["in/f.mod: it is a device, a pipe or a socket"],
+        "f.*",
+    );
+    std::fs::remove_file(path.join("in/f.mod")).expect("scratch");
+    // all of them are named at once
+    symlink("nothing", path.join("in/a.mod")).expect("scratch");
+    std::fs::write(path.join("in/b.mod"), "").expect("scratch");
+    refused(
+        path,
+        &["in/a.mod: it is a link", "in/b.mod: it is empty"],
+        "[ab].mod",
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn files_and_folders_without_permission_are_named() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = world();
+    let path = folder.path();
+    std::fs::create_dir(path.join("in/locked")).expect("scratch");
+    std::fs::copy(repository(SAMPLE), path.join("in/x.mod")).expect("scratch");
+    for (name, mode) in [("in/x.mod", 0o755), ("in/locked", 0o755)] {
+        let closed = std::fs::Permissions::from_mode(0);
+        std::fs::set_permissions(path.join(name), closed).expect("scratch");
+        if std::fs::read(path.join(name)).is_ok() || std::fs::read_dir(path.join(name)).is_ok() {
+            eprintln!("SKIPPED: this user may read everything");
+        } else {
+            let output = run(path, &["check", "in"]);
+            assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+            assert!(
+                told(&output).contains(&format!("{name}: ")),
+                "{}",
+                told(&output)
+            );
+        }
+        let open = std::fs::Permissions::from_mode(mode);
+        std::fs::set_permissions(path.join(name), open).expect("scratch");
+    }
+}
+
+#[test]
+fn what_is_left_out_stands_in_the_summary() {
+    let folder = world();
+    let path = folder.path();
+    std::fs::create_dir_all(path.join("in/old/older")).expect("scratch");
+    for name in ["in/old/a.mod", "in/old/older/b.mod", "in/Deburr copy.mod"] {
+        std::fs::write(path.join(name), "").expect("scratch");
+    }
+    std::fs::write(path.join("in/notes.txt"), "of the shift").expect("scratch");
+    std::fs::write(path.join("in/cell.yaml"), "poseshift: cell/1").expect("scratch");
+    for globs in [
+        &["old", "* copy.mod"][..],
+        &["old/", "*copy*"],
+        &["old/**", "{Deburr copy,x}.mod"],
+    ] {
+        let mut command = vec!["check", "in"];
+        for glob in globs {
+            command.extend(["--ignore", glob]);
+        }
+        let output = run(path, &[&command[..], &["--json"]].concat());
+        let report: Value =
+            serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", told(&output)));
+        let left_out = &report["summary"]["left_out"];
+        let names = |key: &str| -> Vec<String> {
+            let list = left_out[key].as_array().expect("names");
+            list.iter()
+                .map(|name| name.as_str().expect("a name").to_owned())
+                .collect()
+        };
+        assert_eq!(names("other"), ["in/cell.yaml", "in/notes.txt"]);
+        assert!(
+            names("ignored").contains(&"in/Deburr copy.mod".to_owned()),
+            "{left_out}"
+        );
+        assert!(
+            names("ignored")
+                .iter()
+                .any(|name| name.starts_with("in/old/")),
+            "{left_out}"
+        );
+        let text = told(&run(path, &command));
+        assert!(
+            text.contains("2 (no programs, by their names): in/cell.yaml, in/notes.txt"),
+            "{text}"
+        );
+        assert!(text.contains("(--ignore): in/Deburr copy.mod"), "{text}");
+    }
+    let output = run(path, &["check", "in", "--ignore", "a[.mod"]);
+    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert!(
+        told(&output).contains("--ignore a[.mod"),
+        "{}",
+        told(&output)
+    );
+    // files that are read for their declarations likewise
+    let output = run(path, &["check", "in/Deburr.mod", "--with", "in"]);
+    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    let output = run(
+        path,
+        &[
+            "check",
+            "in/Deburr.mod",
+            "--with",
+            "in",
+            "--ignore",
+            "old",
+            "--ignore",
+            "*copy*",
+        ],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+}

@@ -1,0 +1,136 @@
+//! A compensated program is known in every language, by each line of its marker alone.
+
+use crate::golden::cases;
+use crate::support::{files_below, poseshift, repository, scratch};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Compensates a folder as its case says; status and what is told.
+fn compensate(folder: &Path, case: &crate::golden::Case, top: &Path) -> (Option<i32>, String) {
+    let out = scratch();
+    let output = poseshift()
+        .current_dir(top)
+        .args(["compensate"])
+        .arg(folder)
+        .args(["--profile", &case.profile, "-o"])
+        .arg(out.path().join("out"))
+        .args(&case.options)
+        .output()
+        .expect("the program starts");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code(), told)
+}
+
+fn copy(from: &Path, to: &Path) {
+    for name in files_below(from) {
+        let place = to.join(&name);
+        std::fs::create_dir_all(place.parent().expect("a folder")).expect("scratch");
+        std::fs::copy(from.join(name), place).expect("scratch");
+    }
+}
+
+/// Some controllers end lines with a carriage return alone.
+fn line_end(text: &[u8]) -> u8 {
+    if text.contains(&b'\n') { b'\n' } else { b'\r' }
+}
+
+/// The lines of one text that are not in another.
+fn new_lines<'a>(before: &[u8], after: &'a [u8]) -> Vec<&'a [u8]> {
+    let end = line_end(after);
+    let old: BTreeSet<&[u8]> = before.split(|b| *b == end).collect();
+    let lines = after.split(|b| *b == end);
+    lines.filter(|line| !old.contains(line)).collect()
+}
+
+#[test]
+fn each_line_of_a_marker_alone_is_enough_in_every_language() {
+    let mut languages = BTreeSet::new();
+    let mut lines_seen = 0;
+    for (folder, case) in cases() {
+        let top = folder.clone();
+        let language = folder
+            .parent()
+            .and_then(Path::file_name)
+            .expect("a language")
+            .to_owned();
+        if case.status != 0 || !languages.insert(language.clone()) {
+            continue;
+        }
+        // the marker, by its difference from a file that says the same
+        let (plain, marked) = (folder.join("in"), folder.join("out"));
+        let name = files_below(&marked)
+            .into_iter()
+            .find(|name| {
+                let text = std::fs::read(marked.join(name)).expect("a golden file");
+                let text = String::from_utf8_lossy(&text).into_owned();
+                text.contains("poseshift compensated")
+            })
+            .expect("a file with a marker");
+        let before = std::fs::read(plain.join(&name)).expect("the original");
+        let after = std::fs::read(marked.join(&name)).expect("the golden file");
+        let end = line_end(&after);
+        let is_marker = |line: &&[u8]| {
+            let text = String::from_utf8_lossy(line).to_ascii_lowercase();
+            let hex = text
+                .trim()
+                .trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
+            let is_hash = hex.len() >= 16 && hex.bytes().all(|b| b.is_ascii_hexdigit());
+            text.contains("poseshift")
+                || text.contains("version")
+                || is_hash
+                || (text.contains("profile") || text.contains("source"))
+        };
+        let marker: Vec<&[u8]> = new_lines(&before, &after)
+            .into_iter()
+            .filter(is_marker)
+            .collect();
+        assert!(
+            marker.len() >= 3,
+            "{}: {} lines",
+            name.display(),
+            marker.len()
+        );
+        for line in &marker {
+            let text = String::from_utf8_lossy(line.trim_ascii_end()).into_owned();
+            let forms = [
+                text.clone(),
+                text.to_ascii_uppercase(),
+                text.to_ascii_lowercase(),
+                text.replace(' ', "   "),
+                format!("{text}  "),
+            ];
+            for form in forms {
+                let place = scratch();
+                copy(&plain, place.path());
+                let all_but: Vec<&[u8]> = after
+                    .split(|b| *b == end)
+                    .filter(|l| !marker.contains(l))
+                    .collect();
+                // where the marker stood
+                let at = after
+                    .split(|b| *b == end)
+                    .position(|l| marker.contains(&l))
+                    .expect("a marker");
+                let mut lines = all_but;
+                lines.insert(at, form.as_bytes());
+                std::fs::write(place.path().join(&name), lines.join(&end)).expect("scratch");
+                let (status, told) = compensate(place.path(), &case, &top);
+                assert_eq!(status, Some(2), "{language:?}: {form:?}: {told}");
+                assert!(
+                    told.contains("already compensated"),
+                    "{language:?}: {form:?}: {told}"
+                );
+                lines_seen += 1;
+            }
+        }
+        // without all of them nothing is known, and nothing else is refused
+        let place = scratch();
+        copy(&plain, place.path());
+        let (_, told) = compensate(place.path(), &case, &top);
+        assert!(!told.contains("already compensated"), "{told}");
+    }
+    let all = std::fs::read_dir(repository("programs")).expect("samples");
+    let all = all.filter(|entry| entry.as_ref().expect("an entry").path().is_dir());
+    assert_eq!(languages.len(), all.count(), "{languages:?}");
+    assert!(lines_seen > 60, "{lines_seen}");
+}

@@ -1,0 +1,231 @@
+//! Standard input and output: a program in and out, and a report that could not be printed is no success.
+#![cfg(unix)]
+
+use crate::support::{files_below, repository, scratch};
+use std::path::Path;
+use std::process::{Command, Output};
+
+const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
+const SAMPLE: &str = "programs/rapid/olp/in/Deburr.mod";
+
+fn world() -> tempfile::TempDir {
+    let folder = scratch();
+    std::fs::copy(repository(PROFILE), folder.path().join("p.yaml")).expect("scratch");
+    std::fs::copy(repository(SAMPLE), folder.path().join("in.mod")).expect("scratch");
+    folder
+}
+
+/// Runs a command line of a shell; the program is `p`.
+fn shell(folder: &Path, line: &str) -> Output {
+    let line = format!("p() {{ \"$POSESHIFT\" \"$@\"; }}; set -o pipefail; {line}");
+    let output = Command::new("bash")
+        .args(["-c", &line])
+        .current_dir(folder)
+        .env("POSESHIFT", env!("CARGO_BIN_EXE_poseshift"))
+        .output();
+    output.expect("a shell")
+}
+
+fn told(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn a_program_goes_from_standard_input_to_standard_output() {
+    let folder = world();
+    let written = shell(
+        folder.path(),
+        "p compensate in.mod --profile p.yaml -o out.mod",
+    );
+    assert_eq!(written.status.code(), Some(0), "{}", told(&written));
+    let wanted = std::fs::read(folder.path().join("out.mod")).expect("written");
+    for line in [
+        "p compensate --profile p.yaml -o - - < in.mod",
+        "p compensate - --profile p.yaml -o /dev/stdout --language rapid < in.mod",
+        "p compensate in.mod --profile p.yaml -o -",
+        "cat in.mod | p compensate - --profile p.yaml -o - | cat",
+        "p compensate - --profile p.yaml -o stream.mod < in.mod > /dev/null && cat stream.mod",
+    ] {
+        let output = shell(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", told(&output));
+        assert!(
+            output.stdout == wanted,
+            "{line}: {}",
+            String::from_utf8_lossy(&output.stdout)
+        );
+    }
+    // what is told of it stands beside
+    let output = shell(
+        folder.path(),
+        "p compensate - --profile p.yaml -o - < in.mod",
+    );
+    assert!(
+        told(&output).contains("file(s) of ABB RAPID"),
+        "{}",
+        told(&output)
+    );
+    // a check of it
+    let output = shell(folder.path(), "p check - --profile p.yaml --json < in.mod");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a report");
+    assert_eq!(report["input"], "-", "{}", told(&output));
+}
+
+#[test]
+fn streams_that_cannot_be_meant_are_refused() {
+    let folder = world();
+    std::fs::create_dir(folder.path().join("out")).expect("scratch");
+    let before = files_below(folder.path());
+    for line in [
+        "p compensate - in.mod --profile p.yaml -o out < in.mod",
+        "p compensate - - --profile p.yaml -o out < in.mod",
+        "p compensate - --profile p.yaml --in-place < in.mod",
+        "p compensate - --profile p.yaml -o out < in.mod",
+        "p compensate . --profile p.yaml -o -",
+        "p compensate - --profile p.yaml -o - --json < in.mod",
+        "p compensate - --profile p.yaml -o - --report - < in.mod",
+        "p compensate - --profile p.yaml -o - < /dev/null",
+        "echo 'no program' | p compensate - --profile p.yaml -o -",
+        "p compensate in.mod --profile /dev/zero -o x.mod",
+        "p compensate /dev/zero --profile p.yaml -o x.mod",
+    ] {
+        let output = shell(folder.path(), line);
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", told(&output));
+        assert!(output.stdout.is_empty(), "{line}");
+        assert!(told(&output).contains("error"), "{line}: {}", told(&output));
+        assert_eq!(files_below(folder.path()), before, "{line}");
+    }
+    // refused, and so no program: nothing else is taken for one
+    let line = "p compensate in.mod --profile p.yaml -o - --max-shift 0.001mm,0.001deg";
+    let output = shell(folder.path(), line);
+    assert_eq!(output.status.code(), Some(1), "{}", told(&output));
+    assert!(output.stdout.is_empty() && told(&output).contains("nothing is written"));
+}
+
+/// Asserts that a command does what it is asked where nothing is wrong with its streams.
+fn works(line: &str, status: i32) {
+    let folder = world();
+    let output = shell(folder.path(), &format!("p {line} > /dev/null"));
+    assert_eq!(
+        output.status.code(),
+        Some(status),
+        "{line}: {}",
+        told(&output)
+    );
+}
+
+/// A check whose answer is no.
+const NO: &str = "check in.mod --profile p.yaml --max-path-error 0.001";
+
+#[test]
+fn a_reader_that_has_gone_makes_no_success() {
+    let folder = world();
+    // the reader has gone before anything is printed
+    let gone = |line: &str| {
+        let output = shell(
+            folder.path(),
+            &format!("exec 3> >(:); sleep 0.3; p {line} >&3; echo $? >&2"),
+        );
+        let told = told(&output);
+        let status = told
+            .lines()
+            .last()
+            .and_then(|line| line.parse::<i32>().ok());
+        (status.expect("a status"), told)
+    };
+    let plain = shell(folder.path(), &format!("p {NO}"));
+    assert_eq!(plain.status.code(), Some(1), "{}", told(&plain));
+    assert_eq!(gone(NO).0, 1);
+    assert_eq!(gone(&format!("{NO} --json")).0, 1);
+    let before = files_below(folder.path());
+    for line in [
+        "check in.mod --profile p.yaml",
+        "compensate in.mod --profile p.yaml -o out.mod",
+        "compensate in.mod --profile p.yaml -o out.mod --json --report r.html",
+        "compensate in.mod --profile p.yaml -o -",
+        "compensate in.mod --profile p.yaml -o - --report r.html",
+        "profile show p.yaml",
+        "profile new --robot abb_irb120 -o new.yaml",
+        "profile new --robot abb_irb120",
+        "profile schema",
+        "robots",
+        "schema",
+        "man",
+        "completions bash",
+        "plan --profile p.yaml --count 6 --candidates 40 --level 0",
+        "plan --profile p.yaml --count 6 --candidates 40 --level 0 -o q.csv",
+        "--help",
+        "--version",
+    ] {
+        works(line, 0);
+        let (status, told) = gone(line);
+        assert_eq!(status, 2, "{line}: {told}");
+        assert_eq!(files_below(folder.path()), before, "{line}: {told}");
+    }
+    // at status 1, too, nothing is written that could not be told
+    assert_eq!(gone(&format!("{NO} --report r.html --junit j.xml")).0, 1);
+    assert_eq!(files_below(folder.path()), before);
+}
+
+#[test]
+fn a_full_standard_output_or_error_is_status_2_and_nothing_is_written() {
+    let folder = world();
+    let before = files_below(folder.path());
+    for line in [
+        NO,
+        "check in.mod --profile p.yaml --json",
+        "check in.mod --profile p.yaml --report r.html --junit j.xml",
+        "compensate in.mod --profile p.yaml -o out.mod",
+        "compensate in.mod --profile p.yaml -o -",
+        "compensate in.mod --profile p.yaml -o new/out.mod --json",
+        "profile show p.yaml",
+        "languages",
+        "explain",
+        "schema check",
+        "man",
+        "--help",
+        "--version",
+        "compensate --help",
+    ] {
+        works(line, i32::from(line == NO));
+        let output = shell(folder.path(), &format!("p {line} > /dev/full"));
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", told(&output));
+        assert_eq!(files_below(folder.path()), before, "{line}");
+    }
+    // nothing that stands there alone is lost either
+    let output = shell(
+        folder.path(),
+        "p compensate in.mod --profile p.yaml -o - 2> /dev/full",
+    );
+    assert_eq!(output.status.code(), Some(2));
+    let output = shell(
+        folder.path(),
+        "p compensate nothing.mod --profile p.yaml -o x 2> /dev/full",
+    );
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(files_below(folder.path()), before);
+    // and nobody has to look
+    let output = shell(
+        folder.path(),
+        "p compensate in.mod --profile p.yaml -o out.mod > /dev/null",
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+}
+
+#[test]
+fn every_result_of_a_command_may_go_to_standard_output() {
+    let folder = world();
+    for (line, begins) in [
+        ("p check in.mod --profile p.yaml --junit -", "<?xml"),
+        ("p check in.mod --profile p.yaml --report /dev/stdout", "<!"),
+        ("p profile new --robot abb_irb120 -o -", "#"),
+        (
+            "p plan --profile p.yaml --count 6 --candidates 40 --level 0 -o -",
+            "id,",
+        ),
+    ] {
+        let output = shell(folder.path(), line);
+        let out = String::from_utf8_lossy(&output.stdout);
+        assert!(out.starts_with(begins), "{line}: {out}{}", told(&output));
+    }
+    assert!(!folder.path().join("-").exists());
+}
