@@ -9,7 +9,7 @@ use super::walk::Walk;
 use super::{CheckError, Options, Subject};
 use crate::compensate::Compensation;
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::mm_from_m;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Jet, Pose};
 use crate::inverse::{Inverse, Status};
 use crate::model::Conditions;
@@ -206,6 +206,9 @@ impl Job<'_> {
         }
         points.remove(0);
         points.pop();
+        if let Some(why) = self.too_far(&leg, index, &points) {
+            return failed(&why);
+        }
         let between = self.between(&leg, index, &first, &points, &last, via.is_some());
         let Some(between) = between else {
             return failed("an arc's part cannot be reached");
@@ -216,6 +219,32 @@ impl Job<'_> {
             own: None,
         };
         change(What::Insert(insertion))
+    }
+
+    /// That a target between would be shifted farther than targets with its tool may be.
+    fn too_far(&self, leg: &Leg, index: usize, points: &[Point]) -> Option<String> {
+        let limit = (*self
+            .compensation
+            .shift_limits
+            .get(self.walk.motion(index).tool)?)?;
+        let arms = self.walk.arms(&self.walk.stops[index]?);
+        points.iter().find_map(|point| {
+            let nominal = leg.joints(point.s, &leg.start);
+            let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
+            let shift = wanted.separation(&point.fake);
+            let is_within =
+                shift.distance_m <= limit.distance_m && shift.angle_rad <= limit.angle_rad;
+            (!is_within).then(|| {
+                format!(
+                    "a target between would be shifted by {:.3} mm and {:.3} deg, the limit of shifts is {:.3} mm and {:.3} deg \
+                     (--max-shift)",
+                    mm_from_m(shift.distance_m),
+                    shift.angle_rad / DEG,
+                    mm_from_m(limit.distance_m),
+                    limit.angle_rad / DEG
+                )
+            })
+        })
     }
 
     /// No targets can be inserted where they are needed.

@@ -50,6 +50,14 @@ impl Limits {
         })
     }
 
+    /// The limit for targets with each tool, where one was asked for.
+    pub(super) fn asked_for(&self) -> Vec<Option<Separation>> {
+        let of_tools = self.of_tools.iter();
+        of_tools
+            .map(|limit| self.raised.or(limit.get().copied()))
+            .collect()
+    }
+
     /// The finding of a correction that shifts its target too far: it is not written.
     pub(super) fn judge(
         &self,

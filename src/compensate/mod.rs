@@ -280,6 +280,7 @@ pub fn compensate(
     drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
     let (compensated, summary) = tally.finish();
+    let shift_limits = job.limits.asked_for();
     splits.sort_unstable_by_key(|split| split.insertion.motion);
     configurations.sort_unstable_by_key(|(index, _)| *index);
     let mut compensation = Compensation {
@@ -294,6 +295,7 @@ pub fn compensate(
         untouched: BTreeMap::new(),
         inserted: BTreeMap::new(),
         own_joints: BTreeMap::new(),
+        shift_limits,
         configurations,
         decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
         summary,

@@ -33,6 +33,8 @@ pub struct Compensation {
     pub(super) inserted: BTreeMap<usize, Insertion>,
     /// The controller's joints at targets that moves were given for their own, by move.
     pub(crate) own_joints: BTreeMap<usize, [f64; 6]>,
+    /// How far targets with each tool may be shifted; none for tools without a target that is.
+    pub(crate) shift_limits: Vec<Option<Separation>>,
     /// Configuration data that were written: index in the program's numbers, and the value.
     pub configurations: Vec<(u32, f64)>,
     /// What was decided against a default, for the marker.

@@ -40,7 +40,7 @@ pub(crate) fn pose_text(pose: &Pose) -> String {
     let [x, y, z] = pose.xyz_mm();
     // a zero has no sign
     let [rx, ry, rz] = pose.rxryrz_deg().map(|r| (r * 1e4).round() / 1e4 + 0.0);
-    format!("{x:.3} {y:.3} {z:.3} mm, {rx:.4} {ry:.4} {rz:.4} deg")
+    format!("{x:.3} {y:.3} {z:.3} mm, {rx:.4} {ry:.4} {rz:.4} deg (Rx·Ry·Rz)")
 }
 
 /// A page of points, residuals and ellipsoids.

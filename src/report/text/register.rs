@@ -45,8 +45,8 @@ fn lines(found: &Registration) -> Vec<(&'static str, String)> {
     let mut lines = vec![
         ("translation", three(found.translation_mm, 4) + " mm"),
         (
-            "extrinsic xyz angles",
-            three(found.euler_xyz_deg, 5) + " deg",
+            "rotation Rx·Ry·Rz",
+            three(found.pose.rxryrz_deg(), 5) + " deg",
         ),
         (
             "quaternion w x y z",

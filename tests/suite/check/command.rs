@@ -330,3 +330,44 @@ fn targets_are_split_and_paths_refined_in_one_run() {
     }
     assert!(lines > 2, "{found}");
 }
+
+#[test]
+fn inserted_targets_are_not_shifted_beyond_the_limit() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
+    let plain = &plain[..plain.find("calibration:").expect("a list of effects")];
+    // joint 1 is right at 45 degrees to both sides and 0.1 degrees off in the middle, where the tool is 300 mm from its axis
+    let effects = "calibration: {effects: [{effect: joint_harmonic, joint: 1, order: 2, cos_deg: 0.1}]}\n";
+    std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");
+    let joints = "[9E9,9E9,9E9,9E9,9E9,9E9]";
+    let program = format!(
+        "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ [[-45,0,0,0,60,0],{joints}],v100,fine,tool0;\n\
+         MoveL [[300,-300,300],[0,0,1,0],[-1,0,0,0],{joints}],v100,fine,tool0;\n\
+         MoveL [[300,300,300],[0,0,1,0],[0,0,0,0],{joints}],v100,fine,tool0;\nENDPROC\nENDMODULE\n"
+    );
+    std::fs::write(at("t.mod"), program).expect("scratch");
+    let (profile, input, output) = (at("robot.yaml"), at("t.mod"), at("out.mod"));
+    let compensate = |limit: &str| {
+        run(&[
+            "compensate",
+            &input,
+            "--profile",
+            &profile,
+            "-o",
+            &output,
+            "--max-path-error",
+            "0.05",
+            "--max-shift",
+            limit,
+        ])
+    };
+    let (status, out, _) = compensate("0.3mm,1deg");
+    assert_eq!(status, 1, "{out}");
+    for word in ["path-not-refined", "0.524 mm", "0.300 mm", "--max-shift"] {
+        assert!(out.contains(word), "{word}: {out}");
+    }
+    assert!(!Path::new(&output).exists());
+    let (status, out, _) = compensate("0.6mm,1deg");
+    assert_eq!(status, 0, "{out}");
+}
