@@ -72,10 +72,10 @@ pub trait Language: Sync {
         None
     }
 
-    /// What each number of a pose is, in the order of [`Target::numbers`].
+    /// What each number of a pose is, in the order of [`super::Target::numbers`].
     fn pose_roles(&self, layout: Layout) -> &'static [Role];
 
-    /// What each number of a target is, in the order of [`Target::numbers`].
+    /// What each number of a target is, in the order of [`super::Target::numbers`].
     fn roles(&self, layout: Layout) -> &'static [Role] {
         match layout.shape {
             Shape::Pose => self.pose_roles(layout),

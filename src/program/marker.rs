@@ -42,7 +42,7 @@ impl Marker {
         lines
     }
 
-    /// The marker as lines of at most [`WIDEST_COMMENT`] characters, for languages whose controllers keep no longer comments: the
+    /// The marker as lines of at most `WIDEST_COMMENT` characters, for languages whose controllers keep no longer comments: the
     /// first 24 and 16 digits of the hashes.
     #[must_use]
     pub fn short_lines(&self) -> Vec<String> {

@@ -338,7 +338,8 @@ fn inserted_targets_are_not_shifted_beyond_the_limit() {
     let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
     let plain = &plain[..plain.find("calibration:").expect("a list of effects")];
     // joint 1 is right at 45 degrees to both sides and 0.1 degrees off in the middle, where the tool is 300 mm from its axis
-    let effects = "calibration: {effects: [{effect: joint_harmonic, joint: 1, order: 2, cos_deg: 0.1}]}\n";
+    let effects =
+        "calibration: {effects: [{effect: joint_harmonic, joint: 1, order: 2, cos_deg: 0.1}]}\n";
     std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");
     let joints = "[9E9,9E9,9E9,9E9,9E9,9E9]";
     let program = format!(

@@ -75,8 +75,9 @@ fn names_of_files_are_shown_by_their_codes() {
     ] {
         run(path, &[command, &profile].concat(), code);
     }
-    run(path, &[EVIL], code);
-    run(path, &["compensate", &format!("--{EVIL}")], code);
+    // what the parser of arguments says has no escape sequences at all
+    run(path, &[EVIL], "u{9b}31m");
+    run(path, &["compensate", &format!("--{EVIL}")], "u{9b}31m");
     run(
         path,
         &["check", &file, "--profile", &format!("{EVIL}.yaml")],

@@ -168,7 +168,7 @@ fn files_and_folders_without_permission_are_named() {
     std::fs::create_dir(path.join("in/locked")).expect("scratch");
     std::fs::copy(repository(SAMPLE), path.join("in/x.mod")).expect("scratch");
     for (name, mode) in [("in/x.mod", 0o755), ("in/locked", 0o755)] {
-        let closed = std::fs::Permissions::from_mode(0);
+        let closed = std::fs::Permissions::from_mode(0o000);
         std::fs::set_permissions(path.join(name), closed).expect("scratch");
         if std::fs::read(path.join(name)).is_ok() || std::fs::read_dir(path.join(name)).is_ok() {
             eprintln!("SKIPPED: this user may read everything");
