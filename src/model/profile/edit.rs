@@ -1,5 +1,6 @@
 //! One value of a profile's text changed: every other byte stays, comments included.
 
+use crate::printable::quoted;
 use granit_parser::{Event, Parser, StructureStyle};
 use serde_json::Value;
 use std::ops::Range;
@@ -167,11 +168,13 @@ fn put(text: &str, root: &Node, steps: &[&str], value: &str) -> Result<String, E
 
 fn key(name: &str) -> String {
     let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    // YAML 1.1 reads `on` and `y` as truth
-    if plain && name.len() > 2 && !name.starts_with(|c: char| c.is_ascii_digit()) {
+    // YAML reads these as other than text, YAML 1.1 also `on` and `y`
+    let words = ["null", "true", "false", "yes", "off"];
+    let is_word = words.iter().any(|word| name.eq_ignore_ascii_case(word));
+    if plain && !is_word && name.len() > 2 && !name.starts_with(|c: char| c.is_ascii_digit()) {
         name.to_owned()
     } else {
-        Value::from(name).to_string()
+        quoted(name)
     }
 }
 
@@ -366,5 +369,17 @@ mod tests {
         assert!(with_value("a: [", "a", "1").is_err());
         assert!(with_value("", "a", "1").is_err());
         assert!(with_value(TEXT, "robot.serial", "{").is_err());
+    }
+
+    #[test]
+    fn names_that_are_no_text_to_yaml_are_quoted() {
+        for name in ["no", "Null", "TRUE", "yes", "Off", "1e3", "a: b", "x\u{85}"] {
+            assert!(key(name).starts_with('"'), "{}", key(name));
+        }
+        assert_eq!(key("torch"), "torch");
+        let block = "tools:\n  a:\n    x: 1\nlast: 2\n";
+        let found = with_value(block, "tools.null", "{x: 2}").expect("a layout");
+        let tools = &data(&found).expect("YAML")["tools"];
+        assert_eq!(tools["null"]["x"], 2, "{found}");
     }
 }
