@@ -225,7 +225,7 @@ impl Check {
         };
         let run = Run::new(&header, &found, comparison.as_ref());
         let said = if output.json {
-            Said::data(run.json())
+            Said::json(&run)?
         } else {
             Said::text(self.tell(&run, found.is_refused(), &meshes.notes, output))
         };

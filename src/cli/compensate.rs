@@ -15,7 +15,7 @@ use crate::program::Source;
 use crate::report;
 use crate::task::compensate::{Compensated, DespiteErrors, Header, Request, prepare};
 use crate::task::programs::{acceptance, language_by_id};
-use crate::task::{Document, Failure, frame};
+use crate::task::{Failure, frame};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -191,7 +191,7 @@ impl Compensate {
             profile_sha256: &file.sha256,
             left_out: &left_out,
         };
-        let mut said = self.tell(&header, &prepared.compensation, output);
+        let mut said = self.tell(&header, &prepared.compensation, output)?;
         let inserted = prepared.compensation.added.moves;
         if inserted > 0 && !output.quiet {
             said.text += &format!(
@@ -360,10 +360,15 @@ impl Compensate {
     }
 
     /// What is printed when all is done.
-    fn tell(&self, header: &Header, compensation: &Compensation, output: Output) -> Said {
+    fn tell(
+        &self,
+        header: &Header,
+        compensation: &Compensation,
+        output: Output,
+    ) -> Result<Said, Failure> {
         let found = Compensated::new(header, compensation);
         if output.json {
-            return Said::data(found.json());
+            return Said::json(&found);
         }
         let written = !header.outputs.is_empty();
         let mut text = String::new();
@@ -383,6 +388,6 @@ impl Compensate {
             [one] => text += &format!("written to {one}\n"),
             many => text += &format!("{} files written\n", many.len()),
         }
-        Said::text(text)
+        Ok(Said::text(text))
     }
 }

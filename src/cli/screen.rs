@@ -3,7 +3,7 @@
 use crate::printable::printable_lines;
 use crate::report::layout::coloured;
 use crate::task::Failure;
-use std::io::{ErrorKind, IsTerminal, Result, Write};
+use std::io::{ErrorKind, IsTerminal, Read, Result, Write};
 
 /// Why a text did not arrive.
 pub(super) enum Stop {
@@ -54,13 +54,16 @@ pub(super) fn print(text: &str) -> std::result::Result<(), Stop> {
 }
 
 /// Prints what programs read to standard output, byte by byte; where people see it as they may see it.
-pub(super) fn print_data(bytes: &[u8]) -> std::result::Result<(), Stop> {
+pub(super) fn print_data(data: &mut dyn Read) -> std::result::Result<(), Stop> {
     let mut out = std::io::stdout().lock();
     let written = if out.is_terminal() {
-        let text = String::from_utf8_lossy(bytes);
-        out.write_all(printable_lines(&text).as_bytes())
+        let mut bytes = Vec::new();
+        data.read_to_end(&mut bytes).and_then(|_| {
+            let text = String::from_utf8_lossy(&bytes);
+            out.write_all(printable_lines(&text).as_bytes())
+        })
     } else {
-        out.write_all(bytes)
+        std::io::copy(data, &mut out).map(drop)
     };
     arrived("standard output", written.and_then(|()| out.flush()))
 }

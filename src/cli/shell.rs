@@ -24,7 +24,7 @@ impl Completions {
             "poseshift",
             &mut text,
         );
-        screen::print_data(&text)?;
+        screen::print_data(&mut text.as_slice())?;
         Ok(Answer::Yes)
     }
 }
@@ -42,7 +42,7 @@ impl Man {
         for sub in command.get_subcommands() {
             page(sub.clone())?;
         }
-        screen::print_data(&text)?;
+        screen::print_data(&mut text.as_slice())?;
         Ok(Answer::Yes)
     }
 }

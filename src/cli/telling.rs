@@ -7,9 +7,14 @@ use crate::finding::Severity;
 use crate::printable::name_of;
 use crate::report::html::page::Page;
 use crate::report::{Report, Style};
-use crate::task::Failure;
+use crate::task::{Document, Failure};
 use clap::Args;
+use std::io::{self, BufWriter, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
+use tempfile::SpooledTempFile;
+
+/// Bytes of a document that wait in memory.
+const IN_MEMORY: usize = 16 << 20;
 
 /// The page that is asked for.
 #[derive(Args)]
@@ -93,7 +98,7 @@ pub(super) struct Said {
     /// For people, to standard output; to standard error where that is taken by what programs read.
     pub text: String,
     /// For programs, to standard output.
-    pub data: Option<Vec<u8>>,
+    pub data: Option<Box<dyn Read>>,
     /// For people, to standard error.
     pub beside: String,
 }
@@ -110,17 +115,39 @@ impl Said {
     /// What programs read.
     pub(super) fn data(data: impl Into<Vec<u8>>) -> Self {
         Self {
-            data: Some(data.into()),
+            data: Some(Box::new(Cursor::new(data.into()))),
             ..Self::default()
         }
+    }
+
+    /// The document as programs read it: what is long waits on disk until it is printed.
+    pub(super) fn json(document: &impl Document) -> Result<Self, Failure> {
+        let spool = || {
+            let mut out = BufWriter::new(SpooledTempFile::new(IN_MEMORY));
+            document.write_json(&mut out)?;
+            let mut spool = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+            spool.rewind()?;
+            Ok(spool)
+        };
+        let spool = spool().map_err(|error: io::Error| {
+            let folder = std::env::temp_dir();
+            Failure::with_hint(
+                format!("cannot keep the JSON in {}: {error}", name_of(&folder)),
+                "TMPDIR names another folder",
+            )
+        })?;
+        Ok(Self {
+            data: Some(Box::new(spool)),
+            ..Self::default()
+        })
     }
 
     fn print(self) -> Result<(), Stop> {
         screen::print_beside(&self.beside)?;
         match self.data {
-            Some(data) => {
+            Some(mut data) => {
                 screen::print_beside(&self.text)?;
-                screen::print_data(&data)
+                screen::print_data(&mut *data)
             }
             None => screen::print(&self.text),
         }
@@ -141,7 +168,7 @@ pub(super) fn deliver(
                 "name a file for the output",
             ));
         }
-        said.data = Some(bytes.clone());
+        said.data = Some(Box::new(Cursor::new(bytes.clone())));
     }
     match files.write(written, || said.print()) {
         Ok(()) => Ok(answer),
@@ -160,7 +187,7 @@ pub(super) fn finish(
 ) -> Result<Answer, Failure> {
     let told = ending.report.map_or_else(String::new, ReportFile::told);
     let said = if output.json {
-        Said::data(found.json())
+        Said::json(found)?
     } else if output.quiet {
         Said {
             beside: findings(found, ending.told, output),
@@ -232,18 +259,18 @@ pub(super) fn print_table(
     output: Output,
     answer: Answer,
 ) -> Result<Answer, Failure> {
-    let text = if output.json {
-        found.json()
+    let said = if output.json {
+        Said::json(found)?
     } else {
-        found.text(Style {
+        Said::data(found.text(Style {
             width: usize::MAX,
             every: true,
-        })
+        }))
     };
-    deliver(&Files::default(), &[], Said::data(text), answer)
+    deliver(&Files::default(), &[], said, answer)
 }
 
 /// Prints a JSON Schema.
 pub(super) fn print_schema(schema: &serde_json::Value) -> Result<Answer, Failure> {
-    Ok(screen::print_data(format!("{schema:#}\n").as_bytes()).map(|()| Answer::Yes)?)
+    Ok(screen::print_data(&mut format!("{schema:#}\n").as_bytes()).map(|()| Answer::Yes)?)
 }

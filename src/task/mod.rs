@@ -51,6 +51,7 @@ pub use schema::{SCHEMAS, schema};
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::io::{self, Write};
 
 /// The program and its version, as provenance names it.
 pub(crate) const PROGRAM: &str = concat!("poseshift ", env!("CARGO_PKG_VERSION"));
@@ -62,6 +63,17 @@ pub trait Document: Serialize + JsonSchema + Sized {
 
     /// The document as JSON text, its kind first.
     fn json(&self) -> String {
+        let mut text = Vec::new();
+        self.write_json(&mut text)
+            .expect("a report holds only finite numbers and text keys");
+        String::from_utf8(text).expect("JSON is UTF-8")
+    }
+
+    /// Writes that text row by row: of a long program it is not in memory at once.
+    ///
+    /// # Errors
+    /// Where nothing more can be written.
+    fn write_json(&self, mut out: &mut dyn Write) -> io::Result<()> {
         #[derive(Serialize)]
         struct Kinded<'a, D> {
             poseshift: &'static str,
@@ -72,8 +84,7 @@ pub trait Document: Serialize + JsonSchema + Sized {
             poseshift: Self::KIND,
             document: self,
         };
-        serde_json::to_string_pretty(&kinded)
-            .expect("a report holds only finite numbers and text keys")
-            + "\n"
+        serde_json::to_writer_pretty(&mut out, &kinded)?;
+        writeln!(out)
     }
 }
