@@ -372,3 +372,24 @@ fn inserted_targets_are_not_shifted_beyond_the_limit() {
     let (status, out, _) = compensate("0.6mm,1deg");
     assert_eq!(status, 0, "{out}");
 }
+
+#[test]
+fn joints_in_no_unit_at_all_are_refused_before_they_are_followed() {
+    let folder = scratch();
+    let program = folder.path().join("t.script");
+    let text = "def p():\n  movej([0,-1.5,1.5,-1.5,-1.5,0], a=1, v=1)\n  movej([1e308,-1.5,1.5,-1.5,-1.5,0], a=1, v=1)\nend\n";
+    std::fs::write(&program, text).expect("scratch");
+    let (status, found) = json(&[
+        "check",
+        name(&program),
+        "--profile",
+        "robots/universal_robots_ur5.yaml",
+        "--tool",
+        "0,0,100,0,0,0",
+    ]);
+    let findings = found["findings"].as_array().expect("findings");
+    let told = findings.iter().find(|f| f["id"] == "angle-too-large");
+    let told = told.unwrap_or_else(|| panic!("{findings:?}"));
+    assert_eq!((status, told["line"].as_u64()), (1, Some(3)));
+    assert_eq!(found["summary"]["unknown"], 1, "{found}");
+}
