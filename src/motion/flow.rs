@@ -11,7 +11,7 @@ use super::before::{ANYWHERE, Before, START, Sets, Stop};
 use super::holding::{Atom, DECLARED, Holding, Holdings, NOTHING, Site};
 use super::readers::read_elsewhere;
 use crate::program::script::{
-    Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, NOT_DISPLACED,
+    Argument, Call, DISPLACED_SOMEHOW, Expected, Expr, Held, How, Label, ModalId, NOT_DISPLACED,
     OVERWRITTEN, Part, PartValue, RoutineId, Script, Start, Statement, TableId, ValueId,
     VariableId, Write, Written, short,
 };
@@ -37,16 +37,23 @@ const NO_INSTANCE: u32 = u32::MAX;
 /// What holds where a move begins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reached {
+    /// Index in [`Flow::modes`].
+    pub modes: u32,
+    /// `None` where the instruction's own expression says it whatever was before.
+    pub target: Option<Holding>,
+    pub before: Before,
+}
+
+/// With what a move runs, whichever way the program came to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Modes {
     pub tool: Holding,
     pub frame: Holding,
     pub load: Holding,
     pub configured: Holding,
     pub wrist: Holding,
-    /// `None` where the instruction's own expression says it whatever was before.
-    pub target: Option<Holding>,
     /// What speaks against the move.
     pub guard: Holding,
-    pub before: Before,
 }
 
 /// A routine as one call of it runs.
@@ -139,6 +146,11 @@ pub(super) struct Flow<'a> {
     size: usize,
     /// By stop.
     pub reached: Vec<Option<Reached>>,
+    /// With what moves run, each once.
+    pub modes: Vec<Modes>,
+    mode_ids: HashMap<Modes, u32>,
+    /// Those of the last move, for a move with the same words where variables hold the same.
+    last_modes: Option<(ModalId, Rc<Vec<Holding>>, u32)>,
     /// What variables hold where a move goes to one of several positions.
     chosen: HashMap<Stop, Rc<Vec<Holding>>>,
     /// Instruction of each stop.
@@ -189,6 +201,9 @@ impl<'a> Flow<'a> {
             visited: vec![false; script.statements.len()],
             size: 0,
             reached: Vec::new(),
+            modes: Vec::new(),
+            mode_ids: HashMap::new(),
+            last_modes: None,
             chosen: HashMap::new(),
             instructions: Vec::new(),
             given_away: Vec::new(),
@@ -465,6 +480,7 @@ impl<'a> Flow<'a> {
     }
 
     fn set(&mut self, state: &mut State, variable: VariableId, holding: Holding) {
+        self.last_modes = None;
         if self.is_concurrent {
             let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);
@@ -660,12 +676,14 @@ impl<'a> Flow<'a> {
         self.holdings.lose_all();
         let unknown = self.holdings.one(Atom::Anything, DECLARED);
         let before = self.sets.one(ANYWHERE);
-        for reached in self.reached.iter_mut().flatten() {
-            for holding in [&mut reached.tool, &mut reached.frame] {
+        for modes in &mut self.modes {
+            for holding in [&mut modes.tool, &mut modes.frame] {
                 if *holding != NOTHING {
                     *holding = unknown;
                 }
             }
+        }
+        for reached in self.reached.iter_mut().flatten() {
             reached.target = reached.target.map(|_| unknown);
             reached.before = before;
         }
@@ -753,38 +771,64 @@ impl<'a> Flow<'a> {
             }
             other => Some(self.evaluate(state, other, site)),
         };
+        let modes = match &self.last_modes {
+            Some((modal, holds, modes))
+                if *modal == instruction.modal && Rc::ptr_eq(holds, &state.holds) =>
+            {
+                *modes
+            }
+            _ => self.modes(instruction.modal, site, state),
+        };
+        self.reached[stop as usize] = Some(Reached {
+            modes,
+            target,
+            before: state.before,
+        });
+        state.before = self.sets.one(stop);
+    }
+
+    /// With what a move at a place runs.
+    fn modes(&mut self, of: ModalId, site: Site, state: &State) -> u32 {
+        let script = self.script;
+        let modal = &script.modals[of as usize];
         let mut guard = NOTHING;
-        for &variable in &*script.guards[instruction.guards as usize] {
+        for &variable in &*script.guards[modal.guards as usize] {
             let one = self.variable(state, variable);
             guard = self.holdings.join(guard, one);
         }
-        for expected in &*script.expected[instruction.expected as usize] {
+        for expected in &*script.expected[modal.expected as usize] {
             if let Some(site) = self.differs(state, expected) {
                 let one = self.holdings.one(Atom::Unknown(expected.remark), site);
                 guard = self.holdings.join(guard, one);
             }
         }
+        let mut is_anywhere = true;
         // what the move itself names is written nowhere else: many moves then hold the same
         let mut held = |value| match value {
-            Expr::Value(_) | Expr::Target(_) | Expr::Unknown(_) => {
+            Expr::Absent | Expr::Value(_) | Expr::Target(_) | Expr::Unknown(_) => {
                 self.evaluate(state, value, DECLARED)
             }
-            other => self.evaluate(state, other, site),
+            Expr::Variable(_) => self.evaluate(state, value, site),
+            Expr::Element { .. } | Expr::Any { .. } | Expr::Displaced { .. } => {
+                is_anywhere = false;
+                self.evaluate(state, value, site)
+            }
         };
-        let (tool, frame) = (held(instruction.tool), held(instruction.frame));
-        let load = held(instruction.load);
-        let (configured, wrist) = (held(instruction.configured), held(instruction.wrist));
-        self.reached[stop as usize] = Some(Reached {
-            tool,
-            frame,
-            load,
-            configured,
-            wrist,
-            target,
+        let modes = Modes {
+            tool: held(modal.tool),
+            frame: held(modal.frame),
+            load: held(modal.load),
+            configured: held(modal.configured),
+            wrist: held(modal.wrist),
             guard,
-            before: state.before,
+        };
+        let all = &mut self.modes;
+        let id = *self.mode_ids.entry(modes).or_insert_with(|| {
+            all.push(modes);
+            short(all.len() - 1)
         });
-        state.before = self.sets.one(stop);
+        self.last_modes = is_anywhere.then(|| (of, Rc::clone(&state.holds), id));
+        id
     }
 
     /// Whether an expression is one of several, displaced or not: the resolver looks at each of them.
@@ -1228,6 +1272,9 @@ impl<'a> Flow<'a> {
         self.at_labels.clear();
         self.at_calls.clear();
         self.reached.clear();
+        self.modes.clear();
+        self.mode_ids.clear();
+        self.last_modes = None;
         self.chosen.clear();
         self.instructions.clear();
         self.size = 0;

@@ -74,17 +74,18 @@ fn each_read(
     match statement {
         Statement::Move(at) => {
             let instruction = &script.instructions[at as usize];
+            let modal = &script.modals[instruction.modal as usize];
             for expr in [
                 instruction.target,
-                instruction.tool,
-                instruction.frame,
-                instruction.load,
-                instruction.configured,
-                instruction.wrist,
+                modal.tool,
+                modal.frame,
+                modal.load,
+                modal.configured,
+                modal.wrist,
             ] {
                 each_variable(script, expr, lists, visit);
             }
-            for variable in &*script.guards[instruction.guards as usize] {
+            for variable in &*script.guards[modal.guards as usize] {
                 visit(*variable);
             }
         }

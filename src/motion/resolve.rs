@@ -1,7 +1,7 @@
 //! From what may hold at each move to moves, and what is wrong with their targets.
 
 use super::before::{ANYWHERE, START, Stop};
-use super::flow::{Flow, Reached};
+use super::flow::{Flow, Modes, Reached};
 use super::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::finding::{Finding, Severity};
 use crate::program::script::{
@@ -49,7 +49,7 @@ pub(super) fn resolve(
         changed: Vec::new(),
         as_frames: HashMap::new(),
         doubted: Vec::new(),
-        last: None,
+        choices: Vec::new(),
         stops: Vec::new(),
         full: false,
     };
@@ -61,7 +61,8 @@ pub(super) fn resolve(
     resolver.judge_targets();
     resolver.report.finish();
     drop(resolver);
-    program.instructions = script.instructions.into_iter().map(Into::into).collect();
+    program.instructions = script.instructions;
+    program.speed_zones = script.modals.iter().map(|modal| modal.speed_zone).collect();
     Ok(program)
 }
 
@@ -95,8 +96,8 @@ struct Resolver<'a, 'p> {
     as_frames: HashMap<TargetId, Place>,
     /// Moves whose tool, frame or mode is in doubt: target, the call, and whether it is the tool alone.
     doubted: Vec<(TargetId, Site, bool)>,
-    /// What tool, load, frame and mode held at the move before, and what that means.
-    last: Option<([Holding; 4], Rc<Choices>)>,
+    /// What [`Flow::modes`] mean, as far as moves have asked.
+    choices: Vec<Option<Rc<Choices>>>,
     /// Moves of each stop.
     stops: Vec<(u32, u32)>,
     full: bool,
@@ -111,6 +112,10 @@ struct Choices {
     /// Why others are not known, and which of the two that is.
     refused: Vec<(Refused, Site, &'static str)>,
     configured: Vec<bool>,
+    /// A flag of the controller leaves the orientation free on the path.
+    free_orientation: bool,
+    /// The call that leaves tool, frame or mode in doubt, and whether it is the tool alone.
+    doubts: Option<(Site, bool)>,
 }
 
 impl Resolver<'_, '_> {
@@ -143,16 +148,14 @@ impl Resolver<'_, '_> {
         let at = self.flow.instructions[stop as usize];
         let instruction = &script.instructions[at as usize];
         let reached = self.flow.reached[stop as usize].expect("stops that are reached are listed");
-        let guards = self.guards(reached.guard, instruction);
+        let guard = self.flow.modes[reached.modes as usize].guard;
+        let guards = self.guards(guard, instruction);
         let mut listed = Listed {
             at,
             stop,
             instruction,
-            free_orientation: instruction.free_orientation
-                || self.flags(reached.wrist).contains(&true),
-            choices: self.choices(&reached)?,
+            choices: self.choices(reached.modes)?,
             guards,
-            doubts: self.doubts(&reached),
         };
         match reached.target {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
@@ -170,25 +173,21 @@ impl Resolver<'_, '_> {
         Ok(())
     }
 
-    /// The tools, frames and modes that a move may have: mostly those of the move before.
-    fn choices(&mut self, reached: &Reached) -> Result<Rc<Choices>, ReadError> {
-        let of = [
-            reached.tool,
-            reached.load,
-            reached.frame,
-            reached.configured,
-        ];
-        if let Some((known, choices)) = &self.last
-            && *known == of
-        {
+    /// The tools, frames and modes that a move may have: mostly those of others, too.
+    fn choices(&mut self, modes: u32) -> Result<Rc<Choices>, ReadError> {
+        let at = modes as usize;
+        if let Some(Some(choices)) = self.choices.get(at) {
             return Ok(Rc::clone(choices));
         }
+        let modes = self.flow.modes[at];
         let mut choices = Choices {
-            configured: self.flags(reached.configured),
+            configured: self.flags(modes.configured),
+            free_orientation: self.flags(modes.wrist).contains(&true),
+            doubts: self.doubts(&modes),
             ..Choices::default()
         };
-        let loads = self.loads(reached.load);
-        for (atom, site) in self.atoms(reached.tool) {
+        let loads = self.loads(modes.load);
+        for (atom, site) in self.atoms(modes.tool) {
             if atom == Atom::Doubt {
                 continue;
             }
@@ -199,7 +198,7 @@ impl Resolver<'_, '_> {
                 }
             }
         }
-        for (atom, site) in self.atoms(reached.frame) {
+        for (atom, site) in self.atoms(modes.frame) {
             if atom == Atom::Doubt {
                 continue;
             }
@@ -215,7 +214,8 @@ impl Resolver<'_, '_> {
             choices.frames.push((self.unknown_frame(), DECLARED));
         }
         let choices = Rc::new(choices);
-        self.last = Some((of, Rc::clone(&choices)));
+        self.choices.resize(self.flow.modes.len(), None);
+        self.choices[at] = Some(Rc::clone(&choices));
         Ok(choices)
     }
 
@@ -237,7 +237,7 @@ impl Resolver<'_, '_> {
     }
 
     /// The call that leaves tool, frame or mode in doubt, and whether it is the tool alone.
-    fn doubts(&self, reached: &Reached) -> Option<(Site, bool)> {
+    fn doubts(&self, modes: &Modes) -> Option<(Site, bool)> {
         let of = |holding: Holding| {
             let atoms = self.flow.holdings.of(holding).iter();
             atoms
@@ -245,10 +245,10 @@ impl Resolver<'_, '_> {
                 .map(|(_, site)| *site)
                 .next()
         };
-        let others = of(reached.frame).or(of(reached.guard));
+        let others = of(modes.frame).or(of(modes.guard));
         others
             .map(|site| (site, false))
-            .or(of(reached.tool).map(|site| (site, true)))
+            .or(of(modes.tool).map(|site| (site, true)))
     }
 
     /// What speaks against a move; what is only worth a word is said.
@@ -560,7 +560,7 @@ impl Resolver<'_, '_> {
             self.report
                 .block(target, remark.id, &remark.text, remark.hint, because);
         }
-        if let Some((site, tool_alone)) = listed.doubts {
+        if let Some((site, tool_alone)) = listed.choices.doubts {
             self.doubted.push((target, site, tool_alone));
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
@@ -679,7 +679,7 @@ impl Resolver<'_, '_> {
             frame,
             displacement,
             configured,
-            free_orientation: listed.free_orientation,
+            free_orientation: instruction.free_orientation || listed.choices.free_orientation,
             instruction: *at,
             before: Before::Start,
             tool_written,
@@ -938,10 +938,8 @@ struct Listed<'a> {
     at: u32,
     stop: Stop,
     instruction: &'a Instruction,
-    free_orientation: bool,
     choices: Rc<Choices>,
     guards: Vec<(RemarkId, Site)>,
-    doubts: Option<(Site, bool)>,
 }
 
 /// Collects findings.

@@ -1,6 +1,6 @@
 //! Moves put between those of a program: what languages share.
 
-use super::{Before, Displacement, Motion, Move, MoveText, Number, Program, Source, Target};
+use super::{Before, Displacement, Instruction, Motion, Move, Number, Program, Source, Target};
 use std::ops::Range;
 
 /// A target to be put between two of a program: the text of each number, in the order of [`super::Language::roles`].
@@ -203,7 +203,7 @@ fn before<'a>(program: &'a Program, motion: &Move) -> Option<&'a Move> {
 }
 
 /// The instruction that goes to the point an arc passes through, in front of the one to its end.
-fn via(program: &Program, end: u32) -> Option<&MoveText> {
+fn via(program: &Program, end: u32) -> Option<&Instruction> {
     let via = program.instructions.get(end.checked_sub(1)? as usize)?;
     let is_one = via.place == program.instructions[end as usize].place;
     (via.motion == Motion::ArcVia && is_one).then_some(via)

@@ -394,49 +394,13 @@ pub struct Program {
     /// Work frames as moves use them.
     pub frames: Vec<Frame>,
     /// What moves say, with the bytes where they say it.
-    pub instructions: Vec<MoveText>,
+    pub instructions: Vec<Instruction>,
+    /// Speeds and corners by [`Instruction::modal`].
+    pub speed_zones: Vec<SpeedZone>,
     /// Moves that come before others where there are several.
     pub befores: Vec<Box<[Before]>>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
-}
-
-/// What of a move's instruction is needed once the program is followed: where it stands, how fast it is, where it starts from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MoveText {
-    /// File and first byte.
-    pub place: Place,
-    /// Behind its last byte.
-    pub end: u32,
-    /// How the robot gets there.
-    pub motion: Motion,
-    /// Where its target stands in it.
-    pub target_span: script::Span,
-    /// How fast, and with which corner.
-    pub speed_zone: SpeedZone,
-    /// Joints, radians, that the controller's inverse starts from where the move names them (`URScript` `qnear`).
-    pub near: Option<Box<[f64; 6]>>,
-}
-
-impl From<Instruction> for MoveText {
-    fn from(of: Instruction) -> Self {
-        Self {
-            place: of.place,
-            end: of.end,
-            motion: of.motion,
-            target_span: of.target_span,
-            speed_zone: of.speed_zone,
-            near: of.near,
-        }
-    }
-}
-
-impl MoveText {
-    /// Its bytes in its file.
-    #[must_use]
-    pub fn span(&self) -> Range<usize> {
-        self.place.offset as usize..self.end as usize
-    }
 }
 
 impl Target {
@@ -450,7 +414,8 @@ impl Target {
 impl Program {
     /// How fast a move is, and with which corner.
     pub fn speed_zone(&self, motion: &Move) -> SpeedZone {
-        self.instructions[motion.instruction as usize].speed_zone
+        let instruction = &self.instructions[motion.instruction as usize];
+        self.speed_zones[instruction.modal as usize]
     }
 
     /// The joints, radians, that the controller's inverse starts from where the move names them.

@@ -1,7 +1,5 @@
 //! Numbers in program text: read, and written again in the style of what stood there.
 
-use std::io::Write;
-
 /// Digits after the point that a number may get at most: what a 64-bit number holds.
 pub const MOST_DECIMALS: usize = 17;
 /// Decimals of a number whose group has no number in fixed notation: controllers print six digits.
@@ -159,29 +157,27 @@ impl Style {
     /// A field that starts with blanks keeps its last column where the new number fits. Zero never gets a minus sign, and
     /// an exponent is written only where the old text had one and the number is below 1e-4.
     pub fn write(self, old: &[u8], value: f64, out: &mut Vec<u8>) {
-        let mut digits = Vec::with_capacity(24);
+        let start = out.len();
         let text = trimmed(old);
         match exponent_at(text) {
             Some(at) if value != 0.0 && value.abs() < EXPONENT_BELOW => {
-                write_exponent(&text[..at], &text[at..], value, &mut digits);
+                write_exponent(&text[..at], &text[at..], value, out);
             }
-            _ => write_fixed(value, self.decimals, &mut digits),
+            _ => write_fixed(value, self.decimals, out),
         }
         if text.first() == Some(&b'+') && value >= 0.0 {
-            digits.insert(0, b'+');
+            out.insert(start, b'+');
         }
-        if self.fraction == Fraction::Bare && value != 0.0 && exponent_at(&digits).is_none() {
-            drop_leading_zero(&mut digits);
+        if self.fraction == Fraction::Bare && value != 0.0 && exponent_at(&out[start..]).is_none() {
+            drop_leading_zero(out, start);
         }
         if self.decimals == 0 && text.last() == Some(&b'.') {
-            digits.push(b'.');
+            out.push(b'.');
         }
-        let blanks = old.len() - text.len();
-        if blanks > 0 {
-            let padding = old.len().saturating_sub(digits.len()).max(1);
-            out.extend(std::iter::repeat_n(b' ', padding));
+        if old.len() > text.len() {
+            let padding = old.len().saturating_sub(out.len() - start).max(1);
+            out.splice(start..start, std::iter::repeat_n(b' ', padding));
         }
-        out.extend_from_slice(&digits);
     }
 }
 
@@ -206,12 +202,12 @@ fn decimals(text: &[u8]) -> usize {
         .map_or(0, |point| text.len() - point - 1)
 }
 
-/// Removes the `0` of `0.5` and `-0.5`; leaves an exact zero alone.
-fn drop_leading_zero(digits: &mut Vec<u8>) {
-    let at = usize::from(matches!(digits.first(), Some(b'+' | b'-')));
+/// Removes the `0` of `0.5` and `-0.5` behind `start`; leaves an exact zero alone.
+fn drop_leading_zero(digits: &mut Vec<u8>, start: usize) {
+    let at = start + usize::from(matches!(digits.get(start), Some(b'+' | b'-')));
     if digits.get(at) == Some(&b'0')
         && digits.get(at + 1) == Some(&b'.')
-        && digits.iter().any(|b| matches!(b, b'1'..=b'9'))
+        && digits[start..].iter().any(|b| matches!(b, b'1'..=b'9'))
     {
         digits.remove(at);
     }
@@ -240,13 +236,26 @@ fn write_fixed(value: f64, decimals: usize, out: &mut Vec<u8>) {
     }
     // below 2^53 the product is a whole number without loss
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let (whole, unit) = (scaled as u64, POWERS[decimals] as u64);
-    let sign = if value < 0.0 && whole != 0 { "-" } else { "" };
-    let written = match decimals {
-        0 => write!(out, "{sign}{whole}"),
-        _ => write!(out, "{sign}{}.{:0decimals$}", whole / unit, whole % unit),
-    };
-    written.expect("a vector takes all bytes");
+    let whole = scaled as u64;
+    if value < 0.0 && whole != 0 {
+        out.push(b'-');
+    }
+    // from the last digit on: at most 16, and zeros up to the one before the point
+    let mut digits = [b'0'; 18];
+    let (mut at, mut rest) = (digits.len(), whole);
+    while rest > 0 {
+        at -= 1;
+        #[allow(clippy::cast_possible_truncation)]
+        let digit = (rest % 10) as u8;
+        digits[at] += digit;
+        rest /= 10;
+    }
+    let point = digits.len() - decimals;
+    out.extend_from_slice(&digits[at.min(point - 1)..point]);
+    if decimals > 0 {
+        out.push(b'.');
+        out.extend_from_slice(&digits[point..]);
+    }
 }
 
 /// Mantissa digits as in the old text, exponent letter, sign and width too: `7.16612E-05`, `-9E-9`.

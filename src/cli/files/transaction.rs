@@ -44,11 +44,12 @@ impl<'a> Transaction<'a> {
         files: &[New],
         said: &mut Vec<String>,
     ) -> Result<Self, Failure> {
+        let hashes: Vec<String> = files.par_iter().map(|file| sha256(file.bytes)).collect();
         for _ in 0..TRIES {
-            let (planned, _) = entries(files)?;
+            let (planned, contents) = entries(files, &hashes)?;
             let transaction = Self::begun(disk, files, planned, said)?;
             // until the journal was ours another run may have written there
-            let (entries, contents) = entries(files)?;
+            let (entries, _) = entries(files, &hashes)?;
             if entries != transaction.work.entries {
                 continue;
             }
@@ -237,17 +238,21 @@ fn new_folder(place: &Path) -> Option<&Path> {
 /// Files relative to an entry, with what they hold.
 type Contents<'a> = Vec<(PathBuf, &'a [u8])>;
 
-/// What is renamed: files, and new folders whole.
-fn entries<'a>(files: &[New<'a>]) -> Result<(Vec<Entry>, Vec<Contents<'a>>), Failure> {
-    let mut trees: BTreeMap<&Path, Contents> = BTreeMap::new();
-    for file in files {
+/// What is renamed: files, and new folders whole. `hashes` are those of the files.
+fn entries<'a>(
+    files: &[New<'a>],
+    hashes: &[String],
+) -> Result<(Vec<Entry>, Vec<Contents<'a>>), Failure> {
+    let mut trees: BTreeMap<&Path, Vec<(PathBuf, &[u8], &String)>> = BTreeMap::new();
+    for (file, hash) in files.iter().zip(hashes) {
         let target = new_folder(&file.place).unwrap_or(&file.place);
         let below = file
             .place
             .strip_prefix(target)
             .expect("it is below")
             .to_owned();
-        trees.entry(target).or_default().push((below, file.bytes));
+        let of_target = trees.entry(target).or_default();
+        of_target.push((below, file.bytes, hash));
     }
     let mut entries = Vec::with_capacity(trees.len());
     let mut contents = Vec::with_capacity(trees.len());
@@ -258,14 +263,16 @@ fn entries<'a>(files: &[New<'a>]) -> Result<(Vec<Entry>, Vec<Contents<'a>>), Fai
         } else {
             None
         };
-        let hashed = |(path, bytes): &(PathBuf, &[u8])| (path.clone(), sha256(bytes));
+        let new = files.iter();
+        let new = new.map(|(path, _, hash)| (path.clone(), (*hash).clone()));
         entries.push(Entry {
             number: entries.len(),
             target: target.to_owned(),
             old,
-            new: files.iter().map(hashed).collect(),
+            new: new.collect(),
         });
-        contents.push(files);
+        let held = files.into_iter().map(|(path, bytes, _)| (path, bytes));
+        contents.push(held.collect());
     }
     Ok((entries, contents))
 }

@@ -25,7 +25,7 @@ mod records;
 use super::kit::{Fault, comments, content_start, not_this_language};
 use super::notation;
 use super::script::{
-    Builder, Expr, Held, Instruction, NamedFrame, Place, Script, Span, Start, ValueId, short,
+    Builder, Expr, Held, Instruction, Modal, NamedFrame, Place, Script, Span, Start, ValueId, short,
 };
 use super::{
     About, Configuration, Language, Layout, Marker, Motion, Number, ReadError, Role, Settings,
@@ -227,23 +227,27 @@ impl Reader {
             blocked: false,
         });
         let target = script.targets.len() - 1;
-        self.builder.go(Instruction {
+        let instruction = Instruction {
             end,
             motion: match header.shape {
                 Shape::Pose => Motion::Linear,
                 Shape::Joints => Motion::Joint,
             },
             target: Expr::Target(target),
+            near,
+            target_span: Span { start: offset, end },
+            ..Instruction::at(Place { file, offset })
+        };
+        let modal = Modal {
             tool: Expr::Value(tool),
             frame: Expr::Value(frame),
             configured: match header.branch {
                 Some(_) => Expr::Value(self.honoured),
                 None => Expr::Absent,
             },
-            near,
-            target_span: Span { start: offset, end },
-            ..Instruction::at(Place { file, offset })
-        });
+            ..Modal::default()
+        };
+        self.builder.go(instruction, modal);
         Ok(())
     }
 

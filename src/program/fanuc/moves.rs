@@ -6,7 +6,9 @@ use super::reader::Reader;
 use super::words::{Named, position, word_length};
 use crate::finding::Severity;
 use crate::geometry::units::MM;
-use crate::program::script::{DISPLACED_SOMEHOW, Expr, Instruction, NOT_DISPLACED, Span, short};
+use crate::program::script::{
+    DISPLACED_SOMEHOW, Expr, Instruction, Modal, NOT_DISPLACED, Span, short,
+};
 use crate::program::{Motion, SpeedZone, number};
 use std::ops::Range;
 
@@ -76,21 +78,24 @@ impl Reader<'_> {
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
-            configured: if words.wrist_joint {
-                Expr::Absent
-            } else {
-                Expr::Value(self.controller.honoured)
-            },
             displacement: if words.displaced {
                 DISPLACED_SOMEHOW
             } else {
                 NOT_DISPLACED
             },
+            ..Instruction::at(self.place)
+        };
+        let modal = Modal {
+            configured: if words.wrist_joint {
+                Expr::Absent
+            } else {
+                Expr::Value(self.controller.honoured)
+            },
             guards: self
                 .controller
                 .guards(&mut self.builder.script, words.against),
             speed_zone: words.speed_zone,
-            ..Instruction::at(self.place)
+            ..Modal::default()
         };
         let listed = self.builder.script.instructions.len();
         for (index, (named, span)) in points.into_iter().enumerate() {
@@ -112,6 +117,7 @@ impl Reader<'_> {
                     target_span: target_span.unwrap_or_default(),
                     ..instruction.clone()
                 },
+                modal,
             );
         }
         self.row(is_row, listed);
@@ -120,14 +126,15 @@ impl Reader<'_> {
         }
         if words.may_stop {
             // where the robot stands then is known to nobody
-            let last = self.builder.script.instructions.last();
-            let stopped = last.map(|last| Instruction {
-                tool: last.tool,
-                frame: last.frame,
-                ..Instruction::at(self.place)
-            });
-            if let Some(stopped) = stopped {
-                self.builder.go(stopped);
+            let script = &self.builder.script;
+            if let Some(last) = script.instructions.last() {
+                let Modal { tool, frame, .. } = script.modals[last.modal as usize];
+                let stopped = Modal {
+                    tool,
+                    frame,
+                    ..Modal::default()
+                };
+                self.builder.go(Instruction::at(self.place), stopped);
             }
         }
     }
@@ -169,7 +176,7 @@ impl Reader<'_> {
     }
 
     /// Adds the move to each of the positions that may be meant.
-    fn go_to(&mut self, named: Named, instruction: &Instruction) {
+    fn go_to(&mut self, named: Named, instruction: &Instruction, modal: Modal) {
         let goals = self.goals(named);
         let several = goals.len() > 1;
         if several {
@@ -180,13 +187,17 @@ impl Reader<'_> {
             if several {
                 self.builder.next_branch(index + 1 == count);
             }
-            self.builder.go(Instruction {
+            let instruction = Instruction {
                 target: goal.target,
+                ..instruction.clone()
+            };
+            let modal = Modal {
                 tool: goal.tool,
                 frame: goal.frame,
                 expected: goal.expected,
-                ..instruction.clone()
-            });
+                ..modal
+            };
+            self.builder.go(instruction, modal);
             if self.listing.uses_active {
                 self.arrived(goal.numbers);
             }

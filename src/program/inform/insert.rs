@@ -1,9 +1,9 @@
 //! Moves between those of a job: the line again, to a new `C` position.
 
 use super::job::{HEADERS, Job, Letter, Positions};
-use crate::program::MoveText;
 use crate::program::insert::{indent, sole_use, spliced, with_numbers};
 use crate::program::kit::line_behind;
+use crate::program::script::Instruction;
 use crate::program::{Between, Inserted, Insertion, Program, Replacements, Source, Target};
 use std::ops::Range;
 
@@ -30,7 +30,7 @@ struct Copied<'a> {
 /// A line that does nothing but go to a `C` position, and the name of that.
 fn plain_move(
     bytes: &[u8],
-    instruction: &MoveText,
+    instruction: &Instruction,
     verbs: &[&[u8]],
 ) -> Option<(Range<usize>, Range<usize>)> {
     let span = instruction.span();

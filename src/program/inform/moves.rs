@@ -8,7 +8,7 @@ use super::reader::{Arc, Reader};
 use super::remarks::Cause;
 use crate::finding::Severity;
 use crate::geometry::units::MM;
-use crate::program::script::{Expr, Instruction, Script, Span, VariableId, Written, short};
+use crate::program::script::{Expr, Instruction, Modal, Script, Span, VariableId, Written, short};
 use crate::program::{Motion, Place, Shape, SpeedZone, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet};
 
@@ -139,8 +139,11 @@ impl<'a> Reader<'a> {
         let mut instruction = Instruction {
             end: short(words.end),
             motion: self.motion(kind),
-            speed_zone: words.speed_zone,
             ..Instruction::at(place)
+        };
+        let mut modal = Modal {
+            speed_zone: words.speed_zone,
+            ..Modal::default()
         };
         instruction.target = match words.robot {
             _ if kind == Kind::Incremental => self.unknown(Cause::Incremental),
@@ -153,11 +156,11 @@ impl<'a> Reader<'a> {
         let target = self.targets_of(instruction.target).first().copied();
         if let Some(target) = target {
             let header = *self.positions.header(target);
-            (instruction.tool, instruction.frame) = self.frames_of(target);
+            (modal.tool, modal.frame) = self.frames_of(target);
             self.begin(target, kind, &header, place);
         }
         if kind == Kind::Joint {
-            instruction.configured = Expr::Value(self.honoured);
+            modal.configured = Expr::Value(self.honoured);
         }
         let mut reasons = vec![self.variables.shift];
         if let Some(cause) = cause_of(kind) {
@@ -173,8 +176,8 @@ impl<'a> Reader<'a> {
                 reasons.extend(self.external(name));
             }
         }
-        instruction.guards = self.variables.guards(&mut self.builder, &reasons);
-        self.builder.go(instruction);
+        modal.guards = self.variables.guards(&mut self.builder, &reasons);
+        self.builder.go(instruction, modal);
     }
 
     fn motion(&mut self, kind: Kind) -> Motion {
@@ -320,8 +323,10 @@ impl<'a> Reader<'a> {
                 Some(if same { first } else { (differ, first.1) })
             });
             if let Some(frames) = frames {
-                let instruction = &mut self.builder.script.instructions[at];
-                (instruction.tool, instruction.frame) = frames;
+                let script = &mut self.builder.script;
+                let (tool, frame) = frames;
+                let of = script.modals[script.instructions[at].modal as usize];
+                script.instructions[at].modal = script.modal(Modal { tool, frame, ..of });
             }
         }
     }

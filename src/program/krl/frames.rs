@@ -140,7 +140,7 @@ pub(super) enum Choice {
 
 /// States of the controller in the script, and values that are needed often.
 #[derive(Debug)]
-pub(super) struct Modal {
+pub(super) struct States {
     pub states: [VariableId; 9],
     pub tables: [TableId; 3],
     entries: HashMap<(Table, u32), VariableId>,
@@ -179,7 +179,7 @@ pub(super) fn parts_of(value: PartValue) -> [Part; 6] {
     }; 6]
 }
 
-impl Modal {
+impl States {
     pub(super) fn new(script: &mut Script) -> Self {
         let missing = parts_of(PartValue::Missing);
         let initial = ["$TOOL", "$BASE"].map(|name| record(script, name, &missing));
@@ -316,7 +316,7 @@ impl Reader {
 
     /// An entry of a table.
     pub(super) fn entry(&mut self, table: Table, at: u32) -> VariableId {
-        if let Some(&known) = self.modal.entries.get(&(table, at)) {
+        if let Some(&known) = self.states.entries.get(&(table, at)) {
             return known;
         }
         let name = format!("{}[{at}]", table.name());
@@ -345,9 +345,9 @@ impl Reader {
             kept: true,
             ..Variable::new(name, NOWHERE, declared)
         });
-        let entries = &mut script.tables[self.modal.tables[table as usize] as usize].entries;
+        let entries = &mut script.tables[self.states.tables[table as usize] as usize].entries;
         entries.insert(i64::from(at), made);
-        self.modal.entries.insert((table, at), made);
+        self.states.entries.insert((table, at), made);
         made
     }
 
@@ -370,30 +370,30 @@ impl Reader {
         Expr::Value(match load {
             Some(_) => self.builder.script.value(Held::Load(load)),
             // the tool's own, if any
-            None => self.modal.off,
+            None => self.states.off,
         })
     }
 
     /// A number that may choose an entry: that is one, then.
     pub(super) fn number_value(&mut self, number: u32) -> Expr {
-        if let Some(&known) = self.modal.numbers.get(&number) {
+        if let Some(&known) = self.states.numbers.get(&number) {
             return Expr::Value(known);
         }
         for table in [Table::Tool, Table::Base, Table::Load] {
             self.entry(table, number);
         }
         let made = self.builder.script.value(Held::Number(i64::from(number)));
-        self.modal.numbers.insert(number, made);
+        self.states.numbers.insert(number, made);
         Expr::Value(made)
     }
 
     /// A frame that has no value of the files' own.
     pub(super) fn known_frame(&mut self, name: &str, value: PartValue) -> Expr {
         let script = &mut self.builder.script;
-        let known = self.modal.known.get(name).copied();
+        let known = self.states.known.get(name).copied();
         Expr::Value(known.unwrap_or_else(|| {
             let made = record(script, name, &parts_of(value));
-            self.modal.known.insert(name.into(), made);
+            self.states.known.insert(name.into(), made);
             made
         }))
     }
@@ -409,8 +409,8 @@ impl Reader {
 
     pub(super) fn mode_value(&mut self, is_external: Option<bool>) -> Expr {
         match is_external {
-            Some(false) => Expr::Value(self.modal.on),
-            Some(true) => Expr::Value(self.modal.external),
+            Some(false) => Expr::Value(self.states.on),
+            Some(true) => Expr::Value(self.states.external),
             None => self.chosen(),
         }
     }
@@ -420,7 +420,7 @@ impl Reader {
         match choice {
             Some(Choice::Entry(at)) => Expr::Variable(self.entry(table, at)),
             Some(Choice::By(number)) => Expr::Element {
-                table: self.modal.tables[table as usize],
+                table: self.states.tables[table as usize],
                 number,
             },
             None => self.chosen(),

@@ -7,7 +7,7 @@ use super::remarks::{from_nowhere, turned};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
-use crate::program::script::{Expr, Instruction, Place, short};
+use crate::program::script::{Expr, Instruction, Modal, Place, short};
 use crate::program::{Displacement, Motion, Shape, Shift, SpeedZone, number};
 
 /// How the robot goes.
@@ -82,15 +82,16 @@ impl Reader {
                 Path::Arc if is_via => Motion::ArcVia,
                 Path::Arc => Motion::ArcEnd,
             };
-            let mut instruction = self.instruction(place, motion, point.target, &rest);
+            let mut modal = self.modal_of(motion, point.target, &rest);
+            let mut instruction = move_to(point.target, place, motion, &rest);
             instruction.displacement = point.displacement;
             if point.is_plain && !rest.has_angle {
                 instruction.target_span = point.span;
             }
             if rest.has_angle {
-                instruction.guards = self.modal.angle_guards;
+                modal.guards = self.states.angle_guards;
             }
-            self.builder.go(instruction);
+            self.builder.go(instruction, modal);
             let plain = context.tool.is_none() && context.base.is_none();
             if !is_via && plain && !rest.has_angle && point.is_pose {
                 self.last = self.shift_of(point).map(|shift| Last {
@@ -102,7 +103,8 @@ impl Reader {
         Ok(())
     }
 
-    fn instruction(&self, place: Place, motion: Motion, target: Expr, rest: &Rest) -> Instruction {
+    /// With what a move runs.
+    fn modal_of(&self, motion: Motion, target: Expr, rest: &Rest) -> Modal {
         let With {
             tool,
             base,
@@ -110,30 +112,27 @@ impl Reader {
             mode,
         } = rest.with;
         let state = |own: Option<Expr>, of: Option<Expr>, state| {
-            own.or(of).unwrap_or(self.modal.expr(state))
+            own.or(of).unwrap_or(self.states.expr(state))
         };
         let spline = self.spline;
         let is_joints = matches!(target, Expr::Target(target)
             if self.builder.script.targets[target].layout.shape == Shape::Joints);
         let is_external = match mode.or(spline.mode) {
-            Some(Expr::Variable(_)) | None => self.modal.guards,
-            Some(mode) => self.modal.guards_of(mode),
+            Some(Expr::Variable(_)) | None => self.states.guards,
+            Some(mode) => self.states.guards_of(mode),
         };
-        Instruction {
-            end: rest.end,
-            motion,
-            target,
+        Modal {
             tool: state(tool, spline.tool, State::Tool),
             frame: state(base, spline.base, State::Base),
             load: state(load, spline.load, State::Load),
             configured: match motion {
-                Motion::Joint => Expr::Value(self.modal.on),
+                Motion::Joint => Expr::Value(self.states.on),
                 _ => Expr::Absent,
             },
             // axes are the same whoever holds the tool
             guards: if is_joints { 0 } else { is_external },
             speed_zone: rest.speed_zone,
-            ..Instruction::at(place)
+            ..Modal::default()
         }
     }
 
@@ -252,9 +251,10 @@ impl Reader {
                 last.shift.in_frame.translation = [a + x, b + y, c + z];
             }
             let displacement = Displacement::By(Box::new(last.shift));
-            let mut instruction = self.instruction(place, *motion, last.target, &rest);
+            let mut instruction = move_to(last.target, place, *motion, &rest);
             instruction.displacement = self.builder.script.displacement(displacement);
-            self.builder.go(instruction);
+            let modal = self.modal_of(*motion, last.target, &rest);
+            self.builder.go(instruction, modal);
             self.last = Some(last);
             return Ok(());
         }
@@ -264,8 +264,9 @@ impl Reader {
             from_nowhere()
         });
         for motion in motions {
-            let instruction = self.instruction(place, *motion, target, &rest);
-            self.builder.go(instruction);
+            let modal = self.modal_of(*motion, target, &rest);
+            self.builder
+                .go(move_to(target, place, *motion, &rest), modal);
         }
         Ok(())
     }
@@ -316,5 +317,15 @@ pub(super) fn skip_value(cursor: &mut Cursor) {
             Kind::Sign(_) => ends = false,
             _ => ends = true,
         }
+    }
+}
+
+/// The words of a move.
+fn move_to(target: Expr, place: Place, motion: Motion, rest: &Rest) -> Instruction {
+    Instruction {
+        end: rest.end,
+        motion,
+        target,
+        ..Instruction::at(place)
     }
 }

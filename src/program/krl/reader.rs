@@ -1,6 +1,6 @@
 //! Files into a [`Script`]: first what all of them declare, then their statements.
 
-use super::frames::{Declared, Modal};
+use super::frames::{Declared, States};
 use super::moves::Last;
 use super::names::{DataKind, Datum, Head, Index, Names};
 use super::targets::Owner;
@@ -15,7 +15,7 @@ use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 pub(super) struct Reader {
     pub(super) builder: Builder,
     pub(super) names: Names,
-    pub(super) modal: Modal,
+    pub(super) states: States,
     /// Tools, bases and loads of data lists.
     pub(super) declared: Declared,
     pub(super) file: u32,
@@ -71,7 +71,7 @@ impl Reader {
     pub(super) fn new() -> Self {
         let mut builder = Builder::default();
         Self {
-            modal: Modal::new(&mut builder.script),
+            states: States::new(&mut builder.script),
             builder,
             names: Names::default(),
             declared: Declared::default(),

@@ -19,7 +19,7 @@ impl Reader {
         if matches!(state, State::Tool | State::Base | State::Ipo) {
             self.last = None;
         }
-        let variable = self.modal.states[state as usize];
+        let variable = self.states.states[state as usize];
         self.put(place, variable, value);
     }
 
@@ -47,7 +47,7 @@ impl Reader {
         if let (Some(state @ (State::ActTool | State::ActBase)), Kind::End) =
             (State::named(word), cursor.peek().kind)
         {
-            return Some(Choice::By(self.modal.states[state as usize]));
+            return Some(Choice::By(self.states.states[state as usize]));
         }
         let is_active = word == b"FDAT_ACT";
         let name = self.symbol(&cursor, token);
@@ -66,7 +66,7 @@ impl Reader {
                 } else {
                     State::FdatBase
                 };
-                return Some(Choice::By(self.modal.states[state as usize]));
+                return Some(Choice::By(self.states.states[state as usize]));
             }
             let fdat = self.fdat_of(name, at)?;
             let number = if is_tool { fdat.tool } else { fdat.base };
@@ -197,8 +197,8 @@ impl Reader {
                 let name = std::str::from_utf8(word).unwrap_or_default();
                 Ok(self.known_frame(name, PartValue::Number(0.0)))
             }
-            (_, b"$TOOL") => Ok(self.modal.expr(State::Tool)),
-            (_, b"$BASE") => Ok(self.modal.expr(State::Base)),
+            (_, b"$TOOL") => Ok(self.states.expr(State::Tool)),
+            (_, b"$BASE") => Ok(self.states.expr(State::Base)),
             _ => {
                 let symbol = self.symbol(cursor, name);
                 let at = Index::of(at, cursor);
@@ -271,10 +271,10 @@ impl Reader {
         let mut buffer = [0; 24];
         match capitals(cursor.text(command), &mut buffer) {
             b"INITMOV" => {
-                let [tool, base] = self.modal.initial.map(Expr::Value);
+                let [tool, base] = self.states.initial.map(Expr::Value);
                 self.set(place, State::Tool, tool);
                 self.set(place, State::Base, base);
-                self.set(place, State::Ipo, Expr::Value(self.modal.on));
+                self.set(place, State::Ipo, Expr::Value(self.states.on));
             }
             b"TOOL" => {
                 let choice = choice(self, Table::Tool);
@@ -286,10 +286,10 @@ impl Reader {
             }
             b"FRAMES" | b"PTP_PARAMS" | b"CP_PARAMS" | b"PARAMS" => {
                 let [tool, base] = [State::FdatTool, State::FdatBase]
-                    .map(|state| Choice::By(self.modal.states[state as usize]));
+                    .map(|state| Choice::By(self.states.states[state as usize]));
                 self.choose(place, Table::Tool, Some(tool));
                 self.choose(place, Table::Base, Some(base));
-                self.set(place, State::Ipo, self.modal.expr(State::FdatIpo));
+                self.set(place, State::Ipo, self.states.expr(State::FdatIpo));
             }
             _ => {}
         }
@@ -362,7 +362,7 @@ impl Reader {
         part: Option<&[u8]>,
         cursor: &mut Cursor,
     ) -> Read<()> {
-        let variable = Written::One(self.modal.states[state as usize]);
+        let variable = Written::One(self.states.states[state as usize]);
         match part {
             None => {
                 let value = self.state_value(state, cursor)?;
@@ -428,7 +428,7 @@ impl Reader {
         };
         let variable = match entry {
             Some(entry) => Written::One(self.entry(table, entry)),
-            None => Written::AnyOf(self.modal.tables[table as usize]),
+            None => Written::AnyOf(self.states.tables[table as usize]),
         };
         if let Some(part) = part {
             if table == Table::Load {

@@ -337,8 +337,10 @@ fn long_lines(sources: &[Source], script: &mut Script, kept: &[bool]) {
 fn each_expression(script: &mut Script, mut visit: impl FnMut(&mut Expr)) {
     for instruction in &mut script.instructions {
         visit(&mut instruction.target);
-        visit(&mut instruction.tool);
-        visit(&mut instruction.frame);
+    }
+    for modal in &mut script.modals {
+        visit(&mut modal.tool);
+        visit(&mut modal.frame);
     }
     for argument in &mut script.arguments {
         visit(&mut argument.value);

@@ -83,12 +83,13 @@ const WANTED: &str = "a value of this type";
 impl Reader<'_> {
     /// Reads a value against a template; the present token is its first.
     pub(super) fn aggregate(&mut self, template: &[u8]) -> Result<Leaves, Fault> {
-        if let Some((leaves, end)) = plain_numbers(self.bytes, self.token.start as usize, template)
-        {
+        let mut leaves = Leaves::new();
+        let start = self.token.start as usize;
+        if let Some(end) = plain_numbers(self.bytes, start, template, &mut leaves) {
             self.jump(end)?;
             return Ok(leaves);
         }
-        let mut leaves = Leaves::new();
+        leaves.count = 0;
         let mut openers = [0_u32; 4];
         let mut depth = 0;
         let mut at = 0;
@@ -231,8 +232,12 @@ impl Reader<'_> {
 
 /// The leaves of a value of numbers with nothing but blanks between them, and the byte behind it. `None` for all others: the
 /// way by tokens knows what is wrong with them, if anything is.
-fn plain_numbers(bytes: &[u8], start: usize, template: &[u8]) -> Option<(Leaves, usize)> {
-    let mut leaves = Leaves::new();
+fn plain_numbers(
+    bytes: &[u8],
+    start: usize,
+    template: &[u8],
+    leaves: &mut Leaves,
+) -> Option<usize> {
     let mut at = start;
     for (k, &part) in template.iter().enumerate() {
         let comma = k > 0 && part != b']' && template[k - 1] != b'[';
@@ -267,7 +272,7 @@ fn plain_numbers(bytes: &[u8], start: usize, template: &[u8]) -> Option<(Leaves,
             at += 1;
         }
     }
-    Some((leaves, at))
+    Some(at)
 }
 
 fn past_blanks(bytes: &[u8], mut at: usize) -> usize {

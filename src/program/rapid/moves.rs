@@ -6,9 +6,7 @@ use super::translate::Translator;
 use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{
-    Expr, Held, How, Instruction, NOT_DISPLACED, Remark, Span, Write, Written,
-};
+use crate::program::script::{Expr, Held, How, Instruction, Modal, Remark, Span, Write, Written};
 use crate::program::{Motion, SpeedZone};
 
 /// The parts of a move instruction, as indices of its arguments.
@@ -186,11 +184,12 @@ impl Translator<'_> {
         let absolute = path == Path::Absolute;
         let Some(parts) = self.parts(all, path, first, tool_inside) else {
             let target = self.computed();
-            self.emit_move(Instruction {
+            let instruction = Instruction {
                 end,
                 target,
                 ..Instruction::at(self.here)
-            });
+            };
+            self.emit_move(instruction, Modal::default());
             return;
         };
         let load = parts.load.map_or(Expr::Absent, |at| self.carried(&all[at]));
@@ -233,24 +232,24 @@ impl Translator<'_> {
                 Path::Arc => Motion::ArcEnd,
             };
             let (start, behind) = all[at].span;
-            self.emit_move(Instruction {
-                place: self.here,
+            let instruction = Instruction {
                 end,
                 motion,
-                free_orientation: false,
                 target,
+                target_span: Span { start, end: behind },
+                ..Instruction::at(self.here)
+            };
+            let modal = Modal {
                 tool,
                 frame,
                 load,
                 configured,
                 wrist,
-                near: None,
-                displacement: NOT_DISPLACED,
                 guards,
                 expected: 0,
                 speed_zone: parts.speed_zone,
-                target_span: Span { start, end: behind },
-            });
+            };
+            self.emit_move(instruction, modal);
         }
         if first == 2 {
             self.found(all);
@@ -338,12 +337,13 @@ impl Translator<'_> {
                 hint: "",
             }))
         };
-        self.emit_move(Instruction {
+        let instruction = Instruction {
             end,
             motion: Motion::Linear,
             target,
             ..Instruction::at(self.here)
-        });
+        };
+        self.emit_move(instruction, Modal::default());
     }
 
     /// Writes the data that an argument names, or a part of it.

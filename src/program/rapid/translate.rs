@@ -8,8 +8,8 @@ use super::syntax::{
 use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
-    Builder, Call, Expr, Held, How, Instruction, NamedFrame, Part as RecordPart, PartValue, Place,
-    Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
+    Builder, Call, Expr, Held, How, Instruction, Modal, NamedFrame, Part as RecordPart, PartValue,
+    Place, Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
 };
 use crate::program::{Shape, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet};
@@ -219,9 +219,9 @@ impl Translator<'_> {
 
     // ---- what statements become
 
-    pub(super) fn emit_move(&mut self, instruction: Instruction) {
+    pub(super) fn emit_move(&mut self, instruction: Instruction, modal: Modal) {
         self.may_fail();
-        self.builder.go(instruction);
+        self.builder.go(instruction, modal);
     }
 
     pub(super) fn emit_write(&mut self, write: Write) {

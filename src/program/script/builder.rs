@@ -1,7 +1,8 @@
 //! Puts statements together: blocks become labels, branches and jumps.
 
 use super::{
-    Call, Instruction, Label, Place, Routine, RoutineId, Script, Start, Statement, Write, short,
+    Call, Instruction, Label, Modal, Place, Routine, RoutineId, Script, Start, Statement, Write,
+    short,
 };
 use foldhash::HashMap;
 
@@ -79,9 +80,10 @@ impl Builder {
         self.script
     }
 
-    /// A move.
-    pub fn go(&mut self, instruction: Instruction) {
+    /// A move, and with what it runs.
+    pub fn go(&mut self, mut instruction: Instruction, modal: Modal) {
         let at = short(self.script.instructions.len());
+        instruction.modal = self.script.modal(modal);
         self.script.instructions.push(instruction);
         self.script.statements.push(Statement::Move(at));
     }

@@ -35,6 +35,8 @@ pub type RoutineId = u32;
 pub type RemarkId = u32;
 /// Index in [`Script::displacements`].
 pub type DisplacementId = u32;
+/// Index in [`Script::modals`].
+pub type ModalId = u32;
 /// A place in a routine that statements go to, numbered over the whole script.
 pub type Label = u32;
 
@@ -44,6 +46,9 @@ pub const NOT_DISPLACED: DisplacementId = 0;
 pub const DISPLACED_SOMEHOW: DisplacementId = 1;
 /// [`Displacement::Overwritten`] in [`Script::displacements`].
 pub const OVERWRITTEN: DisplacementId = 2;
+
+/// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly alternate with few others.
+const MODALS_LOOKED_AT: usize = 8;
 
 /// The statements of all files.
 #[derive(Debug)]
@@ -72,17 +77,19 @@ pub struct Script {
     pub statements: Vec<Statement>,
     /// Moves.
     pub instructions: Vec<Instruction>,
+    /// With what moves run.
+    pub modals: Vec<Modal>,
     /// Writes.
     pub writes: Vec<Write>,
     /// Calls.
     pub calls: Vec<Call>,
     /// Arguments of calls.
     pub arguments: Vec<Argument>,
-    /// Sets of variables that may refuse a move, see [`Instruction::guards`].
+    /// Sets of variables that may refuse a move, see [`Modal::guards`].
     pub guards: Vec<Box<[VariableId]>>,
     /// What speaks against targets themselves, should a move go to them.
     pub refused: Vec<(TargetId, RemarkId)>,
-    /// Sets of what moves expect variables to hold, see [`Instruction::expected`].
+    /// Sets of what moves expect variables to hold, see [`Modal::expected`].
     pub expected: Vec<Box<[Expected]>>,
     /// What no move in the files uses, nothing uses: targets cannot be named from other files.
     pub is_closed: bool,
@@ -111,6 +118,7 @@ impl Default for Script {
             routines: Vec::new(),
             statements: Vec::new(),
             instructions: Vec::new(),
+            modals: Vec::new(),
             writes: Vec::new(),
             calls: Vec::new(),
             arguments: Vec::new(),
@@ -366,30 +374,16 @@ pub struct Instruction {
     pub end: u32,
     /// How the robot gets there.
     pub motion: Motion,
-    /// On the way the orientation is free (`SingArea \Wrist`, `Wjnt`): only the end counts.
+    /// On the path the orientation is free (`SingArea \Wrist`, `Wjnt`): only the end counts.
     pub free_orientation: bool,
     /// Where to.
     pub target: Expr,
-    /// With which tool.
-    pub tool: Expr,
-    /// In which work frame.
-    pub frame: Expr,
-    /// With which load where it is not the tool's own.
-    pub load: Expr,
-    /// Whether the controller honours configuration data in this move: a flag.
-    pub configured: Expr,
-    /// A flag of the controller that leaves the orientation free on the way, too.
-    pub wrist: Expr,
+    /// Index in [`Script::modals`]; [`Builder::go`] sets it.
+    pub modal: ModalId,
     /// The joints, radians, from which the controller's inverse starts.
     pub near: Option<Box<[f64; 6]>>,
     /// Added to the target by the instruction itself.
     pub displacement: DisplacementId,
-    /// Index in [`Script::guards`]: variables that may hold a [`Held::Remark`] against this move.
-    pub guards: u32,
-    /// Index in [`Script::expected`]: numbers that variables should hold at this move.
-    pub expected: u32,
-    /// Speed and corner.
-    pub speed_zone: SpeedZone,
     /// Where its target stands in it.
     pub target_span: Span,
 }
@@ -404,17 +398,53 @@ impl Instruction {
             motion: Motion::Joint,
             free_orientation: false,
             target: Expr::Absent,
+            modal: 0,
+            near: None,
+            displacement: NOT_DISPLACED,
+            target_span: Span::default(),
+        }
+    }
+
+    /// Its bytes in its file.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.place.offset as usize..self.end as usize
+    }
+}
+
+/// With what a move runs: mostly with the same as the one before it, so that it stands once for both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Modal {
+    /// With which tool.
+    pub tool: Expr,
+    /// In which work frame.
+    pub frame: Expr,
+    /// With which load where it is not the tool's own.
+    pub load: Expr,
+    /// Whether the controller honours configuration data in this move: a flag.
+    pub configured: Expr,
+    /// A flag of the controller that leaves the orientation free on the path, too.
+    pub wrist: Expr,
+    /// Index in [`Script::guards`]: variables that may hold a [`Held::Remark`] against this move.
+    pub guards: u32,
+    /// Index in [`Script::expected`]: numbers that variables should hold at this move.
+    pub expected: u32,
+    /// Speed and corner.
+    pub speed_zone: SpeedZone,
+}
+
+impl Default for Modal {
+    /// Nothing is said.
+    fn default() -> Self {
+        Self {
             tool: Expr::Absent,
             frame: Expr::Absent,
             load: Expr::Absent,
             configured: Expr::Absent,
             wrist: Expr::Absent,
-            near: None,
-            displacement: NOT_DISPLACED,
             guards: 0,
             expected: 0,
             speed_zone: SpeedZone::default(),
-            target_span: Span::default(),
         }
     }
 }
@@ -528,6 +558,21 @@ impl Script {
             self.remarks.push(remark);
             self.remarks.len() - 1
         }))
+    }
+
+    /// With what a move runs; one of the last that is the same is kept once.
+    pub fn modal(&mut self, modal: Modal) -> ModalId {
+        let last = self.modals.len().saturating_sub(MODALS_LOOKED_AT);
+        let known = self.modals[last..]
+            .iter()
+            .rposition(|known| *known == modal);
+        short(known.map_or_else(
+            || {
+                self.modals.push(modal);
+                self.modals.len() - 1
+            },
+            |at| last + at,
+        ))
     }
 
     /// Adds a displacement.

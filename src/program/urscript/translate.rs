@@ -6,7 +6,7 @@ use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use super::verbs;
 use crate::finding::Severity;
 use crate::program::script::{
-    self, Argument, Builder, Call, Held, How, Instruction, Place, Remark, RoutineId, Start,
+    self, Argument, Builder, Call, Held, How, Instruction, Modal, Place, Remark, RoutineId, Start,
     Variable, VariableId, Write, Written, short,
 };
 use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
@@ -506,12 +506,15 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             end: step.end,
             motion: step.motion,
             target: script::Expr::Unknown(self.goals.common.somewhere),
+            ..Instruction::at(place)
+        };
+        let mut modal = Modal {
             tool: script::Expr::Variable(self.tcp),
             frame: script::Expr::Value(self.goals.common.base),
             load: script::Expr::Variable(self.load),
             guards: self.guards[0],
             speed_zone: step.speed_zone,
-            ..Instruction::at(place)
+            ..Modal::default()
         };
         if let Some(target) = step.target {
             self.goals.lost_start = false;
@@ -524,19 +527,19 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             }
             let is_stream = step.streamed && self.goals.may_be_pose(target, function, MOST_STEPS);
             instruction.target = goal.target;
-            instruction.frame = self.goals.frame_of(goal.feature);
+            modal.frame = self.goals.frame_of(goal.feature);
             instruction.near = goal.near.map(Box::new);
             if let Some(tool) = goal.tool {
-                instruction.tool = tool;
+                modal.tool = tool;
             }
             if is_stream {
-                instruction.guards = self.guards[2];
+                modal.guards = self.guards[2];
             }
             if step.repeatable && !step.streamed {
                 instruction.target_span = goal.span;
             }
         }
-        self.goals.builder.go(instruction);
+        self.goals.builder.go(instruction, modal);
     }
 
     // ---- what concerns the whole
