@@ -55,6 +55,16 @@ pub(crate) fn quoted(text: &str) -> String {
     flow(&text.into())
 }
 
+/// A word as a shell takes it for one: in quotes where it would take it apart.
+pub(crate) fn shell_word(word: &str) -> Cow<'_, str> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        Cow::Borrowed(word)
+    } else {
+        Cow::Owned(format!("'{}'", printable(word).replace('\'', "'\\''")))
+    }
+}
+
 /// A file's name as messages and reports have it.
 pub(crate) fn name_of(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
@@ -71,6 +81,8 @@ mod tests {
         assert_eq!(printable_lines("a\r\nb\rc\td\n"), "a\r\nb\\u{d}c\td\n");
         assert_eq!(printable("\u{202e}dom.a"), "\\u{202e}dom.a");
         assert_eq!(printable("Düse 3"), "Düse 3");
+        assert_eq!(shell_word("a/b.mod"), "a/b.mod");
+        assert_eq!(shell_word("it's p10"), "'it'\\''s p10'");
         assert_eq!(quoted("no: \"\u{1b}\u{85}"), "\"no: \\\"\\u001b\\u0085\"");
     }
 }

@@ -13,12 +13,19 @@ pub struct Limits {
     pub joint: usize,
     /// Least distances from the singularities, of samples.
     pub margins: Margins,
-    /// How far each joint turns, radians.
-    pub turn_rad: [f64; 6],
-    /// Largest rate of each joint anywhere along the move, radians for the whole move at a constant rate of s.
-    pub rate_rad: [f64; 6],
+    /// Largest rate of any joint anywhere along the move, radians for the whole move at a constant rate of s.
+    pub rate_rad: f64,
     /// Programmed time of the move, seconds.
     pub duration_s: Option<f64>,
+}
+
+/// What one move asks of each of the joints.
+pub(crate) struct Asked {
+    pub limits: Limits,
+    /// How far each joint turns, radians.
+    pub turn_rad: [f64; 6],
+    /// Largest rate of each joint anywhere along the move, as [`Limits::rate_rad`].
+    pub rate_rad: [f64; 6],
 }
 
 /// Samples of the distance from singularities in each piece.
@@ -39,17 +46,17 @@ fn reach(ends: [f64; 2], jet: &Jet, long: f64) -> [f64; 2] {
 }
 
 /// What one move asks of the joints.
-pub(crate) fn limits(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Limits {
+pub(crate) fn asked(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Asked {
     let arm = &leg.equipped.arm;
     let joints = &arm.mechanism().joints;
     let mut found = Limits {
         margin_rad: f64::INFINITY,
         joint: 0,
         margins: arm.posture(&leg.start).1,
-        turn_rad: [0.0; 6],
-        rate_rad: [0.0; 6],
+        rate_rad: 0.0,
         duration_s: None,
     };
+    let mut rate_rad = [0.0_f64; 6];
     let mut at = leg.start;
     for piece in pieces {
         let begin = at;
@@ -81,15 +88,19 @@ pub(crate) fn limits(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Lim
             let rate = piece.joints[i].slope.magnitude();
             // a bound that is far above what is seen bounds nothing
             let is_tight = rate * long < seen[i] * long + MOST_BULGE_RAD;
-            found.rate_rad[i] = found.rate_rad[i].max(if is_tight { rate } else { seen[i] });
+            rate_rad[i] = rate_rad[i].max(if is_tight { rate } else { seen[i] });
         }
     }
-    found.turn_rad = std::array::from_fn(|i| at[i] - leg.start[i]);
+    found.rate_rad = rate_rad.iter().fold(0.0, |a, b| a.max(*b));
     if let (Course::Tool(course), Some(speed)) = (&leg.course, speed_m_s) {
         let length = course.length_m();
         if length > 0.0 && speed > 0.0 {
             found.duration_s = Some(length / speed);
         }
     }
-    found
+    Asked {
+        limits: found,
+        turn_rad: std::array::from_fn(|i| at[i] - leg.start[i]),
+        rate_rad,
+    }
 }

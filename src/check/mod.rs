@@ -61,13 +61,13 @@ use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Separation};
 use crate::model::profile::Profile;
 use crate::motion::{Given, setting};
-use crate::program::{Language, Motion, Move, Program, Source};
+use crate::program::{Language, Move, Program, Source, SpeedZone};
 use collision::Clearance;
 use deviation::PathError;
 use judge::Job;
 use limits::Limits;
 use rayon::prelude::*;
-use walk::Walk;
+use walk::{Stop, Walk};
 
 /// Moves judged by one thread at a time.
 const CHUNK: usize = 16;
@@ -160,37 +160,37 @@ pub enum CheckError {
 pub struct MoveReport {
     /// Index in [`Program::moves`].
     pub motion: usize,
-    /// Index of its file in the sources.
-    pub file: usize,
+    /// Where it ends: index in [`Check::stops`].
+    stop: u32,
     /// Its line, from 1.
-    pub line: usize,
-    /// How the robot goes.
-    pub kind: Motion,
-    /// Name of its target in the program.
-    pub target: Option<String>,
-    /// Whether the target is given in joints, which compensation leaves as they are unless it is asked to shift them.
-    pub in_joints: bool,
-    /// Where the controller believes the tool to be at its end, in the world.
-    pub commanded: Pose,
+    pub line: u32,
     /// How far from the wanted pose the real tool ends.
     pub target_error: Separation,
     /// One standard deviation of the real tool's predicted position at its end in the direction of its error, metres; `None`
     /// where the calibration tells no covariance.
     pub uncertainty_m: Option<f64>,
-    /// The controller's joints at its end, radians.
-    pub joints: [f64; 6],
-    /// The error along the way; `None` where it is unknown where the move begins.
+    /// The error along the path; `None` where it is unknown where the move begins.
     pub path: Option<PathError>,
-    /// The least room of the real arm.
-    pub clearance: Option<Clearance>,
+    /// The least room of the real arm; `None` where no bodies were compared.
+    pub clearance: Option<Box<Clearance>>,
     /// The least room of the arm as the controller, or the simulation, believes it.
-    pub nominal_clearance: Option<Clearance>,
+    pub nominal_clearance: Option<Box<Clearance>>,
     /// What it asks of the joints.
     pub limits: Option<Limits>,
-    /// Programmed corner, metres; 0 where the robot stops.
-    pub zone_m: Option<f64>,
-    /// The robot cuts the corner at its end.
-    pub cuts_corner: bool,
+}
+
+impl MoveReport {
+    /// Its speed and its corner.
+    #[must_use]
+    pub fn speed_zone(&self, program: &Program) -> SpeedZone {
+        program.speed_zone(&program.moves[self.motion])
+    }
+
+    /// Whether its target is given in joints, which compensation leaves as they are unless it is asked to shift them.
+    #[must_use]
+    pub fn in_joints(&self, program: &Program) -> bool {
+        !program.goes_to_pose(&program.moves[self.motion])
+    }
 }
 
 /// Numbers of the whole.
@@ -218,6 +218,25 @@ pub struct Summary {
     pub with_zone: usize,
 }
 
+impl Check {
+    fn stop(&self, report: &MoveReport) -> &Stop {
+        let stop = self.stops[report.stop as usize].as_ref();
+        stop.expect("a move that was followed ends somewhere")
+    }
+
+    /// Where the controller believes the tool to be at the end of a move, in the world.
+    #[must_use]
+    pub fn commanded(&self, report: &MoveReport) -> &Pose {
+        &self.stop(report).pose
+    }
+
+    /// The controller's joints at the end of a move, radians.
+    #[must_use]
+    pub fn joints(&self, report: &MoveReport) -> &[f64; 6] {
+        &self.stop(report).q
+    }
+}
+
 /// What a check found.
 #[derive(Debug)]
 pub struct Check {
@@ -225,6 +244,8 @@ pub struct Check {
     pub program: Program,
     /// Each move that could be followed.
     pub moves: Vec<MoveReport>,
+    /// Where the robot stands at the end of moves.
+    stops: Vec<Option<Stop>>,
     /// What a person should look at, by file and place.
     pub findings: Vec<Finding>,
     /// Numbers of the whole.
@@ -306,10 +327,11 @@ pub fn check_telling(
     findings.retain(|finding| !contexts.contains(&finding.file.as_str()));
     let unknown = indices.iter().filter(|stop| walk.stops[**stop].is_none());
     let unknown = unknown.count();
-    let summary = sum_up(&moves, unknown, subject.scene.is_empty());
+    let summary = sum_up(&walk.program, &moves, unknown, subject.scene.is_empty());
     Ok(Check {
         program: walk.program,
         moves,
+        stops: walk.stops,
         findings,
         summary,
     })
@@ -328,7 +350,7 @@ fn soften(findings: &mut [Finding], of_original: &[Finding]) {
     }
 }
 
-fn sum_up(moves: &[MoveReport], unknown: usize, no_bodies: bool) -> Summary {
+fn sum_up(program: &Program, moves: &[MoveReport], unknown: usize, no_bodies: bool) -> Summary {
     let worse = |a: Separation, b: Separation| Separation {
         distance_m: a.distance_m.max(b.distance_m),
         angle_rad: a.angle_rad.max(b.angle_rad),
@@ -343,17 +365,17 @@ fn sum_up(moves: &[MoveReport], unknown: usize, no_bodies: bool) -> Summary {
         if let Some(path) = &report.path {
             summary.max_path_error = worse(summary.max_path_error, path.bound);
         }
-        let certified =
-            report.path.is_none_or(|p| p.certified) && report.clearance.is_none_or(|c| c.certified);
+        let certified = report.path.is_none_or(|p| p.certified)
+            && report.clearance.as_ref().is_none_or(|c| c.certified);
         summary.uncertified += usize::from(!certified);
-        summary.with_zone += usize::from(report.cuts_corner);
-        if let Some(c) = report.clearance.filter(|_| !no_bodies) {
+        summary.with_zone += usize::from(report.speed_zone(program).cuts_corner());
+        if let Some(c) = report.clearance.as_ref().filter(|_| !no_bodies) {
             let least = summary.min_clearance_m.unwrap_or(f64::INFINITY);
             summary.min_clearance_m = Some(least.min(c.clearance_m));
             summary.collisions += usize::from(c.sampled_m <= 0.0);
             summary.too_near += usize::from(c.pair.is_some() && c.clearance_m < c.required_m);
         }
-        let nominal = report.nominal_clearance;
+        let nominal = report.nominal_clearance.as_ref();
         summary.nominal_collisions += usize::from(nominal.is_some_and(|c| c.sampled_m <= 0.0));
     }
     summary

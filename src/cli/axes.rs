@@ -1,7 +1,7 @@
 //! `axes`: base and tool from sweeps of single joints.
 
 use super::files::Files;
-use super::telling::{Ending, ReportFile, Told, finish};
+use super::telling::{Ending, Pendant, ReportFile, Told, finish};
 use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::axes::axes;
@@ -25,6 +25,8 @@ pub(super) struct Axes {
     #[arg(long, value_name = "NAME")]
     point: Option<String>,
     #[command(flatten)]
+    pendant: Pendant,
+    #[command(flatten)]
     report: ReportFile,
 }
 
@@ -37,6 +39,7 @@ impl Axes {
         let found = axes(&profile, &sweeps, self.point.as_deref())?;
         let ending = Ending {
             report: Some(&self.report),
+            pendant: self.pendant,
             told: Told::All,
             ..Ending::default()
         };

@@ -132,6 +132,7 @@ impl Calibrate {
             told: Told::All,
             also: &also,
             answer: Answer::Yes,
+            ..Ending::default()
         };
         finish(&files, &found, ending, output)
     }

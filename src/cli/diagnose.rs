@@ -84,6 +84,7 @@ impl Diagnose {
             told: Told::All,
             also: &also,
             answer: if is_sure { Answer::Yes } else { Answer::No },
+            ..Ending::default()
         };
         finish(&files, &found, ending, output)
     }

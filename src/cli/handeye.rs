@@ -1,7 +1,7 @@
 //! `handeye`: where a camera is.
 
 use super::files::Files;
-use super::telling::{Ending, ReportFile, finish};
+use super::telling::{Ending, Pendant, ReportFile, finish};
 use super::{Answer, Output};
 use crate::register::handeye::Setup;
 use crate::task::Failure;
@@ -38,6 +38,8 @@ pub(super) struct Handeye {
     /// Write the camera's pose as a frame file
     #[arg(short, long, value_name = "FRAME.yaml")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    pendant: Pendant,
     #[command(flatten)]
     report: ReportFile,
 }
@@ -78,6 +80,7 @@ impl Handeye {
         let ending = Ending {
             written: frame.collect(),
             report: Some(&self.report),
+            pendant: self.pendant,
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

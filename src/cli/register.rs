@@ -1,7 +1,7 @@
 //! `register`: the rigid motion between two sets of points, or a frame from probe touches.
 
 use super::files::Files;
-use super::telling::{Ending, ReportFile, finish};
+use super::telling::{Ending, Pendant, ReportFile, finish};
 use super::{Answer, Output, values};
 use crate::geometry::units::m_from_mm;
 use crate::printable::name_of;
@@ -53,6 +53,8 @@ pub(super) struct Register {
     /// Match points by nearness (unknown correspondence) instead of by id or order
     #[command(flatten)]
     icp: IcpOptions,
+    #[command(flatten)]
+    pendant: Pendant,
     #[command(flatten)]
     report: ReportFile,
 }
@@ -190,6 +192,7 @@ impl Register {
         let ending = Ending {
             written,
             report: Some(&self.report),
+            pendant: self.pendant,
             answer: if refused { Answer::No } else { Answer::Yes },
             ..Ending::default()
         };

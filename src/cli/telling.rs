@@ -4,13 +4,16 @@ use super::files::{Files, NewFile, is_standard_output};
 use super::screen::{self, Stop};
 use super::{Answer, Output, layout};
 use crate::finding::Severity;
-use crate::printable::name_of;
+use crate::geometry::Convention;
+use crate::printable::{name_of, shell_word};
 use crate::report::html::page::Page;
 use crate::report::{Report, Style};
 use crate::task::{Document, Failure};
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::io::{self, BufWriter, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
 use tempfile::SpooledTempFile;
 
 /// Bytes of a document that wait in memory.
@@ -42,7 +45,7 @@ impl ReportFile {
     /// The page as one more output.
     pub(super) fn output(&self, page: Option<&Page>) -> Option<NewFile> {
         let file = self.file.as_ref()?;
-        Some((file.clone(), page?.html().into_bytes()))
+        Some((file.clone(), page?.html(&made()).into_bytes()))
     }
 
     /// Its name.
@@ -54,6 +57,66 @@ impl ReportFile {
     pub(super) fn told(&self) -> String {
         let told = |name: String| format!("report written to {name}\n");
         self.name().map_or(String::new(), told)
+    }
+}
+
+/// When a page is made, and by which command line. `SOURCE_DATE_EPOCH`, seconds since 1970, takes the place of the time, so that
+/// the same run gives the same bytes.
+fn made() -> String {
+    let given = std::env::var("SOURCE_DATE_EPOCH").ok();
+    let given = given.and_then(|seconds| seconds.parse().ok());
+    let now = given.map_or_else(SystemTime::now, |seconds| {
+        SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)
+    });
+    let date = humantime::format_rfc3339_seconds(now).to_string();
+    let words = std::env::args_os().skip(1);
+    let words = words.map(|word| shell_word(&word.to_string_lossy()).into_owned());
+    let words: Vec<String> = words.collect();
+    format!("{date}: poseshift {}", words.join(" "))
+}
+
+/// How frames are shown besides.
+#[derive(Args, Clone, Copy, Default)]
+pub(super) struct Pendant {
+    /// Show frames as this maker's teach pendant does, too
+    #[arg(long, value_name = "MAKER", value_parser = convention())]
+    convention: Option<Convention>,
+}
+
+/// One of the conventions, by its name.
+fn convention() -> impl TypedValueParser<Value = Convention> {
+    let of = |name: &str| Convention::ALL.into_iter().find(|c| c.id() == name);
+    PossibleValuesParser::new(Convention::ALL.map(Convention::id))
+        .map(move |name| of(&name).expect("one of the names"))
+}
+
+impl Pendant {
+    /// The frames of a result, by name.
+    fn frames(self, found: &impl Report) -> Vec<(String, String)> {
+        let Some(convention) = self.convention else {
+            return Vec::new();
+        };
+        let frames = found.frames().into_iter();
+        frames
+            .map(|(name, pose)| (name, convention.shown(&(&pose).into())))
+            .collect()
+    }
+
+    /// They as lines.
+    fn text(self, found: &impl Report) -> String {
+        let Some(convention) = self.convention else {
+            return String::new();
+        };
+        let frames = self.frames(found).into_iter();
+        let lines = frames.map(|(name, shown)| format!("  {name}: {shown}\n"));
+        let lines: String = lines.collect();
+        if lines.is_empty() {
+            return lines;
+        }
+        format!(
+            "as a teach pendant shows it ({}):\n{lines}",
+            convention.id()
+        )
     }
 }
 
@@ -76,6 +139,8 @@ pub(super) struct Ending<'a> {
     pub told: Told,
     /// What is told behind the text.
     pub also: &'a str,
+    /// How frames are shown besides.
+    pub pendant: Pendant,
     /// What the exit status says.
     pub answer: Answer,
 }
@@ -87,6 +152,7 @@ impl Default for Ending<'_> {
             report: None,
             told: Told::Main,
             also: "",
+            pendant: Pendant::default(),
             answer: Answer::Yes,
         }
     }
@@ -195,7 +261,10 @@ pub(super) fn finish(
         }
     } else {
         Said {
-            text: layout::fitted(&text(found, output)) + ending.also + &told,
+            text: layout::fitted(&text(found, output))
+                + &ending.pendant.text(found)
+                + ending.also
+                + &told,
             beside: findings(found, ending.told, output),
             data: None,
         }
@@ -214,6 +283,7 @@ pub(super) fn finish_beside(
     let mut beside = findings(found, ending.told, output);
     if !output.quiet {
         beside += &text(found, output);
+        beside += &ending.pendant.text(found);
         beside += &ending.report.map_or_else(String::new, ReportFile::told);
     }
     let said = Said {
@@ -231,7 +301,13 @@ fn deliver_with_page(
 ) -> Result<Answer, Failure> {
     let mut written = ending.written;
     if let Some(report) = ending.report.filter(|report| report.is_wanted()) {
-        written.extend(report.output(found.page().as_ref()));
+        let mut page = found.page();
+        if let Some(page) = &mut page {
+            for (name, shown) in ending.pendant.frames(found) {
+                page.fact(&format!("{name}, as a teach pendant shows it"), shown);
+            }
+        }
+        written.extend(report.output(page.as_ref()));
     }
     deliver(files, &written, said, ending.answer)
 }

@@ -15,6 +15,7 @@
 //! assert!(again.separation(&base_from_tool).distance_m < 1e-15);
 //! ```
 
+mod convention;
 mod dual;
 mod jet;
 mod lanes;
@@ -25,6 +26,7 @@ mod scalar;
 mod turn;
 pub mod units;
 
+pub use convention::Convention;
 pub use dual::Dual;
 pub use jet::{Ball, Jet};
 pub use lanes::Lanes;

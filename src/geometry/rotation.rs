@@ -139,6 +139,19 @@ impl Rotation {
         [-a, -b, -c]
     }
 
+    /// `Rz(o) · Ry(a) · Rz(t)` angles `[o, a, t]` in radians, a in [0, π]; t is 0 where a = 0 or π.
+    #[must_use]
+    pub fn rzryrz(&self) -> [f64; 3] {
+        let m = &self.0;
+        let sine = m[0][2].hypot(m[1][2]);
+        let a = sine.atan2(m[2][2]);
+        if sine > 1e-12 {
+            [m[1][2].atan2(m[0][2]), a, m[2][1].atan2(-m[2][0])]
+        } else {
+            [(-m[0][1]).atan2(m[1][1]), a, 0.0]
+        }
+    }
+
     /// Rotation about `vector` by its length in radians.
     #[must_use]
     pub fn from_vector(vector: Vector) -> Self {

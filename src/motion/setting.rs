@@ -4,6 +4,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{Mounted, Profile};
+use crate::printable::shell_word;
 use crate::program::{Frame, FrameId, Language, Move, Program, Source, Tool, ToolId};
 use std::collections::BTreeMap;
 
@@ -216,13 +217,8 @@ impl Missing {
         if self.name.is_empty() {
             return format!("{option} x,y,z,rx,ry,rz");
         }
-        // what a shell would take apart stands in quotes
-        let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
-        if self.name.chars().all(plain) {
-            format!("{option} {}=x,y,z,rx,ry,rz", self.name)
-        } else {
-            format!("{option} '{}=x,y,z,rx,ry,rz'", self.name)
-        }
+        let value = format!("{}=x,y,z,rx,ry,rz", self.name);
+        format!("{option} {}", shell_word(&value))
     }
 }
 

@@ -65,7 +65,7 @@ pub(crate) fn text(found: &Checked) -> String {
     if let Some(worst) = along {
         let size = worst.max_path_error_mm.or(Some(0.0));
         lines.push(format!(
-            "  along the way  never more than {}, {} deg",
+            "  along the path never more than {}, {} deg",
             told(size, &worst),
             fixed(max_path_error_deg, 3)
         ));

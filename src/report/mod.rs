@@ -10,6 +10,7 @@ mod text;
 
 use crate::finding::Finding;
 use crate::task::Document;
+use crate::task::parts::Pose;
 use html::page::Page;
 
 /// How a text is told.
@@ -29,6 +30,11 @@ pub(crate) trait Report: Document {
     /// The page; `None` of a result that there is nothing to look at of.
     fn page(&self) -> Option<Page> {
         None
+    }
+
+    /// The frames that it found, by name, for a teach pendant.
+    fn frames(&self) -> Vec<(String, Pose)> {
+        Vec::new()
     }
 
     /// What a person should look at.

@@ -156,18 +156,22 @@ impl Moves<'_> {
     fn entry(&self, report: &MoveReport) -> Move {
         let path = report.path.as_ref();
         let limits = report.limits.as_ref();
-        let [x, y, z, rx, ry, rz] = report.commanded.xyz_rxryrz();
+        let program = &self.check.program;
+        let motion = &program.moves[report.motion];
+        let name = program.target_of(motion).and_then(|of| of.name.as_deref());
+        let speed_zone = program.speed_zone(motion);
+        let [x, y, z, rx, ry, rz] = self.check.commanded(report).xyz_rxryrz();
         let ([x, y, z], [rx, ry, rz]) = ([x, y, z].map(tidy_mm), [rx, ry, rz].map(tidy_deg));
         Move {
-            file: self.header.inputs[report.file].clone(),
-            line: report.line,
-            kind: kind(report.kind),
-            name: report.target.as_ref().map(ToString::to_string),
+            file: self.header.inputs[motion.file as usize].clone(),
+            line: report.line as usize,
+            kind: kind(motion.motion),
+            name: name.map(str::to_owned),
             target: [x, y, z, rx, ry, rz],
-            joint_target: report.in_joints,
-            joints_deg: report.joints.map(tidy_deg),
-            cuts_corner: report.cuts_corner,
-            zone_mm: report.zone_m.and_then(tidy_mm),
+            joint_target: report.in_joints(program),
+            joints_deg: self.check.joints(report).map(tidy_deg),
+            cuts_corner: speed_zone.cuts_corner(),
+            zone_mm: speed_zone.zone_m.and_then(tidy_mm),
             target_error_mm: tidy_mm(report.target_error.distance_m),
             target_error_deg: tidy_deg(report.target_error.angle_rad),
             uncertainty_mm: report.uncertainty_m.and_then(tidy_mm),
@@ -176,10 +180,14 @@ impl Moves<'_> {
             sampled_path_error_mm: path.and_then(|p| tidy_mm(p.sampled.distance_m)),
             path_error_at: path.and_then(|p| tidy(p.at)),
             path_certified: path.map(|p| p.certified),
-            clearance_mm: report.clearance.and_then(|c| tidy_mm(c.clearance_m)),
+            clearance_mm: report
+                .clearance
+                .as_ref()
+                .and_then(|c| tidy_mm(c.clearance_m)),
             clearance: report.clearance.as_ref().map(|c| self.clearance(c)),
             nominal_clearance_mm: report
                 .nominal_clearance
+                .as_ref()
                 .and_then(|c| tidy_mm(c.clearance_m)),
             joint_margin_deg: limits.and_then(|l| tidy_deg(l.margin_rad)),
             joint_margin_joint: limits.map(|l| l.joint + 1),
@@ -187,10 +195,7 @@ impl Moves<'_> {
             elbow_deg: limits.and_then(|l| tidy_deg(l.margins.elbow_rad)),
             shoulder_mm: limits.and_then(|l| tidy_mm(l.margins.shoulder_m)),
             duration_s: limits.and_then(|l| l.duration_s).and_then(tidy),
-            max_joint_speed_deg_s: limits.and_then(|l| {
-                let fastest = l.rate_rad.iter().fold(0.0, |a: f64, b| a.max(*b));
-                tidy_deg(fastest / l.duration_s?)
-            }),
+            max_joint_speed_deg_s: limits.and_then(|l| tidy_deg(l.rate_rad / l.duration_s?)),
         }
     }
 

@@ -198,6 +198,10 @@ pub struct Target {
     pub fake: Option<Pose>,
     /// The controller's joint angles at the fake target.
     pub joints_deg: Option<[f64; 6]>,
+    /// Distance of the real tool from the wanted pose with the target as it was.
+    pub before_mm: f64,
+    /// Their angle.
+    pub before_deg: f64,
     /// Distance of the fake target from the wanted pose.
     pub shift_mm: f64,
     /// Their angle.
@@ -280,6 +284,8 @@ impl Targets<'_> {
             wanted_joints_deg,
             fake: t.fake.as_ref().map(Into::into),
             joints_deg: t.q.map(|q| q.map(|q| q / DEG)),
+            before_mm: mm_from_m(t.before.distance_m),
+            before_deg: t.before.angle_rad / DEG,
             shift_mm: mm_from_m(t.shift.distance_m),
             shift_deg: t.shift.angle_rad / DEG,
             residual_mm: mm_from_m(t.residual.distance_m),

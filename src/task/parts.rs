@@ -1,8 +1,8 @@
 //! What reports of several commands have in common: poses, statistics, uncertainties in the units of files.
 
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::{DEG, mm_from_m};
-use crate::geometry::{Pose as Motion, Vector};
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::{Pose as Motion, Quaternion, Vector};
 use crate::identify::Line;
 use crate::identify::doubt::Remark;
 use crate::identify::identifiability::Observability as Indices;
@@ -69,6 +69,12 @@ pub struct Pose {
     pub rz_deg: f64,
     /// w, x, y, z.
     pub quaternion: [f64; 4],
+}
+
+impl From<&Pose> for Motion {
+    fn from(pose: &Pose) -> Self {
+        Self::from_parts(pose.xyz_mm().map(m_from_mm), Quaternion(pose.quaternion))
+    }
 }
 
 impl From<&Motion> for Pose {

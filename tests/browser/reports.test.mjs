@@ -57,7 +57,9 @@ const number = (text) => Number(text.replaceAll("\u2212", "-"));
 function agrees(shown, value, what) {
   const seen = number(shown);
   const digits = shown.replace(/[eE].*/, "").replace(/[^0-9]/g, "").replace(/^0+/, "").length;
-  assert.ok(Math.abs(seen - value) <= Math.max(1e-12, Math.abs(value) * 0.51 * 10 ** (1 - Math.max(1, digits))), `${what}: ${shown} is not ${value}`);
+  const [, decimals] = shown.match(/^[^eE]*\.(\d+)$/) ?? [];
+  const last = decimals ? 0.51 * 10 ** -decimals.length : 1e-12;
+  assert.ok(Math.abs(seen - value) <= Math.max(last, Math.abs(value) * 0.51 * 10 ** (1 - Math.max(1, digits))), `${what}: ${shown} is not ${value}`);
 }
 
 test("there is a report of every kind", () => {
@@ -182,12 +184,23 @@ test("tables agree with --json", async () => {
       const target = there.sort((a, b) => off(a) - off(b))[0];
       agrees(row["shift, mm"], target.shift_mm, "shift_mm");
       agrees(row["shift, deg"], target.shift_deg, "shift_deg");
-      agrees(row["rounding, mm"], target.rounding_mm, "rounding_mm");
-      assert.equal(row.method, target.method);
-      assert.equal(number(row["shift evaluations"]), target.shift_evaluations);
-      assert.equal(number(row["newton evaluations"]), target.newton_evaluations);
-      assert.equal(row.branch, target.branch);
+      agrees(row["error before, mm"], target.before_mm, "before_mm");
+      agrees(row["error after, mm"], target.rounding_mm, "rounding_mm");
+      // as many decimals in every row: the points stand below one another
+      assert.match(row["error after, mm"], /^\d+\.\d{4}$/);
     }
+    // how a target was found is said where it is selected
+    const names = await page.locator(".detail dt").allTextContents();
+    const values = await page.locator(".detail dd").allTextContents();
+    const said = Object.fromEntries(names.map((name, k) => [name, values[k]]));
+    const [target] = targets.filter((one) => one.line === number(said.line) && one.method === said.method && one.branch === said.branch);
+    assert.ok(target, JSON.stringify(said));
+    assert.equal(number(said["shift evaluations"]), target.shift_evaluations);
+    assert.equal(number(said["newton evaluations"]), target.newton_evaluations);
+    // before and after stand first
+    const summary = json("compensate").summary;
+    const first = await page.locator(".facts li").first().textContent();
+    assert.ok(first.includes(`${summary.before_mm.toFixed(3)} \u2192 ${summary.after_mm.toFixed(4)} mm`), first);
   });
   await inside("check", {}, async (page) => {
     const moves = json("check").moves;

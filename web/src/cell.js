@@ -120,7 +120,7 @@ function detailOf(box, cell, table, findings) {
       if (column.code || column.hidden) continue;
       const value = valueOf(column, row);
       if (value == null || value === "") continue;
-      list.append(element("dt", {}, heading(column)), element("dd", {}, text(value)));
+      list.append(element("dt", {}, heading(column)), element("dd", {}, text(value, column.decimals)));
     }
     const code = table.columns.find((column) => column.code);
     const line = table.columns.find((column) => column.label === "line");
@@ -140,8 +140,8 @@ function detailOf(box, cell, table, findings) {
   };
 }
 
-/** The way along places, mm. */
-function way(at) {
+/** The length of the path up to each place, mm. */
+function lengths(at) {
   let total = 0;
   return Array.from({ length: at.length / 3 }, (_, k) => {
     if (k > 0) total += Math.hypot(at[3 * k] - at[3 * k - 3], at[3 * k + 1] - at[3 * k - 2], at[3 * k + 2] - at[3 * k - 1]);
@@ -149,7 +149,7 @@ function way(at) {
   });
 }
 
-/** Error along the paths: against the way of the tool. */
+/** Error along the paths: against the length of the path. */
 function along(cell, onselect) {
   const paths = cell.paths.filter((path) => path.by && path.items);
   if (!paths.length || cell.along === false) return null;
@@ -169,13 +169,13 @@ function along(cell, onselect) {
   const series = [];
   for (const path of paths) {
     const same = path.like != null && columns.length;
-    const wayName = paths.length > 1 && columns.length ? `way (${path.name})` : "way of the tool";
-    const x = same ? 0 : columns.push(column(wayName, () => way(path.at))) - 1;
+    const lengthName = paths.length > 1 && columns.length ? `path length (${path.name})` : "path length";
+    const x = same ? 0 : columns.push(column(lengthName, () => lengths(path.at))) - 1;
     const y = columns.push(column(path.name, () => Array.from(path.error, (e) => Number(e.toPrecision(4))))) - 1;
     series.push({ kind: "line", x, y, name: path.name, tone: path.tone });
   }
   const items = paths[0].items;
-  const chart = { title: "Error along the path", note: cell.along, wide: true, x: { label: "way of the tool", unit: "mm" }, y: { label: "error", unit: "mm" }, series };
+  const chart = { title: "Error along the path", note: cell.along, wide: true, x: { label: "path length", unit: "mm" }, y: { label: "error", unit: "mm" }, series };
   return showChart(chart, { columns }, (sample) => onselect(items[sample]));
 }
 

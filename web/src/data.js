@@ -30,11 +30,12 @@ export function heading(column) {
   return column.unit ? `${column.label}, ${column.unit}` : column.label;
 }
 
-/** A number as text: a value that is none is a dash. */
-export function text(value) {
+/** A number as text, with a column's decimals where it has some: a value that is none is a dash. */
+export function text(value, decimals) {
   if (value == null) return "\u2013";
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (typeof value !== "number") return String(value);
+  if (decimals != null && Math.abs(value) < 1e7) return value.toFixed(decimals).replace(/^-(?=0\.?0*$)/, "").replace("-", "\u2212");
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size >= 1e7 || size < 1e-4) return value.toExponential().replace("-", "\u2212").replace("-", "\u2212");

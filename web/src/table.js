@@ -9,7 +9,7 @@ const LONG = 44;
 function shownColumns(table) {
   const count = rowsOf(table);
   return table.columns.filter((column) => {
-    if (column.hidden) return false;
+    if (column.hidden || column.detail) return false;
     if (column.label === "file" && column.values.names?.length === 1) return false;
     if (column.values.names) return count === 0 || column.values.names.some((name) => name !== "");
     return count === 0 || column.values.some((value) => value != null && value !== "");
@@ -78,7 +78,7 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
   function line(row) {
     const cells = columns.map((column) => {
       const value = cell(column, row);
-      const td = element("td", { className: numeric.get(column) ? "number" : "" }, text(value));
+      const td = element("td", { className: numeric.get(column) ? "number" : "" }, text(value, column.decimals));
       if (typeof value === "string" && value.length > LONG) td.classList.add("long");
       if (column.label === "severity" && value) td.classList.add("severity", String(value));
       return td;

@@ -46,7 +46,7 @@ impl Job<'_> {
     ) {
         let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
         let found = collision::clearance(scene, &arms.mover(Which::Real), leg, pieces, horizon);
-        report.clearance = Some(found);
+        report.clearance = Some(Box::new(found));
         if first {
             for pair in collision::inside(scene, &arms.plain.real, leg, &leg.start) {
                 let (a, b) = scene.names_of(&scene.watched[pair]);
@@ -62,12 +62,12 @@ impl Job<'_> {
             }
         }
         let alike = arms.real_is_nominal && self.original.is_none();
-        report.nominal_clearance = if alike {
+        let nominal = if alike {
             Some(found)
         } else {
             self.nominal_clearance(index, leg, pieces, arms)
         };
-        let nominal = report.nominal_clearance;
+        report.nominal_clearance = nominal.map(Box::new);
         findings.extend(self.encounter(index, &REAL, Some(found), nominal, first));
         if !alike {
             findings.extend(self.encounter(index, &NOMINAL, nominal, Some(found), first));

@@ -1,7 +1,7 @@
 //! What a move asks of the joints: limits, singularities, the posture at its end, turns, and speeds.
 
 use super::Job;
-use crate::check::limits::Limits;
+use crate::check::limits::Asked;
 use crate::check::walk::Stop;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
@@ -16,9 +16,10 @@ impl Job<'_> {
         index: usize,
         leg: &Leg,
         stop: &Stop,
-        limits: &Limits,
+        asked: &Asked,
         findings: &mut Vec<Finding>,
     ) {
+        let limits = &asked.limits;
         let joint = &leg.equipped.arm.mechanism().joints[limits.joint];
         let span = format!(
             "limits {:.2} to {:.2} deg",
@@ -84,7 +85,7 @@ impl Job<'_> {
             ));
         }
         self.judge_end(index, leg, stop, findings);
-        let wrist = [3, 5].map(|i| (i, limits.turn_rad[i].abs()));
+        let wrist = [3, 5].map(|i| (i, asked.turn_rad[i].abs()));
         if let Some((i, turn)) = wrist
             .into_iter()
             .find(|(_, turn)| *turn > std::f64::consts::PI)
@@ -108,12 +109,12 @@ impl Job<'_> {
         };
         for i in 0..6 {
             if let Some(most) = speeds[i]
-                && limits.rate_rad[i] / duration > most
+                && asked.rate_rad[i] / duration > most
             {
                 let message = format!(
                     "at the programmed speed joint {} would turn at {:.1} deg/s; it can {:.1}",
                     i + 1,
-                    limits.rate_rad[i] / duration / DEG,
+                    asked.rate_rad[i] / duration / DEG,
                     most / DEG
                 );
                 findings.push(self.subject.finding(

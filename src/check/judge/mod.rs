@@ -11,6 +11,7 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{norm, scale, sub};
 use crate::motion::course::{Leg, Piece};
 use crate::program::Motion;
+use crate::program::script::short;
 
 /// What every move is judged with.
 pub(super) struct Job<'a> {
@@ -26,7 +27,6 @@ impl Job<'_> {
     /// What the move does, and what a person should look at.
     pub(super) fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
         let mut findings = Vec::new();
-        let program = &self.walk.program;
         let motion = self.walk.motion(index);
         let Some(stop) = self.walk.stops[index] else {
             return (None, findings);
@@ -36,7 +36,6 @@ impl Job<'_> {
         }
         let arms = self.walk.arms(&stop);
         let source = &self.subject.sources[motion.file as usize];
-        let speed_zone = self.walk.program.speed_zone(motion);
         let part = self.parts.and_then(|parts| parts[index]);
         let wanted_end = match (self.original, part) {
             (Some(original), Some(part)) => part.end_pose(original, self.options),
@@ -46,15 +45,8 @@ impl Job<'_> {
         let landed = arms.plain.real.forward(&stop.q, &conditions);
         let mut report = MoveReport {
             motion: self.walk.index(index),
-            file: motion.file as usize,
-            line: source.line_column(motion.offset as usize).0,
-            kind: motion.motion,
-            target: program
-                .target_of(motion)
-                .and_then(|target| target.name.as_deref())
-                .map(str::to_owned),
-            in_joints: !program.goes_to_pose(motion),
-            commanded: stop.pose,
+            stop: short(index),
+            line: short(source.line_column(motion.offset as usize).0),
             target_error: landed.separation(&wanted_end),
             uncertainty_m: arms.spread.as_ref().map(|spread| {
                 let by = sub(landed.translation, wanted_end.translation);
@@ -62,13 +54,10 @@ impl Job<'_> {
                 let direction = (long > 1e-9).then(|| scale(long.recip(), by));
                 spread.sigma_m(&stop.q, &conditions, direction)
             }),
-            joints: stop.q,
             path: None,
             clearance: None,
             nominal_clearance: None,
             limits: None,
-            zone_m: speed_zone.zone_m,
-            cuts_corner: speed_zone.cuts_corner(),
         };
         let arriving = self.walk.leg(index, self.options.turning);
         let comes = arriving.is_some();
@@ -76,9 +65,10 @@ impl Job<'_> {
         let pieces = leg.pieces();
         if comes {
             report.path = Some(self.path_error(&leg, &pieces, arms, index));
-            let limits = limits::limits(&leg, &pieces, speed_zone.speed_m_s);
-            self.judge_limits(index, &leg, &stop, &limits, &mut findings);
-            report.limits = Some(limits);
+            let speed = self.walk.program.speed_zone(motion).speed_m_s;
+            let asked = limits::asked(&leg, &pieces, speed);
+            self.judge_limits(index, &leg, &stop, &asked, &mut findings);
+            report.limits = Some(asked.limits);
         }
         if !self.subject.scene.is_empty() {
             self.judge_collisions(
@@ -139,7 +129,7 @@ impl Job<'_> {
         };
         if path.bound.distance_m > limit {
             let message = format!(
-                "the real tool is up to {:.3} mm beside the wanted path (limit {:.3} mm; {:.3} mm at {:.0} % of the move)",
+                "the real tool is up to {:.3} mm from the wanted path (limit {:.3} mm; {:.3} mm at {:.0} % of the move)",
                 mm_from_m(path.bound.distance_m),
                 mm_from_m(limit),
                 mm_from_m(path.sampled.distance_m),

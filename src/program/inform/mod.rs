@@ -186,14 +186,17 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
     Ok(reader::script(sources, positions, &conditions))
 }
 
-/// Behind the NOP of the first job, else at the end.
+/// Behind the NOP of the first job, where none has one before the last END, else at the end.
 fn marker_place(bytes: &[u8]) -> usize {
+    let mut end = bytes.len();
     for line in lines::Lines::of(bytes) {
-        if line.text == b"NOP" {
-            return line_behind(bytes, line.start).unwrap_or(bytes.len());
+        match line.text {
+            b"NOP" => return line_behind(bytes, line.start).unwrap_or(bytes.len()),
+            b"END" => end = line.start,
+            _ => {}
         }
     }
-    bytes.len()
+    end
 }
 
 /// Whether the first lines are those of a job; comments may stand before it.

@@ -369,6 +369,19 @@ fn jobs_and_condition_files_are_recognised_and_others_not() {
 }
 
 #[test]
+fn without_nop_the_marker_stands_before_the_end() {
+    let text = job(&format!("{USER}{}", points(1)), "MOVL C00000 V=5").replace("NOP\n", "");
+    let marker = Marker {
+        version: "0.1.0".into(),
+        profile_sha256: "a".repeat(64),
+        source_sha256: "b".repeat(64),
+        decided: Vec::new(),
+    };
+    let (at, _) = Inform.mark(&Source::new("x", text.clone().into_bytes()), &marker);
+    assert_eq!(&text[at..], "END\n");
+}
+
+#[test]
 fn the_marker_is_a_comment_behind_nop_in_short_lines() {
     let marker = Marker {
         version: "0.1.0".into(),

@@ -10,7 +10,18 @@ use crate::task::axes::{Axes, Joint};
 #[must_use]
 pub(crate) fn page(found: &Axes) -> Page {
     let list = &found.joints;
-    let answer = format!("{} joints were swept", list.len());
+    let mut answer = format!("{} joints were swept", list.len());
+    let worst = |of: &dyn Fn(&Joint) -> f64| {
+        let each = list.iter().map(|joint| (of(joint), joint.joint));
+        let each = each.filter(|(size, _)| size.is_finite());
+        each.max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    if let Some((size, joint)) = worst(&|joint| joint.tangential_deg) {
+        answer += &format!("; the largest angular residual is {size:.4} deg rms (joint {joint})");
+    }
+    if let Some((size, joint)) = worst(&|joint| joint.backlash_deg.unwrap_or(f64::NAN)) {
+        answer += &format!(", the largest backlash {size:.4} deg (joint {joint})");
+    }
     let mut page = Page::new("Axes".into(), Level::of(&found.findings), answer);
     page.lead.push(found.name.clone());
     for (frame, name) in frames(found)

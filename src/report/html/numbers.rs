@@ -57,6 +57,12 @@ pub(crate) struct Column {
     /// For charts only.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub hidden: bool,
+    /// For what is said of one row only.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub detail: bool,
+    /// Decimals that are shown, so that points stand below one another; all that there are where it is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decimals: Option<u8>,
 }
 
 /// The values of a column.
@@ -96,6 +102,8 @@ impl Column {
             values,
             code: false,
             hidden: false,
+            detail: false,
+            decimals: None,
         }
     }
 
@@ -153,6 +161,20 @@ impl Column {
     #[must_use]
     pub(crate) fn for_charts(mut self) -> Self {
         self.hidden = true;
+        self
+    }
+
+    /// Tables leave it out; where one row is shown it is there.
+    #[must_use]
+    pub(crate) fn in_detail(mut self) -> Self {
+        self.detail = true;
+        self
+    }
+
+    /// All its numbers are shown with so many decimals.
+    #[must_use]
+    pub(crate) fn to(mut self, decimals: u8) -> Self {
+        self.decimals = Some(decimals);
         self
     }
 

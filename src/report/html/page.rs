@@ -10,7 +10,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use std::io::Write as _;
 
@@ -340,16 +340,38 @@ impl Page {
         self.sections.push(Section::Chart(chart));
     }
 
-    /// Findings: how many of each name, and the first of them, errors before warnings before notes.
+    /// Findings: those that say the same of one file once with their number, errors before warnings before notes.
     pub(crate) fn findings(&mut self, findings: &[Finding]) {
         if findings.is_empty() {
             return;
         }
-        let mut kept: Vec<usize> = (0..findings.len()).collect();
-        kept.sort_by_key(|&i| std::cmp::Reverse(findings[i].severity));
+        let mut alike: HashMap<(Severity, &str, &str, &str), usize> = HashMap::new();
+        // the first of those that are alike, and how many they are
+        let mut kept: Vec<(usize, usize)> = Vec::new();
+        for (
+            i,
+            Finding {
+                id,
+                severity,
+                file,
+                message,
+                ..
+            },
+        ) in findings.iter().enumerate()
+        {
+            let known = *alike
+                .entry((*severity, id, file, message))
+                .or_insert(kept.len());
+            match kept.get_mut(known) {
+                Some((_, count)) => *count += 1,
+                None => kept.push((i, 1)),
+            }
+        }
+        kept.sort_by_key(|&(i, _)| std::cmp::Reverse(findings[i].severity));
+        let distinct = kept.len();
         kept.truncate(MOST_FINDINGS);
         let mut note = String::new();
-        if findings.len() > kept.len() {
+        if distinct > kept.len() {
             let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
             for finding in findings {
                 *counts.entry(finding.id).or_default() += 1;
@@ -363,13 +385,14 @@ impl Page {
                 counts.join(", ")
             );
         }
-        let of = |i: &usize| &findings[*i];
+        let of = |(i, _): &(usize, usize)| &findings[*i];
+        let repeated = kept.iter().any(|(_, count)| *count > 1);
         let word = |severity: Severity| match severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
             Severity::Note => "note",
         };
-        let table = Table {
+        let mut table = Table {
             columns: vec![
                 Column::names("severity", kept.iter().map(|i| word(of(i).severity))),
                 Column::names("id", kept.iter().map(|i| of(i).id)),
@@ -379,15 +402,20 @@ impl Page {
                 Column::names("hint", kept.iter().map(|i| of(i).hint.as_str())),
             ],
         };
+        if repeated {
+            let counts = kept.iter().map(|(_, count)| *count);
+            table.columns.insert(2, Column::counts("count", counts));
+        }
         self.show("findings", "Findings", &note, table);
     }
 
-    /// The whole file.
+    /// The whole file. `made`: when, and by which command line.
     #[must_use]
-    pub(crate) fn html(&self) -> String {
+    pub(crate) fn html(&self, made: &str) -> String {
         let (kind, data) = stored(embedded(self));
         let (title, header) = (escaped(&self.title), self.header());
         let (policy, version) = (hash(SCRIPT), env!("CARGO_PKG_VERSION"));
+        let made = escaped(made);
         format!(
             r#"<!doctype html>
 <html lang="en">
@@ -404,7 +432,7 @@ impl Page {
 <h1>{title}</h1>
 {header}</header>
 <main id="page"><noscript><p>The numbers above are complete; views, charts and long tables need JavaScript, which this file carries itself.</p></noscript></main>
-<footer>poseshift {version}. Everything shown is in this file; it asks nothing of the network. Distances are millimetres, angles degrees.</footer>
+<footer><p>poseshift {version}, {made}</p><p>Everything shown is in this file; it asks nothing of the network. Distances are millimetres, angles degrees.</p></footer>
 <script type="{kind}" id="data">{data}</script>
 <script>{SCRIPT}</script>
 </body>
@@ -503,7 +531,7 @@ mod tests {
             file: "</script><script>alert(1)</script>".into(),
             line: k,
             column: 1,
-            message: "\u{2028}\"quoted\" & <b>bold</b> \u{fc}".into(),
+            message: format!("\u{2028}\"quoted\" & <b>bold</b> \u{fc} {k}"),
             hint: String::new(),
             accepted: false,
         }
@@ -516,7 +544,7 @@ mod tests {
         page.lead.push(evil.into());
         page.fact(evil, evil.into());
         page.findings(&[finding(1)]);
-        let html = page.html();
+        let html = page.html("today: poseshift");
         // the two script elements are the data and the program itself
         assert_eq!(html.matches("<script").count(), 2);
         assert_eq!(html.matches("</script").count(), 2);
@@ -526,7 +554,7 @@ mod tests {
 
     #[test]
     fn the_policy_names_the_script_that_the_page_has() {
-        let html = Page::new("t".into(), Level::Good, "fine".into()).html();
+        let html = Page::new("t".into(), Level::Good, "fine".into()).html("");
         let script = html
             .rsplit_once("<script>")
             .and_then(|(_, rest)| rest.split_once("</script>"))
@@ -557,11 +585,29 @@ mod tests {
         page.findings(&findings);
         let table = &page.tables["findings"];
         assert_eq!(table.rows(), MOST_FINDINGS);
-        let html = page.html();
+        let html = page.html("today: poseshift");
         let data = data(&html);
         assert!(data.contains("50000 even, 50000 odd"));
         assert!(data.contains("99999"), "the only error is listed");
         assert!(html.len() < 1_500_000, "{}", html.len());
+    }
+
+    #[test]
+    fn findings_that_say_the_same_are_one_row_with_their_number() {
+        let mut findings: Vec<Finding> = (0..2_593)
+            .map(|k| Finding {
+                message: "the same".into(),
+                ..finding(2 * k)
+            })
+            .collect();
+        findings.push(finding(99_999));
+        let mut page = Page::new("t".into(), Level::Error, "no".into());
+        page.findings(&findings);
+        let table = &page.tables["findings"];
+        assert_eq!(table.rows(), 2);
+        let counts = table.columns.iter().find(|c| c.label == "count");
+        let counts = serde_json::to_string(&counts.expect("counts").values).expect("JSON");
+        assert_eq!(counts, "[1,2593]", "the error first");
     }
 
     #[test]
@@ -570,7 +616,7 @@ mod tests {
             let findings: Vec<Finding> = (0..count).map(finding).collect();
             let mut page = Page::new("t".into(), Level::Error, "no".into());
             page.findings(&findings);
-            let html = page.html();
+            let html = page.html("today: poseshift");
             assert_eq!(data(&html), embedded(&page));
             assert_eq!(html.contains(r#"type="application/zlib""#), count > 1);
             assert_eq!(html.matches("</script").count(), 2);

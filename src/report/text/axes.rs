@@ -3,7 +3,7 @@
 use crate::report::Style;
 use crate::report::layout::{aligned, row};
 use crate::task::axes::{Axes, Joint};
-use crate::task::parts::Sigma;
+use crate::task::parts::{Pose, Sigma};
 
 /// What is said of the noise where it is not known.
 const NO_NOISE: &str = "not known: three rows a sweep leave nothing to tell the noise by";
@@ -92,13 +92,20 @@ pub(in crate::report) struct Frame<'a> {
     /// The joints whose sweeps give it.
     pub joints: &'static str,
     /// Where it is; `None` without those sweeps.
-    pub pose: Option<&'a crate::task::parts::Pose>,
+    pub pose: Option<&'a Pose>,
     /// Its standard deviations, or why they are not known.
     pub sigma: String,
     /// Whether the sag in them is that of a typical arm, and how much it is.
     pub sag: Option<(bool, String)>,
     /// Whether its orientation was measured.
     pub oriented: bool,
+}
+
+/// Base and tool as frames, where they were found.
+pub(super) fn poses(found: &Axes) -> Vec<(String, Pose)> {
+    let found = frames(found).into_iter();
+    let known = found.filter_map(|frame| Some((frame.key.to_owned(), *frame.pose?)));
+    known.collect()
 }
 
 /// Base and tool.

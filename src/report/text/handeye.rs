@@ -5,12 +5,23 @@ use crate::report::layout::{aligned, row};
 use crate::task::handeye::HandEye;
 use crate::task::parts::Pose;
 
-pub(super) fn text(found: &HandEye, style: Style) -> String {
-    let (what, board) = if found.setup == "eye-to-hand" {
+/// What the camera's and the board's poses are called.
+fn names(found: &HandEye) -> (&'static str, &'static str) {
+    if found.setup == "eye-to-hand" {
         ("base_from_camera", "flange_from_board")
     } else {
         ("flange_from_camera", "base_from_board")
-    };
+    }
+}
+
+/// Camera and board as frames.
+pub(super) fn poses(found: &HandEye) -> Vec<(String, Pose)> {
+    let (camera, board) = names(found);
+    vec![(camera.into(), found.camera), (board.into(), found.board)]
+}
+
+pub(super) fn text(found: &HandEye, style: Style) -> String {
+    let (what, board) = names(found);
     let named = |name: &str, pose: &Pose| {
         let mut cells = vec![format!("  {name}")];
         cells.extend(pose.xyz_mm().map(|x| format!("{x:.3}")));

@@ -23,6 +23,7 @@ use super::{Report, Style};
 use crate::finding::Finding;
 use crate::report::html::page::Page;
 use crate::task;
+use crate::task::parts::Pose;
 use crate::task::programs::LeftOut;
 
 /// Files that a line lists.
@@ -61,7 +62,7 @@ fn digits(value: f64) -> String {
 }
 
 macro_rules! reports {
-    ($($document:ty: $text:path $(, $page:path $(, $findings:ident)?)?;)+) => {$(
+    ($($document:ty: $text:path $(, $page:path $(, $findings:ident $(, $frames:path)?)?)?;)+) => {$(
         impl Report for $document {
             fn text(&self, style: Style) -> String {
                 $text(self, style)
@@ -74,21 +75,26 @@ macro_rules! reports {
                     fn findings(&self) -> &[Finding] {
                         &self.$findings
                     }
+                    $(
+                        fn frames(&self) -> Vec<(String, Pose)> {
+                            $frames(self)
+                        }
+                    )?
                 )?
             )?
         }
     )+};
 }
 
-// what is told of each result: its text, its page, its findings
+// what is said of each result: its text, its page, its findings, its frames
 reports! {
     task::calibrate::Calibration: calibrate::text, measurements::calibrate_page, findings;
     task::validate::Validation: validate::text, measurements::validate_page, findings;
     task::diagnose::Diagnosis: diagnose::text, diagnosis::page, findings;
     task::plan::Plan: plan::text, plan_page::plan_page, findings;
-    task::register::Registration: register::text, frame_pages::registration_page, findings;
-    task::handeye::HandEye: handeye::text, frame_pages::hand_eye_page, findings;
-    task::axes::Axes: axes::text, axes_page::page, findings;
+    task::register::Registration: register::text, frame_pages::registration_page, findings, register::poses;
+    task::handeye::HandEye: handeye::text, frame_pages::hand_eye_page, findings, handeye::poses;
+    task::axes::Axes: axes::text, axes_page::page, findings, axes::poses;
     task::hexapod::Poses: hexapod::poses, frame_pages::hexapod_page;
     task::hexapod::Base: hexapod::base, frame_pages::base_page;
     task::hexapod::Reach: hexapod::reach, reach::page;

@@ -3,6 +3,7 @@
 use super::fixed;
 use crate::report::Style;
 use crate::report::layout::{aligned, row};
+use crate::task::parts::Pose;
 use crate::task::register::{Registration, Residual};
 
 /// Residuals shown to a person, largest first.
@@ -37,6 +38,11 @@ pub(super) fn text(found: &Registration, style: Style) -> String {
     }
     text.extend(found.output.iter().map(|path| format!("  wrote {path}\n")));
     text
+}
+
+/// The motion as a frame.
+pub(super) fn poses(found: &Registration) -> Vec<(String, Pose)> {
+    vec![("TO from FROM".into(), found.pose)]
 }
 
 /// What is known of the motion: name and value.

@@ -236,16 +236,16 @@ impl<'a> Driving<'a> {
             .flat_map(|(i, stop)| std::iter::repeat_n(i + 1, stop.over.len() + 2))
             .collect();
         for motion in &found.moves {
-            let Some(near) = motion.clearance.filter(|c| c.sampled_m <= 0.0) else {
+            let Some(near) = motion.clearance.as_deref().filter(|c| c.sampled_m <= 0.0) else {
                 continue;
             };
-            let Some((a, b)) = self.scene.pair_names(&near) else {
+            let Some((a, b)) = self.scene.pair_names(near) else {
                 continue;
             };
             findings.push(warning(
                 "collision",
                 file,
-                motion.line,
+                motion.line as usize,
                 format!(
                     "on the way to configuration {} the arm's {a} touches {b}, at {:.0} % of the move",
                     configurations.get(motion.motion).copied().unwrap_or(0),

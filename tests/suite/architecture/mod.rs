@@ -21,7 +21,14 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("program", &["geometry", "finding"]),
     (
         "motion",
-        &["finding", "geometry", "inverse", "model", "program"],
+        &[
+            "finding",
+            "geometry",
+            "inverse",
+            "model",
+            "printable",
+            "program",
+        ],
     ),
     (
         "compensate",

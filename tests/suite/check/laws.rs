@@ -108,7 +108,7 @@ fn compare_straight_moves(profile: &Profile) {
         let branch = arm.posture(&start).0;
         let (from, to) = (
             isometry(nominal.forward(&start, &conditions)),
-            isometry(nominal.forward(&found.moves[1].joints, &conditions)),
+            isometry(nominal.forward(found.joints(&found.moves[1]), &conditions)),
         );
         let (mut near, mut far) = (start, 0.0_f64);
         for k in 0..=1000 {
@@ -285,7 +285,10 @@ fn clearance_is_that_of_dense_sampling_and_never_more() {
         let b: [f64; 6] = std::array::from_fn(|i| a[i] + 40.0 * (part(&mut state) - 0.5));
         let sources = rapid(&(joint_move(a) + &joint_move(b)));
         let found = run(&profile, Some(&cell), &sources, None, &options);
-        let told = found.moves[1].clearance.expect("there are bodies");
+        let told = found.moves[1]
+            .clearance
+            .as_deref()
+            .expect("there are bodies");
         assert!(told.certified);
         let at = |s: f64| clearance(&profile, &cell, &real, &moved(&a, &b, s));
         let steps = 150;
@@ -333,7 +336,7 @@ fn a_wall_of_1_mm_between_two_targets_is_found_though_no_target_touches_it() {
             None,
             &Options::default(),
         );
-        let clear = found.moves[0].clearance.expect("bodies");
+        let clear = found.moves[0].clearance.as_deref().expect("bodies");
         assert!(clear.clearance_m > 0.01, "the start is clear: {clear:?}");
         let finding = found
             .findings

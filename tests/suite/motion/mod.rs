@@ -101,6 +101,9 @@ fn landings(effects: &[&str], written: &[(&str, &str)], original: &[(&str, &str)
         ..poseshift::check::Options::default()
     };
     let checked = poseshift::check::check(&subject, &options).expect("checked");
-    let poses = checked.moves.iter().filter(|m| !m.in_joints);
+    let poses = checked
+        .moves
+        .iter()
+        .filter(|m| !m.in_joints(&checked.program));
     1e3 * poses.map(|m| m.target_error.distance_m).fold(0.0, f64::max)
 }

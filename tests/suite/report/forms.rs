@@ -122,7 +122,8 @@ fn count(known: &Known, text: &str, what: &str, unknown: &mut Vec<String>) -> us
 fn body(page: &Path) -> String {
     let html = std::fs::read_to_string(page).expect("a page");
     let body = html.split("<body").nth(1).expect("a body");
-    let body = body.split("<script").next().unwrap_or_default();
+    // the command line and the date are no result
+    let body = body.split("<footer").next().unwrap_or_default();
     let mut text = String::new();
     for piece in body.split('<').skip(1) {
         text.push(' ');

@@ -1,6 +1,7 @@
 //! `--report`: the page's numbers, what it may take the place of, and the way it draws.
 
 mod forms;
+mod pendant;
 mod schema;
 mod trace;
 
@@ -90,7 +91,8 @@ fn the_page_of_compensate_has_the_numbers_of_its_json() {
         ("shift", Some("mm"), "shift_mm", 5),
         ("shift", Some("deg"), "shift_deg", 4),
         ("residual", Some("mm"), "residual_mm", 2),
-        ("rounding", Some("mm"), "rounding_mm", 3),
+        ("error before", Some("mm"), "before_mm", 5),
+        ("error after", Some("mm"), "rounding_mm", 3),
         ("method", None, "method", 9),
         ("shift evaluations", None, "shift_evaluations", 9),
         ("newton evaluations", None, "newton_evaluations", 9),

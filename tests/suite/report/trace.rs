@@ -37,7 +37,7 @@ fn samples_stay_within_the_bounds_and_end_where_the_moves_end() {
         assert_eq!(traced.len(), found.moves.len());
         assert!(!traced[0].continues && traced[1..].iter().all(|one| one.continues));
         for (one, told) in traced.iter().zip(&found.moves) {
-            assert_eq!((one.motion, one.line), (told.motion, told.line));
+            assert_eq!((one.motion, one.line), (told.motion, told.line as usize));
             let far = one.places.iter().map(|p| apart(p.wanted_m, p.real_m));
             let far = far.fold(0.0, f64::max);
             if let Some(path) = told.path {

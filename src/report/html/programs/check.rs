@@ -20,7 +20,7 @@ pub(crate) struct Checked<'a> {
     pub sources: &'a [Source],
     /// What was found.
     pub check: &'a Check,
-    /// The way.
+    /// The path.
     pub traced: &'a [Traced],
     /// What got worse than a stored run.
     pub worse: usize,
@@ -32,7 +32,7 @@ pub(crate) struct Checked<'a> {
 #[must_use]
 pub(crate) fn check_page(of: &Checked) -> Page {
     let (header, found) = (of.header, of.check);
-    let (mut level, mut text) = answer(&found.findings, "No error found", "The answer is no");
+    let (mut level, mut text) = answer(&found.findings, "No error found", "");
     if of.worse > 0 {
         level = Level::Error;
         text += &format!("; {} numbers are worse than the stored run's", of.worse);
@@ -51,12 +51,23 @@ pub(crate) fn check_page(of: &Checked) -> Page {
     }
     let s = &found.summary;
     page.fact("moves", s.moves.to_string());
+    let largest_of = |in_joints: bool| {
+        let all = found
+            .moves
+            .iter()
+            .filter(|m| m.in_joints(&found.program) == in_joints);
+        all.map(|m| m.target_error.distance_m).reduce(f64::max)
+    };
+    for (label, in_joints) in [
+        ("largest error at targets", false),
+        ("largest error at joint targets, which stay", true),
+    ] {
+        if let Some(largest) = largest_of(in_joints) {
+            page.fact(label, format!("{:.3} mm", mm_from_m(largest)));
+        }
+    }
     page.fact(
-        "largest error at targets",
-        format!("{:.3} mm", mm_from_m(s.max_target_error.distance_m)),
-    );
-    page.fact(
-        "error along the way, never more than",
+        "error along the path, never more than",
         format!("{:.3} mm", mm_from_m(s.max_path_error.distance_m)),
     );
     if let Some(least) = s.min_clearance_m {
@@ -69,6 +80,11 @@ pub(crate) fn check_page(of: &Checked) -> Page {
     }
     if s.unknown > 0 {
         page.fact("moves not followed", s.unknown.to_string());
+    }
+    // notes do not stand before the view
+    let findings_first = level != Level::Good;
+    if findings_first {
+        page.findings(&found.findings);
     }
     let moves = &found.moves;
     let error = |i: usize| {
@@ -87,12 +103,22 @@ pub(crate) fn check_page(of: &Checked) -> Page {
     for (k, row) in rows.iter().enumerate() {
         let report = &moves[*row];
         row_of[report.motion] = Some(k);
-        points.push(Some(report.commanded.translation), Some(report.joints));
+        let (at, joints) = (found.commanded(report), found.joints(report));
+        points.push(Some(at.translation), Some(*joints));
         let tool = found.program.moves[report.motion].tool;
         points.tool.push(u32::try_from(tool).unwrap_or(0));
         points.error.push(fixed(mm_from_m(error(*row)), 4));
     }
-    points.first = largest(&points.error);
+    // a collision is worse than any error
+    let touches = |row: &usize| {
+        let room = moves[*row].clearance.as_ref().map(|c| c.clearance_m);
+        room.filter(|room| *room <= 0.0)
+    };
+    let touching = rows.iter().enumerate();
+    let touching = touching.filter_map(|(k, row)| Some((k, touches(row)?)));
+    points.first = touching
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or_else(|| largest(&points.error), |(k, _)| k);
     page.tables.insert("moves".into(), table);
     let item = |one: &Traced| row_of.get(one.motion).copied().flatten();
     let real = path("real", Tone::Before, of.traced, None, &item);
@@ -122,7 +148,9 @@ pub(crate) fn check_page(of: &Checked) -> Page {
         &errors,
         Tone::One,
     );
-    page.findings(&found.findings);
+    if !findings_first {
+        page.findings(&found.findings);
+    }
     page
 }
 
@@ -138,7 +166,7 @@ struct Drawn {
 }
 
 fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
-    let moves = &of.check.moves;
+    let (moves, program) = (&of.check.moves, &of.check.program);
     let lines = Lines {
         sources: of.sources,
     };
@@ -146,7 +174,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
     let some = |of: &dyn Fn(usize) -> Option<Number>| -> Vec<Option<Number>> {
         rows.iter().map(|row| of(*row)).collect()
     };
-    let kind = |row: &usize| match moves[*row].kind {
+    let kind = |row: &usize| match program.moves[moves[*row].motion].motion {
         Motion::Joint => "joint",
         Motion::Linear => "linear",
         Motion::ArcVia => "arc-via",
@@ -161,7 +189,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
     let code = rows.iter().map(|row| {
         let report = &moves[*row];
         let offset = of.check.program.moves[report.motion].offset;
-        lines.text(report.file, offset as usize)
+        lines.text(program.moves[report.motion].file as usize, offset as usize)
     });
     let mut columns = Vec::new();
     let mut add = |column: Column| {
@@ -172,29 +200,38 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
     add(Column::names(
         "file",
         rows.iter()
-            .map(|r| of.header.inputs[moves[*r].file].as_str()),
+            .map(|r| of.header.inputs[program.moves[moves[*r].motion].file as usize].as_str()),
     ));
-    add(Column::counts("line", rows.iter().map(|r| moves[*r].line)));
+    add(Column::counts(
+        "line",
+        rows.iter().map(|r| moves[*r].line as usize),
+    ));
     add(Column::names("kind", rows.iter().map(kind)));
     add(Column::texts(
         "target",
-        rows.iter().map(|r| moves[*r].target.clone()),
+        rows.iter().map(|r| {
+            let target = program.target_of(&program.moves[moves[*r].motion])?;
+            target.name.as_deref().map(str::to_owned)
+        }),
     ));
     let target = add(Column::numbers(
         "target error",
         "mm",
         some(&|r| Some(mm(moves[r].target_error.distance_m))),
-    ));
+    )
+    .to(4));
     add(Column::numbers(
         "uncertainty",
         "mm",
         some(&|r| moves[r].uncertainty_m.map(mm)),
-    ));
+    )
+    .to(4));
     let bound = add(Column::numbers(
         "path error",
         "mm",
         some(&|r| moves[r].path.map(|p| mm(p.bound.distance_m))),
-    ));
+    )
+    .to(4));
     add(Column::numbers(
         "path error",
         "deg",
@@ -203,27 +240,39 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
                 .path
                 .map(|p| significant(p.bound.angle_rad / DEG, 4))
         }),
-    ));
+    )
+    .to(4));
     let clearance = add(Column::numbers(
         "clearance",
         "mm",
-        some(&|r| moves[r].clearance.map(|c| mm(c.clearance_m))),
-    ));
+        some(&|r| moves[r].clearance.as_ref().map(|c| mm(c.clearance_m))),
+    )
+    .to(3));
     let nominal = add(Column::numbers(
         "nominal clearance",
         "mm",
-        some(&|r| moves[r].nominal_clearance.map(|c| mm(c.clearance_m))),
-    ));
+        some(&|r| {
+            moves[r]
+                .nominal_clearance
+                .as_ref()
+                .map(|c| mm(c.clearance_m))
+        }),
+    )
+    .to(3)
+    .in_detail());
     let required = add(Column::numbers(
         "required",
         "mm",
         some(&|r| {
             moves[r]
                 .clearance
+                .as_ref()
                 .filter(|c| c.pair.is_some())
                 .map(|c| mm(c.required_m))
         }),
-    ));
+    )
+    .to(3)
+    .in_detail());
     add(Column::names("nearest", pairs.iter().map(Option::as_deref)));
     let margin = add(Column::numbers(
         "joint margin",
@@ -234,7 +283,8 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
                 .as_ref()
                 .map(|l| significant(l.margin_rad / DEG, 4))
         }),
-    ));
+    )
+    .to(2));
     add(Column::numbers(
         "wrist",
         "deg",
@@ -244,7 +294,9 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
                 .as_ref()
                 .map(|l| significant(l.margins.wrist_rad / DEG, 4))
         }),
-    ));
+    )
+    .to(2)
+    .in_detail());
     add(Column::texts("code", code).of_code());
     let drawn = Drawn {
         number,
@@ -271,15 +323,15 @@ fn charts(page: &mut Page, at: &Drawn, bodies: bool) {
         chart.picks = true;
         Section::Chart(chart)
     };
-    let line = |y: usize, name: &str, tone: Tone| Series::new(Kind::Line, at.number, y, name, tone);
+    let dots = |y: usize, name: &str, tone: Tone| Series::new(Kind::Dots, at.number, y, name, tone);
     page.sections.push(chart(
         "Error of each move",
         "The largest anywhere on the move, guaranteed between samples, and that at its end.",
         "error",
         "mm",
         vec![
-            line(at.bound, "along the way", Tone::Before),
-            line(at.target, "at its end", Tone::After),
+            dots(at.bound, "along the path", Tone::Before),
+            dots(at.target, "at its end", Tone::After),
         ],
     ));
     if bodies {
@@ -289,9 +341,9 @@ fn charts(page: &mut Page, at: &Drawn, bodies: bool) {
             "clearance",
             "mm",
             vec![
-                line(at.clearance, "real arm", Tone::After),
-                line(at.nominal, "nominal arm", Tone::Wanted),
-                line(at.required, "required", Tone::Limit),
+                dots(at.clearance, "real arm", Tone::After),
+                dots(at.nominal, "nominal arm", Tone::Wanted),
+                dots(at.required, "required", Tone::Limit),
             ],
         ));
     }
@@ -300,6 +352,6 @@ fn charts(page: &mut Page, at: &Drawn, bodies: bool) {
         "Of the joint that has least.",
         "margin",
         "deg",
-        vec![line(at.margin, "", Tone::One)],
+        vec![dots(at.margin, "", Tone::One)],
     ));
 }

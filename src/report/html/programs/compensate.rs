@@ -11,7 +11,7 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::Method;
 use crate::report::html::cell::{Along, Cell, Path, Points, Robot, bodies};
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
-use crate::report::html::page::{Page, Section, Tone};
+use crate::report::html::page::{Level, Page, Section, Tone};
 use crate::task::compensate::Header;
 
 /// What the page of `compensate` is made of.
@@ -20,7 +20,7 @@ pub(crate) struct Compensated<'a> {
     pub header: &'a Header<'a>,
     /// The compensation, with every target.
     pub compensation: &'a Compensation,
-    /// The original program's way.
+    /// The original program's path.
     pub traced: &'a [Traced],
     /// Where the part really stands.
     pub work_offset: Option<&'a Pose>,
@@ -28,7 +28,7 @@ pub(crate) struct Compensated<'a> {
     pub scenery: &'a Scenery<'a>,
 }
 
-/// The page of `compensate`, without the way of the written program.
+/// The page of `compensate`, without the path of the written program.
 #[must_use]
 pub(crate) fn compensate_page(of: &Compensated) -> Page {
     let (header, compensation) = (of.header, of.compensation);
@@ -37,9 +37,9 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
     let written = !header.outputs.is_empty();
     let good = if written { "Written" } else { "Computed" };
     let bad = if written {
-        "Written with targets left as they were"
+        "Written with targets that stay as they were: "
     } else {
-        "Nothing is written"
+        "Nothing is written: "
     };
     let (level, text) = answer(&compensation.findings, good, bad);
     let mut page = Page::new(
@@ -55,28 +55,47 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         header.profile_sha256,
     );
     let s = &compensation.summary;
-    page.fact("targets", s.targets.to_string());
-    page.fact("shifted", s.compensated.to_string());
-    page.fact("mean shift", format!("{:.3} mm", mm_from_m(s.mean_shift_m)));
+    if s.compensated > 0 {
+        let to = |before: f64, after: f64| {
+            format!(
+                "{:.3} \u{2192} {:.4} mm",
+                mm_from_m(before),
+                mm_from_m(after)
+            )
+        };
+        page.fact(
+            "mean error of the real tool, before and after",
+            to(s.mean_before_m, s.mean_after_m),
+        );
+        page.fact(
+            "largest error, before and after",
+            to(s.max_before_m, s.max_rounding_m),
+        );
+        page.fact(
+            "largest shift",
+            format!("{:.3} mm", mm_from_m(s.max_shift_m)),
+        );
+    }
     page.fact(
-        "largest shift",
-        format!("{:.3} mm", mm_from_m(s.max_shift_m)),
+        "targets shifted",
+        format!("{} of {}", s.compensated, s.targets),
     );
-    page.fact(
-        "largest residual",
-        match mm_from_m(s.max_residual_m) {
-            0.0 => "0 mm".into(),
-            residual => format!("{residual:.1e} mm"),
-        },
-    );
-    page.fact(
-        "largest rounding",
-        format!(
-            "{:.4} mm, {:.4} deg",
-            mm_from_m(s.max_rounding_m),
-            s.max_rounding_rad / DEG
-        ),
-    );
+    if s.joint_targets > 0 {
+        page.fact("joint targets that stay", s.joint_targets.to_string());
+    }
+    if let Some(offset) = of.work_offset {
+        let moved = Pose::identity().separation(offset);
+        page.lead.push(format!(
+            "the part stands {:.3} mm, {:.4} deg from where the program has it (--work-offset): shifts hold that, errors do not",
+            mm_from_m(moved.distance_m),
+            moved.angle_rad / DEG
+        ));
+    }
+    // notes do not stand before the view
+    let findings_first = level != Level::Good;
+    if findings_first {
+        page.findings(&compensation.findings);
+    }
     let rows = kept(reports.len(), &|i| reports[i].shift.distance_m);
     let lines = Lines {
         sources: header.sources,
@@ -126,40 +145,53 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         Column::names("tool", rows.iter().map(tools)),
         Column::names("frame", rows.iter().map(frames)),
         Column::numbers(
+            "error before",
+            "mm",
+            number(&|r| mm_from_m(reports[*r].before.distance_m), 5),
+        )
+        .to(4),
+        Column::numbers(
+            "error after",
+            "mm",
+            number(&|r| mm_from_m(reports[*r].rounding.distance_m), 3),
+        )
+        .to(4),
+        Column::numbers(
             "shift",
             "mm",
             number(&|r| mm_from_m(reports[*r].shift.distance_m), 5),
-        ),
+        )
+        .to(4),
         Column::numbers(
             "shift",
             "deg",
             number(&|r| reports[*r].shift.angle_rad / DEG, 4),
-        ),
+        )
+        .to(4),
         Column::numbers(
             "residual",
             "mm",
             number(&|r| mm_from_m(reports[*r].residual.distance_m), 2),
-        ),
-        Column::numbers(
-            "rounding",
-            "mm",
-            number(&|r| mm_from_m(reports[*r].rounding.distance_m), 3),
-        ),
+        )
+        .in_detail(),
         Column::names(
             "method",
             rows.iter().map(|row| reports[*row].method.map(Method::id)),
-        ),
+        )
+        .in_detail(),
         Column::counts(
             "shift evaluations",
             rows.iter()
                 .map(|row| reports[*row].shift_evaluations as usize),
-        ),
+        )
+        .in_detail(),
         Column::counts(
             "newton evaluations",
             rows.iter()
                 .map(|row| reports[*row].newton_evaluations as usize),
-        ),
-        Column::names("branch", branches.iter().map(Option::as_deref)),
+        )
+        .in_detail(),
+        Column::names("branch", branches.iter().map(Option::as_deref)).in_detail(),
         Column::names(
             "status",
             rows.iter()
@@ -219,7 +251,14 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         points,
         paths: vec![uncompensated, wanted(0)],
         ellipsoids: Vec::new(),
-        along: Along::Note("Distance of the real tool from where it is wanted, between targets too.".into()),
+        along: Along::Note(join(&[
+            "Distance of the real tool from where it is wanted, between targets too.",
+            if s.joint_targets > 0 {
+                "Joint targets stay as they are (--joint-targets correct shifts them): there the error stays, too."
+            } else {
+                ""
+            },
+        ])),
     })));
     let shifts: Vec<f64> = reports
         .iter()
@@ -245,11 +284,13 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         &roundings,
         Tone::One,
     );
-    page.findings(&compensation.findings);
+    if !findings_first {
+        page.findings(&compensation.findings);
+    }
     page
 }
 
-/// Adds the way of the written program to the page of `compensate`.
+/// Adds the path of the written program to the page of `compensate`.
 pub(crate) fn add_written(
     page: &mut Page,
     traced: &[Traced],
@@ -265,7 +306,7 @@ pub(crate) fn add_written(
             continue;
         };
         let before = &cell.paths[0];
-        // rows of targets, as the original's way has them
+        // rows of targets, as the original's path has them
         let mut rows = std::collections::BTreeMap::new();
         for (one, item) in original.iter().zip(items_of_moves(original, before)) {
             rows.insert(one.target, item);

@@ -17,6 +17,7 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Vector, sub};
 use crate::model::profile::Profile;
 use crate::program::{Program, Source};
+use std::collections::BTreeMap;
 
 /// Items that a page holds; of more it holds those with the largest numbers.
 const MOST_ITEMS: usize = 20_000;
@@ -90,7 +91,7 @@ fn moved(offset: Option<&Pose>, wanted_m: Vector) -> Vector {
     offset.map_or(wanted_m, |offset| offset.transform(wanted_m))
 }
 
-/// The deviations of a program's way from the wanted one. `item` is the row of a move's target; `offset` moves what is wanted.
+/// The deviations of a program's path from the wanted one. `item` is the row of a move's target; `offset` moves what is wanted.
 fn path(
     name: &str,
     tone: Tone,
@@ -168,7 +169,7 @@ fn lead(page: &mut Page, inputs: &[String], outputs: &[String], profile: &Profil
         .push(format!("{}; profile sha256 {short}", robot_name(profile)));
 }
 
-/// An answer of findings: errors, warnings, or neither.
+/// An answer of findings: errors by name, warnings, or neither.
 fn answer(findings: &[Finding], good: &str, bad: &str) -> (Level, String) {
     let count = |severity| findings.iter().filter(|f| f.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
@@ -179,7 +180,17 @@ fn answer(findings: &[Finding], good: &str, bad: &str) -> (Level, String) {
             Level::Warning,
             format!("{good}; {}", told(warnings, "warning")),
         ),
-        _ => (Level::Error, format!("{bad}: {}", told(errors, "error"))),
+        _ => {
+            let mut names: BTreeMap<&str, usize> = BTreeMap::new();
+            for finding in findings.iter().filter(|f| f.severity == Severity::Error) {
+                *names.entry(finding.id).or_default() += 1;
+            }
+            let mut names: Vec<(usize, &str)> = names.into_iter().map(|(id, n)| (n, id)).collect();
+            names.sort_by_key(|(n, _)| std::cmp::Reverse(*n));
+            let named: Vec<String> = names.iter().map(|(n, id)| format!("{n} {id}")).collect();
+            let text = format!("{bad}{}: {}", told(errors, "error"), named.join(", "));
+            (Level::Error, text)
+        }
     }
 }
 
