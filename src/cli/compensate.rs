@@ -1,6 +1,5 @@
 //! `compensate`: program files in, program files with fake targets out.
 
-use super::drawing::Drawing;
 use super::files::{Files, is_standard_output, is_stream};
 use super::layout;
 use super::programs::{Gathered, Ignored, ProgramFile, gather, meant, read_context};
@@ -13,6 +12,7 @@ use crate::model::profile::Profile;
 use crate::printable::name_of;
 use crate::program::Source;
 use crate::report;
+use crate::report::html::programs::Drawing;
 use crate::task::compensate::{Compensated, DespiteErrors, Header, Request, prepare};
 use crate::task::programs::{acceptance, language_by_id};
 use crate::task::{Failure, frame};
@@ -201,7 +201,8 @@ impl Compensate {
         }
         let mut drawing = self.report.is_wanted().then(|| {
             let (compensation, options) = (&prepared.compensation, &request.options);
-            Drawing::begin(&header, compensation, &file, options, &files)
+            let read = |path: &Path| files.mesh(path);
+            Drawing::begin(&header, compensation, &file, options, &read)
         });
         let mut outputs = Vec::new();
         if header.written.contains(&true) {
@@ -209,7 +210,7 @@ impl Compensate {
             progress.say("reading what is written");
             let written = prepared.written()?;
             if let Some(drawing) = &mut drawing {
-                drawing.tell_inserted(inserted);
+                drawing.say_inserted(inserted);
                 let after = &written.sources;
                 drawing.add_written(language, after, &sources, &file.profile, &request.options);
             }

@@ -6,7 +6,6 @@ mod catalogue;
 mod check;
 mod compensate;
 mod diagnose;
-mod drawing;
 mod explain;
 mod failure;
 mod files;

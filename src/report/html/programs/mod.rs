@@ -2,9 +2,11 @@
 
 mod check;
 mod compensate;
+mod drawing;
 
 pub(crate) use check::{Checked, check_page};
-pub(crate) use compensate::{Compensated, add_written, compensate_page};
+use compensate::{Compensated, add_written, compensate_page};
+pub(crate) use drawing::Drawing;
 
 use super::cell::Path;
 use super::numbers::{Number, fixed};

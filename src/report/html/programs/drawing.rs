@@ -1,37 +1,35 @@
 //! The page of `compensate` while it is made: a program is read again, once as it was and once as it is written.
 
-use super::files::Files;
+use super::{Compensated, SAMPLES, Scenery, add_written, compensate_page};
 use crate::check::trace::{Traced, trace};
 use crate::compensate::{Compensation, Options};
 use crate::model::profile::Profile;
 use crate::program::{Language, Source};
 use crate::report::html::page::Page;
-use crate::report::html::programs::{Compensated, SAMPLES, Scenery, add_written, compensate_page};
 use crate::task::ProfileFile;
 use crate::task::compensate::Header;
-use crate::task::meshes::Loader;
-use std::path::Path;
+use crate::task::meshes::{Loader, Reader};
 
 /// The report while it is made: the program as it was, then as it is written.
-pub(super) struct Drawing {
+pub(crate) struct Drawing {
+    /// The page.
     pub page: Page,
     original: Vec<Traced>,
 }
 
 impl Drawing {
-    /// The program as it was.
-    pub(super) fn begin(
+    /// The program as it was. `read` reads meshes of the robot's bodies.
+    pub(crate) fn begin(
         header: &Header,
         compensation: &Compensation,
         file: &ProfileFile,
         options: &Options,
-        files: &Files,
+        read: Reader,
     ) -> Self {
         let profile = &file.profile;
         let original = traced(header.language, header.sources, None, profile, options);
         let mut drawn = profile.clone();
-        let read = |path: &Path| files.mesh(path);
-        let mut meshes = Loader::new(&read);
+        let mut meshes = Loader::new(read);
         for shape in &mut drawn.shapes {
             // a body whose file is missing is not drawn
             let _ = meshes.load(&mut shape.shape, &file.name);
@@ -52,14 +50,14 @@ impl Drawing {
     }
 
     /// How many moves were inserted to keep the path near the wanted one.
-    pub(super) fn tell_inserted(&mut self, moves: usize) {
+    pub(crate) fn say_inserted(&mut self, moves: usize) {
         if moves > 0 {
             self.page.fact("moves inserted", moves.to_string());
         }
     }
 
     /// And as it is written.
-    pub(super) fn add_written(
+    pub(crate) fn add_written(
         &mut self,
         language: &dyn Language,
         written: &[Source],
@@ -67,17 +65,17 @@ impl Drawing {
         profile: &Profile,
         options: &Options,
     ) {
-        let way = traced(language, written, Some(sources), profile, options);
+        let path = traced(language, written, Some(sources), profile, options);
         add_written(
             &mut self.page,
-            &way,
+            &path,
             &self.original,
             options.work_offset.as_ref(),
         );
     }
 }
 
-/// The way of a program; none where it cannot be followed, which the findings tell.
+/// The path of a program; none where it cannot be followed, which the findings say.
 fn traced(
     language: &dyn Language,
     sources: &[Source],
