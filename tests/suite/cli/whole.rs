@@ -52,7 +52,10 @@ const IN_PLACE: [&str; 7] = [
 ];
 
 fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let output = poseshift().current_dir(folder).args(arguments).output();
+    let mut command = poseshift();
+    command.current_dir(folder).args(arguments);
+    // pages of two runs are the same
+    let output = command.env("SOURCE_DATE_EPOCH", "0").output();
     output.expect("the program starts")
 }
 
@@ -133,6 +136,7 @@ fn kill(times: usize, seed: u64) -> (usize, usize) {
         reset(path);
         let mut child = Command::new(env!("CARGO_BIN_EXE_poseshift"))
             .current_dir(path)
+            .env("SOURCE_DATE_EPOCH", "0")
             .args(IN_PLACE)
             .stdout(Stdio::null())
             .stderr(Stdio::null())
