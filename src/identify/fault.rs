@@ -1,6 +1,7 @@
 //! What can be wrong with a file of measurements, and where.
 
 use super::doubt::csv::NotCsv;
+use super::table::proposal;
 
 /// How far a quaternion's length may be from 1.
 pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
@@ -23,6 +24,8 @@ pub(super) fn beyond(column: &str, number: f64) -> Option<&'static str> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
 pub struct MeasurementError {
+    /// Which of the files, from 0.
+    pub file: usize,
     /// Line, from 1; 0 is the whole file.
     pub line: usize,
     /// Column in bytes, from 1.
@@ -36,6 +39,7 @@ pub struct MeasurementError {
 impl From<NotCsv> for MeasurementError {
     fn from(found: NotCsv) -> Self {
         Self {
+            file: 0,
             line: found.line,
             column: found.column,
             length: 0,
@@ -132,7 +136,12 @@ impl MeasurementError {
         match &self.fault {
             MeasurementFault::Csv { hint, .. } => hint.clone(),
             MeasurementFault::MissingColumns { header, .. } => {
-                format!("the header has: {}", header.join(", "))
+                let proposal = proposal(header);
+                let mut hint = String::new();
+                if !proposal.is_empty() {
+                    hint = format!("is it `{proposal}`? ");
+                }
+                hint + &format!("the header has: {}", header.join(", "))
             }
             MeasurementFault::TooLarge { .. } => {
                 "is a decimal point lost, or is it an error code of the device? correct the number or leave the row out".into()
