@@ -6,9 +6,10 @@ use crate::finding::Finding;
 use crate::identify::IdentifyError;
 use crate::identify::measurements::{MeasurementError, Measurements};
 use crate::identify::table::{Euler, Grid, Mapping, Table, Units};
-use crate::model::profile::{Profile, Tables};
+use crate::model::profile::{Profile, Tables, Theirs};
 use crate::program::Source;
 use crate::program::sha256;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Rows of one or several files, in their order.
@@ -56,13 +57,19 @@ impl Said {
             mapping.add_units(Units::parse(units.split(',')).map_err(of("--units"))?);
         }
         if let Some(name) = &self.euler {
-            mapping.euler = Some(Euler::named(name).map_err(of("--euler"))?);
+            mapping.euler = Some((Euler::named(name).map_err(of("--euler"))?, true));
         }
         let kept = &profile.tables;
-        let pairs = kept
-            .columns
+        let names = |(key, theirs): (&'_ String, &'_ Theirs)| {
+            let names = theirs.names().iter();
+            names
+                .map(|name| (key.clone(), name.clone()))
+                .collect::<Vec<_>>()
+        };
+        let pairs: Vec<(String, String)> = kept.columns.iter().flat_map(names).collect();
+        let pairs = pairs
             .iter()
-            .map(|(key, theirs)| (key.as_str(), theirs.as_str()));
+            .map(|(key, name)| (key.as_str(), name.as_str()));
         mapping
             .add(pairs, false)
             .map_err(of("measurement.columns of the profile"))?;
@@ -70,7 +77,7 @@ impl Said {
         mapping.add_units(units.map_err(of("measurement.units of the profile"))?);
         if let (None, Some(name)) = (mapping.euler, &kept.euler) {
             let named = Euler::named(name).map_err(of("measurement.euler of the profile"))?;
-            mapping.euler = Some(named);
+            mapping.euler = Some((named, false));
         }
         Ok(mapping)
     }
@@ -79,11 +86,19 @@ impl Said {
     fn kept(&self, mapping: &Mapping, profile: &Profile) -> Option<Tables> {
         let said = self.columns.is_some() || self.units.is_some() || self.euler.is_some();
         let (pairs, units) = mapping.kept();
+        let mut columns: BTreeMap<String, Theirs> = BTreeMap::new();
+        for (key, name) in pairs {
+            let own = columns.remove(key);
+            let mut names = own.map_or_else(Vec::new, |own| own.names().to_vec());
+            names.push(name.to_owned());
+            let names = match names.as_slice() {
+                [one] => Theirs::One(one.clone()),
+                _ => Theirs::Many(names),
+            };
+            columns.insert(key.to_owned(), names);
+        }
         said.then(|| Tables {
-            columns: pairs
-                .into_iter()
-                .map(|(key, theirs)| (key.to_owned(), theirs.to_owned()))
-                .collect(),
+            columns,
             units: units.into_iter().map(str::to_owned).collect(),
             euler: self.euler.clone().or_else(|| profile.tables.euler.clone()),
         })

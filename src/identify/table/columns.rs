@@ -39,8 +39,8 @@ impl Column {
 pub struct Mapping {
     columns: Vec<Entry>,
     units: Units,
-    /// How angles turn.
-    pub euler: Option<Euler>,
+    /// How angles turn, and whether every file must have such.
+    pub euler: Option<(Euler, bool)>,
     /// Whether rows are in the order in which the robot drove to them.
     pub in_order: bool,
 }
@@ -64,7 +64,7 @@ impl Mapping {
     /// file has such a column, and where no other pair maps the same name.
     ///
     /// # Errors
-    /// A name that is none of the format, or twice.
+    /// A name that is none of the format; no name of theirs.
     pub fn add<'a>(
         &mut self,
         pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
@@ -74,7 +74,11 @@ impl Mapping {
             let (key, theirs) = (key.trim(), theirs.trim());
             let Some((name, quantity)) = column(key) else {
                 let message = format!("`{key}` is no column of the format");
-                return Err((message, nearest::hint(key, "columns", keys())));
+                let near = nearest::nearest(key, keys());
+                let meant = near.first().map(|near| format!("did you mean `{near}`? "));
+                let hint =
+                    "names are x, y, z, q1 to q6, id, point and those of docs/calibration.md";
+                return Err((message, meant.unwrap_or_default() + hint));
             };
             if theirs.is_empty() {
                 let message = format!("`{key}=` names no column of the file");
@@ -83,17 +87,14 @@ impl Mapping {
                     "name=Their name, and #3 for their third column".into(),
                 ));
             }
-            let known = self.columns.iter().find(|entry| entry.name == name);
-            match known {
-                Some(known) if known.required == required => {
-                    let message = format!("{name} is both `{}` and `{theirs}`", known.theirs);
-                    return Err((
-                        message,
-                        "one column of the file for each of the format".into(),
-                    ));
-                }
-                Some(_) => continue,
-                None => {}
+            // what is said now is more than what a profile keeps; of two files each may have its own name
+            if !required
+                && self
+                    .columns
+                    .iter()
+                    .any(|entry| entry.required && entry.name == name)
+            {
+                continue;
             }
             self.columns.push(Entry {
                 name,
@@ -157,7 +158,7 @@ impl Mapping {
         let mut found = vec![false; self.columns.len()];
         let points = grids.len() - 1;
         for (index, grid) in grids.iter_mut().enumerate() {
-            let mut own = self.own(index, grid, &mut found, &mut used)?;
+            let mut own = self.own((index, points > 0), grid, &mut found, &mut used)?;
             if index == points && !is_of_points(&own) {
                 let export = exports::recognise(grid).map_err(|error| MeasurementError {
                     file: index,
@@ -190,7 +191,7 @@ impl Mapping {
                         .add(pairs, false)
                         .map_err(|(message, hint)| fault(index, 0, message, hint))?;
                     let mut more = vec![false; layout.columns.len()];
-                    own = layout.own(index, grid, &mut more, &mut used)?;
+                    own = layout.own((index, points > 0), grid, &mut more, &mut used)?;
                 }
             }
             all.extend(own);
@@ -232,20 +233,29 @@ impl Mapping {
     /// The columns of one file; notes which entries and units it uses.
     fn own(
         &self,
-        index: usize,
+        (index, several): (usize, bool),
         grid: &Grid,
         found: &mut [bool],
         used: &mut [bool; 2],
     ) -> Result<Vec<Column>, MeasurementError> {
         let mut own = Vec::new();
         // where each entry's column is: names as they are first, then whatever their case
-        let field_of = |theirs: &str| {
-            let exact = grid.header.iter().position(|name| name == theirs);
+        let field_of = |entry: &Entry| {
+            let theirs = entry.theirs.as_str();
             let number = theirs
                 .strip_prefix('#')
                 .and_then(|n| n.parse::<usize>().ok());
-            let number = number.filter(|n| (1..=grid.header.len()).contains(n));
-            exact.or(number.map(|n| n - 1)).or_else(|| {
+            if let Some(number) = number {
+                // of two files it is a column of the one that has what it is
+                let joints = JOINT_COLUMNS.contains(&entry.name.as_str());
+                let here = !several || entry.name == "id" || joints == (index == 0);
+                let field = number
+                    .checked_sub(1)
+                    .filter(|field| *field < grid.header.len());
+                return field.filter(|_| here);
+            }
+            let exact = grid.header.iter().position(|name| name == theirs);
+            exact.or_else(|| {
                 let alike = |name: &String| nearest::plain(name) == nearest::plain(theirs);
                 let mut all = grid
                     .header
@@ -259,7 +269,7 @@ impl Mapping {
         };
         let mut by_field: Vec<Option<&Entry>> = vec![None; grid.header.len()];
         for (entry, found) in self.columns.iter().zip(found) {
-            if let Some(field) = field_of(&entry.theirs) {
+            if let Some(field) = field_of(entry) {
                 if let Some(other) = by_field[field].replace(entry) {
                     let message = format!(
                         "`{}` is both {} and {}",
@@ -276,6 +286,16 @@ impl Mapping {
             .flatten()
             .map(|entry| entry.name.as_str())
             .collect();
+        let twice = (1..mapped.len()).find(|i| mapped[..*i].contains(&mapped[*i]));
+        if let Some(twice) = twice {
+            let message = format!("two columns of {} are {}", grid.name, mapped[twice]);
+            return Err(fault(
+                index,
+                0,
+                message,
+                "one column of each file for each of the format",
+            ));
+        }
         for (field, theirs) in grid.header.iter().enumerate() {
             let (name, factor) = if let Some(entry) = by_field[field] {
                 (entry.name.clone(), self.factor(index, entry, theirs, used)?)

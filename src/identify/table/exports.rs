@@ -75,7 +75,10 @@ fn list(grid: &Grid) -> Option<Export> {
 /// The first column that has one of these names.
 fn named(grid: &Grid, names: &[&str]) -> Option<usize> {
     let mut header = grid.header.iter();
-    header.position(|name| names.contains(&plain(name).as_str()))
+    header.position(|name| {
+        let bare = super::units::in_name(name).map_or(name.as_str(), |(bare, _)| bare);
+        names.contains(&plain(bare).as_str())
+    })
 }
 
 /// One row a coordinate: name, control (X, Y, Z), measured.
@@ -142,23 +145,15 @@ fn long(grid: &Grid) -> Result<Option<Export>, NotCsv> {
     if rows.is_empty() {
         return Ok(None);
     }
-    let header = ["id", "X", "Y", "Z"].map(str::to_owned).to_vec();
-    let unit = grid.header[measured].clone();
+    let unit = super::units::in_name(&grid.header[measured]).and_then(|(_, unit)| unit);
+    let suffix = unit.map_or_else(String::new, |unit| format!(" [{}]", unit.symbol()));
+    let names = AXES.map(|axis| axis.to_uppercase() + &suffix);
+    let header = std::iter::once("id".to_owned()).chain(names.clone());
     Ok(Some(Export {
         software: "a table of one row a coordinate, as PolyWorks and CAM2 write",
-        columns: AXES
-            .iter()
-            .zip(&header[1..])
-            .map(|(key, name)| (*key, name.clone()))
-            .collect(),
+        columns: AXES.into_iter().zip(names).collect(),
         pivoted: Some(Grid {
-            header: header
-                .iter()
-                .map(|name| match super::units::in_name(&unit) {
-                    Some((_, Some(unit))) if name != "id" => format!("{name} [{}]", unit.symbol()),
-                    _ => name.clone(),
-                })
-                .collect(),
+            header: header.collect(),
             rows,
             separator: Separator::Blanks,
             ..grid.clone()

@@ -16,7 +16,7 @@ mod units;
 
 pub use columns::{Column, Mapping, MappingError};
 pub use euler::{CONVENTIONS, Euler};
-pub use names::{Quantity, keys, proposal};
+pub use names::{Quantity, is_of_format, keys, proposal};
 pub use text::{Grid, Separator};
 pub use units::{Unit, Units};
 
@@ -117,7 +117,7 @@ impl Table {
             columns,
             points: Vec::new(),
             rows: Vec::new(),
-            euler: mapping.euler,
+            euler: None,
             in_order: mapping.in_order,
             remarks,
         };
@@ -132,6 +132,11 @@ impl Table {
             })
             .collect()
         };
+        let has = |column: &&str| table.index(column).is_some();
+        let euler = mapping
+            .euler
+            .filter(|(own, required)| *required || own.columns().iter().all(has));
+        table.euler = euler.map(|(own, _)| own);
         table.spread_points()?;
         if table.in_order {
             table.derive_directions()?;

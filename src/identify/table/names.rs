@@ -86,6 +86,12 @@ pub(super) fn column(name: &str) -> Option<(String, Quantity)> {
     }
 }
 
+/// Whether a name is that of a column of the format, with its unit.
+#[must_use]
+pub fn is_of_format(name: &str) -> bool {
+    column(name).is_some_and(|(full, _)| full == name)
+}
+
 /// A column of the format whose name has another unit (`x_m`, `q1_rad`), and that unit.
 #[must_use]
 pub(super) fn in_another_unit(name: &str) -> Option<(String, Unit)> {
@@ -190,6 +196,9 @@ pub fn proposal(header: &[String]) -> String {
     let mut taken: Vec<&str> = Vec::new();
     let mut pairs = Vec::new();
     for theirs in header {
+        if is_of_format(theirs) {
+            continue;
+        }
         let Some(key) = meant(theirs).filter(|key| !taken.contains(key)) else {
             continue;
         };

@@ -48,7 +48,7 @@ fn fault(line: usize, column: usize, message: impl Into<String>, hint: &str) -> 
     }
 }
 
-/// UTF-8, UTF-16 with its mark, else Latin-1; line ends are LF.
+/// UTF-8, UTF-16 with its mark, else Latin-1; lines that end with CR alone end with LF.
 fn decoded(bytes: &[u8]) -> Result<(String, Option<&'static str>), NotCsv> {
     let wide = |from: fn([u8; 2]) -> u16| {
         let units = bytes[2..]
@@ -75,7 +75,8 @@ fn decoded(bytes: &[u8]) -> Result<(String, Option<&'static str>), NotCsv> {
             ),
         },
     };
-    let odd = |c: char| (c < ' ' && !"\t\n\r\u{c}".contains(c)) || c == '\u{7f}';
+    // names may hold any sign; a file in another encoding that has control characters is no table
+    let odd = |c: char| c == '\0' || encoding.is_some() && c < ' ' && !"\t\n\r\u{c}".contains(c);
     if let Some(at) = text.find(odd) {
         let before = &text[..at];
         let line = before.matches('\n').count() + 1;
@@ -83,8 +84,8 @@ fn decoded(bytes: &[u8]) -> Result<(String, Option<&'static str>), NotCsv> {
         let hint = "save the table as text: CSV in UTF-8";
         return Err(fault(line, column, "this is no text", hint));
     }
-    if text.contains('\r') {
-        return Ok((text.replace("\r\n", "\n").replace('\r', "\n"), encoding));
+    if !text.contains('\n') && text.contains('\r') {
+        return Ok((text.replace('\r', "\n"), encoding));
     }
     Ok((text, encoding))
 }
@@ -191,7 +192,8 @@ impl Grid {
         for (line, row) in &rows {
             if row.len() != header.len() {
                 let message = format!("{} cells; the header has {}", row.len(), header.len());
-                return Err(fault(*line, 1, message, ""));
+                let hint = "is it a table? the first line names its columns, and every row has as many cells";
+                return Err(fault(*line, 1, message, hint));
             }
         }
         Ok(Self {

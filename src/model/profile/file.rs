@@ -67,9 +67,9 @@ pub struct ProfileFile {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tables {
-    /// Their name of each column of the format, where a file has it: `q1_deg: J1`.
+    /// Their name of each column of the format, where a file has it: `q1_deg: J1`; several where files differ.
     #[serde(default)]
-    pub columns: BTreeMap<String, String>,
+    pub columns: BTreeMap<String, Theirs>,
     /// Units of these columns, as `--units` has them.
     #[serde(default)]
     pub units: Vec<String>,
@@ -249,6 +249,27 @@ pub struct ToolFile {
 /// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them; beside them `large: true` with
 /// a `reason` where a value is beyond the usual.
 pub(crate) type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
+
+/// A name, or several of which each file has one at most.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Theirs {
+    /// One.
+    One(String),
+    /// Several.
+    Many(Vec<String>),
+}
+
+impl Theirs {
+    /// All of them.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::Many(names) => names,
+        }
+    }
+}
 
 /// What was identified.
 #[derive(Debug, Default, Deserialize, JsonSchema)]

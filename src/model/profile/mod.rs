@@ -18,7 +18,7 @@ pub(crate) use catalogue::{coupled, flange_remark};
 pub use device::DevicePlace;
 pub use edit::{EditError, with_value};
 pub use error::{Fault, ProfileError};
-pub use file::{ControllerModel, FORMAT, ProfileFile, Tables};
+pub use file::{ControllerModel, FORMAT, ProfileFile, Tables, Theirs};
 pub use makers::{MAKERS, Maker};
 pub use rewrite::with_controller;
 pub use shipped::SHIPPED;

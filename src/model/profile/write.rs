@@ -1,6 +1,6 @@
 //! A profile file with another calibration: everything else stays as a person wrote it, comments included.
 
-use super::{Profile, ProfileError};
+use super::{Profile, ProfileError, Theirs};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::effects::Effect;
@@ -180,7 +180,13 @@ fn measurement(profile: &Profile) -> String {
     let mut out = String::from("measurement:\n");
     let pairs = tables.columns.iter();
     let pairs: Vec<String> = pairs
-        .map(|(key, theirs)| format!("{}: {}", quoted(key), quoted(theirs)))
+        .map(|(key, theirs)| match theirs {
+            Theirs::One(name) => format!("{}: {}", quoted(key), quoted(name)),
+            Theirs::Many(names) => {
+                let names: Vec<String> = names.iter().map(|name| quoted(name)).collect();
+                format!("{}: [{}]", quoted(key), names.join(", "))
+            }
+        })
         .collect();
     out += &format!("  columns: {{{}}}\n", pairs.join(", "));
     let units: Vec<String> = tables.units.iter().map(|unit| quoted(unit)).collect();
