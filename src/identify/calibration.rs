@@ -109,6 +109,8 @@ pub struct Calibration {
     pub device: Option<DevicePlace>,
     /// The rows used, in the frame that the estimates are in.
     pub fit: Measurements,
+    /// Maps what the device gave into that frame.
+    pub frame_from_device: Pose,
     /// How well it is known.
     pub uncertainty: Uncertainty,
     /// Error of position that is to be expected over the joint limits, root mean square, metres.
@@ -422,6 +424,7 @@ fn identify(
         world_from_base,
         device,
         fit,
+        frame_from_device: world_from_device,
         expected_m,
         uncertainty,
         before,
@@ -622,12 +625,21 @@ impl Calibration {
             })
     }
 
-    /// What the probe touched and was not wholly known, and where it was found.
+    /// What the probe touched and was not wholly known, and where it was found in the device's frame.
     pub fn features(&self) -> impl Iterator<Item = (&contact::Feature, contact::Fitted)> {
         let values = &self.solution.estimate.features;
         let all = self.problem.features.iter().zip(values);
+        let back = self.frame_from_device.inverse();
         all.filter(|(feature, _)| feature.unknowns() > 0)
-            .map(|(feature, values)| (feature, feature.place(values)))
+            .map(move |(feature, values)| {
+                let place = feature.place(values);
+                let seen = contact::Fitted {
+                    centre_m: back.transform(place.centre_m),
+                    normal: place.normal.map(|normal| back.rotation * normal),
+                    ..place
+                };
+                (feature, seen)
+            })
     }
 
     /// The calibrated robot: the profile with the identified effects, points and, where it was replaced, base.

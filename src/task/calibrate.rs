@@ -77,7 +77,7 @@ pub struct Feature {
     pub feature: String,
     /// What it is.
     pub contact: &'static str,
-    /// Its centre, or a point on it, in the world.
+    /// Its centre, or a point on it, in the device's frame.
     pub centre_mm: [f64; 3],
     /// Its radius.
     pub radius_mm: Option<f64>,
