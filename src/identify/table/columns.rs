@@ -4,7 +4,7 @@ use super::euler::Euler;
 use super::exports;
 use super::names::{Quantity, column, in_another_unit, keys};
 use super::text::Grid;
-use super::units::{Units, in_name};
+use super::units::{Unit, Units, in_name};
 use super::{fault, note};
 use crate::identify::doubt::Remark;
 use crate::identify::fault::MeasurementError;
@@ -140,11 +140,7 @@ impl Mapping {
         let units = [self.units.length, self.units.angle];
         (
             pairs.collect(),
-            units
-                .into_iter()
-                .flatten()
-                .map(|unit| unit.symbol())
-                .collect(),
+            units.into_iter().flatten().map(Unit::symbol).collect(),
         )
     }
 
@@ -346,7 +342,7 @@ impl Mapping {
                 "leave the unit out of --units, or correct it",
             ));
         }
-        Ok(own.or(said).map_or(1.0, super::units::Unit::factor))
+        Ok(own.or(said).map_or(1.0, Unit::factor))
     }
 }
 
@@ -362,6 +358,6 @@ fn is_of_points(columns: &[Column]) -> bool {
 
 /// Whether a file has all columns of joints.
 pub(super) fn has_joints(columns: &[Column], grid: usize) -> bool {
-    let own = |name: &&str| columns.iter().any(|c| c.grid == grid && c.name == **name);
-    JOINT_COLUMNS.iter().all(|name| own(&name))
+    let own = |name: &str| columns.iter().any(|c| c.grid == grid && c.name == name);
+    JOINT_COLUMNS.iter().all(|name| own(name))
 }

@@ -16,36 +16,48 @@ pub enum Euler {
     Vector,
 }
 
-/// Each convention with its name, names by makers, columns, and what it is.
-pub const CONVENTIONS: [(Euler, &str, &[&str], [&str; 3], &str); 4] = [
-    (
-        Euler::Xyz,
-        "xyz",
-        &["staubli"],
-        ["rx_deg", "ry_deg", "rz_deg"],
-        "Rx(rx)·Ry(ry)·Rz(rz), as poses of profiles",
-    ),
-    (
-        Euler::Zyx,
-        "zyx",
-        &["abc", "wpr", "rpy", "kuka", "fanuc", "yaskawa", "abb"],
-        ["rx_deg", "ry_deg", "rz_deg"],
-        "Rz(rz)·Ry(ry)·Rx(rx): A, B, C of KUKA are rz, ry, rx; W, P, R of FANUC are rx, ry, rz",
-    ),
-    (
-        Euler::Zyz,
-        "zyz",
-        &["oat", "kawasaki"],
-        ["rz_deg", "ry_deg", "rz2_deg"],
-        "Rz(rz)·Ry(ry)·Rz(rz2): O, A, T of Kawasaki",
-    ),
-    (
-        Euler::Vector,
-        "rotation-vector",
-        &["ur", "axis-angle"],
-        ["rx_deg", "ry_deg", "rz_deg"],
-        "axis times angle: rx, ry, rz of UR",
-    ),
+/// A convention as users name it.
+#[derive(Clone, Copy, Debug)]
+struct Named {
+    euler: Euler,
+    name: &'static str,
+    /// Names by makers.
+    others: &'static [&'static str],
+    /// The columns of its three numbers.
+    columns: [&'static str; 3],
+}
+
+/// Rx, ry, rz.
+const EACH: [&str; 3] = ["rx_deg", "ry_deg", "rz_deg"];
+
+/// Every convention.
+const CONVENTIONS: [Named; 4] = [
+    Named {
+        euler: Euler::Xyz,
+        name: "xyz",
+        others: &["staubli"],
+        columns: EACH,
+    },
+    // A, B, C of KUKA are rz, ry, rx; W, P, R of FANUC are rx, ry, rz
+    Named {
+        euler: Euler::Zyx,
+        name: "zyx",
+        others: &["abc", "wpr", "rpy", "kuka", "fanuc", "yaskawa", "abb"],
+        columns: EACH,
+    },
+    // O, A, T of Kawasaki
+    Named {
+        euler: Euler::Zyz,
+        name: "zyz",
+        others: &["oat", "kawasaki"],
+        columns: ["rz_deg", "ry_deg", "rz2_deg"],
+    },
+    Named {
+        euler: Euler::Vector,
+        name: "rotation-vector",
+        others: &["ur", "axis-angle"],
+        columns: EACH,
+    },
 ];
 
 impl Euler {
@@ -55,12 +67,11 @@ impl Euler {
     /// No such name.
     pub fn named(name: &str) -> Result<Self, (String, String)> {
         let plain = name.trim().to_lowercase();
-        let all = CONVENTIONS.iter();
-        let found = all
-            .clone()
-            .find(|row| row.1 == plain || row.2.contains(&plain.as_str()));
-        found.map(|row| row.0).ok_or_else(|| {
-            let names = all.flat_map(|row| std::iter::once(row.1).chain(row.2.iter().copied()));
+        let mut all = CONVENTIONS.iter();
+        let found = all.find(|own| own.name == plain || own.others.contains(&plain.as_str()));
+        found.map(|own| own.euler).ok_or_else(|| {
+            let all = CONVENTIONS.iter();
+            let names = all.flat_map(|own| own.others.iter().chain([&own.name]).copied());
             (
                 format!("`{name}` is no convention of angles"),
                 nearest::hint(&plain, "conventions", names),
@@ -71,8 +82,8 @@ impl Euler {
     /// The columns that hold its numbers.
     #[must_use]
     pub fn columns(self) -> [&'static str; 3] {
-        let own = CONVENTIONS.iter().find(|row| row.0 == self);
-        own.expect("every convention has a row").3
+        let own = CONVENTIONS.iter().find(|own| own.euler == self);
+        own.map_or(EACH, |own| own.columns)
     }
 
     /// The rotation of numbers in the order of [`Euler::columns`], radians.
@@ -104,7 +115,12 @@ mod tests {
         let expected = Rotation::about_x(quarter) * Rotation::about_z(quarter);
         assert!((turned.transpose() * expected).angle() < 1e-12);
         // a turn about z is the same whatever its name
-        for (own, _, _, columns, _) in CONVENTIONS {
+        for Named {
+            euler: own,
+            columns,
+            ..
+        } in CONVENTIONS
+        {
             let numbers = columns.map(|c| if c == "rz_deg" { quarter } else { 0.0 });
             let angle = (own.rotation(numbers).transpose() * Rotation::about_z(quarter)).angle();
             assert!(angle < 1e-12, "{own:?}");

@@ -15,7 +15,7 @@ mod text;
 mod units;
 
 pub use columns::{Column, Mapping, MappingError};
-pub use euler::{CONVENTIONS, Euler};
+pub use euler::Euler;
 pub use names::{Quantity, is_of_format, keys, proposal};
 pub use text::{Grid, Separator};
 pub use units::{Unit, Units};
