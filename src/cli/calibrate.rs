@@ -39,6 +39,8 @@ impl LossName {
 /// What becomes of the measured place of the base
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BaseName {
+    /// The base is where the controller has it: where the device stands is identified apart, as `world_from_device`
+    Controller,
     /// `profile` where they are within 20 mm and 1 deg, else `device`
     Auto,
     /// It replaces the profile's base: the world is the device's frame
@@ -75,7 +77,7 @@ pub(super) struct Calibrate {
     #[arg(long, value_enum, default_value = "huber")]
     loss: LossName,
     /// What becomes of the measured place of the base
-    #[arg(long, value_enum, default_value = "auto")]
+    #[arg(long, value_enum, default_value = "controller")]
     base: BaseName,
     /// Date for the profile's provenance, as you write it
     #[arg(long, value_name = "TEXT")]
@@ -103,6 +105,7 @@ impl Calibrate {
             },
             shape: self.loss.shape(),
             base: match self.base {
+                BaseName::Controller => BasePolicy::Controller,
                 BaseName::Auto => BasePolicy::Nearest,
                 BaseName::Device => BasePolicy::Device,
                 BaseName::Profile => BasePolicy::Profile,
@@ -114,7 +117,7 @@ impl Calibrate {
         let options = self.options()?;
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
-        let measurements = self.measurements.read(&files)?;
+        let measurements = self.measurements.read(&files, &profile)?;
         self.report.refuse_over(&files, self.output.as_deref())?;
         let progress = Progress::new(output, "identifying");
         let mut found = calibrate(&profile, measurements, &options)?;

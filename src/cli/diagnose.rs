@@ -49,7 +49,7 @@ impl Diagnose {
         };
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
-        let measurements = self.measurements.read(&files)?;
+        let measurements = self.measurements.read(&files, &profile)?;
         let outputs = self.output.iter().chain(&self.poses).map(PathBuf::as_path);
         self.report.refuse_over(&files, outputs)?;
         let progress = Progress::new(output, "diagnosing");

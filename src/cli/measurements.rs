@@ -2,28 +2,61 @@
 
 use super::files::Files;
 use crate::identify::parameters::{Level, Pick};
-use crate::task::{Failure, Rows};
+use crate::task::{Failure, ProfileFile, Rows, Said};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Files of measurements.
 #[derive(Args)]
 pub(super) struct MeasurementFiles {
     /// Measurements (CSV); several files are one after another
-    #[arg(long, value_name = "FILE", required = true)]
+    #[arg(
+        long,
+        value_name = "FILE",
+        required_unless_present = "joints",
+        conflicts_with_all = ["joints", "points"]
+    )]
     measurements: Vec<PathBuf>,
+    /// Joint angles (CSV) of the rows of --points
+    #[arg(long, value_name = "FILE", requires = "points")]
+    joints: Option<PathBuf>,
+    /// What the device saw at the joint angles of --joints: joined by the column id, else in the order of the rows
+    #[arg(long, value_name = "FILE", requires = "joints")]
+    points: Option<PathBuf>,
+    /// Names of columns: `x=X,y=Y,q1=J1`, `#3` for the third; `nest1.x=X1` where each reflector has columns of its own
+    #[arg(long, value_name = "NAME=THEIRS,…")]
+    columns: Option<String>,
+    /// Units of these columns: `m,rad` (mm m cm um in ft; deg rad)
+    #[arg(long, value_name = "UNITS")]
+    units: Option<String>,
+    /// How angles rx, ry, rz turn the tool: xyz, zyx (kuka, fanuc, yaskawa), zyz (kawasaki), rotation-vector (ur)
+    #[arg(long, value_name = "NAME")]
+    euler: Option<String>,
+    /// The rows (of --joints) are in the order in which the robot drove to them: directions follow, dir1 to dir6
+    #[arg(long)]
+    driven_in_order: bool,
 }
 
 impl MeasurementFiles {
-    /// All rows.
-    pub(super) fn read(&self, files: &Files) -> Result<Rows, Failure> {
-        let sources = self.paths().map(|path| files.source(path));
-        Rows::read(&sources.collect::<Result<Vec<_>, _>>()?)
-    }
-
-    /// Where they are.
-    pub(super) fn paths(&self) -> impl Iterator<Item = &Path> {
-        self.measurements.iter().map(PathBuf::as_path)
+    /// All rows, with columns as the options and the profile say.
+    pub(super) fn read(&self, files: &Files, profile: &ProfileFile) -> Result<Rows, Failure> {
+        let said = Said {
+            columns: self.columns.clone(),
+            units: self.units.clone(),
+            euler: self.euler.clone(),
+            in_order: self.driven_in_order,
+        };
+        let profile = &profile.profile;
+        if let (Some(joints), Some(points)) = (&self.joints, &self.points) {
+            return Rows::joined(
+                &files.source(joints)?,
+                &files.source(points)?,
+                &said,
+                profile,
+            );
+        }
+        let sources = self.measurements.iter().map(|path| files.source(path));
+        Rows::read(&sources.collect::<Result<Vec<_>, _>>()?, &said, profile)
     }
 }
 

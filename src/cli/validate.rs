@@ -41,7 +41,7 @@ impl Validate {
             folds: self.folds.map(|n| n as usize),
             all_sets: self.all_sets,
         };
-        let measurements = self.measurements.read(&files)?;
+        let measurements = self.measurements.read(&files, &profile)?;
         self.report.refuse_over(&files, [])?;
         let progress = Progress::new(output, "validating");
         let found = validate(&profile, measurements, &options, &mut |done, of| {

@@ -71,7 +71,7 @@ use crate::motion::{doubt, setting};
 pub use crate::program::meaning;
 use crate::program::{Edits, Language, ReadError, Settings, Source};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
@@ -168,6 +168,20 @@ pub enum CompensateError {
         "the profile has no effect that moves the tool: the program would be marked as compensated and be the same"
     )]
     NothingToCorrect,
+    /// Not one of several targets can be reached from where the base stands, but from the origin they can.
+    #[error(
+        "none of the {targets} targets is within reach from kinematics.base, which is at ({:.0}, {:.0}, {:.0}) mm; with the base at the \
+         origin {in_reach} are",
+        base_mm[0], base_mm[1], base_mm[2]
+    )]
+    BaseElsewhere {
+        /// How many there are.
+        targets: usize,
+        /// How many can be reached from the origin.
+        in_reach: usize,
+        /// Where the base stands.
+        base_mm: [f64; 3],
+    },
     /// Not one of several targets can be reached.
     #[error("none of the {targets} targets is within reach: is this the profile of this robot?")]
     NothingInReach {
@@ -252,7 +266,9 @@ pub fn compensate(
     };
     let arrivals = walk::walk(&job.ground, &walk_options, &mut findings);
     let mut approaches = approach::gather(&job, &arrivals, &mut findings);
-    refuse_strange_robots(&job, &findings)?;
+    refuse_strange_robots(&job, &findings, |profile| {
+        compensate(language, sources, profile, options).map(|compensation| compensation.findings)
+    })?;
     if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
         return Err(CompensateError::NothingToCorrect);
     }
@@ -381,8 +397,22 @@ impl Compensation {
     }
 }
 
-/// Where not one of several targets is within reach, the profile is that of another robot.
-fn refuse_strange_robots(job: &Job, findings: &[Finding]) -> Result<(), CompensateError> {
+/// Where findings say that a target is out of reach.
+fn beyond(findings: &[Finding]) -> BTreeSet<(&str, usize, usize)> {
+    findings
+        .iter()
+        .filter(|finding| finding.id == crate::motion::OUT_OF_REACH)
+        .map(|finding| (finding.file.as_str(), finding.line, finding.column))
+        .collect()
+}
+
+/// Where not one of several targets is within reach, the profile has the base elsewhere or is that of another robot. `with` gives
+/// the findings of another profile.
+fn refuse_strange_robots(
+    job: &Job,
+    findings: &[Finding],
+    with: impl FnOnce(&Profile) -> Result<Vec<Finding>, CompensateError>,
+) -> Result<(), CompensateError> {
     let program = job.ground.program;
     let mut asked: Vec<usize> = program
         .moves
@@ -392,19 +422,28 @@ fn refuse_strange_robots(job: &Job, findings: &[Finding]) -> Result<(), Compensa
         .collect();
     asked.sort_unstable();
     asked.dedup();
-    let mut beyond: Vec<(&str, usize, usize)> = findings
-        .iter()
-        .filter(|finding| finding.id == crate::motion::OUT_OF_REACH)
-        .map(|finding| (finding.file.as_str(), finding.line, finding.column))
-        .collect();
-    beyond.sort_unstable();
-    beyond.dedup();
-    if asked.len() >= FEW && beyond.len() >= asked.len() {
-        return Err(CompensateError::NothingInReach {
-            targets: asked.len(),
-        });
+    let targets = asked.len();
+    if targets < FEW || beyond(findings).len() < targets {
+        return Ok(());
     }
-    Ok(())
+    let profile = job.ground.profile;
+    let base = profile.world_from_base;
+    if base != Pose::identity() {
+        let at_origin = Profile {
+            world_from_base: Pose::identity(),
+            ..profile.clone()
+        };
+        let in_reach =
+            with(&at_origin).map_or(0, |found| targets - beyond(&found).len().min(targets));
+        if in_reach > 0 {
+            return Err(CompensateError::BaseElsewhere {
+                targets,
+                in_reach,
+                base_mm: base.translation.map(mm_from_m),
+            });
+        }
+    }
+    Err(CompensateError::NothingInReach { targets })
 }
 
 /// What became of all targets.

@@ -91,6 +91,10 @@ pub struct Summary {
     pub max_rounding_m: f64,
     /// Likewise its largest turn, radians.
     pub max_rounding_rad: f64,
+    /// Targets whose search ended by the pose shift alone.
+    pub by_pose_shift: usize,
+    /// Targets whose search ended by damped Newton.
+    pub by_newton: usize,
 }
 
 /// What became of one target.
@@ -194,6 +198,11 @@ impl Tally {
         }
         if report.status == Some(Status::Converged) {
             self.solved += 1;
+            match report.method {
+                Some(Method::PoseShift) => summary.by_pose_shift += 1,
+                Some(Method::Newton) => summary.by_newton += 1,
+                None => {}
+            }
             self.before_m += report.before.distance_m;
             self.after_m += report.rounding.distance_m;
             summary.max_before_m = summary.max_before_m.max(report.before.distance_m);

@@ -23,7 +23,7 @@ use crate::identify::robust::limit;
 use crate::identify::statistics::Spread;
 use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, REGISTRY};
-use crate::model::profile::Profile;
+use crate::model::profile::{DevicePlace, Profile};
 use rayon::prelude::*;
 
 /// Another effect explains the data nearly as well where it is worse by no more than this, twice a log likelihood.
@@ -141,7 +141,7 @@ pub(super) fn conclude(
         outliers: outliers(attempt, measurements, &left_lengths),
         remarks,
         lengths: (present_lengths, left_lengths),
-        profile: improved(profile, session, &attempt.refit.estimate, attempt.trust),
+        profile: improved(profile, session, &attempt.refit.estimate),
         problem: session.problem.clone(),
         estimate: attempt.refit.estimate.clone(),
     })
@@ -450,9 +450,10 @@ fn rival_of(candidate: &Candidate, scored: &Scored, instead_of: usize, behind: f
 }
 
 /// The profile with what was found, effects of the data left out.
-fn improved(profile: &Profile, session: &Session, estimate: &Estimate, trust: Trust) -> Profile {
+fn improved(profile: &Profile, session: &Session, estimate: &Estimate) -> Profile {
     let mut improved = profile.clone();
-    let keep_base = matches!(trust, Trust::Calibrated { .. }) && session.elsewhere;
+    // a device that stands elsewhere, or that the profile knows of, says nothing of the robot
+    let keep_base = session.elsewhere || profile.device.is_some();
     improved.effects = estimate
         .effects
         .iter()
@@ -463,7 +464,14 @@ fn improved(profile: &Profile, session: &Session, estimate: &Estimate, trust: Tr
         .cloned()
         .collect();
     if keep_base {
-        // the device stands elsewhere: that says nothing of the robot
+        let mut fitted = improved.clone();
+        fitted.world_from_base = estimate.world_from_base;
+        fitted.effects.clone_from(&estimate.effects);
+        let nearer = profile.world_from_real_base() * fitted.world_from_real_base().inverse();
+        improved.device = Some(DevicePlace {
+            world_from_device: nearer * session.world_from_device,
+            sigma: None,
+        });
         improved.effects.extend(
             profile
                 .effects

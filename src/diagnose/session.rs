@@ -71,6 +71,8 @@ pub struct Session {
     pub repeats: Option<Repeats>,
     /// Whether the device's frame is not the profile's: the base is fitted.
     pub elsewhere: bool,
+    /// Where the device's frame is taken to be; what the base is fitted to beyond it is the device's, too.
+    pub world_from_device: Pose,
 }
 
 /// Whether a profile has no calibration at all.
@@ -164,13 +166,6 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
     }
 }
 
-fn profile_base(profile: &Profile) -> Pose {
-    let own = profile.effects.iter().filter(|e| e.kind == Kind::BaseFrame);
-    own.fold(profile.world_from_base, |base, e| {
-        base * Pose::from_xyz_rxryrz(e.parameters)
-    })
-}
-
 /// Which columns do not do what those before them do. The others are left out for good: beside an effect found later, a last
 /// link that bends, they would be told apart by next to nothing and run away together.
 fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> Vec<usize> {
@@ -213,8 +208,15 @@ pub fn session(
     let base = guess
         .as_ref()
         .map_or(profile.world_from_base, |g| g.world_from_base);
-    let (far, turned) = base_gap(&profile_base(profile), &base);
+    let real = profile.world_from_real_base();
+    let (far, turned) = base_gap(&real, &base);
     let elsewhere = far > SAME_PLACE_M || turned > SAME_TURN_RAD;
+    let nearer = if elsewhere {
+        real * base.inverse()
+    } else {
+        Pose::identity()
+    };
+    let (fit, measurements) = (fit.moved(&nearer), &measurements.moved(&nearer));
     let (mut problem, own) =
         Problem::new(profile, measurements, &selection, profile.world_from_base)?;
     let layout = Layout::of(&problem);
@@ -244,7 +246,12 @@ pub fn session(
                 shape: Shape::Huber,
                 base: BasePolicy::Device,
             };
-            match calibrate(profile, &fit, &options) {
+            // the rows are in the controller's world already
+            let here = Profile {
+                device: None,
+                ..profile.clone()
+            };
+            match calibrate(&here, &fit, &options) {
                 Ok(found) => {
                     let mut estimate = own.clone();
                     take_over(
@@ -319,6 +326,7 @@ pub fn session(
             candidates,
             repeats,
             elsewhere,
+            world_from_device: nearer * profile.world_from_device(),
         },
         remarks,
     ))

@@ -10,15 +10,17 @@ use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
-use super::solver::{Solution, Stop, absorb_base, solve};
+use super::solver::{Solution, Stop, absorb_base, belongs, solve};
 use super::start::{self, Start, base_gap};
 use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::effects::Kind;
-use crate::model::profile::Profile;
+use crate::model::profile::{DevicePlace, Profile};
 use nalgebra::DMatrix;
+use std::borrow::Cow;
+use std::f64::consts::TAU;
 
 /// A row is an outlier whose residual is beyond this many times the limit of normal ones.
 pub const OUTLIER: f64 = 1.6;
@@ -32,8 +34,14 @@ const SAME_TURN_RAD: f64 = 1.0 * DEG;
 pub const STRONG_CORRELATION: f64 = 0.9;
 
 /// What becomes of the measured place of the base.
+///
+/// A device sees the base in its own frame: `device_from_base`, the product of where the device stands and where the base stands. No
+/// measurement of the arm divides that product; something else must say where one of the two is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BasePolicy {
+    /// The base is where the controller has it, with the effects `base_frame` of the profile; what was measured is where the
+    /// device stands.
+    Controller,
     /// It is the device's world that counts: `kinematics.base` is replaced.
     Device,
     /// The profile's base counts: the difference is the effect `base_frame`.
@@ -58,7 +66,7 @@ impl Default for Options {
         Self {
             selection: Selection::level(Level::Compliance),
             shape: Shape::Huber,
-            base: BasePolicy::Nearest,
+            base: BasePolicy::Controller,
         }
     }
 }
@@ -95,6 +103,14 @@ pub struct Calibration {
     pub frames_only: Solution,
     /// Whether the measured base replaces the profile's.
     pub base_replaced: bool,
+    /// Where the base stands in the calibrated profile.
+    pub world_from_base: Pose,
+    /// Where the device stands in the calibrated profile.
+    pub device: Option<DevicePlace>,
+    /// The rows used, in the frame that the estimates are in.
+    pub fit: Measurements,
+    /// Maps what the device gave into that frame.
+    pub frame_from_device: Pose,
     /// How well it is known.
     pub uncertainty: Uncertainty,
     /// Error of position that is to be expected over the joint limits, root mean square, metres.
@@ -202,6 +218,7 @@ pub(super) fn begin_frames(
         .as_ref()
         .map_or(profile.world_from_base, |s| s.world_from_base);
     let (mut problem, mut estimate) = Problem::new(profile, measurements, &selection, base)?;
+    problem.gravity_by_base = true;
     if let Some(guess) = &guess {
         estimate
             .effects
@@ -224,6 +241,7 @@ pub fn calibrate(
     measurements: &Measurements,
     options: &Options,
 ) -> Result<Calibration, IdentifyError> {
+    let measurements = &*measurements.in_world_of(profile);
     let found = identify(profile, measurements, options)?;
     let missed = |found: &Calibration| misses(&found.problem, &found.solution.estimate);
     plausibility::doubt_touches(measurements, &missed(&found), |other| {
@@ -232,7 +250,7 @@ pub fn calibrate(
     Ok(found)
 }
 
-/// As [`calibrate`], without asking whether touches are meant otherwise.
+/// As [`calibrate`], with the device where the profile has it, and without asking whether touches are meant otherwise.
 fn identify(
     profile: &Profile,
     measurements: &Measurements,
@@ -251,13 +269,26 @@ fn identify(
         }
     }
     let sought = !is_fixed(&options.selection, Kind::BaseFrame);
-    let guess = match found {
+    let mut guess = match found {
         Some(found) if sought => found,
         _ => Start::at(profile.world_from_base),
     };
+    let by_controller = sought && options.base == BasePolicy::Controller;
+    let mut world_from_device = profile.world_from_device();
+    let (mut fit, mut measurements) = (fit, Cow::Borrowed(measurements));
+    if by_controller {
+        // near enough for the axes of forces; gravity follows the base
+        let real = profile.world_from_real_base();
+        let nearer = real * guess.world_from_base.inverse();
+        world_from_device = nearer * world_from_device;
+        fit = fit.moved(&nearer);
+        measurements = Cow::Owned(measurements.moved(&nearer));
+        guess.world_from_base = real;
+    }
     let moved_base = guess.world_from_base != profile.world_from_base;
     let (mut problem, mut estimate) =
         Problem::new(profile, &fit, &options.selection, guess.world_from_base)?;
+    problem.gravity_by_base = by_controller;
     let numbers = problem.distinct_numbers();
     if numbers <= problem.parameters.len() {
         return Err(IdentifyError::TooFew {
@@ -302,6 +333,7 @@ fn identify(
         let mut start = estimate.clone();
         start.effects.truncate(start.effects.len());
         let mut frames = frames;
+        frames.gravity_by_base = by_controller;
         frames.features.clone_from(&problem.features);
         frames.parameters = problem
             .parameters
@@ -362,6 +394,16 @@ fn identify(
     let compliance = options.selection.level == Level::Compliance;
     remarks.extend(screening::doubt_masses(&problem, compliance));
     let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;
+    let (world_from_base, device) = if by_controller {
+        let device = device_of(profile, &solution, &uncertainty, &world_from_device);
+        (profile.world_from_base, Some(device))
+    } else if base_replaced {
+        // the device's frame becomes the world
+        let base = solution.estimate.world_from_base;
+        (world_from_device.inverse() * base, None)
+    } else {
+        (solution.estimate.world_from_base, profile.device)
+    };
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
     remarks.extend(plausibility::doubt_rows(&outliers));
     let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
@@ -379,6 +421,10 @@ fn identify(
         start: guess,
         frames_only,
         base_replaced,
+        world_from_base,
+        device,
+        fit,
+        frame_from_device: world_from_device,
         expected_m,
         uncertainty,
         before,
@@ -423,6 +469,7 @@ pub fn judge(
     }
     values.effects.clone_from(&estimate.effects);
     let mut other = other;
+    other.gravity_by_base = problem.gravity_by_base;
     contact::carry((problem, estimate), &mut other, &mut values)?;
     other.sort_rigs(&values.effects);
     Ok(Quality::of(&other.rows, &misses(&other, &values)))
@@ -434,6 +481,10 @@ fn base_policy(
     profile: &Profile,
     solution: &mut Solution,
 ) -> Result<bool, IdentifyError> {
+    if policy == BasePolicy::Controller {
+        absorb_base(&mut solution.estimate);
+        return Ok(false);
+    }
     let measured = solution.estimate.world_from_base;
     let (far, turned) = base_gap(&profile.world_from_base, &measured);
     let near = far < SAME_PLACE_M && turned < SAME_TURN_RAD;
@@ -462,6 +513,61 @@ fn base_policy(
     }
     solution.estimate.world_from_base = profile.world_from_base;
     Ok(false)
+}
+
+/// Where the device stands, of rows in a frame that `frame_from_device` maps into, with the standard deviations of its numbers.
+///
+/// `world_from_device = real_base · (measured_base · T(δ))⁻¹ · frame_from_device` with the deviation δ of the base, whose covariance
+/// is propagated by central differences. No deviation is known where one of the six is not determined.
+fn device_of(
+    profile: &Profile,
+    solution: &Solution,
+    uncertainty: &Uncertainty,
+    frame_from_device: &Pose,
+) -> DevicePlace {
+    const STEP: f64 = 1e-6;
+    let estimate = &solution.estimate;
+    let place = |deviation: [f64; 6]| {
+        let base = estimate.world_from_base * Pose::from_xyz_rxryrz(deviation);
+        profile.world_from_real_base() * base.inverse() * *frame_from_device
+    };
+    let parameters = solution.parameters.iter().enumerate();
+    let of_base: Vec<(usize, usize, f64)> = parameters
+        .filter(|(_, p)| belongs(estimate, p, Kind::BaseFrame))
+        .filter_map(|(i, p)| match p.subject {
+            Subject::Effect(slot) => Some((i, slot.parameter, p.scale)),
+            _ => None,
+        })
+        .collect();
+    let slopes: Vec<[f64; 6]> = of_base
+        .iter()
+        .map(|(_, number, scale)| {
+            let ends = [-STEP, STEP].map(|step| {
+                let mut deviation = [0.0; 6];
+                deviation[*number] = step;
+                place(deviation).xyz_rxryrz()
+            });
+            std::array::from_fn(|k| {
+                let change = ends[1][k] - ends[0][k];
+                // an angle may pass a half turn between the two
+                let turns = if k < 3 { 0.0 } else { (change / TAU).round() };
+                scale * (change - turns * TAU) / (2.0 * STEP)
+            })
+        })
+        .collect();
+    let sigma = std::array::from_fn(|k| {
+        let mut variance = 0.0;
+        for (a, (i, ..)) in of_base.iter().enumerate() {
+            for (b, (j, ..)) in of_base.iter().enumerate() {
+                variance += slopes[a][k] * uncertainty.covariance[(*i, *j)] * slopes[b][k];
+            }
+        }
+        variance.max(0.0).sqrt()
+    });
+    DevicePlace {
+        world_from_device: place([0.0; 6]),
+        sigma: (of_base.len() == 6).then_some(sigma),
+    }
 }
 
 fn outliers(
@@ -519,27 +625,34 @@ impl Calibration {
             })
     }
 
-    /// What the probe touched and was not wholly known, and where it was found.
+    /// What the probe touched and was not wholly known, and where it was found in the device's frame.
     pub fn features(&self) -> impl Iterator<Item = (&contact::Feature, contact::Fitted)> {
         let values = &self.solution.estimate.features;
         let all = self.problem.features.iter().zip(values);
+        let back = self.frame_from_device.inverse();
         all.filter(|(feature, _)| feature.unknowns() > 0)
-            .map(|(feature, values)| (feature, feature.place(values)))
+            .map(move |(feature, values)| {
+                let place = feature.place(values);
+                let seen = contact::Fitted {
+                    centre_m: back.transform(place.centre_m),
+                    normal: place.normal.map(|normal| back.rotation * normal),
+                    ..place
+                };
+                (feature, seen)
+            })
     }
 
     /// The calibrated robot: the profile with the identified effects, points and, where it was replaced, base.
     #[must_use]
     pub fn profile(&self) -> Profile {
         let mut profile = self.problem.profile.clone();
-        profile.world_from_base = self.solution.estimate.world_from_base;
-        profile.effects = self
-            .solution
-            .estimate
-            .effects
-            .iter()
-            .filter(|e| !e.is_zero())
-            .cloned()
-            .collect();
+        profile.world_from_base = self.world_from_base;
+        profile.device = self.device;
+        let estimate = &self.solution.estimate;
+        let known = self.problem.profile.effects.iter();
+        let of_base = known.filter(|e| self.problem.gravity_by_base && e.kind == Kind::BaseFrame);
+        let found = estimate.effects.iter().filter(|e| !e.is_zero());
+        profile.effects = found.chain(of_base).cloned().collect();
         for (point, value) in self
             .problem
             .points

@@ -1,11 +1,11 @@
 //! The cells of a row that say what the probe touched.
 
 use super::contact::{Contact, ContactKind};
-use super::fault::UNIT_TOLERANCE;
+use super::fault::{MeasurementError, MeasurementFault, UNIT_TOLERANCE};
 use super::measurements::{
-    CENTRE_COLUMNS, Cells, DISTANCE_COLUMNS, Kinds, MeasurementError, MeasurementFault,
-    NORMAL_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS,
+    CENTRE_COLUMNS, DISTANCE_COLUMNS, NORMAL_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS,
 };
+use super::reading::{Cells, Kinds};
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, norm};
 

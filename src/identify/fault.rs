@@ -1,6 +1,8 @@
 //! What can be wrong with a file of measurements, and where.
 
 use super::doubt::csv::NotCsv;
+use super::table::{is_of_format, proposal};
+use crate::nearest;
 
 /// How far a quaternion's length may be from 1.
 pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
@@ -23,6 +25,8 @@ pub(super) fn beyond(column: &str, number: f64) -> Option<&'static str> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
 pub struct MeasurementError {
+    /// Which of the files, from 0.
+    pub file: usize,
     /// Line, from 1; 0 is the whole file.
     pub line: usize,
     /// Column in bytes, from 1.
@@ -36,6 +40,7 @@ pub struct MeasurementError {
 impl From<NotCsv> for MeasurementError {
     fn from(found: NotCsv) -> Self {
         Self {
+            file: 0,
             line: found.line,
             column: found.column,
             length: 0,
@@ -131,8 +136,29 @@ impl MeasurementError {
     pub fn hint(&self) -> String {
         match &self.fault {
             MeasurementFault::Csv { hint, .. } => hint.clone(),
-            MeasurementFault::MissingColumns { header, .. } => {
-                format!("the header has: {}", header.join(", "))
+            MeasurementFault::MissingColumns { missing, header } => {
+                let proposal = proposal(header);
+                let names = || header.iter().map(String::as_str);
+                let meant = missing.iter().filter_map(|column| {
+                    let near = nearest::nearest(column, names().filter(|name| !is_of_format(name)));
+                    Some(format!("is `{}` meant as `{column}`?", near.first()?))
+                });
+                let mut hint: Vec<String> = if proposal.is_empty() {
+                    meant.collect()
+                } else {
+                    vec![format!("is it `{proposal}`?")]
+                };
+                hint.push(format!("the header has: {}", header.join(", ")));
+                hint.join(" ")
+            }
+            MeasurementFault::NotFinite { found, .. } if found.contains(',') => {
+                "decimals have a comma or a point, all of a file the same, and thousands have no sign".into()
+            }
+            MeasurementFault::NotFinite { .. } => {
+                "leave the row out where it was not measured, or all cells of the kind that was not".into()
+            }
+            MeasurementFault::NotUnit { .. } => {
+                "qw,qx,qy,qz, the scalar first; angles are read with --euler".into()
             }
             MeasurementFault::TooLarge { .. } => {
                 "is a decimal point lost, or is it an error code of the device? correct the number or leave the row out".into()

@@ -1,16 +1,13 @@
-//! Measurements: what a device saw of the tool, one row a reading, read strictly from a CSV file.
+//! Measurements: what a device saw of the tool, one row a reading.
 
-use crate::geometry::units::{DEG, m_from_mm};
-use crate::geometry::{Pose, Quaternion, Vector};
-use crate::model::Conditions;
-
-use super::contact::{self, Contact, ContactKind};
-use super::doubt::csv::not_csv;
+use super::contact::{Contact, ContactKind};
 use super::line::Line;
+use crate::geometry::{Pose, Vector};
+use crate::model::Conditions;
+use crate::model::profile::Profile;
+use std::borrow::Cow;
 
 pub use super::fault::{MeasurementError, MeasurementFault};
-
-use super::fault::{UNIT_TOLERANCE, beyond};
 
 /// Columns of joint angles.
 pub const JOINT_COLUMNS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
@@ -27,9 +24,10 @@ pub const DIRECTION_COLUMNS: [&str; 6] = ["dir1", "dir2", "dir3", "dir4", "dir5"
 /// Columns of the external force on the tool.
 pub const FORCE_COLUMNS: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
 
-/// Smallest standard deviation, metres.
-const LEAST_SIGMA_M: f64 = 1e-12;
-
+/// Columns of a wanted position, for tables that have no measured one but the difference from it.
+pub const TARGET_COLUMNS: [&str; 3] = ["target_x_mm", "target_y_mm", "target_z_mm"];
+/// Columns of the measured position less the wanted one.
+pub const DIFFERENCE_COLUMNS: [&str; 3] = ["diff_x_mm", "diff_y_mm", "diff_z_mm"];
 /// Columns of a touched sphere's centre, of a point of a touched plane, or of a touched point.
 pub const CENTRE_COLUMNS: [&str; 3] = ["cx_mm", "cy_mm", "cz_mm"];
 /// Columns of the outward normal of a touched plane.
@@ -132,364 +130,42 @@ pub struct Measurements {
     pub columns: Vec<String>,
 }
 
-fn whole_file(fault: MeasurementFault) -> MeasurementError {
-    MeasurementError {
-        line: 0,
-        column: 1,
-        length: 0,
-        fault,
-    }
-}
-
-/// The header and where each column of the format stands.
-pub(super) struct Reader<'a> {
-    bytes: &'a [u8],
-    header: Vec<String>,
-}
-
-pub(super) struct Cells<'a> {
-    pub(super) reader: &'a Reader<'a>,
-    line: usize,
-    record: csv::StringRecord,
-}
-
-impl Reader<'_> {
-    fn index(&self, column: &str) -> Option<usize> {
-        self.header.iter().position(|name| name == column)
-    }
-
-    pub(super) fn has(&self, columns: &[&str]) -> bool {
-        columns.iter().all(|column| self.index(column).is_some())
-    }
-
-    /// None of these columns is there, or all are.
-    fn group(&self, columns: &[&'static str]) -> Result<bool, MeasurementError> {
-        for column in columns {
-            if self.header.iter().filter(|name| name == column).count() > 1 {
-                return Err(whole_file(MeasurementFault::TwiceColumn { column }));
-            }
-        }
-        let present = columns.iter().filter(|c| self.index(c).is_some()).count();
-        if present != 0 && present != columns.len() {
-            return Err(self.missing(columns));
-        }
-        Ok(present != 0)
-    }
-
-    fn missing(&self, columns: &[&'static str]) -> MeasurementError {
-        let missing = columns.iter().filter(|c| self.index(c).is_none());
-        whole_file(MeasurementFault::MissingColumns {
-            missing: missing.copied().collect(),
-            header: self.header.clone(),
-        })
-    }
-}
-
-impl Cells<'_> {
-    pub(super) fn text(&self, column: &str) -> Option<&str> {
-        let text = self.record.get(self.reader.index(column)?)?;
-        (!text.is_empty()).then_some(text)
-    }
-
-    pub(super) fn error(&self, column: &'static str, fault: MeasurementFault) -> MeasurementError {
-        let index = self.reader.index(column).unwrap_or(0);
-        let mut lines = self.reader.bytes.split(|b| *b == b'\n');
-        let line = lines.nth(self.line.saturating_sub(1)).unwrap_or_default();
-        let commas = line.iter().enumerate().filter(|(_, b)| **b == b',');
-        let starts = std::iter::once(0).chain(commas.map(|(at, _)| at + 1));
-        MeasurementError {
-            line: self.line,
-            column: starts.clone().nth(index).unwrap_or(0) + 1,
-            length: self.text(column).map_or(0, str::len),
-            fault,
-        }
-    }
-
-    pub(super) fn number(&self, column: &'static str) -> Result<f64, MeasurementError> {
-        let text = self.text(column).unwrap_or_default();
-        let number = text.parse().ok().filter(|n: &f64| n.is_finite());
-        let found = text.to_owned();
-        let Some(number) = number else {
-            return Err(self.error(column, MeasurementFault::NotFinite { column, found }));
-        };
-        if let Some(limit) = beyond(column, number) {
-            let fault = MeasurementFault::TooLarge {
-                column,
-                found,
-                limit,
-            };
-            return Err(self.error(column, fault));
-        }
-        Ok(number)
-    }
-
-    pub(super) fn numbers<const N: usize>(
-        &self,
-        columns: [&'static str; N],
-    ) -> Result<[f64; N], MeasurementError> {
-        let mut out = [0.0; N];
-        for (slot, column) in out.iter_mut().zip(columns) {
-            *slot = self.number(column)?;
-        }
-        Ok(out)
-    }
-
-    /// A number that is there where the column is.
-    fn optional(&self, column: &'static str) -> Result<Option<f64>, MeasurementError> {
-        match self.reader.index(column) {
-            Some(_) => self.number(column).map(Some),
-            None => Ok(None),
-        }
-    }
-
-    fn name(&self, column: &'static str) -> Result<Option<String>, MeasurementError> {
-        match (self.reader.index(column), self.text(column)) {
-            (None, _) => Ok(None),
-            (Some(_), Some(text)) => Ok(Some(text.to_owned())),
-            (Some(_), None) => {
-                let found = "an empty cell".to_owned();
-                let allowed = "a name";
-                Err(self.not_allowed(column, found, allowed))
-            }
-        }
-    }
-
-    pub(super) fn is_empty(&self, columns: &[&str]) -> bool {
-        columns.iter().all(|column| self.text(column).is_none())
-    }
-
-    fn observed(&self, kinds: Kinds) -> Result<Observed, MeasurementError> {
-        let (mut point, mut distance) = (kinds.position, kinds.distance);
-        if point && distance {
-            let mut position_cells = POSITION_COLUMNS.to_vec();
-            position_cells.extend(QUATERNION_COLUMNS.iter().filter(|_| kinds.quaternion));
-            point = !self.is_empty(&position_cells);
-            distance = !self.is_empty(&DISTANCE_COLUMNS);
-            if point == distance {
-                return Err(self.error("x_mm", MeasurementFault::Kind { both: point }));
-            }
-        }
-        if !point && !distance {
-            return Err(self.error("contact", MeasurementFault::Kind { both: false }));
-        }
-        if distance {
-            let [distance, x, y, z] = self.numbers(DISTANCE_COLUMNS)?;
-            if distance < 0.0 {
-                let (column, allowed) = ("distance_mm", "zero or more");
-                let found = distance.to_string();
-                return Err(self.not_allowed(column, found, allowed));
-            }
-            return Ok(Observed::Distance {
-                distance_m: m_from_mm(distance),
-                from_m: [x, y, z].map(m_from_mm),
-            });
-        }
-        let position = self.numbers(POSITION_COLUMNS)?.map(m_from_mm);
-        // a row without orientation in a file where others have one
-        if !kinds.quaternion || self.is_empty(&QUATERNION_COLUMNS) {
-            return Ok(Observed::Position(position));
-        }
-        let quaternion = Quaternion(self.numbers(QUATERNION_COLUMNS)?);
-        let norm = quaternion.norm();
-        if (norm - 1.0).abs() > UNIT_TOLERANCE {
-            return Err(self.error("qw", MeasurementFault::NotUnit { norm }));
-        }
-        Ok(Observed::Pose(Pose::from_parts(
-            position,
-            quaternion.normalized(),
-        )))
-    }
-
-    fn measurement(&self, number: usize, kinds: Kinds) -> Result<Measurement, MeasurementError> {
-        let q = self.numbers(JOINT_COLUMNS)?.map(|q| q * DEG);
-        let point = self.name("point")?;
-        let unnamed = point.is_none();
-        let point_in_tool_m = if kinds.point && (unnamed || !self.is_empty(&POINT_COLUMNS)) {
-            Some(self.numbers(POINT_COLUMNS)?.map(m_from_mm))
-        } else {
-            None
-        };
-        let mut conditions = Conditions {
-            temperature_c: self.optional("temperature_c")?,
-            time_s: self.optional("time_s")?,
-            ..Conditions::default()
-        };
-        if kinds.directions {
-            for (slot, column) in conditions.direction.iter_mut().zip(DIRECTION_COLUMNS) {
-                *slot = self.number(column)?;
-                if ![-1.0, 0.0, 1.0].contains(slot) {
-                    let (found, allowed) = (slot.to_string(), "-1, 0 or 1");
-                    return Err(self.not_allowed(column, found, allowed));
-                }
-            }
-        }
-        if kinds.force {
-            conditions.force_n = self.numbers(FORCE_COLUMNS)?;
-        }
-        let sigma_m = self.optional("sigma_mm")?.map(m_from_mm);
-        if sigma_m.is_some_and(|sigma| sigma < LEAST_SIGMA_M) {
-            let (column, allowed) = ("sigma_mm", "greater than zero: 1e-9 mm or more");
-            let found = self.text(column).unwrap_or_default().to_owned();
-            return Err(self.not_allowed(column, found, allowed));
-        }
-        let purpose = match self.name("set")?.as_deref() {
-            None => None,
-            Some("fit") => Some(Purpose::Fit),
-            Some("validate") => Some(Purpose::Validate),
-            Some(found) => {
-                let (column, allowed, found) = ("set", "fit or validate", format!("`{found}`"));
-                return Err(self.not_allowed(column, found, allowed));
-            }
-        };
-        let contact = self.contact(kinds)?;
-        Ok(Measurement {
-            line: self.line.into(),
-            id: self
-                .text("id")
-                .map_or_else(|| number.to_string(), str::to_owned),
-            q,
-            observed: match &contact {
-                Some(contact) => contact.observed(),
-                None => self.observed(kinds)?,
-            },
-            tool: self.name("tool")?,
-            point,
-            point_in_tool_m,
-            conditions,
-            sigma_m,
-            purpose,
-            contact,
-        })
-    }
-}
-
-/// Which groups of columns a file has.
-#[derive(Clone, Copy)]
-#[allow(clippy::struct_excessive_bools, reason = "one a group of columns")]
-pub(super) struct Kinds {
-    position: bool,
-    quaternion: bool,
-    distance: bool,
-    point: bool,
-    directions: bool,
-    force: bool,
-    contact: bool,
-    pub(super) probe: bool,
-}
-
 impl Measurements {
-    /// Reads a file's bytes: a CSV with a header, columns in any order, lines that start with `#` left out.
-    ///
-    /// Where a file has columns of both a position and a distance, or of a position and an orientation, a row leaves the
-    /// cells empty of what was not measured. Every other empty or non-finite cell is an error.
-    ///
-    /// # Errors
-    /// Anything the format does not allow, with line and column.
-    pub fn from_csv(bytes: &[u8]) -> Result<Self, MeasurementError> {
-        if let Some(found) = not_csv(bytes) {
-            return Err(found.into());
-        }
-        let mut source = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(bytes);
-        let fault = |error: &csv::Error| {
-            let line = error.position().map_or(0, csv::Position::line);
-            let message = match error.kind() {
-                csv::ErrorKind::UnequalLengths {
-                    expected_len, len, ..
-                } => format!("{len} cells; the header has {expected_len}"),
-                csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".into(),
-                _ => error.to_string(),
-            };
-            MeasurementError {
-                line: usize::try_from(line).unwrap_or(0),
-                column: 1,
-                length: 0,
-                fault: MeasurementFault::Csv {
-                    message,
-                    hint: String::new(),
-                },
-            }
-        };
-        let header: Vec<String> = source
-            .headers()
-            .map_err(|error| fault(&error))?
-            .iter()
-            .map(|name| name.trim_start_matches('\u{feff}').to_owned())
-            .collect();
-        let reader = Reader { bytes, header };
-        if !reader.group(&JOINT_COLUMNS)? {
-            return Err(reader.missing(&JOINT_COLUMNS));
-        }
-        let kinds = Kinds {
-            position: reader.group(&POSITION_COLUMNS)?,
-            quaternion: reader.group(&QUATERNION_COLUMNS)?,
-            distance: reader.group(&DISTANCE_COLUMNS)?,
-            point: reader.group(&POINT_COLUMNS)?,
-            directions: reader.group(&DIRECTION_COLUMNS)?,
-            force: reader.group(&FORCE_COLUMNS)?,
-            contact: reader.group(&["contact"])?,
-            probe: reader.group(&["probe_radius_mm"])?,
-        };
-        for single in [
-            "id",
-            "tool",
-            "point",
-            "temperature_c",
-            "time_s",
-            "sigma_mm",
-            "set",
-        ] {
-            reader.group(&[single])?;
-        }
-        let centre = reader.group(&CENTRE_COLUMNS)?;
-        let described = reader.group(&NORMAL_COLUMNS)? | centre | reader.group(&["radius_mm"])?;
-        let named = reader.group(&["feature"])?;
-        if kinds.contact != named || described && !named {
-            return Err(reader.missing(&["contact", "feature"]));
-        }
-        let others = kinds.position || kinds.distance && !kinds.quaternion;
-        if !others && !kinds.contact {
-            return Err(reader.missing(&POSITION_COLUMNS));
-        }
-        let mut rows = Vec::new();
-        for record in source.records() {
-            let record = record.map_err(|error| fault(&error))?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let cells = Cells {
-                reader: &reader,
-                line: usize::try_from(line).unwrap_or(0),
-                record,
-            };
-            rows.push(cells.measurement(rows.len() + 1, kinds)?);
-        }
-        if rows.is_empty() {
-            return Err(whole_file(MeasurementFault::NoRows));
-        }
-        contact::settle(&mut rows).map_err(|conflict| MeasurementError {
-            line: conflict.line,
-            column: 1,
-            length: 0,
-            fault: MeasurementFault::Contradiction {
-                feature: conflict.feature,
-                earlier: conflict.earlier,
-            },
-        })?;
-        Ok(Self {
-            rows,
-            columns: reader.header.clone(),
-        })
-    }
-
     /// Whether the file has all these columns.
     #[must_use]
     pub fn has(&self, columns: &[&str]) -> bool {
-        let reader = Reader {
-            bytes: &[],
-            header: self.columns.clone(),
-        };
-        reader.has(columns)
+        let has = |column: &&str| self.columns.iter().any(|name| name == *column);
+        columns.iter().all(has)
+    }
+
+    /// The same readings in another frame; forces stay along the axes of the world.
+    #[must_use]
+    pub fn moved(&self, to_from_here: &Pose) -> Self {
+        let mut moved = self.clone();
+        for row in &mut moved.rows {
+            match &mut row.observed {
+                Observed::Position(point) => *point = to_from_here.transform(*point),
+                Observed::Pose(pose) => *pose = *to_from_here * *pose,
+                Observed::Distance { from_m, .. } => *from_m = to_from_here.transform(*from_m),
+                Observed::Contact(_) => {}
+            }
+            if let Some(contact) = &mut row.contact {
+                contact.centre_m = contact
+                    .centre_m
+                    .map(|centre| to_from_here.transform(centre));
+                contact.normal = contact.normal.map(|normal| to_from_here.rotation * normal);
+            }
+        }
+        moved
+    }
+
+    /// The readings in the controller's world, by where the profile has the device.
+    #[must_use]
+    pub fn in_world_of(&self, profile: &Profile) -> Cow<'_, Self> {
+        match &profile.device {
+            Some(device) => Cow::Owned(self.moved(&device.world_from_device)),
+            None => Cow::Borrowed(self),
+        }
     }
 
     /// Those rows that `keep` wants.
@@ -524,6 +200,7 @@ impl Measurements {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::units::DEG;
 
     const HEADER: &str = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,";
 

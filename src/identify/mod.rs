@@ -57,9 +57,11 @@ mod fault;
 mod imagined;
 mod line;
 mod pairs;
+mod reading;
 mod repeated;
 pub mod route;
 pub mod statistics;
+pub mod table;
 pub mod uncertainty;
 pub mod validation;
 

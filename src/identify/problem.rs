@@ -123,6 +123,9 @@ pub struct Problem {
     pub parameters: Vec<Parameter>,
     /// Whether some row has no standard deviation of its own.
     pub sigma_assumed: bool,
+    /// Whether the estimated base stands in the frame of a device that may be tilted: gravity is then along the axes of the
+    /// base as the profile has them, wherever the device sees the base.
+    pub gravity_by_base: bool,
 }
 
 fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyError> {
@@ -299,6 +302,7 @@ impl Problem {
             rigs: Vec::new(),
             parameters,
             sigma_assumed,
+            gravity_by_base: false,
         };
         problem.check_needs(measurements, &effects, selection)?;
         problem.sort_rigs(&effects);
@@ -409,11 +413,16 @@ impl Problem {
                 Subject::Point { .. } | Subject::Feature { .. } => None,
             })
             .collect();
+        let real = self.profile.world_from_real_base().rotation.transpose();
+        let tilt = (self.gravity_by_base).then(|| estimate.world_from_base.rotation * real);
         self.rigs
             .iter()
             .map(|rig| {
                 let mut geometry = self.profile.geometry(&self.tools[rig.tool]);
                 geometry.world_from_base = estimate.world_from_base;
+                if let Some(tilt) = tilt {
+                    geometry.gravity_m_s2 = tilt * geometry.gravity_m_s2;
+                }
                 Sensitivity::build(
                     &geometry,
                     &self.profile.mechanism,

@@ -152,6 +152,7 @@ pub fn validate_telling(
     folds: Option<usize>,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Validation, IdentifyError> {
+    let measurements = &*measurements.in_world_of(profile);
     let selection = Selection::level(Level::Frames);
     let unknown = measurements.rows.iter().find(|row| {
         row.point_in_tool_m.is_none()
@@ -358,6 +359,7 @@ fn cross_validate(
         .as_ref()
         .map_or(profile.world_from_base, |s| s.world_from_base);
     let (mut problem, mut begun) = Problem::new(profile, measurements, &selection, base)?;
+    problem.gravity_by_base = true;
     let frames = problem.parameters.clone();
     problem.parameters.extend(present(&begun, &frames));
     problem.parameters.sort_by_key(|p| p.rank);

@@ -2,7 +2,7 @@
 
 use super::text::left_out as left_out_lines;
 use crate::program::Language;
-use crate::task::compensate::{Compensated, Summary};
+use crate::task::compensate::{Compensated, MethodCounts, Summary};
 
 /// The text for people, without the findings.
 #[must_use]
@@ -20,6 +20,7 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
         max_residual_mm,
         max_rounding_mm,
         max_rounding_deg,
+        methods,
         added,
         ref files,
         ref left_out,
@@ -46,6 +47,12 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
         ));
         lines.push(format!(
             "  rounding  largest {max_rounding_mm:.4} mm, {max_rounding_deg:.4} deg (what the file's decimals cost)"
+        ));
+    }
+    let MethodCounts { pose_shift, newton } = methods;
+    if pose_shift + newton > 0 {
+        lines.push(format!(
+            "  method    {pose_shift} by pose shift, {newton} by damped Newton"
         ));
     }
     if added > 0 {

@@ -147,7 +147,8 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     .map_err(|error| identify_failure(name, &error))?;
     findings.extend(remarks(&doubts, name));
     let mounted = only_tool(profile);
-    let world_from_base = base_pose.unwrap_or(profile.world_from_base);
+    let world_from_base = base_pose
+        .unwrap_or_else(|| profile.world_from_device().inverse() * profile.world_from_base);
     let arm = Arm {
         world_from_base,
         mounted: &mounted,

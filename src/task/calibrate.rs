@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
-use super::parts::{File, Observability, Pose, Quality, findings};
+use super::parts::{File, Observability, Pose, Quality, Sigma, findings};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
 use crate::finding::Finding;
@@ -11,7 +11,7 @@ use crate::geometry::units::mm_from_m;
 use crate::identify::calibration::{
     Calibration as Found, Options as Identification, STRONG_CORRELATION, calibrate as identify,
 };
-use crate::identify::measurements::{Measurements, Purpose};
+use crate::model::profile::Tables;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -77,7 +77,7 @@ pub struct Feature {
     pub feature: String,
     /// What it is.
     pub contact: &'static str,
-    /// Its centre, or a point on it, in the world.
+    /// Its centre, or a point on it, in the device's frame.
     pub centre_mm: [f64; 3],
     /// Its radius.
     pub radius_mm: Option<f64>,
@@ -129,6 +129,12 @@ pub struct Calibration {
     pub base: Pose,
     /// Whether the measured base replaces the profile's.
     pub base_replaced: bool,
+    /// `world_from_device`: where the device stands in the controller's world, where that was identified.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub world_from_device: Option<Pose>,
+    /// Standard deviations of its numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub world_from_device_sigma: Option<Sigma>,
     /// Passes of the solver.
     pub passes: usize,
     /// Why it stopped.
@@ -148,12 +154,12 @@ pub struct Calibration {
     /// The profile written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
+    /// How the columns of the files were named, where it was said: the profile keeps it.
+    #[serde(skip)]
+    pub tables: Option<Tables>,
     /// The rows and models behind the numbers, which the page draws.
     #[serde(skip)]
     pub found: Found,
-    /// The rows used.
-    #[serde(skip)]
-    pub fit: Measurements,
     /// How the files of measurements are named.
     #[serde(skip)]
     pub name: String,
@@ -172,10 +178,17 @@ pub fn calibrate(
     measurements: Rows,
     options: &Identification,
 ) -> Result<Calibration, Failure> {
-    let Rows { all, name, sha256 } = measurements;
+    let Rows {
+        all,
+        name,
+        sha256,
+        findings: mut told,
+        tables,
+    } = measurements;
     let found = identify(&profile.profile, &all, options)
         .map_err(|error| identify_failure(&name, &error))?;
-    let fit = all.filtered(|_, row| row.purpose != Some(Purpose::Validate));
+    told.extend(findings(&found.remarks, &name));
+    let device = found.device.filter(|_| !found.base_replaced);
     let u = &found.uncertainty;
     Ok(Calibration {
         parameters: parameters(&found),
@@ -192,11 +205,13 @@ pub fn calibrate(
         applied_factor: u.applied_factor,
         sigma_assumed: found.problem.sigma_assumed,
         expected_error_mm: found.expected_m.map(mm_from_m),
-        base: (&found.solution.estimate.world_from_base).into(),
+        base: (&found.world_from_base).into(),
         base_replaced: found.base_replaced,
+        world_from_device: device.map(|device| (&device.world_from_device).into()),
+        world_from_device_sigma: device.and_then(|device| device.sigma).map(Into::into),
         passes: found.solution.passes,
         stopped: found.stop().describe(),
-        findings: findings(&found.remarks, &name),
+        findings: told,
         features: features(&found),
         held_out: found.held_out.as_ref().map(|(frames, full)| HeldOut {
             frames_only: frames.into(),
@@ -205,8 +220,8 @@ pub fn calibrate(
         profile_sha256: profile.sha256.clone(),
         measurements_sha256: sha256,
         output: None,
+        tables,
         found,
-        fit,
         name,
     })
 }
@@ -222,6 +237,9 @@ impl Calibration {
         date: Option<&str>,
     ) -> Result<String, Failure> {
         let mut calibrated = self.found.profile();
+        if let Some(tables) = &self.tables {
+            calibrated.tables.clone_from(tables);
+        }
         calibrated.quality = Some(self.quality());
         calibrated.provenance = Some(self.provenance(date));
         profile.rewritten(&calibrated)

@@ -340,12 +340,23 @@ pub struct Summary {
     pub max_rounding_mm: f64,
     /// Largest angle likewise.
     pub max_rounding_deg: f64,
+    /// How many searches ended by which method.
+    pub methods: MethodCounts,
     /// Targets that were put between others, or given to moves of their own.
     pub added: usize,
     /// Which programs are written.
     pub files: Files,
     /// What of folders is no program of the run.
     pub left_out: LeftOut,
+}
+
+/// How many targets' searches ended by which method.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct MethodCounts {
+    /// By the pose shift alone.
+    pub pose_shift: usize,
+    /// By damped Newton, after the pose shift stalled.
+    pub newton: usize,
 }
 
 /// Which programs are written.
@@ -431,6 +442,10 @@ impl<'a> Compensated<'a> {
                 max_residual_mm: mm_from_m(s.max_residual_m),
                 max_rounding_mm: mm_from_m(s.max_rounding_m),
                 max_rounding_deg: s.max_rounding_rad / DEG,
+                methods: MethodCounts {
+                    pose_shift: s.by_pose_shift,
+                    newton: s.by_newton,
+                },
                 added: compensation.added.targets.len(),
                 files: Files::of(header),
                 left_out: header.left_out.clone(),

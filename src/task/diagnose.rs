@@ -310,7 +310,13 @@ pub fn diagnose(
     options: &Options,
     tell: &mut dyn FnMut(&str),
 ) -> Result<Diagnosis, Failure> {
-    let Rows { all, name, sha256 } = measurements;
+    let Rows {
+        all,
+        name,
+        sha256,
+        findings: read,
+        ..
+    } = measurements;
     let d = search(&file.profile, &all, options, tell)
         .map_err(|error| identify_failure(&name, &error))?;
     let label = |i: usize| d.found[i].effect.label();
@@ -412,7 +418,10 @@ pub fn diagnose(
                 file: (&f.line).into(),
             })
             .collect(),
-        findings: findings(&d.remarks, &name),
+        findings: read
+            .into_iter()
+            .chain(findings(&d.remarks, &name))
+            .collect(),
         profile_sha256: file.sha256.clone(),
         measurements_sha256: sha256,
         output: None,

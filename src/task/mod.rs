@@ -45,7 +45,7 @@ mod table;
 pub mod validate;
 
 pub use failure::{Blame, Excerpt, Failure};
-pub use measurements::Rows;
+pub use measurements::{Rows, Said};
 pub use profile_file::{ProfileFile, frame, text};
 pub use schema::{SCHEMAS, schema};
 

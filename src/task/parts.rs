@@ -138,6 +138,22 @@ impl From<&Six> for Sigma {
     }
 }
 
+impl From<[f64; 6]> for Sigma {
+    /// Of `x, y, z, rx, ry, rz` in metres and radians.
+    fn from([x, y, z, rx, ry, rz]: [f64; 6]) -> Self {
+        let [x_mm, y_mm, z_mm] = [x, y, z].map(mm_from_m);
+        let [rx_deg, ry_deg, rz_deg] = [rx, ry, rz].map(|angle| angle / DEG);
+        Self {
+            x_mm,
+            y_mm,
+            z_mm,
+            rx_deg,
+            ry_deg,
+            rz_deg,
+        }
+    }
+}
+
 impl Sigma {
     /// Of the position, mm.
     #[must_use]

@@ -241,6 +241,11 @@ pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             error.to_string(),
             "`poseshift calibrate` identifies effects; with --work-offset the part is moved without any",
         ),
+        CompensateError::BaseElsewhere { .. } => Failure::with_hint(
+            error.to_string(),
+            "kinematics.base is where the controller has the robot, not where a measuring device saw it: write the controller's there \
+             (`poseshift profile set`), or calibrate again with --base controller; nothing is written",
+        ),
         CompensateError::NothingInReach { .. } => Failure::with_hint(
             error.to_string(),
             "check the tool and the work frame, too; nothing is written",

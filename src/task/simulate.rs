@@ -6,8 +6,8 @@ use super::profile_file::ProfileFile;
 use super::table::{JOINTS, Row, Table, cell, text_cell};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::measurements::{
-    DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Observed, POSITION_COLUMNS,
-    QUATERNION_COLUMNS,
+    DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Measurements, Observed,
+    POSITION_COLUMNS, QUATERNION_COLUMNS,
 };
 use crate::identify::simulate::{Command, Session, simulate as measure};
 use crate::model::Conditions;
@@ -32,7 +32,7 @@ impl Document for Simulation {
     const KIND: &'static str = "simulation/1";
 }
 
-/// Measures the real arm of a profile in each row's joint angles, every named point of it.
+/// Measures the real arm of a profile in each row's joint angles, every named point of it, in the frame of the profile's device.
 ///
 /// # Errors
 /// A table without joints; a tool that the profile does not have.
@@ -71,6 +71,11 @@ pub fn simulate(
         points.push((None, [0.0; 3]));
     }
     let rows = measure(profile, &tool, &points, &commands, session);
+    let seen = Measurements {
+        rows,
+        columns: Vec::new(),
+    };
+    let rows = seen.moved(&profile.world_from_device().inverse()).rows;
     let csv = csv(&rows, forces, profile.tools.contains_key(&tool.name));
     Ok(Simulation {
         rows: rows.len(),

@@ -189,6 +189,8 @@ pub fn validate(
         mut all,
         name,
         sha256,
+        findings: read,
+        ..
     } = measurements;
     let is_for = |row: &Measurement| row.purpose == Some(Purpose::Validate);
     let some = all.rows.iter().any(is_for) && !options.all_sets;
@@ -205,6 +207,7 @@ pub fn validate(
     let mut told: Vec<Finding> = seen_before(file, &found, &sha256, &name)
         .into_iter()
         .collect();
+    told.extend(read);
     told.extend(findings(&found.remarks, &name));
     Ok(Validation {
         rows: found.problem.rows.len(),

@@ -20,3 +20,4 @@ mod support;
 #[path = "../trial/mod.rs"]
 #[allow(dead_code, reason = "the example prints more of it")]
 mod trial;
+mod walk;

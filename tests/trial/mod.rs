@@ -249,6 +249,9 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
             base[5],
         ];
         truth.world_from_base = poseshift::geometry::Pose::from_xyz_rxryrz(upright);
+        // the robot is mounted as its profile says: what is tilted is the device
+        let own = nominal.world_from_base.rotation.transpose();
+        truth.gravity_m_s2 = truth.world_from_base.rotation * own * nominal.gravity_m_s2;
         let tip: Vec<f64> = (0..3).map(|_| p(&mut random, 1e-3)).collect();
         truth.effects.push(at(Kind::ToolFrame, 0, &tip));
     }

@@ -26,6 +26,30 @@ fn has_decimal_comma(cell: &[u8]) -> bool {
     text.contains(',') && text.replacen(',', ".", 1).parse::<f64>().is_ok()
 }
 
+/// A file without anything in it.
+#[must_use]
+pub fn empty() -> NotCsv {
+    NotCsv {
+        line: 0,
+        column: 1,
+        message: "the file is empty".into(),
+        hint: "the first line names the columns, with commas between".into(),
+    }
+}
+
+/// A row of twice as many cells as its header: every number with a decimal comma is two.
+#[must_use]
+pub fn doubled(line: usize, header: &str, first: Option<&str>) -> Option<NotCsv> {
+    let cells = |line: &str| line.split(',').count();
+    let (names, found) = (cells(header), first.map_or(0, cells));
+    (names > 2 && found > names && found <= 2 * names).then(|| NotCsv {
+        line: line + 1,
+        column: 1,
+        message: format!("{found} cells; the header has {names}"),
+        hint: "are decimals written with a comma? write them with a point, or separate cells with semicolons or tabs".into(),
+    })
+}
+
 /// What makes a file no CSV with commas: it is empty, no UTF-8, has other separators or decimal commas. `None` where none of these
 /// is to be seen.
 #[must_use]
@@ -50,27 +74,14 @@ pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
         .enumerate()
         .filter(|(_, line)| !line.trim_ascii().is_empty() && !line.starts_with(b"#"));
     let Some((number, header)) = lines.next() else {
-        return Some(NotCsv {
-            line: 0,
-            column: 1,
-            message: "the file is empty".into(),
-            hint: "the first line names the columns, with commas between".into(),
-        });
+        return Some(empty());
     };
     let first = lines.next().map(|(_, line)| line);
     // how many there are: the parts between, less one
     let count = |line: &[u8], separator: u8| line.split(|b| *b == separator).count() - 1;
     if count(header, b',') > 0 {
-        // every number with a decimal comma is two cells
-        let cells = 1 + count(header, b',');
-        let found = first.map_or(0, |line| 1 + count(line, b','));
-        let doubled = cells > 2 && found > cells && found <= 2 * cells;
-        return doubled.then(|| NotCsv {
-            line: number + 2,
-            column: 1,
-            message: format!("{found} cells; the header has {cells}"),
-            hint: "are decimals written with a comma? write them with a point".into(),
-        });
+        let text = |line| std::str::from_utf8(line).unwrap_or_default();
+        return doubled(number + 1, text(header), first.map(text));
     }
     let (separator, name, sign) = SEPARATORS
         .into_iter()

@@ -294,7 +294,7 @@ pub fn doubt_start(
                 "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame",
                 tilt / DEG
             ),
-            "right where the robot is mounted so and the device is level; else gravity, which the profile has in the device's frame, acts wrongly",
+            "right where the device is tilted: gravity stays as `kinematics.base` has it; where the robot is mounted so, write that into `kinematics.base`",
         ));
     }
     if let Some(count) = start.fixed_points.filter(|count| *count < 3) {

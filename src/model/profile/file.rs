@@ -55,9 +55,27 @@ pub struct ProfileFile {
     /// Measured points in the tool frame by name.
     #[serde(default)]
     pub points: BTreeMap<String, [Number; 3]>,
+    /// How the columns of measurements are named that are read with this profile.
+    #[serde(default)]
+    pub measurement: Tables,
     /// What was identified.
     #[serde(default)]
     pub calibration: CalibrationFile,
+}
+
+/// How tables of measurements name their columns, and in which units they are.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Tables {
+    /// Their name of each column of the format, where a file has it: `q1_deg: J1`; several where files differ.
+    #[serde(default)]
+    pub columns: BTreeMap<String, Theirs>,
+    /// Units of these columns, as `--units` has them.
+    #[serde(default)]
+    pub units: Vec<String>,
+    /// How angles of an orientation turn, as `--euler` has it.
+    #[serde(default)]
+    pub euler: Option<String>,
 }
 
 pub(super) fn earth() -> [Number; 3] {
@@ -232,6 +250,27 @@ pub struct ToolFile {
 /// a `reason` where a value is beyond the usual.
 pub(crate) type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
 
+/// A name, or several of which each file has one at most.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Theirs {
+    /// One.
+    One(String),
+    /// Several.
+    Many(Vec<String>),
+}
+
+impl Theirs {
+    /// All of them.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::Many(names) => names,
+        }
+    }
+}
+
 /// What was identified.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -240,12 +279,47 @@ pub struct CalibrationFile {
     #[serde(default)]
     #[schemars(schema_with = "effects_schema")]
     pub effects: Vec<EffectFile>,
+    /// Where the measuring device stood.
+    #[serde(default)]
+    pub world_from_device: Option<DeviceFile>,
     /// Statistics of the fit.
     #[serde(default)]
     pub quality: Option<serde_json::Value>,
     /// Where the calibration comes from.
     #[serde(default)]
     pub provenance: Option<serde_json::Value>,
+}
+
+/// Where the device's frame was in the controller's world when the calibration was measured. What reads measurements applies
+/// it; `compensate` and `check` do not.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DeviceFile {
+    /// `world_from_device`.
+    #[schemars(with = "PoseFile")]
+    pub pose: Spanned<PoseFile>,
+    /// Standard deviations of the numbers of the pose.
+    #[serde(default)]
+    #[schemars(with = "Option<SigmaFile>")]
+    pub sigma: Option<Spanned<SigmaFile>>,
+}
+
+/// Standard deviations of the six numbers of a pose.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SigmaFile {
+    /// Of `x_mm`.
+    pub x_mm: Number,
+    /// Of `y_mm`.
+    pub y_mm: Number,
+    /// Of `z_mm`.
+    pub z_mm: Number,
+    /// Of `rx_deg`.
+    pub rx_deg: Number,
+    /// Of `ry_deg`.
+    pub ry_deg: Number,
+    /// Of `rz_deg`.
+    pub rz_deg: Number,
 }
 
 fn effects_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {

@@ -1,6 +1,7 @@
 //! A robot's profile: read strictly, and made into models.
 
 mod catalogue;
+mod device;
 mod edit;
 mod error;
 pub(crate) mod file;
@@ -14,9 +15,10 @@ mod write;
 
 pub use catalogue::{CatalogueArm, catalogue};
 pub(crate) use catalogue::{coupled, flange_remark};
+pub use device::DevicePlace;
 pub use edit::{EditError, with_value};
 pub use error::{Fault, ProfileError};
-pub use file::{ControllerModel, FORMAT, ProfileFile};
+pub use file::{ControllerModel, FORMAT, ProfileFile, Tables, Theirs};
 pub use makers::{MAKERS, Maker};
 pub use rewrite::with_controller;
 pub use shipped::SHIPPED;
@@ -85,6 +87,10 @@ pub struct Profile {
     pub effects: Vec<Effect>,
     /// Why effects may be beyond the usual.
     pub large: Reasons,
+    /// How the columns of measurements are named.
+    pub tables: Tables,
+    /// Where the device stood that the calibration was measured with; what reads measurements applies it.
+    pub device: Option<DevicePlace>,
     /// Statistics of the calibration, as the file has them.
     pub quality: Option<serde_json::Value>,
     /// Where the calibration comes from, as the file has it.
@@ -166,6 +172,8 @@ impl Profile {
             points: BTreeMap::new(),
             effects: Vec::new(),
             large: Reasons::default(),
+            tables: Tables::default(),
+            device: None,
             quality: None,
             provenance: None,
         }
@@ -298,6 +306,13 @@ impl Profile {
                 .collect(),
             effects: effects(file.calibration.effects, &mut large.calibration)?,
             large,
+            tables: file.measurement,
+            device: file
+                .calibration
+                .world_from_device
+                .as_ref()
+                .map(DevicePlace::from_file)
+                .transpose()?,
             quality: file.calibration.quality,
             provenance: file.calibration.provenance,
         };

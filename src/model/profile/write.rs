@@ -1,6 +1,6 @@
 //! A profile file with another calibration: everything else stays as a person wrote it, comments included.
 
-use super::{Profile, ProfileError};
+use super::{Profile, ProfileError, Theirs};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::effects::Effect;
@@ -41,7 +41,7 @@ fn sections(text: &str) -> Vec<(String, String)> {
 }
 
 /// A pose in flow style.
-fn flow_pose(pose: &Pose) -> String {
+pub(super) fn flow_pose(pose: &Pose) -> String {
     let [x, y, z] = pose.translation.map(mm_from_m);
     let [_, _, _, rx, ry, rz] = pose.xyz_rxryrz();
     let [rx, ry, rz] = [rx, ry, rz].map(|angle| angle / DEG);
@@ -126,6 +126,9 @@ fn calibration(profile: &Profile) -> String {
             .collect();
         out += &format!("    - {{{}}}\n", entry.join(", "));
     }
+    if let Some(device) = &profile.device {
+        out += &device.lines();
+    }
     for (key, value) in [
         ("quality", &profile.quality),
         ("provenance", &profile.provenance),
@@ -171,6 +174,29 @@ fn points(profile: &Profile) -> String {
     out
 }
 
+/// The section `measurement`.
+fn measurement(profile: &Profile) -> String {
+    let tables = &profile.tables;
+    let mut out = String::from("measurement:\n");
+    let pairs = tables.columns.iter();
+    let pairs: Vec<String> = pairs
+        .map(|(key, theirs)| match theirs {
+            Theirs::One(name) => format!("{}: {}", quoted(key), quoted(name)),
+            Theirs::Many(names) => {
+                let names: Vec<String> = names.iter().map(|name| quoted(name)).collect();
+                format!("{}: [{}]", quoted(key), names.join(", "))
+            }
+        })
+        .collect();
+    out += &format!("  columns: {{{}}}\n", pairs.join(", "));
+    let units: Vec<String> = tables.units.iter().map(|unit| quoted(unit)).collect();
+    out += &format!("  units: [{}]\n", units.join(", "));
+    if let Some(euler) = &tables.euler {
+        out += &format!("  euler: {}\n", quoted(euler));
+    }
+    out
+}
+
 /// The text of a profile file with the base, points and calibration of `profile`; every other section is `text`'s.
 ///
 /// # Errors
@@ -182,12 +208,16 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
     if profile.provenance.is_some() && profile.effects != original.effects && !known {
         out += IDENTIFIED;
     }
-    let (mut had_points, mut had_calibration) = (false, false);
+    let (mut had_points, mut had_calibration, mut had_measurement) = (false, false, false);
     for (key, section) in sections(text) {
         match key.as_str() {
             "points" if original.points != profile.points => {
                 had_points = true;
                 out += &points(profile);
+            }
+            "measurement" if original.tables != profile.tables => {
+                had_measurement = true;
+                out += &measurement(profile);
             }
             "calibration" => {
                 had_calibration = true;
@@ -205,6 +235,9 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
     if !had_points && original.points != profile.points {
         out += &points(profile);
     }
+    if !had_measurement && original.tables != profile.tables {
+        out += &measurement(profile);
+    }
     if !had_calibration {
         out += &calibration(profile);
     }
@@ -214,6 +247,15 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
     if gap.distance_m > 1e-9 || gap.angle_rad > 1e-9 {
         return differs("base");
     }
+    let apart = back
+        .world_from_device()
+        .separation(&profile.world_from_device());
+    if back.device.is_some() != profile.device.is_some()
+        || apart.distance_m > 1e-9
+        || apart.angle_rad > 1e-9
+    {
+        return differs("world_from_device");
+    }
     if back.effects.len() != of_robot(profile).count()
         || back
             .effects
@@ -222,6 +264,9 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
             .any(|(a, b)| !a.same_place(b))
     {
         return differs("effects");
+    }
+    if back.tables != profile.tables {
+        return differs("measurement");
     }
     if back.points.len() != profile.points.len() {
         return differs("points");

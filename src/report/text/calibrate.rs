@@ -136,6 +136,16 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
             "\nthe base stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg in the device's frame\n"
         );
     }
+    if let Some(device) = &found.world_from_device {
+        let ([x, y, z], [rx, ry, rz]) = (device.xyz_mm(), device.rxryrz_deg());
+        out += &format!(
+            "\nthe device stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg in the controller's world\n"
+        );
+        if let Some(sigma) = &found.world_from_device_sigma {
+            let ([x, y, z], [rx, ry, rz]) = (sigma.xyz_mm(), sigma.rxryrz_deg());
+            out += &format!("  sigma {x:.3}, {y:.3}, {z:.3} mm, {rx:.5}, {ry:.5}, {rz:.5} deg\n");
+        }
+    }
     if !found.outliers.is_empty() {
         out += &format!("\n{} rows do not fit the others\n", found.outliers.len());
         let shown = if style.every {

@@ -40,6 +40,9 @@ pub(super) fn facts(profile: &Profile) -> Vec<(String, String)> {
         ),
     );
     fact("base".into(), pose(&profile.world_from_base));
+    if let Some(device) = &profile.device {
+        fact("world_from_device".into(), pose(&device.world_from_device));
+    }
     for (i, (link, joint)) in profile
         .links
         .iter()

@@ -1,5 +1,6 @@
 //! The command line as a user meets it: files, exit statuses, messages.
 
+mod as_they_come;
 mod compensate;
 mod control;
 mod folders;
@@ -10,6 +11,7 @@ mod inputs;
 mod jobs_and_tables_of_poses;
 mod limits;
 mod marked;
+mod mistakes;
 mod outputs;
 mod outputs_kept;
 mod planning;

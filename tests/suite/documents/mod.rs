@@ -5,7 +5,7 @@
 use crate::support::{files_below, is_tracked, poseshift, repository, scratch, text};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::{Component, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 fn listed(command: &str, key: &str) -> Vec<Value> {
     let output = poseshift()
@@ -173,15 +173,29 @@ fn links_between_documents_lead_somewhere() {
     assert!(links > 8);
 }
 
-/// The commands of the README's `console` blocks, run as they stand but for the program's own path.
 #[test]
 fn commands_of_the_readme_do_what_it_says() {
-    let readme = text("README.md");
     let scratch = scratch();
+    let run = run_commands("README.md", scratch.path());
+    assert!(run >= 5, "{run} commands");
+    assert!(scratch.path().join("Deburr_compensated.mod").is_file());
+}
+
+#[test]
+fn commands_of_the_way_from_a_tracker_to_a_program_run() {
+    let scratch = scratch();
+    assert_eq!(run_commands("docs/calibration.md", scratch.path()), 6);
+    assert!(scratch.path().join("weld.src").is_file());
+}
+
+/// Runs the commands of a document's `console` blocks as they stand but for the program's own path. How many there are.
+fn run_commands(document: &str, folder: &Path) -> usize {
+    let readme = text(document);
     let mut run = 0;
     for block in readme.split("```console\n").skip(1) {
         let block = block.split("```").next().expect("a block has an end");
         for line in block.lines() {
+            let line = line.strip_prefix("$ ").unwrap_or(line);
             let words: Vec<&str> = line.split_whitespace().collect();
             let arguments = match words.as_slice() {
                 ["poseshift", rest @ ..] | ["cargo", "run", "--release", "--", rest @ ..] => rest,
@@ -189,8 +203,9 @@ fn commands_of_the_readme_do_what_it_says() {
                 other => panic!("not understood: {other:?}"),
             };
             let mut command = poseshift();
-            command.current_dir(scratch.path());
+            command.current_dir(folder);
             for word in arguments {
+                let word = &word.replace('"', "");
                 // what an earlier command of the reader wrote is not an input
                 if word.contains('/') && is_tracked(word) {
                     command.arg(repository(word));
@@ -206,6 +221,5 @@ fn commands_of_the_readme_do_what_it_says() {
             run += 1;
         }
     }
-    assert!(run >= 5, "{run} commands");
-    assert!(scratch.path().join("Deburr_compensated.mod").is_file());
+    run
 }

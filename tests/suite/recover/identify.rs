@@ -227,6 +227,7 @@ fn a_device_anywhere_and_an_unknown_tool_do_not_matter() {
         );
         let options = Options {
             shape: Shape::Squares,
+            base: BasePolicy::Device,
             ..Options::default()
         };
         let found = calibrate(&nominal(), &seen, &options).expect("an answer");
@@ -234,6 +235,44 @@ fn a_device_anywhere_and_an_unknown_tool_do_not_matter() {
         let (_, max) = worst_mm(&found.profile(), &truth, 200);
         // angle and length of link 6 stand in the points instead, but not in where the tool's weight pulls
         assert!(max < 3e-3, "{pose:?}: {max} mm");
+    }
+}
+
+#[test]
+fn a_device_that_stands_tilted_leaves_the_base_and_gravity_to_the_controller() {
+    for (seed, pose) in [
+        (1, [2.1, -3.4, 0.7, 0.0, 0.0, 2.3]),
+        (2, [0.5, 1.0, 2.5, 0.4, -0.3, 0.4]),
+        (3, [-4.0, 0.0, 0.3, 0.0, 1.5, -1.0]),
+    ] {
+        let mut random = StdRng::seed_from_u64(seed);
+        let mut truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, true);
+        // where the real base is beside the controller's, no device tells
+        truth.effects.retain(|e| e.kind != Kind::BaseFrame);
+        let options = Options {
+            base: BasePolicy::Controller,
+            ..known_tool(Level::Compliance)
+        };
+        let driven = commands(&mut random, &truth, 120);
+        let in_world = measure(&truth, &driven, &Session::default());
+        let device = Pose::from_xyz_rxryrz(pose);
+        let seen = in_world.moved(&device.inverse());
+        let found = calibrate(&nominal(), &seen, &options).expect("an answer");
+        let profile = found.profile();
+        assert_eq!(profile.world_from_base, nominal().world_from_base);
+        // without noise the device is where it is, and the arm is found though the device hangs askew
+        let gap = profile.world_from_device().separation(&device);
+        assert!(gap.distance_m < 1e-8 && gap.angle_rad < 1e-8, "{gap:?}");
+        // and what reads measurements applies it
+        let others = commands(&mut random, &truth, 200);
+        let fresh = measure(&truth, &others, &Session::default()).moved(&device.inverse());
+        let judged = validate(&profile, &fresh, Refit::No, None).expect("an answer");
+        let missed = judged.real.quality.position.expect("positions").max;
+        assert!(missed < 1e-5, "{pose:?}: {missed} mm");
+        // a second session of the same device begins where the first one ended
+        let again = calibrate(&profile, &seen, &options).expect("an answer");
+        let gap = again.profile().world_from_device().separation(&device);
+        assert!(gap.distance_m < 1e-8, "{gap:?}");
     }
 }
 

@@ -58,7 +58,7 @@ pub(crate) fn calibrate_page(of: &Calibration) -> Page {
     let after = misses(problem, &found.solution.estimate);
     let rows = Rows {
         problem,
-        measurements: &of.fit,
+        measurements: &of.found.fit,
         models: vec![
             Judged {
                 name: "before",
