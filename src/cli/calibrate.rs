@@ -3,7 +3,7 @@
 use super::files::Files;
 use super::measurements::{MeasurementFiles, level, picks};
 use super::progress::Progress;
-use super::telling::{Ending, ReportFile, Told, finish};
+use super::telling::{Ending, Pendant, ReportFile, Told, finish};
 use super::{Answer, Output};
 use crate::identify::calibration::{BasePolicy, Options};
 use crate::identify::parameters::Selection;
@@ -83,6 +83,8 @@ pub(super) struct Calibrate {
     #[arg(long, value_name = "TEXT")]
     date: Option<String>,
     #[command(flatten)]
+    pendant: Pendant,
+    #[command(flatten)]
     report: ReportFile,
 }
 
@@ -135,7 +137,7 @@ impl Calibrate {
             told: Told::All,
             also: &also,
             answer: Answer::Yes,
-            ..Ending::default()
+            pendant: self.pendant,
         };
         finish(&files, &found, ending, output)
     }

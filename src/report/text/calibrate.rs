@@ -5,7 +5,16 @@ use crate::identify::calibration::STRONG_CORRELATION;
 use crate::report::Style;
 use crate::report::layout::{SPREAD_HEADER, aligned, spread_row};
 use crate::task::calibrate::Calibration;
-use crate::task::parts::Statistics;
+use crate::task::parts::{Pose, Statistics};
+
+/// Where the device and the base stand, as frames.
+pub(super) fn poses(found: &Calibration) -> Vec<(String, Pose)> {
+    let base = found.base_replaced.then_some(("world_from_base", found.base));
+    let device = found.world_from_device;
+    let device = device.map(|device| ("world_from_device", device));
+    let both = base.into_iter().chain(device);
+    both.map(|(name, pose)| (name.to_owned(), pose)).collect()
+}
 
 /// The report for people.
 pub(super) fn text(found: &Calibration, style: Style) -> String {
@@ -133,13 +142,13 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
     if found.base_replaced {
         let ([x, y, z], [rx, ry, rz]) = (found.base.xyz_mm(), found.base.rxryrz_deg());
         out += &format!(
-            "\nthe base stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg in the device's frame\n"
+            "\nthe base stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg (Rx·Ry·Rz) in the device's frame\n"
         );
     }
     if let Some(device) = &found.world_from_device {
         let ([x, y, z], [rx, ry, rz]) = (device.xyz_mm(), device.rxryrz_deg());
         out += &format!(
-            "\nthe device stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg in the controller's world\n"
+            "\nthe device stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg (Rx·Ry·Rz) in the controller's world\n"
         );
         if let Some(sigma) = &found.world_from_device_sigma {
             let ([x, y, z], [rx, ry, rz]) = (sigma.xyz_mm(), sigma.rxryrz_deg());

@@ -88,7 +88,7 @@ macro_rules! reports {
 
 // what is said of each result: its text, its page, its findings, its frames
 reports! {
-    task::calibrate::Calibration: calibrate::text, measurements::calibrate_page, findings;
+    task::calibrate::Calibration: calibrate::text, measurements::calibrate_page, findings, calibrate::poses;
     task::validate::Validation: validate::text, measurements::validate_page, findings;
     task::diagnose::Diagnosis: diagnose::text, diagnosis::page, findings;
     task::plan::Plan: plan::text, plan_page::plan_page, findings;
