@@ -364,6 +364,19 @@ fn a_urdf_and_a_tracker_file_become_a_program_that_lands_where_it_should() {
     };
     assert!(mean("frames_only") > 1.5, "{judged}");
     assert!(mean("real") < 0.05, "{judged}");
+    // what such a device would see of the calibrated robot is what the profile says of it
+    run(
+        path,
+        "simulate --profile calibrated.yaml --joints plan.csv -o seen.csv",
+    );
+    let own = json(
+        path,
+        "validate --profile calibrated.yaml --measurements seen.csv",
+    );
+    let largest = own["position"]["real"]["max_mm"]
+        .as_f64()
+        .expect("a number");
+    assert!(largest < 1e-6, "{largest} mm");
     let report = json(
         path,
         "compensate @weld.src --profile calibrated.yaml -o weld.src",
