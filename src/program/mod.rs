@@ -38,6 +38,7 @@ pub mod rapid;
 pub mod script;
 mod source;
 pub mod urscript;
+pub mod val3;
 
 pub use drive::Step;
 pub use edit::Edits;
@@ -61,6 +62,7 @@ pub const LANGUAGES: &[&dyn Language] = &[
     &fanuc::Fanuc,
     &urscript::UrScript,
     &inform::Inform,
+    &val3::Val3,
     &csv::Csv,
 ];
 
