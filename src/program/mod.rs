@@ -27,6 +27,7 @@ mod error;
 pub mod fanuc;
 pub mod inform;
 mod insert;
+pub mod kawasaki;
 mod kit;
 pub mod krl;
 mod language;
@@ -63,6 +64,7 @@ pub const LANGUAGES: &[&dyn Language] = &[
     &urscript::UrScript,
     &inform::Inform,
     &val3::Val3,
+    &kawasaki::Kawasaki,
     &csv::Csv,
 ];
 

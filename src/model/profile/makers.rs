@@ -40,6 +40,7 @@ pub const MAKERS: &[Maker] = &[
     maker("Yaskawa", "inform", &["yaskawa", "motoman"]),
     maker("Universal Robots", "urscript", &["ur"]),
     maker("Staubli", "val3", &["staubli"]),
+    maker("Kawasaki", "kawasaki", &["kawasaki"]),
 ];
 
 const fn maker(
