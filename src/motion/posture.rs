@@ -4,7 +4,7 @@
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::geometry::units::DEG;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Ambiguous, Answer, Arm, Branch};
 use crate::program::{Configuration, TargetId};
 
@@ -362,7 +362,26 @@ fn out_of_reach(
             limits.max_rad / DEG
         )
     };
-    let hint = "check that robot, tool and frame are those of the program";
-    findings.push(ground.at_target(OUT_OF_REACH, Severity::Error, *target, message, hint));
+    let hint = elsewhere(ground, asked, near)
+        .unwrap_or_else(|| "check that robot, tool and frame are those of the program".to_owned());
+    findings.push(ground.at_target(OUT_OF_REACH, Severity::Error, *target, message, &hint));
     None
+}
+
+/// What is said where the arm would reach a pose if its base stood at the origin.
+fn elsewhere(ground: &Ground, asked: &Asked, near: &[f64; 6]) -> Option<String> {
+    let base = ground.profile.world_from_base;
+    if base == Pose::identity() {
+        return None;
+    }
+    // the base at the origin sees a pose where this one sees it moved along
+    let moved = base * asked.wanted;
+    let free = Configuration::default();
+    let reaches = |branch| on_branch(asked.arm, &moved, branch, near, &free).is_some();
+    Branch::ALL.into_iter().any(reaches).then(|| {
+        let [x, y, z] = base.translation.map(mm_from_m);
+        format!(
+            "with the base at the origin it is within reach: kinematics.base of the profile is at ({x:.0}, {y:.0}, {z:.0}) mm"
+        )
+    })
 }

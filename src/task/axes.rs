@@ -7,8 +7,8 @@ use super::parts::{Pose, Sigma, findings as remarks};
 use super::profile_file::ProfileFile;
 use super::table::{JOINTS, POSE, Table, unit};
 use crate::finding::{Finding, Severity};
-use crate::geometry::Quaternion;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::{self, Quaternion};
 use crate::identify::doubt::sweeps::{doubt, point_on_flange};
 use crate::identify::measurements::{DIRECTION_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS};
 use crate::model::profile::{Mounted, Profile};
@@ -95,6 +95,9 @@ pub struct Axes {
     pub tool_sag: Option<Sag>,
     /// Whether the tool's orientation was measured.
     pub tool_oriented: Option<bool>,
+    /// Readings were moved into the controller's world by the profile's `calibration.world_from_device`; else the device's frame is
+    /// the world.
+    pub device_known: bool,
     /// The joints that were swept.
     pub joints: Vec<Joint>,
     /// What a person should look at.
@@ -117,7 +120,11 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     let fail = |error: AxesError| Failure::new(format!("{name}: {error}"));
     let mut findings = Vec::new();
     let mut sweeps = Vec::new();
-    for (sweep, lines) in read(source, point)? {
+    let device = profile.device.map(|device| device.world_from_device);
+    for (mut sweep, lines) in read(source, point)? {
+        if let Some(world_from_device) = &device {
+            place(&mut sweep, world_from_device);
+        }
         let (kept, outliers) = without_outliers(&sweep, profile).map_err(fail)?;
         sweeps.push(kept);
         let told = |outlier: &Outlier| left_out(outlier, sweep.joint, lines[outlier.row], name);
@@ -147,8 +154,7 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     .map_err(|error| identify_failure(name, &error))?;
     findings.extend(remarks(&doubts, name));
     let mounted = only_tool(profile);
-    let world_from_base = base_pose
-        .unwrap_or_else(|| profile.world_from_device().inverse() * profile.world_from_base);
+    let world_from_base = base_pose.unwrap_or(profile.world_from_base);
     let arm = Arm {
         world_from_base,
         mounted: &mounted,
@@ -173,6 +179,7 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
         tool_sigma: sigma(placed_tool.as_ref(), tool_sag.as_ref()),
         tool_sag: tool_sag.as_ref().map(Into::into),
         tool_oriented: placed_tool.map(|placed| placed.oriented),
+        device_known: device.is_some(),
         joints: found
             .iter()
             .zip(&sweeps)
@@ -194,6 +201,14 @@ fn left_out(outlier: &Outlier, joint: usize, line: usize, name: &str) -> Finding
         line,
         column: 1,
         ..Finding::of_file("outlier", Severity::Warning, name, message).hint("measure it again")
+    }
+}
+
+/// Moves what the device gave into the controller's world.
+fn place(sweep: &mut Sweep, world_from_device: &geometry::Pose) {
+    for row in &mut sweep.rows {
+        row.point_m = world_from_device.transform(row.point_m);
+        row.rotation = row.rotation.map(|r| world_from_device.rotation * r);
     }
 }
 

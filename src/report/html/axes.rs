@@ -3,7 +3,7 @@
 use super::frames::pose_text;
 use super::numbers::{Column, Number, Table, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
-use crate::report::text::frames;
+use crate::report::text::{axes_world, frames};
 use crate::task::axes::{Axes, Joint};
 
 /// The page.
@@ -24,6 +24,7 @@ pub(crate) fn page(found: &Axes) -> Page {
     }
     let mut page = Page::new("Axes".into(), Level::of(&found.findings), answer);
     page.lead.push(found.name.clone());
+    page.fact("world", axes_world(found).to_owned());
     for (frame, name) in frames(found)
         .iter()
         .zip(["world from base", "flange from tool"])

@@ -9,7 +9,7 @@ use crate::geometry::{Vector, norm, scale};
 use crate::report::text::{noise, search};
 use crate::task::handeye::HandEye;
 use crate::task::hexapod;
-use crate::task::parts::{Ellipsoid, Pose};
+use crate::task::parts::{Ellipsoid, Pose, Sigma};
 use crate::task::register::{Ellipsoid as PointEllipsoid, Registration, Residual};
 
 /// Points of a page; of more every so many, and the largest residual.
@@ -41,6 +41,12 @@ pub(crate) fn pose_text(pose: &Pose) -> String {
     // a zero has no sign
     let [rx, ry, rz] = pose.rxryrz_deg().map(|r| (r * 1e4).round() / 1e4 + 0.0);
     format!("{x:.3} {y:.3} {z:.3} mm, {rx:.4} {ry:.4} {rz:.4} deg (Rx·Ry·Rz)")
+}
+
+/// Standard deviations of a pose.
+pub(crate) fn sigma_text(sigma: &Sigma) -> String {
+    let ([x, y, z], [rx, ry, rz]) = (sigma.xyz_mm(), sigma.rxryrz_deg());
+    format!("{x:.3} {y:.3} {z:.3} mm, {rx:.5} {ry:.5} {rz:.5} deg")
 }
 
 /// A page of points, residuals and ellipsoids.

@@ -28,6 +28,7 @@ pub(super) fn text(found: &Axes, style: Style) -> String {
     ];
     rows.extend(found.joints.iter().map(joint));
     let mut text = aligned(&rows, style.width);
+    text += &format!("{}\n", world(found));
     for frame in frames(found) {
         let Some(pose) = frame.pose else {
             text += &format!(
@@ -61,10 +62,19 @@ pub(super) fn text(found: &Axes, style: Style) -> String {
             None => "  sag under gravity is not in it: the profile has no masses\n".into(),
         };
         if !frame.oriented {
-            text += "  orientation not measured, the flange's is told\n";
+            text += "  orientation not measured: the flange's is given\n";
         }
     }
     text
+}
+
+/// What the world is in which frames are given.
+pub(in crate::report) const fn world(found: &Axes) -> &'static str {
+    if found.device_known {
+        "the world is the controller's (the profile's calibration.world_from_device)"
+    } else {
+        "the world is the measuring device's frame"
+    }
 }
 
 fn joint(of: &Joint) -> Vec<String> {

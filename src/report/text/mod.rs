@@ -12,7 +12,7 @@ mod register;
 mod tables;
 mod validate;
 
-pub(super) use axes::frames;
+pub(super) use axes::{frames, world as axes_world};
 pub(super) use diagnose::{labelled, together};
 pub(super) use register::{noise, search};
 

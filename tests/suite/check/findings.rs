@@ -352,3 +352,38 @@ fn a_collision_that_only_compensation_makes_is_found_and_named() {
         "{message}"
     );
 }
+
+#[test]
+fn a_target_in_reach_of_a_base_at_the_origin_names_the_base() {
+    let folder = scratch();
+    let base = "base: {x_mm: 0, y_mm: 0, z_mm: 0";
+    assert!(THESIS.contains(base));
+    let (here, moved) = (
+        folder.path().join("here.yaml"),
+        folder.path().join("moved.yaml"),
+    );
+    std::fs::write(&here, THESIS).expect("scratch");
+    std::fs::write(
+        &moved,
+        THESIS.replace(base, "base: {x_mm: 5000, y_mm: 0, z_mm: 0"),
+    )
+    .expect("scratch");
+    let lines = straight_to([10.0, 0.0, 0.0, 0.0, 60.0, 0.0], [0.0; 3], [0, 0, 0, 0]);
+    std::fs::write(folder.path().join("p.mod"), &rapid(&lines)[0].bytes).expect("scratch");
+    let run = |profile: &std::path::Path| {
+        let mut command = poseshift();
+        command
+            .current_dir(folder.path())
+            .args(["check", "p.mod", "--profile"]);
+        let out = command.arg(profile).output().expect("the program starts");
+        String::from_utf8_lossy(&out.stderr).into_owned() + &String::from_utf8_lossy(&out.stdout)
+    };
+    let named = "kinematics.base of the profile is at (5000, 0, 0) mm";
+    let told = run(&moved);
+    assert!(
+        told.contains("out-of-reach") && told.contains(named),
+        "{told}"
+    );
+    let told = run(&here);
+    assert!(!told.contains("out-of-reach"), "{told}");
+}

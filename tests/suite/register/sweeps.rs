@@ -134,3 +134,33 @@ fn the_sag_of_the_arm_is_in_the_sigma_and_three_rows_have_none() {
     assert!(few["base"].is_object() && few["base_sigma"].is_null());
     assert!(few["joints"][0]["noise_mm"].is_null());
 }
+
+#[test]
+fn a_device_that_the_profile_knows_is_taken_into_account() {
+    let (_, plain, _) = axes(PROFILE, |_, _| ());
+    assert_eq!(plain["device_known"], false);
+    // a tracker at (2100, -3400, 700) mm, rotated by 90 deg about the vertical: what it sees is turned back
+    let folder = scratch();
+    let text = std::fs::read_to_string(repository(PROFILE)).expect("a profile");
+    let placed = "calibration:\n  world_from_device:\n    \
+                  pose: {x_mm: 2100, y_mm: -3400, z_mm: 700, rx_deg: 0, ry_deg: 0, rz_deg: 90}\n";
+    let known = folder.path().join("known.yaml");
+    std::fs::write(&known, text.replacen("calibration:\n", placed, 1)).expect("scratch");
+    let (status, found, told) = axes(known.to_str().expect("a name"), |header, rows| {
+        let [x, y, z] = ["x_mm", "y_mm", "z_mm"].map(|name| column(header, name));
+        for row in rows {
+            let [wx, wy, wz] = [x, y, z].map(|i| row[i].parse::<f64>().expect("a number"));
+            row[x] = (wy + 3400.0).to_string();
+            row[y] = (2100.0 - wx).to_string();
+            row[z] = (wz - 700.0).to_string();
+        }
+    });
+    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(found["device_known"], true);
+    for frame in ["base", "tool"] {
+        for key in ["x_mm", "y_mm", "z_mm"] {
+            let [a, b] = [&found, &plain].map(|v| v[frame][key].as_f64().expect("a number"));
+            assert!((a - b).abs() < 1e-6, "{frame} {key}: {a} and {b}");
+        }
+    }
+}

@@ -3,6 +3,7 @@
 use super::{Judged, Rows, robot_lead, show_rows, summary};
 use crate::identify::calibration::STRONG_CORRELATION;
 use crate::identify::statistics::misses;
+use crate::report::html::frames::{pose_text, sigma_text};
 use crate::report::html::numbers::{Column, Table, fixed, significant};
 use crate::report::html::page::{Axis, Chart, Heat, Kind, Level, Page, Section, Series, Tone};
 use crate::report::text::{fixed as decimals, scientific};
@@ -43,6 +44,15 @@ pub(crate) fn calibrate_page(of: &Calibration) -> Page {
         format!("{:.2}", of.sigma_factor),
     );
     page.fact("rows that do not fit", of.outliers.len().to_string());
+    if of.base_replaced {
+        page.fact("base in the device's frame", pose_text(&of.base));
+    }
+    if let Some(device) = &of.world_from_device {
+        page.fact("device in the controller's world", pose_text(device));
+    }
+    if let Some(sigma) = &of.world_from_device_sigma {
+        page.fact("its sigma", sigma_text(sigma));
+    }
     let mut models = vec![
         ("before", &of.before),
         ("frames only", &of.frames_only),
