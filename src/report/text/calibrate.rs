@@ -9,7 +9,9 @@ use crate::task::parts::{Pose, Statistics};
 
 /// Where the device and the base stand, as frames.
 pub(super) fn poses(found: &Calibration) -> Vec<(String, Pose)> {
-    let base = found.base_replaced.then_some(("world_from_base", found.base));
+    let base = found
+        .base_replaced
+        .then_some(("world_from_base", found.base));
     let device = found.world_from_device;
     let device = device.map(|device| ("world_from_device", device));
     let both = base.into_iter().chain(device);
