@@ -133,7 +133,7 @@ pub(super) fn conclude(
             &attempt.refit.residual,
             attempt.refit.fit.scale,
         ),
-        judged: proof.judged(),
+        judged: proof.judged().filter(|_| !attempt.chosen.is_empty()),
         outliers: outliers(attempt, measurements, &left_lengths),
         remarks,
         lengths: (present_lengths, left_lengths),
