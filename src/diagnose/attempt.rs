@@ -103,11 +103,12 @@ fn outdone(
         let left = refit.fit.deviance.min(fit.deviance);
         let own_gain = (beside.deviance(&kept[i]) - left) / fit.scale.powi(2);
         let parameters = own.values.len() + own.candidate.chosen;
-        if let Some(best) = best.into_iter().next() {
-            if best.fair_gain(parameters) > own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER {
-                outdone.push((i, best));
-            }
-        }
+        let more = own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER;
+        let best = best.into_iter().next();
+        outdone.extend(
+            best.filter(|b| b.fair_gain(parameters) > more)
+                .map(|b| (i, b)),
+        );
     }
     outdone
 }

@@ -11,7 +11,7 @@ use super::refit::{Beyond, Refit};
 use super::stand_ins::StandIn;
 use super::waves::near;
 use crate::model::JOINTS;
-use crate::model::effects::{Kind, Need, SiteKey};
+use crate::model::effects::{Effect, Kind, Need, SiteKey};
 use std::f64::consts::TAU;
 
 /// Two effects cannot be told apart where one is better by less than this, in twice a log likelihood: odds of 1.6.
@@ -123,7 +123,7 @@ pub(super) fn stand(
             );
         }
         for group in stand_ins.iter().filter(|s| s.instead_of.contains(&i)) {
-            let labels: Vec<String> = group.effects.iter().map(|e| e.label()).collect();
+            let labels: Vec<String> = group.effects.iter().map(Effect::label).collect();
             put(labels.join(" + "), group.behind);
         }
         against.sort_by(|a, b| a.odds.total_cmp(&b.odds));

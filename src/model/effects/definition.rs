@@ -81,7 +81,7 @@ impl SiteKey {
     #[must_use]
     pub fn in_files(self, number: u32) -> Value {
         let one = self.one();
-        if number % one == 0 {
+        if number.is_multiple_of(one) {
             json!(number / one)
         } else {
             json!(f64::from(number) / f64::from(one))
