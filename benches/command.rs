@@ -20,7 +20,9 @@ fn read_and_write(criterion: &mut Criterion) {
         let language = *language.expect("a language");
         let text = path::program(id, TARGETS, 1).into_bytes();
         group.throughput(Throughput::Bytes(text.len() as u64));
-        let sources = [Source::new(format!("path.{ending}"), text)];
+        let mut sources = vec![Source::new(format!("path.{ending}"), text)];
+        let beside = path::beside(id, TARGETS);
+        sources.extend(beside.map(|(name, text)| Source::new(name, text.into_bytes())));
         let profile = Profile::from_yaml(&path::profile(id)).expect("a valid profile");
         let settings = Settings {
             pulses_per_deg: profile.pulses_per_deg,
@@ -57,11 +59,14 @@ fn command(criterion: &mut Criterion) {
         .throughput(Throughput::Elements(u64::from(TARGETS)))
         .sample_size(10);
     for (id, ending) in path::WRITTEN {
-        let at = |name: &str| folder.join(format!("{name}.{ending}"));
-        let (input, output) = (at("path"), at("path_out"));
+        let (input, output) = (folder.join(id), folder.join(format!("{id}_out")));
         let profile = folder.join(format!("{id}.yaml"));
-        std::fs::write(&input, path::program(id, TARGETS, 1))
-            .expect("the target folder is writable");
+        std::fs::create_dir_all(&input).expect("the target folder is writable");
+        let own = (format!("path.{ending}"), path::program(id, TARGETS, 1));
+        let beside = path::beside(id, TARGETS).map(|(name, text)| (name.to_owned(), text));
+        for (name, text) in [own].into_iter().chain(beside) {
+            std::fs::write(input.join(name), text).expect("the target folder is writable");
+        }
         std::fs::write(&profile, path::profile(id)).expect("the target folder is writable");
         group.bench_function(*id, |b| {
             b.iter(|| {

@@ -42,6 +42,9 @@ fn options() -> &'static Options {
     })
 }
 
+/// What stands between the files of a program that has several: a byte that no text has.
+const BETWEEN_FILES: u8 = 0;
+
 /// Reads, compensates and reads again.
 ///
 /// # Panics
@@ -51,9 +54,18 @@ pub fn check(id: &str, bytes: &[u8]) {
         .iter()
         .find(|language| language.about().id == id)
         .expect("a language");
-    let name = format!("fuzz.{}", language.about().extensions[0]);
-    let sources = [Source::new(name, bytes.to_vec())];
-    let _ = language.recognises(&sources[0]);
+    let extensions = language.about().extensions;
+    let sources: Vec<Source> = bytes
+        .split(|byte| *byte == BETWEEN_FILES)
+        .enumerate()
+        .map(|(at, bytes)| {
+            let name = format!("fuzz{at}.{}", extensions[at % extensions.len()]);
+            Source::new(name, bytes.to_vec())
+        })
+        .collect();
+    for source in &sources {
+        let _ = language.recognises(source);
+    }
     let [calibrated, nominal] = profiles();
     let settings = Settings {
         pulses_per_deg: calibrated.pulses_per_deg,
@@ -62,9 +74,12 @@ pub fn check(id: &str, bytes: &[u8]) {
     let Ok(program) = poseshift::motion::read(*language, &sources, &settings) else {
         return;
     };
-    for number in &program.numbers {
-        let end = number.start as usize + usize::from(number.length);
-        assert!(end <= bytes.len() && number.value.is_finite());
+    for target in &program.targets {
+        let length = sources[target.file as usize].bytes.len();
+        for number in program.numbers_of(target) {
+            let end = number.start as usize + usize::from(number.length);
+            assert!(end <= length && number.value.is_finite());
+        }
     }
     let as_simulated = Options {
         work_offset: Some(Pose::identity()),
@@ -77,15 +92,17 @@ pub fn check(id: &str, bytes: &[u8]) {
         );
     }
     if let Ok(compensation) = compensate(*language, &sources, calibrated, options()) {
-        let is_marked = compensation.compensated[0];
+        let is_marked = compensation.compensated.clone();
         // every number is read again and compared with what was meant
         let written = compensation
             .written(*language, &sources, &"0".repeat(64), false)
             .expect("what is written reads back as what was meant");
-        assert_eq!(
-            Marker::find(&written.sources[0].bytes).is_some(),
-            is_marked || Marker::find(bytes).is_some()
-        );
+        for (at, source) in sources.iter().enumerate() {
+            assert_eq!(
+                Marker::find(&written.sources[at].bytes).is_some(),
+                is_marked[at] || Marker::find(&source.bytes).is_some()
+            );
+        }
     }
 }
 

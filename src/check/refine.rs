@@ -400,10 +400,7 @@ impl Job<'_> {
             .expect("moves that are refined have a target");
         let source = &self.subject.sources[target.file as usize];
         let numbers = program.numbers_of(target);
-        let text = |i: usize| {
-            let start = numbers[i].start as usize;
-            &source.bytes[start..start + usize::from(numbers[i].length)]
-        };
+        let text = |i: usize| numbers[i].text(&source.bytes);
         let roles = language.roles(target.layout);
         let mut values: Vec<f64> = numbers.iter().map(|n| n.value).collect();
         let frame = self.walk.frames[motion.frame].unwrap_or_else(Pose::identity);

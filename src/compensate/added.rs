@@ -3,7 +3,7 @@
 use super::written::without_configuration;
 use super::{Added, Compensation};
 use crate::program::{Edits, Insertion, Language, Program, Replacements, Source, number};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Compensation {
     /// Puts moves and targets into a file, in the place of what was to be changed there; for each insertion whether its move
@@ -31,7 +31,7 @@ impl Compensation {
             wanted.insert(insertion.motion, insertion);
         }
         // what cannot be written goes back to what was there before, if anything
-        let spans = loop {
+        let (spans, elsewhere) = loop {
             let list: Vec<Insertion> = wanted.values().cloned().collect();
             let text = language.insert(sources, program, file, &list);
             let failed = list
@@ -42,7 +42,7 @@ impl Compensation {
             if failed.is_empty() {
                 let mut spans: Replacements = text.moves.into_iter().flatten().flatten().collect();
                 spans.extend(text.rest);
-                break spans;
+                break (spans, text.elsewhere);
             }
             for motion in failed {
                 let gone = wanted.remove(&motion);
@@ -57,18 +57,17 @@ impl Compensation {
             written.is_some_and(|written| written.between == one.between)
         };
         let done: Vec<bool> = insertions.iter().map(is_done).collect();
-        let untouched = self.untouched.entry(file);
-        let mut edits = untouched
-            .or_insert_with(|| self.edits[file].clone())
-            .clone();
-        let mut some = Edits::default();
-        for (span, text) in spans {
-            edits.take_back(&span);
-            some.replace(span, |out| out.extend(text));
+        let mut concerned: BTreeSet<usize> = self.put_into(file).collect();
+        self.put_in.retain(|(from, _), _| *from != file);
+        self.put_in.insert((file, file), spans);
+        for (other, spans) in elsewhere {
+            self.put_in.insert((file, other), spans);
         }
-        edits.append(&some);
-        self.edits[file] = edits;
-        self.compensated[file] |= done.contains(&true);
+        concerned.extend(self.put_into(file));
+        for file in concerned {
+            self.put_together(file);
+            self.compensated[file] |= done.contains(&true);
+        }
         self.inserted.retain(|motion, _| !of_file(motion));
         self.inserted.extend(wanted);
         self.added = Added::default();
@@ -77,6 +76,29 @@ impl Compensation {
             self.inserted.insert(insertion.motion, insertion);
         }
         done
+    }
+
+    /// The files that what is inserted for a file concerns.
+    fn put_into(&self, file: usize) -> impl Iterator<Item = usize> {
+        let of_file = self.put_in.keys().filter(move |(from, _)| *from == file);
+        of_file.map(|(_, to)| *to)
+    }
+
+    /// The changes of a file with all that is put into it.
+    fn put_together(&mut self, file: usize) {
+        let untouched = self.untouched.entry(file);
+        let mut edits = untouched
+            .or_insert_with(|| self.edits[file].clone())
+            .clone();
+        let mut some = Edits::default();
+        for (_, spans) in self.put_in.iter().filter(|((_, to), _)| *to == file) {
+            for (span, text) in spans {
+                edits.take_back(span);
+                some.replace(span.clone(), |out| out.extend(text));
+            }
+        }
+        edits.append(&some);
+        self.edits[file] = edits;
     }
 
     fn count(&mut self, language: &dyn Language, program: &Program, insertion: &Insertion) {

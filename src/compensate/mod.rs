@@ -290,7 +290,7 @@ pub fn compensate(
         tally,
         fakes,
         mut splits,
-        mut configurations,
+        mut told,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
     displaced::check(&job, &approaches, &fakes, &mut findings);
     drop((approaches, outcomes));
@@ -298,7 +298,7 @@ pub fn compensate(
     let (compensated, summary) = tally.finish();
     let shift_limits = job.limits.asked_for();
     splits.sort_unstable_by_key(|split| split.insertion.motion);
-    configurations.sort_unstable_by_key(|(index, _)| *index);
+    told.sort_unstable_by_key(|(index, _)| *index);
     let mut compensation = Compensation {
         program,
         settings,
@@ -309,10 +309,11 @@ pub fn compensate(
         refused: Vec::new(),
         added: Added::default(),
         untouched: BTreeMap::new(),
+        put_in: BTreeMap::new(),
         inserted: BTreeMap::new(),
         own_joints: BTreeMap::new(),
         shift_limits,
-        configurations,
+        told,
         decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
         summary,
     };
@@ -458,7 +459,7 @@ struct Rewritten {
     /// Moves that are to get a target of their own.
     splits: Vec<Split>,
     /// Configuration data that change: index in the program's numbers, and the value.
-    configurations: Vec<(u32, f64)>,
+    told: Vec<(u32, f64)>,
 }
 
 /// Puts the fake targets into edits, on all processors.
@@ -502,7 +503,7 @@ fn rewrite_all(
         tally: Tally::new(job),
         fakes: BTreeMap::new(),
         splits: Vec::new(),
-        configurations: Vec::new(),
+        told: Vec::new(),
     };
     let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
     // a few chunks for each thread at a time: what they return is not in memory twice for a long program
@@ -523,7 +524,7 @@ fn rewrite_all(
             }
             findings.extend(portion.findings);
             all.splits.extend(portion.splits);
-            all.configurations.extend(portion.configurations);
+            all.told.extend(portion.told);
         }
     }
     all

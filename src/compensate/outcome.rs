@@ -5,7 +5,7 @@ use super::approach::Approach;
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
 use crate::inverse::{Branch, Method, Outcome, Status};
-use crate::program::{Edits, Insertion, Program, Settings, Shape, Source, Target};
+use crate::program::{Edits, Insertion, Program, Replacements, Settings, Shape, Source, Target};
 use std::collections::BTreeMap;
 
 /// A program with fake targets, not yet written.
@@ -29,6 +29,8 @@ pub struct Compensation {
     pub added: Added,
     /// Edits of files before moves and targets were put into them, by file.
     pub(super) untouched: BTreeMap<usize, Edits>,
+    /// What the moves of a file put into it and into others: the file of the moves and that of the text.
+    pub(super) put_in: BTreeMap<(usize, usize), Replacements>,
     /// What was put in, by move.
     pub(super) inserted: BTreeMap<usize, Insertion>,
     /// The controller's joints at targets that moves were given for their own, by move.
@@ -36,7 +38,7 @@ pub struct Compensation {
     /// How far targets with each tool may be shifted; none for tools without a target that is.
     pub(crate) shift_limits: Vec<Option<Separation>>,
     /// Configuration data that were written: index in the program's numbers, and the value.
-    pub configurations: Vec<(u32, f64)>,
+    pub told: Vec<(u32, f64)>,
     /// What was decided against a default, for the marker.
     pub decided: Vec<String>,
     /// The numbers of the whole.

@@ -115,6 +115,18 @@ pub(super) fn changed_configuration(
     )
 }
 
+/// Numbers that the file leaves out and that the correction needs.
+pub(super) fn inserted_numbers(job: &Job, approach: &Approach, text: &[u8]) -> Finding {
+    let message = format!(
+        "{} leaves numbers out that are no longer zero: `{}` is put in",
+        job.ground.name_of(approach.target as usize),
+        String::from_utf8_lossy(text).trim_ascii()
+    );
+    let target = approach.target as usize;
+    job.ground
+        .at_target("number-inserted", Severity::Note, target, message, "")
+}
+
 pub(super) fn failure(job: &Job, approach: &Approach, outcome: &Outcome) -> Finding {
     let name = job.ground.name_of(approach.target as usize);
     let mechanism = job.ground.arm_with(approach.tool as usize).arm.mechanism();

@@ -38,8 +38,8 @@ pub(super) struct Portion<'a> {
     pub findings: Vec<Finding>,
     /// Moves that are to get a target of their own.
     pub splits: Vec<Split>,
-    /// Configuration data that change: index in the program's numbers, and the value.
-    pub configurations: Vec<(u32, f64)>,
+    /// Configuration data that change, and numbers that are put in: index in the program's numbers, and the value.
+    pub told: Vec<(u32, f64)>,
 }
 
 /// A move that is to get a target of its own, and what is said where its text cannot have one.
@@ -78,7 +78,7 @@ impl<'a> Portion<'a> {
             edits: BTreeMap::new(),
             findings: Vec::new(),
             splits: Vec::new(),
-            configurations: Vec::new(),
+            told: Vec::new(),
         }
     }
 
@@ -187,7 +187,10 @@ impl<'a> Portion<'a> {
                 .map(|number| text(job, target, number).trim_ascii().to_vec())
                 .collect();
             for (index, _, digits) in &written.texts {
-                texts[*index] = written.digits[digits.clone()].trim_ascii().to_vec();
+                texts[*index] = match numbers[*index].length {
+                    0 => written.numbers[*index].to_string().into_bytes(),
+                    _ => written.digits[digits.clone()].trim_ascii().to_vec(),
+                };
             }
             splits.push(Split {
                 insertion: Insertion {
@@ -253,8 +256,8 @@ impl<'a> Portion<'a> {
             report.fake = None;
         } else {
             report.changed = written.changed;
-            self.configurations.extend(written.configurations);
-            self.findings.extend(written.finding);
+            self.told.extend(written.told);
+            self.findings.extend(written.findings);
             let edits = self
                 .edits
                 .entry(job.ground.program.targets[approach.target as usize].file)
@@ -323,10 +326,10 @@ impl<'a> Portion<'a> {
         };
         let new = &mut written.numbers;
         if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
-            written.finding = Some(remarks::changed_configuration(
-                job, approach, roles, &old, new,
-            ));
+            let finding = remarks::changed_configuration(job, approach, roles, &old, new);
+            written.findings.push(finding);
         }
+        let mut inserted = Vec::new();
         let mut digits = Vec::with_capacity(32);
         for (index, number) in numbers.iter().enumerate() {
             if new[index] == old[index] {
@@ -351,10 +354,18 @@ impl<'a> Portion<'a> {
                 written.changed = true;
                 let start = number.start as usize;
                 let from = written.digits.len();
-                written.digits.extend_from_slice(&digits);
-                if roles[index] == Role::Configuration {
+                let is_missing = number.length == 0;
+                if is_missing {
+                    let (before, behind) = ground.language.around_missing(target.layout, index);
+                    let text = [before.as_bytes(), &digits, behind.as_bytes()].concat();
+                    inserted.extend_from_slice(&text);
+                    written.digits.extend(text);
+                } else {
+                    written.digits.extend_from_slice(&digits);
+                }
+                if is_missing || roles[index] == Role::Configuration {
                     let number = target.numbers.start + small(index);
-                    written.configurations.push((number, new[index]));
+                    written.told.push((number, new[index]));
                 }
                 written.texts.push((
                     index,
@@ -362,6 +373,10 @@ impl<'a> Portion<'a> {
                     from..written.digits.len(),
                 ));
             }
+        }
+        if !inserted.is_empty() {
+            let finding = remarks::inserted_numbers(job, approach, &inserted);
+            written.findings.push(finding);
         }
         Some(written)
     }
@@ -375,9 +390,9 @@ struct Written {
     digits: Vec<u8>,
     /// Index of the number, bytes of the file, and in `digits` what replaces them.
     texts: Vec<(usize, Range<usize>, Range<usize>)>,
-    /// Index in the program's numbers, and the value.
-    configurations: Vec<(u32, f64)>,
-    finding: Option<Finding>,
+    /// See [`Portion::told`].
+    told: Vec<(u32, f64)>,
+    findings: Vec<Finding>,
 }
 
 /// The largest distance and the largest angle.
@@ -446,8 +461,7 @@ fn styles(
 }
 
 fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {
-    let start = number.start as usize;
-    &job.ground.sources[target.file as usize].bytes[start..start + usize::from(number.length)]
+    number.text(&job.ground.sources[target.file as usize].bytes)
 }
 
 pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {

@@ -147,17 +147,35 @@ impl Meant {
         let freed = &compensation.added.freed;
         let freed: Vec<&Range<u32>> = freed.iter().map(|t| &program.targets[*t].numbers).collect();
         let is_freed = |index: u32| freed.iter().any(|numbers| numbers.contains(&index));
-        let configuration = |index: u32| {
+        let told = |index: u32| {
             let at = compensation
-                .configurations
+                .told
                 .binary_search_by_key(&index, |(index, _)| *index);
-            at.ok().map(|at| compensation.configurations[at].1)
+            at.ok().map(|at| compensation.told[at].1)
+        };
+        // what is told of a number counts where the file is written
+        let kept = |index: u32| {
+            let number = &program.numbers[index as usize];
+            let put_in = told(index).filter(|_| number.length == 0 && !edits.is_empty());
+            put_in.unwrap_or(number.value)
         };
         let (mut behind, mut before) = (0, 0);
+        // where numbers are put in that the text leaves out
+        let mut missing = None;
         for (span, text) in edits.changes() {
             let start = crate::program::script::short(span.start);
-            while let Some(index) = next.next_if(|i| program.numbers[*i as usize].start < start) {
-                meant.keep(program.numbers[index as usize].value, is_freed(index));
+            while let Some(index) = next.next_if(|i| {
+                let number = &program.numbers[*i as usize];
+                number.start < start || number.start == start && number.length == 0
+            }) {
+                if program.numbers[index as usize].length == 0 {
+                    missing = Some(program.numbers[index as usize].start);
+                }
+                meant.keep(kept(index), is_freed(index));
+            }
+            if span.is_empty() && missing == Some(start) {
+                behind += text.len();
+                continue;
             }
             let here = next.peek().copied().filter(|index| {
                 let number = &program.numbers[*index as usize];
@@ -166,7 +184,7 @@ impl Meant {
             let at = span.start + behind - before;
             if let Some(index) = here.filter(|_| !span.is_empty()) {
                 next.next();
-                let value = configuration(index).or_else(|| number::parse(text.trim_ascii_start()));
+                let value = told(index).or_else(|| number::parse(text.trim_ascii_start()));
                 // what is no number equals none
                 meant.numbers.push(value.unwrap_or(f64::NAN));
             } else {
@@ -182,7 +200,7 @@ impl Meant {
             before += span.len();
         }
         for index in next {
-            meant.keep(program.numbers[index as usize].value, is_freed(index));
+            meant.keep(kept(index), is_freed(index));
         }
         meant
     }
@@ -281,7 +299,9 @@ fn numbers_by_file(targets: &[Target], numbers: &[Number], files: usize) -> Vec<
         if !found.is_sorted_by_key(start) {
             found.sort_by_key(start);
         }
-        found.dedup_by_key(|index| start(index));
+        // numbers that the text leaves out may belong to one place
+        let is_there = |index: &u32| numbers[*index as usize].length > 0;
+        found.dedup_by(|a, b| start(a) == start(b) && is_there(a) && is_there(b));
     }
     all
 }

@@ -44,6 +44,10 @@ pub(super) fn choose(
     asked: &Asked,
     findings: &mut Vec<Finding>,
 ) -> Option<Posture> {
+    let asked = &Asked {
+        configuration: with_kept(asked),
+        ..*asked
+    };
     let Asked {
         target,
         arm,
@@ -137,6 +141,30 @@ pub(super) fn choose(
         hint,
     ));
     None
+}
+
+/// The configuration with the sides that are to stay as they are before.
+fn with_kept(asked: &Asked) -> Configuration {
+    let mut all = asked.configuration;
+    let Some(start) = asked.start.filter(|_| all.kept != [false; 3]) else {
+        return all;
+    };
+    let before = asked.arm.posture(&start).0;
+    let keep = |told: &mut Option<bool>, kept: bool, before: bool| {
+        *told = told.or(kept.then_some(before));
+    };
+    keep(&mut all.behind_axis_1, all.kept[0], before.behind_axis_1);
+    keep(
+        &mut all.behind_lower_arm,
+        all.kept[1],
+        before.behind_lower_arm,
+    );
+    keep(
+        &mut all.joint_5_negative,
+        all.kept[2],
+        before.joint_5_negative,
+    );
+    all
 }
 
 /// The answer of an arm with an offset wrist that the configuration means, by its track from the posture before where several

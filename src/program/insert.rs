@@ -42,6 +42,8 @@ pub struct Inserted {
     pub moves: Vec<Option<Replacements>>,
     /// What the file needs beside them: positions that stand elsewhere, counts.
     pub rest: Replacements,
+    /// What other files need, by their index in the sources.
+    pub elsewhere: Vec<(usize, Replacements)>,
 }
 
 impl Inserted {
@@ -58,7 +60,7 @@ impl Inserted {
     ) -> Self {
         Self {
             moves: insertions.iter().map(insert).collect(),
-            rest: Vec::new(),
+            ..Self::default()
         }
     }
 }
@@ -140,29 +142,15 @@ impl Manner {
         program: &Program,
         insertion: &Insertion,
     ) -> Option<Replacements> {
-        let motion = sole_use(program, insertion.motion)?;
+        let motion = &program.moves[insertion.motion];
         let target = program.target_of(motion)?;
-        if motion.displacement != Displacement::None {
-            return None;
-        }
-        let instruction = &program.instructions[motion.instruction as usize];
-        let source = &sources[motion.file as usize];
-        let span = instruction.span();
-        let mut repeated = Repeated {
-            source,
-            blanks: indent(&source.bytes, span.start)?,
-            via: None,
-            end: instruction.target_span.range()?,
-            longest: self.longest,
-            span,
-        };
+        let repeated = Repeated::of(sources, program, insertion, self.longest)?;
         if !insertion.is_split() {
-            if !(self.repeats)(&source.bytes[repeated.span.clone()]) {
+            if !(self.repeats)(&repeated.source.bytes[repeated.span.clone()]) {
                 return None;
             }
             let mut from = before(program, motion)?;
-            if insertion.between.iter().any(|b| b.via.is_some()) {
-                repeated.via = Some(via(program, motion.instruction)?.target_span.range()?);
+            if repeated.via.is_some() {
                 from = before(program, from)?;
             }
             if let Some(external) = self.external {
@@ -218,7 +206,7 @@ pub(super) fn starts_with_word(text: &[u8], words: &[&str]) -> bool {
 }
 
 /// An instruction that is written again for every target before its own.
-struct Repeated<'a> {
+pub(super) struct Repeated<'a> {
     /// The file it stands in.
     source: &'a Source,
     /// Its text.
@@ -233,13 +221,43 @@ struct Repeated<'a> {
     longest: usize,
 }
 
-impl Repeated<'_> {
+impl<'a> Repeated<'a> {
+    /// The instruction of a move that goes to one target, and to that itself, on lines of its own.
+    pub(super) fn of(
+        sources: &'a [Source],
+        program: &Program,
+        insertion: &Insertion,
+        longest: usize,
+    ) -> Option<Self> {
+        let motion = sole_use(program, insertion.motion)?;
+        if motion.displacement != Displacement::None {
+            return None;
+        }
+        let instruction = &program.instructions[motion.instruction as usize];
+        let source = &sources[motion.file as usize];
+        let span = instruction.span();
+        let is_arc = insertion.between.iter().any(|b| b.via.is_some());
+        let via = if is_arc {
+            Some(via(program, motion.instruction)?.target_span.range()?)
+        } else {
+            None
+        };
+        Some(Self {
+            source,
+            blanks: indent(&source.bytes, span.start)?,
+            via,
+            end: instruction.target_span.range()?,
+            longest,
+            span,
+        })
+    }
+
     /// The instruction for each target, in lines before it; `written` makes a target of its numbers. `None` where one cannot
     /// be written, or a line becomes too long.
-    fn insert(
+    pub(super) fn insert(
         &self,
         insertion: &Insertion,
-        written: impl Fn(&[Vec<u8>]) -> Option<Vec<u8>>,
+        mut written: impl FnMut(&[Vec<u8>]) -> Option<Vec<u8>>,
     ) -> Option<Replacements> {
         let (mut text, mut changes) = (Vec::new(), Vec::new());
         for (number, Between { via, end }) in insertion.between.iter().enumerate() {

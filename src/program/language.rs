@@ -197,6 +197,12 @@ pub trait Language: Sync {
         out.extend_from_slice(format!("{value}").as_bytes());
     }
 
+    /// What stands before and behind the `index`-th number of a target where it is put into a text that leaves it out.
+    fn around_missing(&self, layout: Layout, index: usize) -> (&'static str, &'static str) {
+        let _ = (layout, index);
+        ("", "")
+    }
+
     /// Text that puts moves between those of one file, which is the `file`-th of the sources. A move that cannot be
     /// repeated, because its text does more than go to its target, is refused; by default all are.
     fn insert(

@@ -27,6 +27,7 @@ mod error;
 pub mod fanuc;
 pub mod inform;
 mod insert;
+pub mod kawasaki;
 mod kit;
 pub mod krl;
 mod language;
@@ -38,6 +39,7 @@ pub mod rapid;
 pub mod script;
 mod source;
 pub mod urscript;
+pub mod val3;
 
 pub use drive::Step;
 pub use edit::Edits;
@@ -61,6 +63,8 @@ pub const LANGUAGES: &[&dyn Language] = &[
     &fanuc::Fanuc,
     &urscript::UrScript,
     &inform::Inform,
+    &val3::Val3,
+    &kawasaki::Kawasaki,
     &csv::Csv,
 ];
 
@@ -163,6 +167,8 @@ pub struct Configuration {
     pub joint_5_negative: Option<bool>,
     /// The range `[low, high)` of each of the controller's joint angles, radians.
     pub joints: [Option<(f64, f64)>; 6],
+    /// Which of the three sides above, in their order, are those of the posture before where they are not told.
+    pub kept: [bool; 3],
 }
 
 /// What configuration data are computed from.
@@ -181,10 +187,22 @@ pub struct Posture {
 pub struct Number {
     /// First byte of its field: the sign or first digit, or the blanks before it where the column is kept.
     pub start: u32,
-    /// Bytes of the field.
+    /// Bytes of the field; 0 where the text leaves the number out, which then is 0 and would stand there.
     pub length: u16,
     /// Its value in the file's unit.
     pub value: f64,
+}
+
+impl Number {
+    /// Its text; `0` where the file leaves it out.
+    #[must_use]
+    pub fn text<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
+        let start = self.start as usize;
+        match self.length {
+            0 => b"0",
+            length => &bytes[start..start + usize::from(length)],
+        }
+    }
 }
 
 /// Index of a target in [`Program::targets`].

@@ -80,6 +80,23 @@ pub(super) fn nearest_angles(rotation: &Rotation, present: [f64; 3], beyond_deg:
     })
 }
 
+/// The pose of x, y, z in mm and angles in degrees about x, then the new y, then the new z: `Rx · Ry · Rz`.
+pub(super) fn pose_of_turning_angles(n: [f64; 6]) -> Pose {
+    let inverse = Rotation::from_rzryrx([-n[5] * DEG, -n[4] * DEG, -n[3] * DEG]);
+    Pose {
+        rotation: inverse.transpose(),
+        translation: [n[0], n[1], n[2]].map(m_from_mm),
+    }
+}
+
+/// Writes these numbers, the angles as [`nearest_angles`].
+pub(super) fn write_turning_angles(pose: &Pose, n: &mut [f64]) {
+    let present = [-n[3], -n[4], -n[5]];
+    let angles = nearest_angles(&pose.rotation.transpose(), present, 0.0);
+    n[..3].copy_from_slice(&pose.translation.map(mm_from_m));
+    n[3..6].copy_from_slice(&angles.map(|angle| -angle));
+}
+
 /// Whether what configuration data say was `right` of the posture before, and is not of that after. It hangs on one joint,
 /// and near a border of that both sides are right.
 pub(super) fn truly_changes(

@@ -3,7 +3,7 @@
 
 usage: measure.py BINARY FOLDER [-o RESULTS.json] [--only LIST.txt] [--robots ROBOTS] [--jobs N]
 
-FOLDER holds one folder a language (rapid, krl, fanuc, urscript, inform), and in it folders of program files as a controller or
+FOLDER holds one folder a language (rapid, krl, fanuc, urscript, inform, val3, kawasaki), and in it folders of program files as a controller or
 an offline system wrote them: files in one folder belong together. LIST.txt names files in it, one a line (default: all).
 A file counts where the text has poses with six numbers. docs/languages.md tells what is assumed.
 """
@@ -18,13 +18,15 @@ import subprocess
 import sys
 import tempfile
 
-MAKERS = {"rapid": "abb", "krl": "kuka", "fanuc": "fanuc", "urscript": "universal", "inform": "yaskawa"}
+MAKERS = {"rapid": "abb", "krl": "kuka", "fanuc": "fanuc", "urscript": "universal", "inform": "yaskawa", "val3": "staubli", "kawasaki": "kawasaki"}
 ENDINGS = {
     "rapid": (".mod", ".modx", ".prg", ".sys", ".sysx", ".txt"),
     "krl": (".src", ".dat", ".sub"),
     "fanuc": (".ls",),
     "urscript": (".script", ".urscript", ".txt"),
     "inform": (".jbi",),
+    "val3": (".dtx", ".pgx", ".pjx"),
+    "kawasaki": (".as", ".pg"),
 }
 # where no arm of the catalogue fits, its links are made longer by these factors
 SCALES = (1, 1.35, 1.8, 2.4)
@@ -35,6 +37,8 @@ STARTS = {
     "fanuc": "0,0,0,0,-60,0",
     "urscript": "0,-90,90,-90,-90,0",
     "inform": "0,0,0,0,-60,0",
+    "val3": "0,0,90,0,60,0",
+    "kawasaki": "0,0,-90,0,-60,0",
 }
 # causes that come of the arm, tool or frame that was assumed
 FIT = re.compile("out-of-reach|joint-limit|not-converged|configuration-unknown|branch-lost|within reach")
@@ -64,6 +68,14 @@ def poses(language, text):
             elif re.match(rb"[CP]\d+\s*=", line):
                 count += kind not in (b"PULSE", b"ANGLE")
         return count
+    if language == "val3":
+        points = re.findall(rb'<Data\b[^>]*"point(?:Rx)?"[^>]*>(.*?)</Data>', text, re.S)
+        return sum(len(re.findall(rb'<Value\b[^>]*\s[xyz]="', p)) for p in points) + len(re.findall(rb"<tpValue\b", text))
+    if language == "kawasaki":
+        sections = re.findall(rb"^\.TRANS(.*?)^\.END", text, re.S | re.M)
+        return sum(len(re.findall(rb"^\S+(?:[ \t]+[-+.\d]+){6}", s, re.M)) for s in sections) + len(
+            re.findall(rb"MOVE\s+TRANS\(" + numbers(6) + rb"\)", text)
+        )
     if language in COMMENTS:
         text = re.sub(COMMENTS[language], b"", text)
     return len(POSES[language].findall(text))
@@ -181,7 +193,9 @@ def measure(runs, profiles, language, folder, name):
         stem = os.path.splitext(name)[0].lower()
         own = [os.path.join(folder, n) for n in all_names if os.path.splitext(n)[0].lower() == stem]
     together = [os.path.join(folder, n) for n in all_names]
-    # each URScript is a whole program
+    # points of VAL 3 are nothing without the programs beside them; each URScript is a whole program
+    if language == "val3":
+        own = together
     sets = [own] if language == "urscript" or len(together) == len(own) else [own, together]
     starts = [None, STARTS[language]] if runs.takes_start else [None]
     best = None

@@ -14,8 +14,22 @@ pub const WRITTEN: &[(&str, &str)] = &[
     ("fanuc", "ls"),
     ("urscript", "script"),
     ("inform", "jbi"),
+    ("val3", "dtx"),
+    ("kawasaki", "as"),
     ("csv", "csv"),
 ];
+
+/// What belongs to the program of that many points beside its first file: the code, where that holds the data alone.
+pub fn beside(language: &str, count: u32) -> Option<(&'static str, String)> {
+    let moves: String = (0..count)
+        .map(|n| format!("  movel(pPath[{n}],artifact,mPath)\r\n"))
+        .collect();
+    (language == "val3").then(|| {
+        let head = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<Programs xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">\r\n  <Program name=\"start\" access=\"public\">\r\n    <Code><![CDATA[\r\nbegin\r\n  movej(jStart,artifact,mPath)\r\n";
+        let tail = "end\r\n]]></Code>\r\n  </Program>\r\n</Programs>";
+        ("start.pgx", format!("{head}{moves}{tail}"))
+    })
+}
 
 /// The text of the arm's profile, for a controller of another language.
 pub fn profile(language: &str) -> String {
@@ -42,11 +56,14 @@ fn joints(n: u32) -> [f64; 6] {
     ]
 }
 
-/// Position in mm, quaternion with its scalar first, angles of `Rz · Ry · Rx` in degrees, rotation vector in radians.
+/// Position in mm, quaternion with its scalar first, angles of `Rz · Ry · Rx`, `Rx · Ry · Rz` and
+/// `Rz · Ry · Rz` in degrees, rotation vector in radians.
 struct Numbers {
     position: [f64; 3],
     quaternion: [f64; 4],
     zyx: [f64; 3],
+    xyz: [f64; 3],
+    zyz: [f64; 3],
     vector: [f64; 3],
 }
 
@@ -67,6 +84,18 @@ fn numbers(pose: &Pose) -> Numbers {
             m[1][0].atan2(m[0][0]),
             (-m[2][0]).atan2(m[0][0].hypot(m[1][0])),
             m[2][1].atan2(m[2][2]),
+        ]
+        .map(f64::to_degrees),
+        xyz: [
+            (-m[1][2]).atan2(m[2][2]),
+            m[0][2].atan2(m[0][0].hypot(m[0][1])),
+            (-m[0][1]).atan2(m[0][0]),
+        ]
+        .map(f64::to_degrees),
+        zyz: [
+            m[1][2].atan2(m[0][2]),
+            m[0][2].hypot(m[1][2]).atan2(m[2][2]),
+            m[2][1].atan2(-m[2][0]),
         ]
         .map(f64::to_degrees),
         vector: [x * by, y * by, z * by],
@@ -94,6 +123,8 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
             let [q1, q2, q3, q4, q5, q6] = start.map(|q| (q * 1000.0).round());
             format!("/JOB\r\n//NAME PATH\r\n//POS\r\n///NPOS {},0,0,0,0,0\r\n///TOOL 1\r\n///POSTYPE PULSE\r\n///PULSE\r\nC00000={q1},{q2},{q3},{q4},{q5},{q6}\r\n///POSTYPE BASE\r\n///RECTAN\r\n///RCONF 0,0,0,0,0,0,0,0\r\n", count + 1)
         }
+        "val3" => format!("<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<Database xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">\r\n  <Datas>\r\n    <Data name=\"jStart\" access=\"private\" xsi:type=\"array\" type=\"jointRx\" size=\"1\">\r\n      <Value key=\"0\" j1=\"{q1:.4}\" j2=\"{q2:.4}\" j3=\"{q3:.4}\" j4=\"{q4:.4}\" j5=\"{q5:.4}\" j6=\"{q6:.4}\" />\r\n    </Data>\r\n    <Data name=\"pPath\" access=\"private\" xsi:type=\"array\" type=\"pointRx\" size=\"{count}\">\r\n"),
+        "kawasaki" => format!(".PROGRAM path()\n  BASE NULL\n  JMOVE #[{q1:.4},{q2:.4},{q3:.4},{q4:.4},{q5:.4},{q6:.4}]\n"),
         "csv" => "id,x_mm,y_mm,z_mm,qw,qx,qy,qz\n".into(),
         _ => panic!("the path is not written in {language}"),
     };
@@ -148,6 +179,20 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
                     n + 1
                 )
             }
+            "val3" => {
+                let [rx, ry, rz] = numbers.xyz;
+                write!(
+                    text,
+                    "      <Value key=\"{n}\" x=\"{x:.3}\" y=\"{y:.3}\" z=\"{z:.3}\" rx=\"{rx:.4}\" ry=\"{ry:.4}\" rz=\"{rz:.4}\" fatherId=\"world[0]\" />\r\n"
+                )
+            }
+            "kawasaki" => {
+                let [o, a, t] = numbers.zyz;
+                writeln!(
+                    text,
+                    "  LMOVE TRANS({x:.3},{y:.3},{z:.3},{o:.4},{a:.4},{t:.4})"
+                )
+            }
             _ => writeln!(text, "{n},{x:.3},{y:.3},{z:.3},{w:.8},{i:.8},{j:.8},{k:.8}"),
         };
     }
@@ -159,6 +204,8 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
         "inform" => {
             "//INST\r\n///DATE 2026/11/21 10:00\r\n///ATTR SC,RW\r\n///GROUP1 RB1\r\nNOP\r\n"
         }
+        "val3" => "    </Data>\r\n  </Datas>\r\n</Database>",
+        "kawasaki" => ".END\n",
         _ => "",
     };
     text += &moves;

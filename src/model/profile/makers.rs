@@ -39,6 +39,8 @@ pub const MAKERS: &[Maker] = &[
     },
     maker("Yaskawa", "inform", &["yaskawa", "motoman"]),
     maker("Universal Robots", "urscript", &["ur"]),
+    maker("Staubli", "val3", &["staubli"]),
+    maker("Kawasaki", "kawasaki", &["kawasaki"]),
 ];
 
 const fn maker(
@@ -103,7 +105,7 @@ mod tests {
             Some("Universal Robots")
         );
         assert_eq!(name(Maker::marked_in("abb_irb120_3_58")), Some("ABB"));
-        assert_eq!(name(Maker::marked_in("staubli_tx2_90, our tourist")), None);
+        assert_eq!(name(Maker::marked_in("nachi_mz07, our tourist")), None);
         assert_eq!(name(Maker::marked_in("kuka_and_abb")), None);
     }
 }

@@ -62,6 +62,7 @@ pub(super) fn configuration(data: &[f64; 6]) -> Configuration {
         behind_lower_arm: flag(1),
         behind_axis_1: flag(2),
         joints,
+        ..Configuration::default()
     }
 }
 

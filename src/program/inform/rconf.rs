@@ -100,6 +100,7 @@ pub(super) fn configuration(variant: u8) -> Configuration {
             _ => None,
         },
         joints,
+        ..Configuration::default()
     }
 }
 

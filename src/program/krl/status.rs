@@ -50,6 +50,7 @@ pub(super) fn configuration(status: Option<u32>, turn: Option<u32>) -> Configura
         behind_lower_arm: bit(1).map(|bent| !bent),
         joint_5_negative: bit(2),
         joints,
+        ..Configuration::default()
     }
 }
 

@@ -6,10 +6,8 @@ use super::remarks::{accurate, ambiguous, computed, home};
 use super::{GROWTH, LONGEST_LINE, status, status_and_turn, whole};
 use crate::finding::Severity;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{
-    Expr, How, Place, Remark, Script, Table, Variable, VariableId, short,
-};
-use crate::program::{Settings, Source, TargetId};
+use crate::program::script::{Expr, Place, Remark, Script, Table, Variable, VariableId, short};
+use crate::program::{Settings, Source};
 
 /// Elements of an array that are followed each.
 const MOST_ELEMENTS: usize = 32;
@@ -273,7 +271,7 @@ impl Reader {
                 kept[target] |= datum.kind != DataKind::Frame && !module.is_system;
             }
         }
-        keep(&mut script, &kept);
+        script.keep(&kept);
         script
     }
 }
@@ -333,75 +331,15 @@ fn long_lines(sources: &[Source], script: &mut Script, kept: &[bool]) {
     }
 }
 
-/// Every expression that may be a target.
-fn each_expression(script: &mut Script, mut visit: impl FnMut(&mut Expr)) {
-    for instruction in &mut script.instructions {
-        visit(&mut instruction.target);
-    }
-    for modal in &mut script.modals {
-        visit(&mut modal.tool);
-        visit(&mut modal.frame);
-    }
-    for argument in &mut script.arguments {
-        visit(&mut argument.value);
-    }
-    for expr in &mut script.lists {
-        visit(expr);
-    }
-    for variable in &mut script.variables {
-        visit(&mut variable.declared);
-    }
-    for write in &mut script.writes {
-        if let How::Whole(value) = &mut write.how {
-            visit(value);
-        }
-    }
-}
-
 /// Which targets a statement names.
 fn named_targets(script: &mut Script) -> Vec<bool> {
     let mut named = vec![false; script.targets.len()];
-    each_expression(script, |expr| {
+    script.each_expression(|expr| {
         if let Expr::Target(target) = expr {
             named[*target] = true;
         }
     });
     named
-}
-
-/// Leaves out the targets that are not kept, and puts the others in the order of the text.
-fn keep(script: &mut Script, kept: &[bool]) {
-    let mut order: Vec<TargetId> = (0..kept.len()).filter(|&target| kept[target]).collect();
-    let place = |&target: &TargetId| {
-        let target = &script.targets[target];
-        (target.file, target.offset)
-    };
-    if order.len() == kept.len() && order.is_sorted_by_key(place) {
-        return;
-    }
-    order.sort_by_key(place);
-    let mut new_ids = vec![0; kept.len()];
-    let mut targets = Vec::with_capacity(order.len());
-    let mut numbers = Vec::with_capacity(script.numbers.len());
-    for old in order {
-        new_ids[old] = targets.len();
-        let mut target = script.targets[old].clone();
-        let range = target.numbers.start as usize..target.numbers.end as usize;
-        let first = short(numbers.len());
-        numbers.extend_from_slice(&script.numbers[range]);
-        target.numbers = first..short(numbers.len());
-        targets.push(target);
-    }
-    (script.targets, script.numbers) = (targets, numbers);
-    each_expression(script, |expr| {
-        if let Expr::Target(target) = expr {
-            *target = new_ids[*target];
-        }
-    });
-    script.refused.retain(|&(target, _)| kept[target]);
-    for (target, _) in &mut script.refused {
-        *target = new_ids[*target];
-    }
 }
 
 /// Names that every controller has for a joint target in its $config.dat.

@@ -5,6 +5,7 @@
 //! from where the robot comes there is worked out in [`crate::motion`], once for all languages.
 
 mod builder;
+mod order;
 
 pub use builder::Builder;
 

@@ -72,7 +72,7 @@ mod tests {
         };
         assert_eq!(
             languages(&settings),
-            ["rapid", "krl", "fanuc", "urscript", "inform"]
+            ["rapid", "krl", "fanuc", "urscript", "inform", "kawasaki"]
         );
         for language in languages(&settings) {
             let text =

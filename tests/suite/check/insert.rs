@@ -152,6 +152,75 @@ END\r
     arc: &["MOVC C0", " V=30.0 PL=0"],
 };
 
+const VAL3: Case = Case {
+    language: "val3",
+    files: &[
+        (
+            "start.pgx",
+            "<?xml version=\"1.0\" encoding=\"utf-8\"?>
+<Programs xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">
+  <Program name=\"start\" access=\"public\">
+    <Code><![CDATA[
+begin
+  movej(jA,tA,mA)
+  movej(pA,tA,mA)
+  nId=movel(pB[1],tA,mA) // seam
+  movec(pB[2],pA,tA,mA)
+end
+]]></Code>
+  </Program>
+</Programs>
+",
+        ),
+        (
+            "t.dtx",
+            "<?xml version=\"1.0\" encoding=\"utf-8\"?>
+<Database xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">
+  <Datas>
+    <Data name=\"jA\" access=\"private\" xsi:type=\"array\" type=\"jointRx\" size=\"1\">
+      <Value key=\"0\" j1=\"-35\" j2=\"30\" j3=\"80\" j5=\"70\" />
+    </Data>
+    <Data name=\"pA\" access=\"private\" xsi:type=\"array\" type=\"pointRx\" size=\"1\">
+      <Value key=\"0\" x=\"600\" y=\"-400.5\" z=\"-150\" rx=\"180\" shoulder=\"lefty\" elbow=\"epositive\" wrist=\"wpositive\" fatherId=\"world[0]\" />
+    </Data>
+    <Data name=\"pB\" access=\"private\" xsi:type=\"array\" type=\"pointRx\" size=\"3\">
+      <Value key=\"1\" x=\"600\" y=\"400.5\" z=\"-150\" rx=\"180\" fatherId=\"world[0]\" />
+      <Value key=\"2\" x=\"450\" z=\"-150\" rx=\"180\" fatherId=\"world[0]\" />
+    </Data>
+    <Data name=\"tA\" access=\"private\" xsi:type=\"array\" type=\"tool\" size=\"1\">
+      <Value key=\"0\" z=\"120\" fatherId=\"flange[0]\" ioLink=\"valve1\" />
+    </Data>
+  </Datas>
+</Database>
+",
+        ),
+    ],
+    straight: &["  nId=movel(p", ",tA,mA)"],
+    arc: &["  movec(p", ",tA,mA)"],
+};
+
+const KAWASAKI: Case = Case {
+    language: "kawasaki",
+    files: &[(
+        "t.as",
+        ".PROGRAM t()\r
+  TOOL TRANS(0,0,100,0,0,0)\r
+  BASE NULL\r
+  JMOVE #[-40,30,-90,0,-60,-40]\r
+  JMOVE corner\r
+  LMOVE TRANS(350.000,450.000,100.000,90.0000,180.0000,0.0000)  ; seam\r
+  C1MOVE TRANS(150.000,350.000,150.000,90.0000,180.0000,0.0000)\r
+  C2MOVE TRANS(-350.000,450.000,100.000,90.0000,180.0000,0.0000)\r
+.END\r
+.TRANS\r
+corner -350.000000 450.000000 100.000000 90.000000 180.000000 0.000000\r
+.END\r
+",
+    )],
+    straight: &["  LMOVE TRANS("],
+    arc: &["  C2MOVE TRANS("],
+};
+
 /// Beyond this the path may not be, mm.
 const LIMIT_MM: f64 = 0.04;
 
@@ -334,6 +403,30 @@ fn inform_gets_positions_behind_the_highest_and_counts_them() {
     let pulses = text.find("P00000=").expect("it stays");
     let above = text[..pulses].rfind("///P").expect("a header line");
     assert!(text[above..].starts_with("///PULSE"), "{text}");
+}
+
+#[test]
+fn val3_gets_points_in_the_data() {
+    try_case(&VAL3);
+    let folder = scratch();
+    let (from, to) = (folder.path().join("in"), folder.path().join("out"));
+    std::fs::create_dir(&from).expect("a writable folder");
+    VAL3.write(&from);
+    VAL3.compensate(&from, &to, &["--max-path-error", "0.04"]);
+    let text = |name: &str| std::fs::read_to_string(to.join(name)).expect("it was written");
+    let (data, code) = (text("t.dtx"), text("start.pgx"));
+    let new = data.matches("<Data name=\"pShift").count();
+    assert!(
+        new > 0 && code.matches("pShift").count() == new,
+        "{data}{code}"
+    );
+    // each has the frame of the point that it stands before
+    assert_eq!(data.matches("fatherId=\"world[0]\"").count(), new + 3);
+}
+
+#[test]
+fn kawasaki_gets_moves_to_positions_written_out() {
+    try_case(&KAWASAKI);
 }
 
 #[test]

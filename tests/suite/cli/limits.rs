@@ -1,7 +1,7 @@
 //! What is too large, too small or another file's is refused before anything is written.
 
 use crate::support::{files_below, poseshift, repository, scratch, text};
-use poseshift::program::Marker;
+use poseshift::program::{LANGUAGES, Marker};
 use std::path::Path;
 
 const DEBURR: &str = "programs/rapid/olp/in/Deburr.mod";
@@ -271,7 +271,7 @@ fn a_check_compares_with_the_files_of_the_marker() {
 #[test]
 fn a_marker_is_known_by_what_is_left_of_it() {
     let mut languages = 0;
-    for language in ["rapid", "krl", "fanuc", "urscript", "inform", "csv"] {
+    for language in LANGUAGES.iter().map(|language| language.about().id) {
         let folder = repository(&format!("programs/{language}"));
         let mut seen = 0;
         for file in files_below(&folder) {
@@ -303,7 +303,7 @@ fn a_marker_is_known_by_what_is_left_of_it() {
         }
         languages += usize::from(seen > 0);
     }
-    assert_eq!(languages, 6);
+    assert_eq!(languages, LANGUAGES.len());
     for file in files_below(&repository("programs")) {
         if !file.components().any(|part| part.as_os_str() == "out") {
             let bytes = std::fs::read(repository("programs").join(&file)).expect("a file");

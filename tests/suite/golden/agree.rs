@@ -1,7 +1,7 @@
 //! One path in every language: the same fake targets, and the same joints.
 
 use crate::path;
-use crate::support::{poseshift, scratch};
+use crate::support::{poseshift, repository, scratch, text};
 use serde_json::Value;
 
 const POINTS: u32 = 60;
@@ -21,8 +21,13 @@ fn fakes(language: &str, ending: &str) -> Vec<Value> {
     let scratch = scratch();
     let at = |name: &str| scratch.path().join(name);
     std::fs::write(at("profile.yaml"), path::profile(language)).expect("scratch");
-    let program = at(&format!("path.{ending}"));
-    std::fs::write(&program, path::program(language, POINTS, EVERY)).expect("scratch");
+    let program = at("in");
+    std::fs::create_dir(&program).expect("scratch");
+    let text = path::program(language, POINTS, EVERY);
+    std::fs::write(program.join(format!("path.{ending}")), text).expect("scratch");
+    if let Some((name, text)) = path::beside(language, POINTS) {
+        std::fs::write(program.join(name), text).expect("scratch");
+    }
     let output = poseshift()
         .arg("compensate")
         .arg(&program)
@@ -70,4 +75,42 @@ fn a_path_has_the_same_fake_targets_in_every_language() {
             assert!(number(a, "shift_mm") > 0.5, "the arm is calibrated");
         }
     }
+}
+
+#[test]
+fn val3_counts_from_the_shoulder_wherever_the_profile_begins() {
+    let shoulder = text("programs/val3/profile.yaml");
+    // an effect of the base turns about where the profile begins
+    let lines = shoulder.lines().filter(|line| !line.contains("base_frame"));
+    let shoulder: String = lines.map(|line| format!("{line}\n")).collect();
+    let foot = shoulder.replacen("z_mm: 0,", "z_mm: -478,", 1).replacen(
+        "theta_deg: 0, d_mm: 0,",
+        "theta_deg: 0, d_mm: 478,",
+        1,
+    );
+    assert_eq!(foot.matches("478").count(), 2);
+    let [one, other] = [shoulder, foot].map(|profile| {
+        let scratch = scratch();
+        let file = scratch.path().join("profile.yaml");
+        std::fs::write(&file, profile).expect("scratch");
+        let output = poseshift()
+            .arg("compensate")
+            .arg(repository("programs/val3/olp/in"))
+            .args(["--json", "--profile"])
+            .arg(file)
+            .arg("-o")
+            .arg(scratch.path().join("out"))
+            .output()
+            .expect("the program starts");
+        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let targets = report["targets"].as_array().expect("a list");
+        let fakes = targets.iter().filter(|target| !target["fake"].is_null());
+        fakes
+            .flat_map(|target| ["x_mm", "y_mm", "z_mm"].map(|key| number(&target["fake"], key)))
+            .collect::<Vec<f64>>()
+    });
+    assert_eq!(one.len(), other.len());
+    assert!(one.len() >= 27, "{one:?}");
+    let gap = one.iter().zip(&other).map(|(a, b)| (a - b).abs());
+    assert!(gap.fold(0.0, f64::max) < 1e-6);
 }

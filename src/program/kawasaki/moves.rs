@@ -1,0 +1,249 @@
+//! Moves: what goes where with what.
+
+use super::reader::Reader;
+use super::remarks::Cause;
+use super::targets::{Position, literals};
+use super::words::Part;
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, MM};
+use crate::program::Motion;
+use crate::program::script::{Expr, Held, Instruction, Modal, Span, Variable, short};
+
+/// What a move does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verb {
+    /// `JMOVE p`, `LMOVE p`, `HMOVE p`: the motion, and whether the orientation is free on the way.
+    To(Motion, bool),
+    /// `C1MOVE p`, `C2MOVE p`: whether the arc ends there.
+    Arc(bool),
+    /// `LAPPRO p,mm`
+    Near(Motion),
+    /// `LDEPART mm`
+    Away(Motion),
+    /// `DRAW x,y,z`, `TDRAW x,y,z`: whether along the axes of the tool.
+    Draw(bool),
+    /// `XMOVE p TILL signal`
+    Search,
+    /// `DRIVE`, `ALIGN`, `HOME`
+    Elsewhere,
+    /// A step of a taught program: `JOINT SPEED9 ACCU1 TOOL1 … #[…]`.
+    Step(Motion),
+}
+
+impl Verb {
+    /// The move that words begin with.
+    pub(super) fn of(part: Part) -> Option<Self> {
+        const VERBS: &[(&[u8], Verb)] = &[
+            (b"JMOVE", Verb::To(Motion::Joint, false)),
+            (b"LMOVE", Verb::To(Motion::Linear, false)),
+            (b"HMOVE", Verb::To(Motion::Linear, true)),
+            (b"C1MOVE", Verb::Arc(false)),
+            (b"C2MOVE", Verb::Arc(true)),
+            (b"JAPPRO", Verb::Near(Motion::Joint)),
+            (b"LAPPRO", Verb::Near(Motion::Linear)),
+            (b"JDEPART", Verb::Away(Motion::Joint)),
+            (b"LDEPART", Verb::Away(Motion::Linear)),
+            (b"DRAW", Verb::Draw(false)),
+            (b"TDRAW", Verb::Draw(true)),
+            (b"XMOVE", Verb::Search),
+            (b"DRIVE", Verb::Elsewhere),
+            (b"ALIGN", Verb::Elsewhere),
+            (b"HOME", Verb::Elsewhere),
+        ];
+        const STEPS: &[(&[u8], Motion)] = &[
+            (b"JOINT", Motion::Joint),
+            (b"LINEAR", Motion::Linear),
+            (b"LIN2", Motion::Linear),
+            (b"CIR1", Motion::ArcVia),
+            (b"CIR2", Motion::ArcEnd),
+        ];
+        let known = VERBS.iter().find(|(word, _)| part.is_word(0, word));
+        let step = STEPS.iter().find(|(word, _)| part.is_word(0, word));
+        let is_step = step_target(part).is_some();
+        known.map(|(_, verb)| *verb).or(step
+            .filter(|_| is_step)
+            .map(|(_, motion)| Self::Step(*motion)))
+    }
+}
+
+/// Where the joints of a taught step stand.
+fn step_target(part: Part) -> Option<usize> {
+    (1..part.0.len()).find(|at| part.is(*at, b'#') && part.is(at + 1, b'['))
+}
+
+impl<'a> Reader<'a> {
+    /// A statement that moves.
+    pub(super) fn moves(&mut self, part: Part<'a, '_>, verb: Verb) {
+        let list = part.behind(1).list();
+        let first = list.first().copied().unwrap_or(Part(&[]));
+        let second = list.get(1).and_then(Part::number);
+        if !matches!(verb, Verb::Arc(_)) {
+            self.here.arc = 0;
+        }
+        match verb {
+            Verb::To(motion, is_free) => {
+                let found = self.position(first);
+                self.go(part, Some(first), found, motion, is_free);
+                if is_joints(first) {
+                    // the joints tell the configuration
+                    self.switch(Held::Flag(false));
+                }
+            }
+            Verb::Arc(is_end) => {
+                self.here.arc += 1;
+                let motion = if is_end || self.here.arc.is_multiple_of(2) {
+                    Motion::ArcEnd
+                } else {
+                    Motion::ArcVia
+                };
+                if is_end {
+                    self.here.arc = 0;
+                }
+                let found = self.position(first);
+                self.go(part, Some(first), found, motion, false);
+            }
+            Verb::Near(motion) => {
+                let found = self.position(first).in_tool(second.map(back));
+                self.go(part, None, found, motion, false);
+            }
+            Verb::Away(motion) => {
+                let found = self.here.last;
+                let found = found.map(|last| last.in_tool(first.number().map(back)));
+                self.relative(part, found, motion);
+            }
+            Verb::Draw(in_tool) => {
+                let given = literals::<6>(&list[..list.len().min(6)]);
+                let found = self.here.last.zip(given).map(|(last, by)| {
+                    let [x, y, z, rx, ry, rz] = by;
+                    if in_tool {
+                        let turned = super::pose_of_turns([rx, ry, rz].map(|angle| angle * DEG));
+                        let moved = Pose::from_translation(x * MM, y * MM, z * MM);
+                        last.in_tool(Some(moved * turned))
+                    } else {
+                        let is_plain = [rx, ry, rz] == [0.0; 3];
+                        last.along(is_plain.then_some([x, y, z]))
+                    }
+                });
+                self.relative(part, found, Motion::Linear);
+            }
+            Verb::Search => {
+                let till = first.0.iter().position(|word| word.is_word(b"TILL"));
+                let found = self.position(Part(&first.0[..till.unwrap_or(first.0.len())]));
+                let guards = self.reason(Cause::Search);
+                let target = self.expr(found);
+                let modal = Modal {
+                    guards,
+                    ..self.modal_of(Motion::Linear)
+                };
+                self.put(part, None, target, Motion::Linear, false, modal);
+                self.here.last = None;
+            }
+            Verb::Elsewhere => self.relative(part, None, Motion::Joint),
+            Verb::Step(motion) => {
+                let at = step_target(part).expect("it was found");
+                let target = part.behind(at);
+                let is_tool =
+                    |name: &[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");
+                let tool = part.0.iter().find(|word| is_tool(word.text));
+                let tool = tool.map(|word| crate::program::Source::text(word.text).into_owned());
+                let found = self.position(target);
+                let mut modal = self.modal_of(motion);
+                if let Some(tool) = tool {
+                    modal.tool = self.frame_value(&tool, None);
+                }
+                self.put(part, Some(target), found.base, motion, false, modal);
+                self.here.last = Some(found);
+            }
+        }
+    }
+
+    /// A move from where the robot stands.
+    fn relative(&mut self, part: Part<'a, '_>, to: Option<Position>, motion: Motion) {
+        let known = to.filter(|to| to.by.is_some());
+        let found = known.unwrap_or_else(|| Position {
+            base: self.unknown(Cause::Relative.remark()),
+            by: None,
+        });
+        if known.is_some() {
+            return self.go(part, None, found, motion, false);
+        }
+        let modal = self.modal_of(motion);
+        self.put(part, None, found.base, motion, false, modal);
+        self.here.last = None;
+    }
+
+    fn reason(&mut self, cause: Cause) -> u32 {
+        let remark = self.builder.script.remark(cause.remark());
+        let value = Expr::Value(self.builder.script.value(Held::Remark(remark)));
+        let place = self.place(self.here.at);
+        let script = &mut self.builder.script;
+        let reason = script.variable(Variable::new("move", place, value));
+        script.guards.push([reason].into());
+        short(script.guards.len() - 1)
+    }
+
+    fn go(
+        &mut self,
+        part: Part<'a, '_>,
+        named: Option<Part<'a, '_>>,
+        to: Position,
+        motion: Motion,
+        is_free: bool,
+    ) {
+        let target = self.expr(to);
+        let modal = self.modal_of(motion);
+        self.put(part, named, target, motion, is_free, modal);
+        self.here.last = Some(to);
+    }
+
+    /// With what a move runs.
+    fn modal_of(&mut self, motion: Motion) -> Modal {
+        Modal {
+            tool: Expr::Variable(self.tool),
+            frame: Expr::Variable(self.base),
+            configured: if motion == Motion::Joint {
+                Expr::Value(self.honoured)
+            } else {
+                Expr::Absent
+            },
+            guards: self.switches,
+            speed_zone: self.here.next.take().unwrap_or(self.here.always),
+            ..Modal::default()
+        }
+    }
+
+    fn put(
+        &mut self,
+        part: Part<'a, '_>,
+        named: Option<Part<'a, '_>>,
+        target: Expr,
+        motion: Motion,
+        is_free: bool,
+        modal: Modal,
+    ) {
+        let (start, end) = part.bytes().expect("a statement has words");
+        let named = named.and_then(|named| named.bytes());
+        let instruction = Instruction {
+            end: short(end),
+            motion,
+            free_orientation: is_free,
+            target,
+            target_span: named.map_or_else(Span::default, |(start, end)| Span {
+                start: short(start),
+                end: short(end),
+            }),
+            ..Instruction::at(self.place(start))
+        };
+        self.builder.go(instruction, modal);
+    }
+}
+
+/// Whether words are joints: `#p`, `.#p`, `#[…]`.
+fn is_joints(part: Part) -> bool {
+    part.is(0, b'#') || part.is_word(0, b".") && part.is(1, b'#')
+}
+
+/// Back along the tool, mm.
+fn back(mm: f64) -> Pose {
+    Pose::from_translation(0.0, 0.0, -mm * MM)
+}

@@ -1,0 +1,80 @@
+//! What is wrong with targets, tools and moves, in words.
+
+use crate::finding::Severity;
+use crate::program::script::Remark;
+
+/// Why a position has to stay, or a move runs without correction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cause {
+    Computed,
+    Partial,
+    Axes,
+    Assigned,
+    Relative,
+    Search,
+    Switched,
+}
+
+impl Cause {
+    pub(super) fn remark(self) -> Remark {
+        let (id, severity, text, hint) = match self {
+            Self::Computed => (
+                "computed-target",
+                Severity::Warning,
+                "the position that this move goes to is known at run time only; the move stays as it is",
+                "move to a name of .TRANS or .JOINTS where it must be exact",
+            ),
+            Self::Partial => (
+                "partial-target",
+                Severity::Error,
+                "the target does not have all six numbers",
+                "write all six numbers of TRANS",
+            ),
+            Self::Axes => (
+                "target-not-six-axes",
+                Severity::Error,
+                "the target does not have six numbers: it has another axis (JT7), or is one of another arm",
+                "only robots with six joints and without other axes are compensated",
+            ),
+            Self::Assigned => (
+                "frame-assigned-at-run-time",
+                Severity::Error,
+                "the running program computes the tool or base",
+                "set it with numbers, or with a name of .TRANS",
+            ),
+            Self::Relative => (
+                "relative-move",
+                Severity::Warning,
+                "the move starts where the robot stands, and the text does not tell where: it stays as it is",
+                "move to a name of .TRANS or .JOINTS where it must be exact",
+            ),
+            Self::Search => (
+                "search-move",
+                Severity::Error,
+                "a signal decides where the move (XMOVE) ends",
+                "searches are not compensated",
+            ),
+            Self::Switched => (
+                "configuration-not-understood",
+                Severity::Error,
+                "the program switches the arm's configuration (LEFTY, RIGHTY, ABOVE, BELOW, UWRIST, DWRIST) before this move",
+                "go to joints (#name) with the configuration that is wanted instead",
+            ),
+        };
+        Remark {
+            id,
+            severity,
+            text: text.into(),
+            hint,
+        }
+    }
+}
+
+/// A target that the files do not have.
+pub(super) fn not_in_files(name: &str) -> Remark {
+    Remark::error(
+        "target-not-in-files",
+        format!("{name} is not declared in the files; this move is not compensated"),
+        "give the file with its .TRANS or .JOINTS too",
+    )
+}

@@ -1,0 +1,210 @@
+//! The sections of a file: programs, transformations (`.TRANS`), joints (`.JOINTS`). Others are passed over.
+//!
+//! A section begins with its keyword in the first column and ends with `.END`. Names of a program's own begin with a dot, too:
+//! only known keywords in capitals open a section.
+
+use super::words::{Part, Word, words};
+use crate::program::kit::{Fault, content_start};
+use crate::program::script::short;
+use crate::program::{Number, Source, number};
+use std::ops::Range;
+
+/// One line of `.TRANS` or `.JOINTS`.
+#[derive(Clone, Debug)]
+pub(super) struct Entry<'a> {
+    /// The name, `#` of joints with it.
+    pub name: &'a [u8],
+    pub at: u32,
+    pub end: u32,
+    pub numbers: Vec<Number>,
+}
+
+/// One program.
+#[derive(Clone, Debug)]
+pub(super) struct Program<'a> {
+    pub name: &'a [u8],
+    pub parameters: Vec<&'a [u8]>,
+    pub at: u32,
+    /// Its lines without the first and `.END`.
+    pub lines: Range<usize>,
+}
+
+/// What a file holds.
+#[derive(Debug, Default)]
+pub(super) struct Sections<'a> {
+    pub programs: Vec<Program<'a>>,
+    pub entries: Vec<Entry<'a>>,
+    /// Some section of the language is there.
+    pub is_one: bool,
+}
+
+/// A line without its end, and where it begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line<'a> {
+    pub text: &'a [u8],
+    pub start: usize,
+}
+
+/// The lines of a part of a file; they end with LF, CR LF or CR.
+pub(super) fn lines(bytes: &[u8], range: Range<usize>) -> impl Iterator<Item = Line<'_>> {
+    let mut at = range.start;
+    std::iter::from_fn(move || {
+        let rest = bytes.get(at..range.end).filter(|rest| !rest.is_empty())?;
+        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let line = Line {
+            text: &rest[..length],
+            start: at,
+        };
+        at += length + 1;
+        Some(line)
+    })
+}
+
+/// Whether a line is this keyword in the first column.
+fn opens(line: &[u8], keyword: &[u8]) -> bool {
+    let behind = line.strip_prefix(keyword).and_then(|rest| rest.first());
+    line == keyword || behind.is_some_and(|b| b.is_ascii_whitespace() || *b == b';')
+}
+
+/// Words that only this language has, among those that other languages with `.PROGRAM` have.
+const OWN: &[&[u8]] = &[
+    b"LMOVE",
+    b"JMOVE",
+    b"HMOVE",
+    b"XMOVE",
+    b"C1MOVE",
+    b"C2MOVE",
+    b"LAPPRO",
+    b"JAPPRO",
+    b"LDEPART",
+    b"JDEPART",
+    b"TWAIT",
+    b"ACCURACY",
+];
+/// Bytes that are looked at.
+const LOOKED_AT: usize = 1 << 16;
+
+/// Whether bytes look like a file of this language.
+pub(super) fn recognises(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(LOOKED_AT)];
+    if memchr::memchr(0, head).is_some() {
+        return false;
+    }
+    let (mut opened, mut own) = (false, false);
+    let mut found = Vec::new();
+    for line in lines(head, content_start(head)..head.len()) {
+        opened |= opens(line.text, b".PROGRAM");
+        if opens(line.text, b".TRANS") || opens(line.text, b".JOINTS") {
+            return true;
+        }
+        words(line.text, line.start, &mut found);
+        let is_own = |word: &Word| OWN.iter().any(|own| word.is_word(own));
+        own |= found.iter().take(2).any(is_own);
+        own |= found
+            .windows(2)
+            .any(|pair| pair[0].is(b'#') && pair[1].is(b'['));
+        if opened && own {
+            return true;
+        }
+    }
+    false
+}
+
+/// Reads a file.
+pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
+    enum Open {
+        Nothing,
+        Entries,
+        Program,
+        Other,
+    }
+    let bytes = &source.bytes;
+    let mut found = Sections::default();
+    let mut open = Open::Nothing;
+    let mut buffer = Vec::new();
+    for line in lines(bytes, content_start(bytes)..bytes.len()) {
+        let text = line.text;
+        if opens(text, b".END") {
+            open = Open::Nothing;
+        } else if opens(text, b".PROGRAM") {
+            words(text, line.start, &mut buffer);
+            found.programs.push(header(&buffer, line));
+            (open, found.is_one) = (Open::Program, true);
+        } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
+            (open, found.is_one) = (Open::Entries, true);
+        } else if matches!(open, Open::Nothing) && text.starts_with(b".") {
+            open = Open::Other;
+        } else if matches!(open, Open::Entries) {
+            found.entries.extend(entry(line)?);
+        } else if matches!(open, Open::Program)
+            && let Some(program) = found.programs.last_mut()
+        {
+            program.lines.end = line.start + text.len();
+        }
+    }
+    Ok(found)
+}
+
+/// `.PROGRAM name(a,b) #553; comment`
+fn header<'a>(words: &[Word<'a>], line: Line<'a>) -> Program<'a> {
+    let of = Part(words);
+    let name = words.get(1).map_or(&b""[..], |word| word.text);
+    let mut parameters = Vec::new();
+    if of.is(2, b'(') {
+        let (inside, _) = of.inside(2);
+        for part in inside.list() {
+            // the last word is the name: `.#p` is joints
+            parameters.extend(part.0.last().map(|word| word.text));
+        }
+    }
+    let end = line.start + line.text.len();
+    Program {
+        name,
+        parameters,
+        at: short(line.start),
+        lines: end..end,
+    }
+}
+
+/// `name 1.0 2.0 …`; nothing of an empty line.
+fn entry(line: Line<'_>) -> Result<Option<Entry<'_>>, Fault> {
+    let text = line.text.trim_ascii_end();
+    let blanks = text.len() - text.trim_ascii_start().len();
+    let mut at = blanks;
+    let name_length = text[at..]
+        .iter()
+        .take_while(|b| !b.is_ascii_whitespace())
+        .count();
+    let name = &text[at..at + name_length];
+    if name.is_empty() || name[0] == b';' {
+        return Ok(None);
+    }
+    at += name_length;
+    let mut numbers = Vec::with_capacity(6);
+    while let Some(byte) = text.get(at) {
+        if byte.is_ascii_whitespace() {
+            at += 1;
+            continue;
+        }
+        let field = text[at..].split(u8::is_ascii_whitespace).next();
+        let field = field.unwrap_or_default();
+        let start = line.start + at;
+        let value = number::parse(field);
+        let length = u16::try_from(field.len()).ok();
+        let (Some(value), Some(length)) = (value, length) else {
+            return Err(Fault::unexpected(start..start + field.len(), "a number"));
+        };
+        numbers.push(Number {
+            start: short(start),
+            length,
+            value,
+        });
+        at += field.len();
+    }
+    Ok(Some(Entry {
+        name,
+        at: short(line.start + blanks),
+        end: short(line.start + text.len()),
+        numbers,
+    }))
+}

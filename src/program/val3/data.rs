@@ -1,0 +1,328 @@
+//! Data files (.dtx) of both generations: what is declared, and where its numbers stand.
+//!
+//! Since s7 a value is `<Value key="0" x=".." … fatherId="fPart[0]" />` in a `<Data name type>`; before, `<valuePoint index>` with
+//! `<tpValue x=".." … />` and `<cpValue … />` in a `<point name>` whose father has a tag of its own. Numbers that are left
+//! out are zero; sides of the arm that are left out stay as they are.
+
+use super::xml::{Attribute, Node, Nodes, Tag};
+use crate::geometry::units::MM;
+use crate::program::kit::Fault;
+use crate::program::script::short;
+use crate::program::{Number, Source, SpeedZone};
+
+/// What a name is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Kind {
+    Point,
+    Joint,
+    Frame,
+    Tool,
+    Trsf,
+    Mdesc,
+    /// A point or joints of an arm that has not six axes.
+    OtherArm,
+    Other,
+}
+
+impl Kind {
+    /// The kind of a type's name, or of an old tag.
+    pub(super) fn of(name: &[u8]) -> Self {
+        match name {
+            b"point" | b"pointRx" => Self::Point,
+            b"joint" | b"jointRx" => Self::Joint,
+            b"frame" => Self::Frame,
+            b"tool" => Self::Tool,
+            b"trsf" => Self::Trsf,
+            b"mdesc" => Self::Mdesc,
+            _ if name.starts_with(b"point") || name.starts_with(b"joint") => Self::OtherArm,
+            _ => Self::Other,
+        }
+    }
+
+    /// Whether moves go there.
+    pub(super) fn is_place(self) -> bool {
+        matches!(self, Self::Point | Self::Joint)
+    }
+}
+
+/// Attributes of a pose and of joints, in the order of the format.
+pub(super) const POSE: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+pub(super) const JOINTS: [&str; 6] = ["j1", "j2", "j3", "j4", "j5", "j6"];
+/// Attributes of the arm's sides, and what they are called: the first is 0, the second 1. Others leave the side open.
+pub(super) const SIDES: [(&str, [&str; 2]); 3] = [
+    ("shoulder", ["lefty", "righty"]),
+    ("elbow", ["epositive", "enegative"]),
+    ("wrist", ["wpositive", "wnegative"]),
+];
+
+/// `alias:name[index]`; no name where nothing is said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) struct Father<'a> {
+    pub alias: &'a [u8],
+    pub name: &'a [u8],
+    pub index: &'a [u8],
+}
+
+impl<'a> Father<'a> {
+    fn of(text: &'a [u8]) -> Self {
+        let (alias, rest) = match memchr::memchr(b':', text) {
+            Some(at) => (&text[..at], &text[at + 1..]),
+            None => (&b""[..], text),
+        };
+        let (name, index) = match memchr::memchr(b'[', rest) {
+            Some(at) => (&rest[..at], rest[at + 1..].trim_ascii_end()),
+            None => (rest, &b"0"[..]),
+        };
+        Self {
+            alias: alias.trim_ascii(),
+            name: name.trim_ascii(),
+            index: index.strip_suffix(b"]").unwrap_or(index).trim_ascii(),
+        }
+    }
+}
+
+/// One value of a name.
+#[derive(Clone, Debug)]
+pub(super) struct Element<'a> {
+    pub key: &'a [u8],
+    /// Its first byte, and behind its last.
+    pub at: u32,
+    pub end: u32,
+    /// Of a pose or joints; of length 0 where they are left out.
+    pub numbers: [Number; 6],
+    /// Some of the numbers stand there.
+    pub is_given: bool,
+    /// Sides of the arm that are told: 0 or 1.
+    pub sides: [Option<Number>; 3],
+    /// Sides that are free.
+    pub free: [bool; 3],
+    pub father: Father<'a>,
+    pub speed_zone: SpeedZone,
+}
+
+impl<'a> Element<'a> {
+    fn new(key: &'a [u8], at: usize) -> Self {
+        let nothing = Number {
+            start: short(at),
+            length: 0,
+            value: 0.0,
+        };
+        Self {
+            key,
+            at: short(at),
+            end: short(at),
+            numbers: [nothing; 6],
+            is_given: false,
+            sides: [None; 3],
+            free: [false; 3],
+            father: Father::default(),
+            speed_zone: SpeedZone {
+                zone_m: Some(0.0),
+                ..SpeedZone::default()
+            },
+        }
+    }
+
+    /// Reads what the attributes of a tag say.
+    fn add(&mut self, kind: Kind, tag: &Tag<'a>) -> Result<(), Fault> {
+        let attributes = tag.attributes()?;
+        let of = |name: &str| attributes.iter().find(|one| one.name == name.as_bytes());
+        self.end = short(tag.end);
+        if kind == Kind::Mdesc {
+            self.speed_zone = speed_zone(&of)?;
+            return Ok(());
+        }
+        let names = if kind == Kind::Joint { JOINTS } else { POSE };
+        if tag.name != b"cpValue" {
+            let key = of("key").or(of("index"));
+            let mut behind = key.map_or(tag.behind_name(), |key| key.end);
+            for (number, name) in self.numbers.iter_mut().zip(names) {
+                if let Some(attribute) = of(name) {
+                    *number = attribute.number()?;
+                    behind = attribute.end;
+                    self.is_given = true;
+                } else {
+                    number.start = short(behind);
+                }
+            }
+        }
+        for (at, (name, words)) in SIDES.iter().enumerate() {
+            let Some(side) = of(name) else { continue };
+            let told = words.iter().position(|word| word.as_bytes() == side.value);
+            self.sides[at] = told.map(|told| Number {
+                start: short(side.start),
+                length: u16::try_from(side.value.len()).expect("a known word is short"),
+                value: if told == 0 { 0.0 } else { 1.0 },
+            });
+            self.free[at] = side.value.ends_with(b"free");
+        }
+        if let Some(father) = of("fatherId") {
+            self.father = Father::of(father.value);
+        }
+        Ok(())
+    }
+}
+
+/// Speed and corner of a motion descriptor: the tool's speed where it is limited, and where the path is left.
+fn speed_zone<'a, 'b: 'a>(
+    of: &impl Fn(&str) -> Option<&'a Attribute<'b>>,
+) -> Result<SpeedZone, Fault> {
+    let number = |name: &str| of(name).map(Attribute::number).transpose();
+    let blends = of("blend").is_some_and(|blend| blend.value != b"off");
+    let leave = number("leave")?.map_or(LEAVE_MM, |leave| leave.value);
+    let speed = number("tmax")?.map(|speed| speed.value);
+    Ok(SpeedZone {
+        speed_m_s: speed.filter(|speed| *speed < NO_LIMIT).map(|mm| mm * MM),
+        zone_m: Some(if blends { leave * MM } else { 0.0 }),
+        blends: false,
+    })
+}
+
+/// Where the path is left, mm, unless it is told.
+const LEAVE_MM: f64 = 50.0;
+/// No tool is as fast, mm/s: the descriptor does not limit it.
+const NO_LIMIT: f64 = 9999.0;
+
+/// A name with its values.
+#[derive(Clone, Debug)]
+pub(super) struct Datum<'a> {
+    pub name: &'a [u8],
+    pub kind: Kind,
+    pub file: u32,
+    pub at: u32,
+    pub elements: Vec<Element<'a>>,
+}
+
+impl Datum<'_> {
+    /// The value of a key.
+    pub(super) fn element(&self, key: &[u8]) -> Option<usize> {
+        // keys mostly count up from 0
+        let guess = std::str::from_utf8(key)
+            .ok()
+            .and_then(|key| key.parse().ok());
+        let is_key = |at: &usize| self.elements.get(*at).is_some_and(|one| one.key == key);
+        guess
+            .filter(is_key)
+            .or_else(|| (0..self.elements.len()).find(is_key))
+    }
+
+    /// How a value is called.
+    pub(super) fn name_of(&self, element: usize) -> String {
+        let name = Source::text(self.name);
+        match &self.elements[element] {
+            one if one.key == b"0" && self.elements.len() == 1 => name.into_owned(),
+            one => format!("{name}[{}]", Source::text(one.key)),
+        }
+    }
+}
+
+/// A data file.
+#[derive(Debug, Default)]
+pub(super) struct DataFile<'a> {
+    pub data: Vec<Datum<'a>>,
+    /// First byte of the last declaration of a point, and behind it: others can be put there.
+    pub last_point: Option<(usize, usize)>,
+    /// Its tags are those before s7.
+    pub is_old: bool,
+}
+
+/// Reads a data file.
+pub(super) fn read(bytes: &[u8], file: u32) -> Result<DataFile<'_>, Fault> {
+    let mut found = DataFile::default();
+    let mut nodes = Nodes::of(bytes);
+    let mut open: Option<Datum> = None;
+    // of an old datum
+    let mut father = Father::default();
+    while let Some(node) = nodes.next()? {
+        match node {
+            Node::Open(tag) => match &mut open {
+                None => {
+                    let is_new = tag.name == b"Data";
+                    let type_ = if is_new {
+                        tag.attribute(b"type")?
+                    } else {
+                        None
+                    };
+                    let kind = Kind::of(type_.map_or(tag.name, |type_| type_.value));
+                    let name = tag.attribute(b"name")?;
+                    let (Some(name), true) = (name, is_new || kind != Kind::Other) else {
+                        continue;
+                    };
+                    found.is_old |= !is_new;
+                    father = Father::default();
+                    let datum = Datum {
+                        name: name.value,
+                        kind,
+                        file,
+                        at: short(tag.at),
+                        elements: Vec::new(),
+                    };
+                    if tag.is_empty {
+                        found.data.push(datum);
+                    } else {
+                        open = Some(datum);
+                    }
+                }
+                Some(datum) => inside(datum, &tag, &mut father)?,
+            },
+            Node::Close(name, _, end) => {
+                let ends = open
+                    .as_ref()
+                    .is_some_and(|_| name == b"Data" || Kind::of(name) != Kind::Other);
+                if let Some(datum) = open.take_if(|_| ends) {
+                    if datum.kind == Kind::Point {
+                        found.last_point = Some((datum.at as usize, end));
+                    }
+                    found.data.push(datum);
+                }
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// A tag inside a declaration.
+fn inside<'a>(datum: &mut Datum<'a>, tag: &Tag<'a>, father: &mut Father<'a>) -> Result<(), Fault> {
+    match tag.name {
+        b"pFather" | b"fFather" | b"tFather" => {
+            for attribute in tag.attributes()? {
+                match attribute.name {
+                    b"alias" => father.alias = attribute.value,
+                    b"name" => father.name = attribute.value,
+                    b"fatherIndex" => father.index = attribute.value,
+                    _ => {}
+                }
+            }
+        }
+        b"Value" => {
+            let key = tag.attribute(b"key")?;
+            let mut element = Element::new(key.map_or(b"0", |key| key.value), tag.at);
+            element.add(datum.kind, tag)?;
+            datum.elements.push(element);
+        }
+        name if name.starts_with(b"value") => {
+            let key = tag.attribute(b"index")?;
+            let mut element = Element::new(key.map_or(b"0", |key| key.value), tag.at);
+            element.father = *father;
+            datum.elements.push(element);
+        }
+        name if name.ends_with(b"Value") => {
+            if let Some(element) = datum.elements.last_mut() {
+                element.add(datum.kind, tag)?;
+            }
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Where a comment can stand: behind the tag that the data are in.
+pub(super) fn start_of_data(bytes: &[u8]) -> Option<usize> {
+    let mut nodes = Nodes::of(bytes);
+    while let Ok(Some(Node::Open(tag))) = nodes.next() {
+        if matches!(tag.name, b"Datas" | b"dataList") && !tag.is_empty {
+            return Some(tag.end);
+        }
+    }
+    None
+}

@@ -1,0 +1,323 @@
+//! What belongs together: project files (.pjx), the data and programs that they name, their libraries.
+
+use super::data::{self, DataFile, Datum, Kind};
+use super::xml::{Node, Nodes};
+use crate::program::kit::Fault;
+use crate::program::script::short;
+use crate::program::{ReadError, Source};
+use foldhash::{HashMap, HashMapExt};
+use std::ops::Range;
+
+/// A parameter or a variable of a program.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Declared<'a> {
+    pub name: &'a [u8],
+    pub kind: Kind,
+    pub is_parameter: bool,
+    /// The program may write what it is given.
+    pub by_reference: bool,
+    /// It is given with all its values.
+    pub is_array: bool,
+}
+
+/// One program.
+#[derive(Clone, Debug)]
+pub(super) struct Program<'a> {
+    pub name: &'a [u8],
+    pub file: u32,
+    pub at: u32,
+    pub declared: Vec<Declared<'a>>,
+    /// Where its code stands.
+    pub code: Range<usize>,
+    /// Quotes and signs are entities there.
+    pub is_escaped: bool,
+}
+
+/// What belongs together.
+#[derive(Debug, Default)]
+pub(super) struct Project<'a> {
+    /// Folder and name of the .pjx; the folder alone where there is none.
+    path: String,
+    /// Indices in [`World::data`].
+    pub data: HashMap<&'a [u8], u32>,
+    /// Indices in [`World::programs`].
+    pub programs: HashMap<&'a [u8], u32>,
+    /// Alias and path.
+    pub libraries: Vec<(&'a [u8], &'a [u8])>,
+}
+
+/// All that the files hold.
+#[derive(Debug, Default)]
+pub(super) struct World<'a> {
+    pub projects: Vec<Project<'a>>,
+    pub data: Vec<Datum<'a>>,
+    /// The project of each.
+    pub project_of_data: Vec<u32>,
+    pub programs: Vec<Program<'a>>,
+    pub project_of_program: Vec<u32>,
+}
+
+/// What a file is by its first tag.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileKind {
+    Project,
+    Data,
+    Programs,
+}
+
+/// Bytes that are looked at.
+const LOOKED_AT: usize = 4096;
+
+/// What a file is; `None` where it is none of a project.
+pub(super) fn kind_of(bytes: &[u8]) -> Option<FileKind> {
+    let head = &bytes[..bytes.len().min(LOOKED_AT)];
+    let has = |text: &[u8]| memchr::memmem::find(head, text).is_some();
+    let is_new = has(b"www.staubli.com/robotics/VAL3/");
+    if is_new && has(b"<Project") || has(b"ProjectNameSpace") {
+        Some(FileKind::Project)
+    } else if is_new && has(b"<Database") || has(b"DataNameSpace") {
+        Some(FileKind::Data)
+    } else if is_new && has(b"<Programs") || has(b"ProgramNameSpace") {
+        Some(FileKind::Programs)
+    } else {
+        None
+    }
+}
+
+/// A path with `/` alone, without `.` and `..` where they can be left out.
+fn clean(path: &str) -> String {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in path.split(['/', '\\']) {
+        match part {
+            "." => {}
+            ".." if parts.last().is_some_and(|last| *last != "..") => drop(parts.pop()),
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
+}
+
+fn folder_of(path: &str) -> &str {
+    path.rfind('/').map_or("", |at| &path[..at])
+}
+
+fn below(folder: &str, name: &[u8]) -> String {
+    let name = String::from_utf8_lossy(name);
+    if folder.is_empty() {
+        clean(&name)
+    } else {
+        clean(&format!("{folder}/{name}"))
+    }
+}
+
+/// Files of a project, by path in small letters.
+type Claims = HashMap<String, u32>;
+
+/// Reads all files.
+pub(super) fn read(sources: &[Source]) -> Result<World<'_>, ReadError> {
+    let mut world = World::default();
+    let mut claims = Claims::new();
+    for source in sources {
+        if kind_of(&source.bytes) == Some(FileKind::Project) {
+            let read = world.project(source, &mut claims);
+            read.map_err(|fault| fault.in_source(source))?;
+        }
+    }
+    for (file, source) in sources.iter().enumerate() {
+        let file = short(file);
+        let read = match kind_of(&source.bytes) {
+            Some(FileKind::Data) => world.data(source, file, &mut claims),
+            Some(FileKind::Programs) => world.programs(source, file, &mut claims),
+            _ => Ok(()),
+        };
+        read.map_err(|fault| fault.in_source(source))?;
+    }
+    Ok(world)
+}
+
+impl<'a> World<'a> {
+    fn project(&mut self, source: &'a Source, claims: &mut Claims) -> Result<(), Fault> {
+        let path = clean(&source.name);
+        let folder = folder_of(&path).to_owned();
+        let own = short(self.projects.len());
+        let mut project = Project {
+            path: path.clone(),
+            ..Project::default()
+        };
+        let mut nodes = Nodes::of(&source.bytes);
+        while let Some(node) = nodes.next()? {
+            let Node::Open(tag) = node else { continue };
+            match tag.name {
+                b"Parameters" | b"parameters" => {
+                    let unit = tag.attribute(b"millimeterUnit")?;
+                    if let Some(unit) = unit.filter(|unit| unit.value == b"false") {
+                        return Err(Fault::bad_value(
+                            unit.start..unit.end - 1,
+                            "millimeterUnit that is read",
+                            "only projects in millimetres are; save the project with millimeterUnit=\"true\"",
+                        ));
+                    }
+                }
+                b"Program" | b"program" | b"Data" | b"data" => {
+                    if let Some(file) = tag.attribute(b"file")? {
+                        claims.insert(below(&folder, file.value).to_lowercase(), own);
+                    }
+                }
+                b"Library" | b"alias" => {
+                    let is_new = tag.name == b"Library";
+                    let (alias, path): (&[u8], &[u8]) = if is_new {
+                        (b"alias", b"path")
+                    } else {
+                        (b"name", b"interface")
+                    };
+                    if let (Some(alias), Some(path)) = (tag.attribute(alias)?, tag.attribute(path)?)
+                    {
+                        project.libraries.push((alias.value, path.value));
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.projects.push(project);
+        // what the project does not name may be in its folder all the same
+        claims.entry(folder.to_lowercase()).or_insert(own);
+        Ok(())
+    }
+
+    /// The project of a file: the one that names it, else that of its folder.
+    fn project_of(&mut self, source: &Source, claims: &mut Claims) -> u32 {
+        let path = clean(&source.name);
+        let folder = folder_of(&path).to_owned();
+        let known = claims
+            .get(&path.to_lowercase())
+            .or_else(|| claims.get(&folder.to_lowercase()));
+        known.copied().unwrap_or_else(|| {
+            let made = short(self.projects.len());
+            claims.insert(folder.to_lowercase(), made);
+            self.projects.push(Project {
+                path: folder,
+                ..Project::default()
+            });
+            made
+        })
+    }
+
+    fn data(&mut self, source: &'a Source, file: u32, claims: &mut Claims) -> Result<(), Fault> {
+        let DataFile { data, .. } = data::read(&source.bytes, file)?;
+        let project = self.project_of(source, claims);
+        for datum in data {
+            let id = short(self.data.len());
+            self.projects[project as usize].data.insert(datum.name, id);
+            self.project_of_data.push(project);
+            self.data.push(datum);
+        }
+        Ok(())
+    }
+
+    fn programs(
+        &mut self,
+        source: &'a Source,
+        file: u32,
+        claims: &mut Claims,
+    ) -> Result<(), Fault> {
+        let project = self.project_of(source, claims);
+        for program in programs(&source.bytes, file)? {
+            let id = short(self.programs.len());
+            let own = &mut self.projects[project as usize].programs;
+            own.insert(program.name, id);
+            self.project_of_program.push(project);
+            self.programs.push(program);
+        }
+        Ok(())
+    }
+
+    /// The project that an alias of another means; `None` where it is not in the files.
+    pub(super) fn library(&self, project: u32, alias: &[u8]) -> Option<u32> {
+        let own = &self.projects[project as usize];
+        let (_, path) = own.libraries.iter().find(|(name, _)| *name == alias)?;
+        self.at_path(project, path)
+    }
+
+    /// The project at a path, from the folder of another: `./Prog1`, `Disk://Prog1/Prog1.pjx`.
+    pub(super) fn at_path(&self, project: u32, path: &[u8]) -> Option<u32> {
+        let text = String::from_utf8_lossy(path);
+        let text = text.split("://").last().unwrap_or_default();
+        let wanted = clean(text).to_lowercase();
+        let wanted = wanted.trim_start_matches("../");
+        let stem = wanted.strip_suffix(".pjx").unwrap_or(wanted);
+        let name = stem.rsplit('/').next().filter(|name| !name.is_empty())?;
+        // `Prog1` stands for `Prog1/Prog1.pjx`
+        let ends = [format!("{stem}.pjx"), format!("{stem}/{name}.pjx")];
+        let is_at = |(_, other): &(usize, &Project)| {
+            let other = other.path.to_lowercase();
+            ends.iter()
+                .any(|end| other == *end || other.ends_with(&format!("/{end}")))
+        };
+        let own = folder_of(&self.projects[project as usize].path).to_lowercase();
+        let near = |(_, other): &(usize, &Project)| other.path.to_lowercase().starts_with(&own);
+        let all = || self.projects.iter().enumerate().filter(is_at);
+        let found = all().find(near).or_else(|| all().next());
+        found.map(|(at, _)| short(at))
+    }
+}
+
+/// The programs of a file.
+fn programs(bytes: &[u8], file: u32) -> Result<Vec<Program<'_>>, Fault> {
+    let mut found: Vec<Program> = Vec::new();
+    let mut nodes = Nodes::of(bytes);
+    let mut code = None;
+    while let Some(node) = nodes.next()? {
+        match node {
+            Node::Open(tag) => match tag.name {
+                b"Program" | b"program" => {
+                    let name = tag.attribute(b"name")?;
+                    found.push(Program {
+                        name: name.map_or(b"", |name| name.value),
+                        file,
+                        at: short(tag.at),
+                        declared: Vec::new(),
+                        code: tag.end..tag.end,
+                        is_escaped: false,
+                    });
+                }
+                b"Parameter" | b"param" | b"Local" | b"local" => {
+                    let attributes = tag.attributes()?;
+                    let value = |name: &[u8]| {
+                        let found = attributes.iter().find(|one| one.name == name);
+                        found.map_or(&b""[..], |one| one.value)
+                    };
+                    let is_parameter = matches!(tag.name, b"Parameter" | b"param");
+                    let declared = Declared {
+                        name: value(b"name"),
+                        kind: Kind::of(value(b"type")),
+                        is_parameter,
+                        by_reference: is_parameter
+                            && (value(b"use") == b"reference" || value(b"byVal") == b"false"),
+                        is_array: attributes.iter().any(|one| one.value == b"array"),
+                    };
+                    if let Some(program) = found.last_mut() {
+                        program.declared.push(declared);
+                    }
+                }
+                b"Code" | b"code" if !tag.is_empty => code = Some(tag.end),
+                _ => {}
+            },
+            Node::Close(b"Code" | b"code", at, _) => {
+                if let (Some(start), Some(program)) = (code.take(), found.last_mut()) {
+                    let data = memchr::memmem::find(&bytes[start..at], b"<![CDATA[");
+                    program.is_escaped = data.is_none();
+                    program.code = match data {
+                        None => start..at,
+                        Some(open) => {
+                            let start = start + open + b"<![CDATA[".len();
+                            let end = memchr::memmem::find(&bytes[start..at], b"]]>");
+                            start..end.map_or(at, |end| start + end)
+                        }
+                    };
+                }
+            }
+            Node::Close(..) => {}
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,96 @@
+//! What is wrong with targets, frames and moves, in words.
+
+use crate::finding::Severity;
+use crate::program::script::Remark;
+
+/// A target that the files do not have.
+pub(super) fn not_in_files(name: &str) -> Remark {
+    Remark::error(
+        "target-not-in-files",
+        format!("{name} is not declared in the files; this move is not compensated"),
+        "give the whole project with its .dtx, and the libraries that it loads",
+    )
+}
+
+/// A target that only the running program knows.
+pub(super) fn computed() -> Remark {
+    Remark {
+        severity: Severity::Warning,
+        ..Remark::error(
+            "computed-target",
+            "the position that this move goes to is known at run time only; the move stays as it is",
+            "move to a point of the .dtx where it must be exact",
+        )
+    }
+}
+
+/// A declared point without numbers.
+pub(super) fn not_taught(name: &str) -> Remark {
+    Remark::error(
+        "target-uninitialised",
+        format!("{name} has no numbers in the .dtx: it was never taught"),
+        "teach the point, or leave the move out",
+    )
+}
+
+/// A point of an arm with other axes.
+pub(super) fn other_arm(name: &str) -> Remark {
+    Remark::error(
+        "target-not-six-axes",
+        format!("{name} is a point or joints of an arm that does not have six axes"),
+        "only robots with six joints are compensated",
+    )
+}
+
+/// A tool or frame that the running program changes.
+pub(super) fn frame_assigned(name: &str) -> Remark {
+    Remark::error(
+        "frame-assigned-at-run-time",
+        format!("the running program changes the tool or frame {name}"),
+        "set it in the .dtx, or keep the moves with it out of the compensation",
+    )
+}
+
+/// A tool or frame that only the running program knows.
+pub(super) fn frame_chosen() -> Remark {
+    Remark::error(
+        "frame-chosen-at-run-time",
+        "only the running program knows which tool or frame the move has: it is chosen by a variable, or its points have different frames",
+        "name the tool in the move, and hang the points of one array on one frame",
+    )
+}
+
+/// A path that the running program alters.
+pub(super) fn altered() -> Remark {
+    Remark {
+        severity: Severity::Warning,
+        ..Remark::error(
+            "corrected-by-sensor",
+            "the running program alters this path (alter)",
+            "the correction of the target goes with it: look at the first part",
+        )
+    }
+}
+
+/// Another kind of move.
+pub(super) fn move_not_known(name: &str) -> Remark {
+    Remark::error(
+        "move-not-supported",
+        format!("{name} is not understood: its target is not compensated"),
+        "use movej, movel or movec with a target, a tool and a mdesc",
+    )
+}
+
+/// A library that is loaded while the program runs.
+pub(super) fn library(name: &str) -> Remark {
+    Remark {
+        severity: Severity::Warning,
+        ..Remark::error(
+            "library-at-run-time",
+            format!(
+                "{name} is loaded while the program runs: its data are taken to be those of the files"
+            ),
+            "give the project that is loaded too, or keep its points out of the path",
+        )
+    }
+}

@@ -1,0 +1,83 @@
+//! Broken text.
+
+use super::*;
+
+/// What mutations cut, and put in its place.
+const MUTATIONS: [(usize, &str); 22] = [
+    (1, ""),
+    (40, ""),
+    (0, "<"),
+    (0, ">"),
+    (0, "\""),
+    (0, "/>"),
+    (0, "]]>"),
+    (0, "<!--"),
+    (0, "&quot;"),
+    (0, "&"),
+    (0, "\n"),
+    (0, "("),
+    (0, "]"),
+    (0, ",,"),
+    (0, "appro("),
+    (0, "compose(pA,fA,"),
+    (0, " key=\"1\""),
+    (0, " x=\"1e400\""),
+    (0, " fatherId=\"fB[0]\""),
+    (0, "break\n"),
+    (0, "endIf\n"),
+    (0, "pA=pB\n"),
+];
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn random_bytes_never_panic(bytes in proptest::collection::vec(0_u8..=255, 0..400)) {
+        let mut text = b"<Database xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">".to_vec();
+        text.extend(bytes);
+        let source = Source::new("x", text);
+        let _ = Val3.recognises(&source);
+        let _ = crate::motion::read(&Val3, &[source], &Settings::default());
+    }
+
+    #[test]
+    fn mutated_projects_never_panic(
+        changes in proptest::collection::vec((0_usize..4000, proptest::sample::select(&MUTATIONS[..])), 1..6)
+    ) {
+        let points = data("fA", "frame", &[FRAME, "key=\"1\" fatherId=\"fA[1]\""])
+            + &data("tA", "tool", &[TOOL])
+            + &data("pA", "pointRx", &["key=\"0\" y=\"1\" rx=\"180\" wrist=\"wpositive\" fatherId=\"fA[0]\"", "key=\"1\" x=\"2\""])
+            + &data("pB", "pointRx", &["key=\"0\" x=\"2\" fatherId=\"fA[1]\""])
+            + &data("jA", "jointRx", &["key=\"0\" j2=\"20\""]);
+        let code = "movej(jA,tA,m)\nif bOn==true\nmovel(appro(pA,{0,0,-1,0,0,0}),tA,m)\nendIf\nswitch nN\ncase 1\nmovec(pA[1],pB,tA,m)\n\
+            break\ndefault\npB=compose(pA[nI],fA,trA)\nendSwitch\nwhile true\ncall start()\nendWhile";
+        let texts = [dtx(&points), pgx("start", "", code)];
+        let mut bytes = texts.map(String::into_bytes);
+        for (at, (cut, text)) in changes {
+            let bytes = &mut bytes[at % 2];
+            let at = at % bytes.len().max(1);
+            let end = (at + cut).min(bytes.len());
+            bytes.splice(at..end, text.bytes());
+        }
+        let [data, program] = bytes;
+        let sources = [Source::new("m.dtx", data), Source::new("start.pgx", program)];
+        let marker = Marker { version: "1".into(), profile_sha256: "a".into(), source_sha256: "b".into(), decided: Vec::new() };
+        for source in &sources {
+            let _ = Val3.recognises(source);
+            let (at, _) = Val3.mark(source, &marker);
+            assert!(at <= source.bytes.len());
+        }
+        if let Ok(program) = crate::motion::read(&Val3, &sources, &Settings::default()) {
+            for target in &program.targets {
+                let numbers = program.numbers_of(target);
+                assert_eq!(numbers.len(), Val3.roles(target.layout).len());
+                let bytes = &sources[target.file as usize].bytes;
+                for (number, role) in numbers.iter().zip(Val3.roles(target.layout)) {
+                    if *role != Role::Configuration {
+                        assert_eq!(crate::program::number::parse(number.text(bytes)), Some(number.value));
+                    }
+                }
+            }
+        }
+    }
+}
