@@ -243,35 +243,35 @@ fn entries<'a>(
     files: &[New<'a>],
     hashes: &[String],
 ) -> Result<(Vec<Entry>, Vec<Contents<'a>>), Failure> {
-    let mut trees: BTreeMap<&Path, Vec<(PathBuf, &[u8], &String)>> = BTreeMap::new();
-    for (file, hash) in files.iter().zip(hashes) {
+    let mut trees: BTreeMap<&Path, Vec<(PathBuf, usize)>> = BTreeMap::new();
+    for (index, file) in files.iter().enumerate() {
         let target = new_folder(&file.place).unwrap_or(&file.place);
         let below = file
             .place
             .strip_prefix(target)
             .expect("it is below")
             .to_owned();
-        let of_target = trees.entry(target).or_default();
-        of_target.push((below, file.bytes, hash));
+        trees.entry(target).or_default().push((below, index));
     }
     let mut entries = Vec::with_capacity(trees.len());
     let mut contents = Vec::with_capacity(trees.len());
-    for (target, files) in trees {
+    for (target, below) in trees {
         let old = if exists(target) {
             let bytes = fs::read(target).map_err(|error| Failure::file(target, "read", &error))?;
             Some(sha256(&bytes))
         } else {
             None
         };
-        let new = files.iter();
-        let new = new.map(|(path, _, hash)| (path.clone(), (*hash).clone()));
+        let new = below.iter();
+        let new = new.map(|(path, index)| (path.clone(), hashes[*index].clone()));
         entries.push(Entry {
             number: entries.len(),
             target: target.to_owned(),
             old,
             new: new.collect(),
         });
-        let held = files.into_iter().map(|(path, bytes, _)| (path, bytes));
+        let held = below.into_iter();
+        let held = held.map(|(path, index)| (path, files[index].bytes));
         contents.push(held.collect());
     }
     Ok((entries, contents))
