@@ -53,7 +53,7 @@ static ABOUT: About = About {
     leaves: &[
         "all other sections: they carry checksums",
         "tools, bases, offsets, names that no move goes to",
-        "moves to where the robot was (HERE), and to what the running program computes: told",
+        "moves to where the robot was (HERE), and to what the running program computes: reported",
         "comments, line ends, encoding",
     ],
     refuses: &[

@@ -56,7 +56,7 @@ static ABOUT: About = About {
     leaves: &[
         "programs, unless moves are put between theirs; project files",
         "tools, frames, transformations, motion descriptors, points that no move goes to",
-        "moves to here, herej, and to what the running program computes: told",
+        "moves to here, herej, and to what the running program computes: reported",
         "comments, line ends, encoding, order and blanks of attributes",
     ],
     refuses: &[
