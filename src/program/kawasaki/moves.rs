@@ -82,12 +82,12 @@ impl<'a> Reader<'a> {
         }
         match verb {
             Verb::To(motion, is_free) => {
-                let found = self.position(first);
-                self.go(part, Some(first), found, motion, is_free);
                 if is_joints(first) {
-                    // the joints tell the configuration
+                    // joints say the configuration themselves
                     self.switch(Held::Flag(false));
                 }
+                let found = self.position(first);
+                self.go(part, Some(first), found, motion, is_free);
             }
             Verb::Arc(is_end) => {
                 self.here.arc += 1;
