@@ -173,14 +173,17 @@ fn periods(attempt: &Attempt, found: &Found) -> f64 {
 
 /// Whether another wave of the same joint differs from this one by less than a period in the range of its angle.
 fn is_unresolved(attempt: &Attempt, found: &[Found], one: &Found) -> bool {
-    let (effect, own) = (&one.effect, periods(attempt, one));
-    let is_wave = effect.definition().site.contains(&SiteKey::Order);
+    let effect = &one.effect;
+    if !effect.definition().site.contains(&SiteKey::Order) {
+        return false;
+    }
+    let own = periods(attempt, one);
     let of_joint = |f: &&Found| {
         let other = &f.effect.site;
         f.effect.kind == effect.kind && other.index == effect.site.index && *other != effect.site
     };
     let mut others = found.iter().filter(of_joint);
-    is_wave && others.any(|f| (periods(attempt, f) - own).abs() < 1.0)
+    others.any(|f| (periods(attempt, f) - own).abs() < 1.0)
 }
 
 /// Found again in fewer than half of the parts of the measurements.
