@@ -20,6 +20,9 @@ const TIE: f64 = 1.0;
 const CLEAR: f64 = 10.0;
 /// So many slow functions of one joint's angle, a harmonic among them, are the series of another.
 const SERIES: usize = 2;
+/// So many waves of one joint are the series of a function of its angle that is none: a gear has its first orders and those of its
+/// teeth, two of each.
+const WAVES: usize = 5;
 /// Fewer periods of a wave in the range of its angle are what any slow function looks like.
 const FEW_PERIODS: f64 = 2.0;
 /// A value fitted along is clearly below zero by more than this many standard deviations.
@@ -95,10 +98,7 @@ pub(super) fn stand(
     rivals: &[Rival],
     stand_ins: &[StandIn],
 ) {
-    let series = imitated(attempt, found).map(|(joint, _)| joint - 1);
-    let in_series: Vec<bool> = (found.iter())
-        .map(|f| series.is_some_and(|joint| slow(attempt, joint, f)))
-        .collect();
+    let series = series(attempt, found).map_or_else(Vec::new, |series| series.members);
     let smooth: Vec<bool> = found.iter().map(|f| is_smooth(attempt, f)).collect();
     let unresolved: Vec<bool> = (found.iter())
         .map(|f| is_unresolved(attempt, found, f))
@@ -132,7 +132,7 @@ pub(super) fn stand(
         let is_again = times as f64 >= AGAIN * of as f64;
         // what is left is larger than it, or as smooth: the shadow of that may look like this
         let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i]);
-        one.standing = if is_tied || in_series[i] || is_seldom(one) {
+        one.standing = if is_tied || series.contains(&i) || is_seldom(one) {
             Standing::Possible
         } else if against.is_empty()
             && is_again
@@ -226,9 +226,12 @@ fn doubts(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -
         ));
     }
     reasons.extend(outdone(attempt, found));
-    if let Some((joint, count)) = imitated(attempt, found) {
+    if let Some(series) = series(attempt, found) {
         reasons.push(format!(
-            "{count} effects at joint {joint} are slow functions of its angle alone: together they may imitate one that is not known"
+            "{} effects at joint {} are {} of its angle alone: together they may imitate one that is not known",
+            series.members.len(),
+            series.joint + 1,
+            series.what
         ));
     }
     if let Some(unknown) = attempt.unknown.first() {
@@ -326,15 +329,37 @@ fn outdone(attempt: &Attempt, found: &[Found]) -> Vec<String> {
     told
 }
 
-/// The joint, from 1, and how many of the effects found are slow functions of its angle, where a harmonic is among them and they may
-/// together be the series of another function: those without two whole periods in the range of the angle.
-fn imitated(attempt: &Attempt, found: &[Found]) -> Option<(usize, usize)> {
+/// Effects that may together be the series of a function that is not known.
+struct Series {
+    joint: usize,
+    /// What they are of the joint's angle.
+    what: &'static str,
+    /// Indices of the effects found.
+    members: Vec<usize>,
+}
+
+/// Effects found at one joint that may together be the series of another function of its angle: slow ones, without two whole periods in
+/// its range, where a harmonic is among them; or more waves than a gear has.
+fn series(attempt: &Attempt, found: &[Found]) -> Option<Series> {
+    let harmonic = |f: &Found| f.effect.kind == Kind::JointHarmonic;
+    let members = |is: &dyn Fn(&Found) -> bool| -> Vec<usize> {
+        (0..found.len()).filter(|i| is(&found[*i])).collect()
+    };
     (0..JOINTS).find_map(|joint| {
-        let is_slow = |f: &&Found| slow(attempt, joint, f);
-        let harmonic = |f: &Found| f.effect.kind == Kind::JointHarmonic;
-        let slow: Vec<&Found> = found.iter().filter(is_slow).collect();
-        (slow.len() >= SERIES && slow.iter().any(|f| harmonic(f)))
-            .then_some((joint + 1, slow.len()))
+        let slow = members(&|f| slow(attempt, joint, f));
+        let waves = members(&|f| harmonic(f) && f.effect.site.index == joint && !f.accepted);
+        let (what, members) = if waves.len() >= WAVES {
+            ("waves", waves)
+        } else if slow.len() >= SERIES && slow.iter().any(|i| harmonic(&found[*i])) {
+            ("slow functions", slow)
+        } else {
+            return None;
+        };
+        Some(Series {
+            joint,
+            what,
+            members,
+        })
     })
 }
 

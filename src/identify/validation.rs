@@ -429,7 +429,12 @@ fn cross_validate(
         only_frames.parameters.clone_from(&frames);
         let solved = solve(&only_frames, nominal.clone(), Shape::Squares, true)?;
         alone.extend(misses(&test, &solved.estimate));
-        let solved = solve(&training, solved.estimate, Shape::Huber, true)?;
+        // what a level does not seek stays as the profile has it; else the profile's own effects are found again from nothing
+        let from = match folds.level {
+            Some(_) => begun.clone(),
+            None => solved.estimate,
+        };
+        let solved = solve(&training, from, Shape::Huber, true)?;
         full.extend(misses(&test, &solved.estimate));
         rows.extend(test.rows);
     }

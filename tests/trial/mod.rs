@@ -15,6 +15,8 @@ use truth::{faults, robot_of};
 
 /// Noise of a coordinate, mm.
 pub const NOISE_MM: f64 = 0.03;
+/// Draws of an effect until one of a physical size shows.
+const TRIES: usize = 50;
 
 /// Where a diagnosis starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -320,7 +322,9 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
     for k in 0..group.hidden {
         let wanted = random.random_range(group.size.0..group.size.1);
         let mut kind;
+        let mut tries = 0;
         loop {
+            tries += 1;
             kind = if k == 0 {
                 all_kinds[(number / 4) % all_kinds.len()]
             } else {
@@ -334,7 +338,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
                 continue;
             }
             let mut by = size * noise_m * 3.0_f64.sqrt() / moved;
-            // sizes stay physical: within four typical ones
+            // sizes stay physical, within four typical ones, where this robot and its tool show the effect at all
             let most = |e: &Effect| {
                 let typical = e
                     .definition()
@@ -352,7 +356,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
                     .fold(0.0, f64::max)
             };
             let largest = most(&unit);
-            if largest > 4.0 {
+            if largest > 4.0 && tries < TRIES {
                 size *= 4.0 / largest;
                 if size < group.size.0 {
                     continue;
