@@ -10,12 +10,11 @@ mod physics;
 mod trial;
 
 use clap::Parser;
-use poseshift::diagnose::candidates::MOST_ORDERS;
 use poseshift::diagnose::{Diagnosis, Options, Verdict, diagnose};
 use poseshift::identify::parameters::Pick;
-use poseshift::model::effects::{Effect, REGISTRY, SiteKey};
+use poseshift::model::effects::Effect;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::time::Instant;
 use trial::{Case, GROUPS, Group, NOISE_MM, case, label};
 
@@ -94,62 +93,19 @@ fn percentile_95(sizes: &[f64]) -> f64 {
     sorted[sorted.len() * 95 / 100]
 }
 
-/// Number of an effect's place, from 1, as in [`Pick`].
-fn number_of(effect: &Effect, place: SiteKey) -> Option<u32> {
-    let counted = |index: usize| u32::try_from(index + 1).ok();
-    match place {
-        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => counted(effect.site.index),
-        SiteKey::On => counted(effect.site.on),
-        SiteKey::Order => Some(effect.site.order),
-        SiteKey::Row | SiteKey::Tool => None,
-    }
-}
-
-/// Options that leave no choice but these effects.
+/// Options that leave no choice but these effects; a step is sought in every row.
 fn only(effects: &[Effect]) -> Options {
-    let mut options = Options::default();
-    let all = |kind| Pick {
-        kind: Some(kind),
-        places: Vec::new(),
-        key: None,
+    let pick = |effect: &Effect| {
+        let mut pick = Pick::of(effect);
+        if effect.definition().begins_at_a_row() {
+            pick.places.clear();
+        }
+        pick
     };
-    for &kind in REGISTRY {
-        let own: Vec<Vec<u32>> = (effects.iter().filter(|e| e.kind == kind))
-            .map(|e| {
-                let places = e.definition().site.iter();
-                places.filter_map(|p| number_of(e, *p)).collect()
-            })
-            .collect();
-        if own.is_empty() {
-            options.reject.push(all(kind));
-        }
-        for numbers in &own {
-            let places = numbers.iter().map(|n| (*n, *n)).collect();
-            options.accept.push(Pick {
-                places,
-                ..all(kind)
-            });
-        }
-        // every other place: those that differ first at some number
-        for depth in 0..own.first().map_or(0, Vec::len) {
-            let heads: BTreeSet<&[u32]> = own.iter().map(|numbers| &numbers[..depth]).collect();
-            for head in heads {
-                let known = |n: &u32| {
-                    let with = own.iter().filter(|numbers| numbers.starts_with(head));
-                    with.into_iter().any(|numbers| numbers[depth] == *n)
-                };
-                for other in (1..=MOST_ORDERS).filter(|n| !known(n)) {
-                    let mut places: Vec<(u32, u32)> = head.iter().map(|n| (*n, *n)).collect();
-                    places.push((other, other));
-                    options.reject.push(Pick {
-                        places,
-                        ..all(kind)
-                    });
-                }
-            }
-        }
+    Options {
+        accept: effects.iter().map(pick).collect(),
+        ..Options::default()
     }
-    options
 }
 
 /// Held-out error over that of the noise.

@@ -23,7 +23,7 @@ pub(super) struct Diagnose {
     /// Improved profile to write (YAML)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Have this effect in the model whatever the evidence: `backlash:3`; may be given again
+    /// Have this effect in the model whatever the evidence, and no others: `backlash:3`; may be given again
     #[arg(long, value_name = "EFFECT")]
     accept: Vec<String>,
     /// Leave this effect out: `joint_harmonic`, `link_compliance:2`; may be given again
@@ -66,7 +66,12 @@ impl Diagnose {
                 found.output = Some(name_of(path));
                 also += &format!("\nwritten to {}\n", name_of(path));
             } else {
-                also += "\nnothing written: --accept EFFECT overrules\n";
+                also += &match found.accept.as_str() {
+                    "" => "\nnothing written: no effect was found\n".to_owned(),
+                    words => {
+                        format!("\nnothing written; to have it all the same: --accept {words}\n")
+                    }
+                };
             }
         }
         if let Some(path) = &self.poses {

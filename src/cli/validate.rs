@@ -1,10 +1,11 @@
 //! `validate`: what a profile is worth on measurements it has not seen.
 
 use super::files::Files;
-use super::measurements::MeasurementFiles;
+use super::measurements::{MeasurementFiles, level};
 use super::progress::Progress;
 use super::telling::{Ending, ReportFile, Told, finish};
 use super::{Answer, Output};
+use crate::identify::validation::Folds;
 use crate::task::Failure;
 use crate::task::validate::{Options, validate};
 use clap::Args;
@@ -25,6 +26,13 @@ pub(super) struct Validate {
     /// Identify the profile's effects again without each of so many parts of the configurations
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=1000))]
     folds: Option<u32>,
+    /// Identify so much of the arm in each of the --folds, as `calibrate` does: 0 frames alone; 1 and joint offsets and scales; 2 and link
+    /// geometry; 3 and joint compliance
+    #[arg(long, value_name = "0..3", requires = "folds", value_parser = clap::value_parser!(u8).range(0..=3))]
+    level: Option<u8>,
+    /// Count each effect's typical size as one more measurement in each of the --folds
+    #[arg(long, requires = "folds")]
+    priors: bool,
     /// Use rows of every set, not only those for `validate`
     #[arg(long)]
     all_sets: bool,
@@ -38,7 +46,11 @@ impl Validate {
         let profile = files.profile(&self.profile)?;
         let options = Options {
             refit_frames: self.refit_frames,
-            folds: self.folds.map(|n| n as usize),
+            folds: self.folds.map(|count| Folds {
+                count: count as usize,
+                level: self.level.map(level),
+                priors: self.priors,
+            }),
             all_sets: self.all_sets,
         };
         let measurements = self.measurements.read(&files, &profile)?;

@@ -1,7 +1,7 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be doubted.
 
 use super::beside::{Beside, Kept};
-use super::chances::normal_tail;
+use super::chances::{chi_squared_tail, normal_tail};
 use super::diagnosis::Options;
 use super::fit::Fit;
 use super::noise::{Repeats, of_repeats};
@@ -13,13 +13,16 @@ use super::unknown::{Library, Likeness, Unknown, chance, likeness};
 use crate::identify::IdentifyError;
 use crate::identify::doubt::Remark;
 use crate::identify::measurements::Measurements;
-use crate::model::effects::Effect;
+use crate::identify::parameters::Pick;
+use crate::model::effects::{Effect, Kind, SiteKey};
 use crate::model::profile::Profile;
 
 /// A function outside the registry is better than an effect where it gains this much more.
 const UNKNOWN_BETTER: f64 = 14.0;
 /// And this part: an effect's torque or time constant is known to a grid only.
 const UNKNOWN_PART: f64 = 0.01;
+/// Searches, with values of lists nearer to those found and waves of what is left in between.
+const ROUNDS: usize = 4;
 /// Neighbours are alike where that is less likely by chance.
 pub(super) const ALIKE: f64 = 2e-4;
 /// A calibration is off as a whole where the pull at it is less likely by chance.
@@ -100,12 +103,12 @@ fn outdone(
         let left = refit.fit.deviance.min(fit.deviance);
         let own_gain = (beside.deviance(&kept[i]) - left) / fit.scale.powi(2);
         let parameters = own.values.len() + own.candidate.chosen;
-        if let Some(best) = best.into_iter().next() {
-            let fair = 3.0 * (best.count as f64 - parameters as f64).max(0.0);
-            if best.gain - fair > own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER {
-                outdone.push((i, best));
-            }
-        }
+        let more = own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER;
+        let best = best.into_iter().next();
+        outdone.extend(
+            best.filter(|b| b.fair_gain(parameters) > more)
+                .map(|b| (i, b)),
+        );
     }
     outdone
 }
@@ -131,9 +134,7 @@ fn louder(session: &Session, refit: &Refit, repeats: Option<Repeats>) -> Option<
         let is_louder = repeats.chance_of(scale, freedom) < normal_tail(LOUDER);
         return is_louder.then_some(scale / repeats.scale);
     }
-    let spread = (2.0 / freedom).sqrt();
-    let excess = (scale * scale - 1.0) / spread;
-    (excess > LOUDER).then_some(scale)
+    (chi_squared_tail(scale * scale * freedom, freedom) < normal_tail(LOUDER)).then_some(scale)
 }
 
 /// Deviance, the information criterion's price of what is fitted freely, and what naming the effects costs.
@@ -165,11 +166,19 @@ pub(super) fn attempt(
     let (mut session, remarks) = session(profile, measurements, trust, &leave)?;
     let used = for_choice(measurements);
     progress("trying every effect");
+    let has_order = |pick: &&Pick| {
+        let kind = pick.kind.map(Kind::definition);
+        kind.is_some_and(|definition| definition.site.contains(&SiteKey::Order))
+    };
+    let is_new = |effect: &Effect| session.candidates.is_new(effect);
+    let asked = options.accept.iter().filter(has_order);
+    let asked: Vec<Effect> = asked.flat_map(Pick::effects).filter(is_new).collect();
+    (session.candidates).add_waves(&session.problem, &session.estimate, asked);
     let mut chosen = Vec::new();
-    for round in 0..3 {
+    for round in 0..ROUNDS {
         let world = session.world(&used, &options.accept);
         chosen = world.search(chosen);
-        if round == 2 || !session.refine(&chosen) {
+        if round + 1 == ROUNDS || !session.refine(&chosen, &used, &leave) {
             break;
         }
     }

@@ -1,6 +1,7 @@
 //! Every effect that the columns allow, at every joint, order and time constant it may have.
 
 use super::table::{Column, table};
+use super::waves;
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
 use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
@@ -36,6 +37,24 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// The effect with values of the parameters sought, in their typical sizes, on top of its own.
+    #[must_use]
+    pub fn with(&self, values: &[f64]) -> Effect {
+        let mut effect = self.effect.clone();
+        for (number, value) in self.sought.iter().zip(values) {
+            let definition = &effect.definition().parameters[*number];
+            effect.parameters[*number] += value * definition.prior_sigma * definition.unit.in_si();
+        }
+        effect
+    }
+
+    /// Whether an arm may have these values. Where a base or a tool stands is no error of an arm.
+    #[must_use]
+    pub fn is_usual(&self, values: &[f64]) -> bool {
+        matches!(self.effect.kind, Kind::BaseFrame | Kind::ToolFrame)
+            || self.with(values).beyond_usual().is_none()
+    }
+
     /// The same effect at the same place, whatever its values.
     #[must_use]
     pub fn same_effect(&self, other: &Self) -> bool {
@@ -82,7 +101,9 @@ fn sites(kind: Kind, tools: &[String]) -> Vec<Site> {
                 }
                 SiteKey::JointOrBase => (0..=BASE).map(|i| with(&|s| s.index = i)).collect(),
                 SiteKey::On => (0..JOINTS).map(|i| with(&|s| s.on = i)).collect(),
-                SiteKey::Order => (1..=MOST_ORDERS).map(|n| with(&|s| s.order = n)).collect(),
+                SiteKey::Order => (1..=MOST_ORDERS)
+                    .map(|n| with(&|s| s.order = n * place.one()))
+                    .collect(),
                 SiteKey::Tool if tools.len() > 1 => tools
                     .iter()
                     .map(|t| with(&|s| s.tool = Some(t.clone())))
@@ -114,7 +135,9 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
         Kind::BaseFrame | Kind::FrameShift | Kind::ToolFrame => {
             plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]])
         }
-        Kind::LinkCompliance | Kind::BaseCompliance => plain(&[&[0], &[1], &[0, 1]]),
+        Kind::LinkCompliance | Kind::BaseCompliance | Kind::ToolCompliance => {
+            plain(&[&[0], &[1], &[0, 1]])
+        }
         Kind::PayloadError => plain(&[&[0], &[1, 2, 3], &[0, 1, 2, 3]]),
         Kind::ThermalGrowth => tried
             .references
@@ -125,10 +148,13 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
             .iter()
             .map(|t| (vec![1], Some((0, *t))))
             .collect(),
-        Kind::WarmUpDrift => {
+        Kind::WarmUpDrift | Kind::SessionDrift => {
             let sought: &[usize] = if site.index == BASE { &[1, 2, 3] } else { &[0] };
-            tried
-                .constants
+            let constants = match kind {
+                Kind::WarmUpDrift => &tried.constants,
+                _ => &tried.row_constants,
+            };
+            constants
                 .iter()
                 .map(|t| (sought.to_vec(), Some((4, *t))))
                 .collect()
@@ -140,7 +166,13 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
 /// The smallest value of a parameter that is physical, SI.
 pub(super) fn least(kind: Kind, parameter: usize) -> Option<f64> {
     match (kind, parameter) {
-        (Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance, _)
+        (
+            Kind::JointCompliance
+            | Kind::LinkCompliance
+            | Kind::BaseCompliance
+            | Kind::ToolCompliance,
+            _,
+        )
         | (Kind::ComplianceKnee, 1)
         | (Kind::ThermalGrowth, 0) => Some(0.0),
         _ => None,
@@ -154,6 +186,8 @@ pub struct Tried {
     pub knees: [Vec<f64>; JOINTS],
     /// Time constants, seconds.
     pub constants: Vec<f64>,
+    /// Constants of a drift from row to row, rows.
+    pub row_constants: Vec<f64>,
     /// Reference temperatures, °C.
     pub references: Vec<f64>,
     /// Parameters of each link's geometry that a complete and minimal model has: the others do what a neighbour's do.
@@ -216,13 +250,17 @@ impl Tried {
         Self {
             knees,
             constants,
+            row_constants: TIME_CONSTANTS
+                .map(|p| p * problem.rows.len() as f64)
+                .to_vec(),
             references,
             geometry,
         }
     }
 }
 
-fn range(values: impl Iterator<Item = f64>) -> f64 {
+/// Largest less smallest.
+pub(super) fn range(values: impl Iterator<Item = f64>) -> f64 {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
         (low.min(v), high.max(v))
     });
@@ -260,7 +298,21 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
                 let by = range(rows.iter().filter_map(|r| r.conditions.time_s));
                 (by <= 0.0).then(|| "times that differ: time_s is constant".to_owned())
             }
-            Need::Order => (rows.len() < 20).then(|| "at least 20 rows in order".to_owned()),
+            Need::Order | Need::NoTime => {
+                (rows.len() < 20).then(|| "at least 20 rows in order".to_owned())
+            }
+            Need::Moves => {
+                let still = rows.iter().all(|r| r.conditions.moved == [0.0; 6]);
+                still.then(|| need.describe().to_owned())
+            }
+            Need::Load => {
+                let none = problem.tools.iter().all(|t| t.load.is_none());
+                none.then(|| need.describe().to_owned())
+            }
+            Need::Places => {
+                let others = rows.iter().any(|r| r.observed.point_m().is_none());
+                others.then(|| need.describe().to_owned())
+            }
         };
         if lacks.is_some() {
             return lacks;
@@ -281,6 +333,7 @@ fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
         scale: definition.prior_sigma * definition.unit.in_si(),
         rank: 0,
         prior: None,
+        asked: false,
     }
 }
 
@@ -341,7 +394,12 @@ impl Candidates {
         let mut wanted: Vec<(Effect, Vec<usize>)> = Vec::new();
         let mut groups: Vec<(usize, Vec<usize>, usize)> = Vec::new();
         let mut peers: Vec<usize> = Vec::new();
+        let times = problem.rows.iter().filter_map(|r| r.conditions.time_s);
+        let has_time = range(times) > 0.0;
         for &kind in REGISTRY {
+            if has_time && kind.definition().needs.contains(&Need::NoTime) {
+                continue;
+            }
             if let Some(missing) = missing(kind, problem, measurements) {
                 all.cannot_test.push(CannotTest { kind, missing });
                 continue;
@@ -398,17 +456,48 @@ impl Candidates {
             };
             let place = |n: &usize| numbers.iter().position(|known| known == n);
             let columns = sought.iter().filter_map(place).map(|p| first[at] + p);
-            let of_data = definition.of_data();
+            let begins = definition.begins_at_a_row();
             all.list.push(Candidate {
                 columns: columns.collect(),
                 least: sought.iter().map(bound).collect(),
                 effect: effect.clone(),
                 sought,
-                row: of_data.then_some(1),
-                chosen: chosen + usize::from(of_data),
-                peers: if of_data { problem.rows.len() } else { peers },
+                row: begins.then_some(1),
+                chosen: chosen + usize::from(begins),
+                peers: if begins { problem.rows.len() } else { peers },
             });
         }
         all
+    }
+
+    /// Whether no candidate is this effect at this place.
+    pub(super) fn is_new(&self, effect: &Effect) -> bool {
+        let is_it = |c: &Candidate| c.effect.kind == effect.kind && c.effect.site == effect.site;
+        !self.list.iter().any(is_it)
+    }
+
+    /// Adds waves of orders that are not in the list.
+    pub(super) fn add_waves(
+        &mut self,
+        problem: &Problem,
+        estimate: &Estimate,
+        effects: Vec<Effect>,
+    ) {
+        let all = |e: Effect| (0..e.definition().parameters.len()).collect::<Vec<_>>();
+        let wanted: Vec<_> = effects.into_iter().map(|e| (e.clone(), all(e))).collect();
+        let columns = columns_of(problem, estimate, &wanted);
+        for ((effect, sought), own) in wanted.into_iter().zip(columns) {
+            let first = self.columns.len();
+            self.columns.extend(own);
+            self.list.push(Candidate {
+                effect,
+                columns: (first..self.columns.len()).collect(),
+                least: vec![None; sought.len()],
+                sought,
+                row: None,
+                chosen: 0,
+                peers: waves::places(),
+            });
+        }
     }
 }

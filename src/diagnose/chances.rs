@@ -1,11 +1,11 @@
 //! Tail probabilities.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal, StudentsT};
 
 /// Probability that chi-squared with `k` degrees of freedom exceeds `x`.
 #[must_use]
-pub fn chi_squared_tail(x: f64, k: usize) -> f64 {
-    match ChiSquared::new(k as f64) {
+pub fn chi_squared_tail(x: f64, k: f64) -> f64 {
+    match ChiSquared::new(k) {
         Ok(distribution) if x > 0.0 => distribution.sf(x),
         _ => 1.0,
     }
@@ -32,6 +32,20 @@ pub fn normal_tail(z: f64) -> f64 {
     Normal::standard().sf(z)
 }
 
+/// Probability that the mean of normal numbers about zero comes out as large as that of these, in its standard deviations
+/// (Student's t); 1 of fewer than two.
+#[must_use]
+pub fn mean_tail(numbers: &[f64]) -> f64 {
+    let n = numbers.len() as f64;
+    let mean = numbers.iter().sum::<f64>() / n.max(1.0);
+    let squares: f64 = numbers.iter().map(|x| (x - mean).powi(2)).sum();
+    let sigma = (squares / (n - 1.0) / n).sqrt();
+    match StudentsT::new(0.0, 1.0, n - 1.0) {
+        Ok(distribution) if sigma > 0.0 => distribution.sf(mean / sigma),
+        _ => 1.0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -40,18 +54,18 @@ mod tests {
     fn tails_agree_with_printed_tables() {
         // Abramowitz and Stegun, table 26.8: six decimals of chi-squared
         for (x, k, p) in [
-            (3.841_459, 1, 0.05),
-            (10.827_566, 1, 0.001),
-            (5.991_465, 2, 0.05),
-            (16.811_894, 6, 0.01),
-            (43.772_972, 30, 0.05),
-            (124.342_113, 100, 0.05),
+            (3.841_459, 1.0, 0.05),
+            (10.827_566, 1.0, 0.001),
+            (5.991_465, 2.0, 0.05),
+            (16.811_894, 6.0, 0.01),
+            (43.772_972, 30.0, 0.05),
+            (124.342_113, 100.0, 0.05),
         ] {
             assert!((chi_squared_tail(x, k) / p - 1.0).abs() < 1e-6, "{x} {k}");
         }
-        assert!((chi_squared_tail(-1.0, 3) - 1.0).abs() < 1e-15);
+        assert!((chi_squared_tail(-1.0, 3.0) - 1.0).abs() < 1e-15);
         // far out: exp(-x / 2) for two degrees of freedom
-        assert!((chi_squared_tail(1000.0, 2) / (-500.0_f64).exp() - 1.0).abs() < 1e-9);
+        assert!((chi_squared_tail(1000.0, 2.0) / (-500.0_f64).exp() - 1.0).abs() < 1e-9);
         // tables 26.8 and 26.9: quantiles of chi-squared, and of F to four digits
         assert!((chi_squared_quantile(0.99, 6.0) - 16.811_894).abs() < 1e-5);
         assert!((chi_squared_quantile(0.95, 100.0) - 124.342_113).abs() < 1e-5);
@@ -67,6 +81,11 @@ mod tests {
         assert!((f_tail(25.0, 400.0, 60.0) / 1.884_382_151_421_661_8e-30 - 1.0).abs() < 1e-6);
         assert!((f_tail(0.0, 3.0, 4.0) - 1.0).abs() < 1e-15);
         assert!((normal_tail(5.0) / 2.866_515_718_791_939e-7 - 1.0).abs() < 1e-9);
+        // Student's own example of the sleep of ten patients: t = 4.0621, and scipy's one-sided tail
+        let hours = [1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4];
+        assert!((mean_tail(&hours) / 1.416_445e-3 - 1.0).abs() < 1e-4);
+        assert!((mean_tail(&hours) + mean_tail(&hours.map(|x| -x)) - 1.0).abs() < 1e-12);
+        assert!((mean_tail(&[1.0]) - 1.0).abs() < 1e-15);
         assert!((normal_tail(-1.0) - 0.841_344_746_068_543).abs() < 1e-9);
     }
 }

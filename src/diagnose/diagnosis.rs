@@ -3,11 +3,14 @@
 use super::attempt::{Attempt, attempt};
 use super::candidates::CannotTest;
 use super::conclusion::conclude;
+use super::judgement::{Against, Standing};
 use super::poses::Telling;
+use super::proof::Compared;
 use super::session::{Trust, for_choice, is_nominal};
 use super::stand_ins::{Impossible, StandIn};
 use super::unknown::Unknown;
 use super::whereabouts::Spot;
+use crate::geometry::Vector;
 use crate::identify::doubt::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
@@ -49,10 +52,22 @@ pub struct FollowedRow {
 pub enum Verdict {
     /// The effects found explain the disagreement down to the noise.
     Explained,
+    /// Rows left out are predicted better with the effects found than without, beyond chance; something else is missing too, or one of
+    /// them is another.
+    Improved,
     /// The model agrees with the measurements within the noise.
     NothingMissing,
     /// Something is missing and it cannot be told what.
     Undetermined,
+}
+
+impl Diagnosis {
+    /// Words of `--accept` that make this model again, without a search.
+    #[must_use]
+    pub fn accept(&self) -> String {
+        let words = self.found.iter().map(|f| Pick::word(&f.effect));
+        words.collect::<Vec<_>>().join(",")
+    }
 }
 
 impl Verdict {
@@ -61,6 +76,7 @@ impl Verdict {
     pub const fn id(self) -> &'static str {
         match self {
             Self::Explained => "explained",
+            Self::Improved => "improved",
             Self::NothingMissing => "nothing_missing",
             Self::Undetermined => "undetermined",
         }
@@ -103,6 +119,12 @@ pub struct Found {
     pub after: Option<Spread>,
     /// In how many of the parts of the measurements it was found again without them.
     pub found_again: (usize, usize),
+    /// Where the robot stands in the world, metres.
+    pub base_m: Vector,
+    /// How sure it is.
+    pub standing: Standing,
+    /// What it may be instead, the likeliest first.
+    pub against: Vec<Against>,
 }
 
 /// Where the noise's size comes from.
@@ -164,6 +186,8 @@ pub struct Diagnosis {
     pub elsewhere: bool,
     /// Errors on rows not used: the present model, then with everything.
     pub held_out: Option<(Spread, Spread)>,
+    /// Rows that neither model was fitted to: the comparison that judges the effects found.
+    pub judged: Option<Compared>,
     /// With frames, geometry and what the profile has fitted anew, without effects found.
     pub absorbed_only: Option<Spread>,
     /// Noise of a coordinate, metres, and where it comes from.
@@ -172,6 +196,8 @@ pub struct Diagnosis {
     pub noise_source: NoiseSource,
     /// What is left of a coordinate, metres.
     pub left_m: f64,
+    /// Where what is left lies.
+    pub left_spots: Vec<Spot>,
     /// Rows that do not fit.
     pub outliers: Vec<OutlierRow>,
     /// What a person should look at.

@@ -2,14 +2,17 @@
 
 use super::attempt::Attempt;
 use super::candidates::Candidate;
+use super::chances::mean_tail;
 use super::diagnosis::Options;
 use super::search::{Chosen, World};
-use super::session::for_choice;
+use super::session::{Trust, for_choice};
 use super::table::lengths_m;
+use super::waves::near;
 use crate::geometry::units::mm_from_m;
 use crate::identify::measurements::Measurements;
 use crate::identify::statistics::Spread;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// From so many rows on, one part of them is left out, once.
 const MANY_ROWS: usize = 400;
@@ -24,11 +27,63 @@ const NEAR_ROWS: u32 = 20;
 /// And found again this near.
 const SAME_ROWS: u32 = 5;
 
+/// Better or worse beyond chance: less likely than this by chance.
+const BEYOND_CHANCE: f64 = 0.01;
+
+/// Rows that neither of two models was fitted to, predicted by both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compared {
+    /// Errors of the model without the effects found, mm.
+    pub start: Spread,
+    /// With them.
+    pub found: Spread,
+    /// All that the profile has was fitted again without these rows, for both; else the profile is taken as it is.
+    pub refitted: bool,
+    /// Probability that they are better by so much by chance: Student's t of the differences, one for each configuration.
+    pub p_value: f64,
+}
+
+impl Compared {
+    fn of(start: &[f64], found: &[f64], configurations: &[usize], refitted: bool) -> Option<Self> {
+        let mm = |lengths: &[f64]| lengths.iter().map(|l| mm_from_m(*l)).collect::<Vec<_>>();
+        let mut by: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+        for ((a, b), configuration) in start.iter().zip(found).zip(configurations) {
+            let (sum, count) = by.entry(*configuration).or_default();
+            *sum += a - b;
+            *count += 1.0;
+        }
+        let differences: Vec<f64> = by.values().map(|(sum, count)| sum / count).collect();
+        Some(Self {
+            start: Spread::of(&mm(start))?,
+            found: Spread::of(&mm(found))?,
+            refitted,
+            p_value: mean_tail(&differences),
+        })
+    }
+
+    /// The effects found predict better, beyond chance.
+    #[must_use]
+    pub fn is_better(&self) -> bool {
+        self.p_value < BEYOND_CHANCE
+    }
+
+    /// They predict worse, beyond chance.
+    #[must_use]
+    pub fn is_worse(&self) -> bool {
+        self.p_value > 1.0 - BEYOND_CHANCE && self.found.mean > self.start.mean
+    }
+}
+
 /// Rows not used, predicted.
 #[derive(Clone, Debug)]
 pub(super) struct Proof {
     /// Lengths of their residuals, metres: present model, what is absorbed, then with each effect.
     lengths: Vec<Vec<f64>>,
+    /// The profile as it is, against its calibration with the effects found on top. A profile that was calibrated with these rows
+    /// has seen those left out: it is better than it should be. None where it is fitted anew.
+    pub profile: Option<Compared>,
+    /// Everything that the profile has fitted again without the rows left out, without and with the effects found.
+    pub equal: Option<Compared>,
     /// For each effect, in how many parts it was found again, and of how many.
     pub again: Vec<(usize, usize)>,
 }
@@ -38,8 +93,16 @@ impl Proof {
     pub(super) fn none(effects: usize) -> Self {
         Self {
             lengths: vec![Vec::new(); 2 + effects],
+            profile: None,
+            equal: None,
             again: vec![(0, 0); effects],
         }
+    }
+
+    /// The comparison by which the effects found are judged: the better of those that are fair to them.
+    pub(super) fn judged(&self) -> Option<Compared> {
+        let both = self.profile.iter().chain(&self.equal);
+        both.copied().min_by(|a, b| a.p_value.total_cmp(&b.p_value))
     }
 
     /// Statistics of each step, mm.
@@ -94,7 +157,15 @@ fn like(a: &Candidate, b: &Candidate) -> bool {
     let rows = a.row.zip(b.row);
     a.effect.kind == b.effect.kind
         && rows.is_none_or(|(x, y)| x.abs_diff(y) <= SAME_ROWS)
-        && (a.row.is_some() || a.effect.site == b.effect.site)
+        && (a.row.is_some() || a.effect.site == b.effect.site || near(&a.effect, &b.effect))
+}
+
+/// What one part of the rows, left out, says.
+struct Part {
+    lengths: Vec<Vec<f64>>,
+    equal: [Vec<f64>; 2],
+    again: Vec<bool>,
+    configurations: Vec<usize>,
 }
 
 /// The choice made again without parts of the measurements, and those predicted.
@@ -105,8 +176,10 @@ pub(super) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
     let steps = 2 + attempt.chosen.len();
     let mut lengths = vec![Vec::new(); steps];
     let mut again = vec![(0, 0); attempt.chosen.len()];
+    let configurations = measurements.configurations();
     let present = lengths_m(&session.problem, &session.layout, &session.present);
-    let one = |test: &Vec<usize>| -> (Vec<Vec<f64>>, Vec<bool>) {
+    let free = vec![1.0; session.shares.len()];
+    let one = |test: &Vec<usize>| -> Part {
         let mut used = choice.clone();
         for row in test {
             used[*row] = false;
@@ -115,6 +188,12 @@ pub(super) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         let mut own = world.search(Vec::new());
         keep_rows(&world, &attempt.chosen, &mut own);
         let mut lengths = vec![test.iter().map(|r| present[*r]).collect()];
+        let predicted = |world: &World, kept: &[Chosen]| -> Vec<f64> {
+            let fit = world.fit(kept);
+            let rest = fit.unweighted_rest(&session.residual, &world.held(kept));
+            let all = lengths_m(&session.problem, &session.layout, &rest);
+            test.iter().map(|r| all[*r]).collect()
+        };
         for step in 0..=attempt.chosen.len() {
             let wanted = &attempt.chosen[..step];
             let kept: Vec<Chosen> = if step == attempt.chosen.len() {
@@ -125,31 +204,49 @@ pub(super) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
                     .cloned()
                     .collect()
             };
-            let fit = world.fit(&kept);
-            let rest = fit.unweighted_rest(&session.residual, &world.held(&kept));
-            let all = lengths_m(&session.problem, &session.layout, &rest);
-            lengths.push(test.iter().map(|r| all[*r]).collect());
+            lengths.push(predicted(&world, &kept));
         }
-        let again = attempt
-            .chosen
-            .iter()
-            .map(|found| own.iter().any(|c| like(&found.candidate, &c.candidate)));
-        (lengths, again.collect())
+        let anew = session.world_of(&used, &options.accept, &free);
+        let again = (attempt.chosen.iter()).map(|found| {
+            // one that a person asked for is there whatever its merit
+            let is_again = |c: &Chosen| like(&found.candidate, &c.candidate) && c.merit() > 0.0;
+            own.iter().any(is_again)
+        });
+        Part {
+            lengths,
+            equal: [predicted(&anew, &[]), predicted(&anew, &own)],
+            again: again.collect(),
+            configurations: test.iter().map(|r| configurations[*r]).collect(),
+        }
     };
     // what is left out does not depend on the other parts
-    let parts: Vec<_> = tests
+    let parts: Vec<Part> = tests
         .par_iter()
         .filter(|t| !t.is_empty())
         .map(one)
         .collect();
-    for (own, found) in parts {
-        for (all, own) in lengths.iter_mut().zip(own) {
+    let (mut equal, mut of_rows) = ([Vec::new(), Vec::new()], Vec::new());
+    for part in parts {
+        for (all, own) in lengths.iter_mut().zip(part.lengths) {
             all.extend(own);
         }
-        for ((times, of), found) in again.iter_mut().zip(found) {
+        for (all, own) in equal.iter_mut().zip(part.equal) {
+            all.extend(own);
+        }
+        of_rows.extend(part.configurations);
+        for ((times, of), found) in again.iter_mut().zip(part.again) {
             *of += 1;
             *times += usize::from(found);
         }
     }
-    Proof { lengths, again }
+    let profile = match attempt.trust {
+        Trust::Calibrated { .. } => Compared::of(&lengths[0], &lengths[steps - 1], &of_rows, false),
+        Trust::Nothing => None,
+    };
+    Proof {
+        lengths,
+        profile,
+        equal: Compared::of(&equal[0], &equal[1], &of_rows, true),
+        again,
+    }
 }

@@ -89,6 +89,7 @@ pub fn refit(
                 scale: definition.prior_sigma * definition.unit.in_si(),
                 rank: 0,
                 prior: None,
+                asked: false,
             });
         }
     }

@@ -264,6 +264,7 @@ impl View {
             let cross: Vec<&[f64]> = own.map(|i| side.cross[*i].as_slice()).collect();
             let group = &self.seen.groups[index];
             let gain = side.beside.gain(group, &cross, &kept, &candidate.least);
+            let gain = gain.filter(|gain| candidate.is_usual(&gain.values));
             gain.map(|gain| of(None, gain)).into_iter().collect()
         };
         let list = world.candidates.list.par_iter().enumerate();

@@ -6,7 +6,7 @@ use super::scan::View;
 use super::table::{Column, Layout};
 use super::weights::{Plain, Weighted};
 use crate::identify::parameters::Pick;
-use crate::model::effects::{Kind, REGISTRY};
+use crate::model::effects::{Effect, Kind, REGISTRY};
 
 /// An effect must be better than nothing by this, in units of twice a log likelihood.
 const MARGIN: f64 = 3.0;
@@ -34,6 +34,10 @@ const fn rare(kind: Kind) -> bool {
             | Kind::ComplianceKnee
             | Kind::PayloadError
             | Kind::JointCoupling
+            | Kind::FrictionBacklash
+            | Kind::ToolCompliance
+            | Kind::Settling
+            | Kind::MeasurementScale
     )
 }
 
@@ -41,8 +45,9 @@ const fn rare(kind: Kind) -> bool {
 const fn cause(kind: Kind) -> Kind {
     match kind {
         Kind::ComplianceKnee => Kind::JointCompliance,
-        Kind::BaseCompliance => Kind::LinkCompliance,
-        Kind::ToolSlip => Kind::FrameShift,
+        Kind::BaseCompliance | Kind::ToolCompliance => Kind::LinkCompliance,
+        Kind::FrictionBacklash => Kind::Backlash,
+        Kind::ToolSlip | Kind::SessionDrift => Kind::FrameShift,
         other => other,
     }
 }
@@ -116,6 +121,13 @@ impl Scored {
     }
 }
 
+/// An effect that begins at a row, with that row in its place.
+fn with_row(effect: &Effect, row: Option<u32>) -> Effect {
+    let mut effect = effect.clone();
+    effect.site.order = row.unwrap_or(effect.site.order);
+    effect
+}
+
 fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
     let kinds = a.effect.kind == b.effect.kind;
     match (row, b.row) {
@@ -128,7 +140,7 @@ fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
     let listed = matches!(
         a.effect.kind,
-        Kind::ComplianceKnee | Kind::WarmUpDrift | Kind::ThermalGrowth
+        Kind::ComplianceKnee | Kind::WarmUpDrift | Kind::SessionDrift | Kind::ThermalGrowth
     );
     same(a, row, b) && (listed || row.is_some() || a.sought.iter().any(|n| b.sought.contains(n)))
 }
@@ -233,14 +245,23 @@ impl World<'_> {
         let mut changed = false;
         let mut i = 0;
         while i < chosen.len() {
-            if self.wanted(&chosen[i].candidate) {
-                i += 1;
-                continue;
-            }
             view.show(self, chosen);
             let keep: Vec<bool> = (0..chosen.len()).map(|k| k != i).collect();
             let scored = view.scan(self, chosen, &keep);
             let current = &chosen[i].candidate;
+            if self.wanted(current) {
+                // it stays, as well as it fits
+                let is_own = |s: &&Scored| self.is_of(s, current);
+                if let Some(best) = scored.iter().find(is_own) {
+                    let mut renewed = self.chosen(best);
+                    let others = scored.iter().filter(|s| !is_own(s));
+                    renewed.rivals = best_of_each(self, others);
+                    changed |= renewed.columns != chosen[i].columns;
+                    chosen[i] = renewed;
+                }
+                i += 1;
+                continue;
+            }
             let is_current = |s: &Scored| {
                 let other = &self.candidates.list[s.index];
                 same(other, s.row, current)
@@ -279,10 +300,25 @@ impl World<'_> {
         changed
     }
 
+    /// Whether a person wants it; without such wishes the evidence decides.
     pub(super) fn wanted(&self, candidate: &Candidate) -> bool {
-        self.accepted
-            .iter()
-            .any(|pick| pick.means(&candidate.effect))
+        let own = &candidate.effect;
+        self.accepted.iter().any(|pick| pick.means(own))
+    }
+
+    /// Whether a candidate may be in the model: where a person has said what is, nothing else is sought.
+    fn allowed(&self, scored: &Scored) -> bool {
+        let candidate = &self.candidates.list[scored.index];
+        let of_row = |row| with_row(&candidate.effect, row);
+        self.accepted.is_empty()
+            || (self.accepted.iter()).any(|pick| pick.means(&of_row(scored.row)))
+    }
+
+    /// The same effect at the same place, from the same row on.
+    fn is_of(&self, scored: &Scored, current: &Candidate) -> bool {
+        let other = &self.candidates.list[scored.index];
+        other.effect.kind == current.effect.kind
+            && with_row(&other.effect, scored.row).site == current.effect.site
     }
 
     /// The effects that a person wants, each as well as it fits.
@@ -302,12 +338,14 @@ impl World<'_> {
                 continue;
             }
             let scored = view.best(self, &chosen);
-            let best = scored.iter().find(|s| {
-                pick.means(&self.candidates.list[s.index].effect)
-                    || self.candidates.list[s.index].row.is_some()
-                        && pick.kind == Some(self.candidates.list[s.index].effect.kind)
-            });
-            chosen.extend(best.map(|s| self.chosen(s)));
+            let means = |s: &&Scored| {
+                let effect = &self.candidates.list[s.index].effect;
+                pick.means(&with_row(effect, s.row))
+            };
+            let known = |c: &Chosen| pick.means(&c.candidate.effect);
+            if !chosen.iter().any(known) {
+                chosen.extend(scored.iter().find(means).map(|s| self.chosen(s)));
+            }
         }
         chosen
     }
@@ -349,7 +387,7 @@ impl World<'_> {
         };
         let mut seen: Vec<String> = Vec::new();
         for _ in 0..2 * MOST_EFFECTS {
-            let turns = if chosen.len() > FEW_EFFECTS {
+            let turns = if chosen.len() > FEW_EFFECTS && self.accepted.is_empty() {
                 1
             } else {
                 MOST_TURNS
@@ -368,12 +406,14 @@ impl World<'_> {
                 break;
             }
             seen.push(state);
-            let best = view.best(self, &chosen).into_iter().next();
+            let scored = view.best(self, &chosen);
+            let best = scored.into_iter().find(|s| self.allowed(s));
             let Some(best) = best.filter(|best| best.merit() > 0.0) else {
                 break;
             };
             // the springs of a robot come as a set: a load bends all joints at once
-            let springs = view.all_of(self, &chosen, Kind::JointCompliance);
+            let mut springs = view.all_of(self, &chosen, Kind::JointCompliance);
+            springs.retain(|s| self.allowed(s));
             let together: f64 = springs.iter().map(Scored::merit).sum();
             if springs.len() > 1 && together > best.merit() {
                 chosen.extend(springs.iter().map(|s| self.chosen(s)));

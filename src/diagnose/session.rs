@@ -6,6 +6,7 @@ use super::noise::{Repeats, of_repeats};
 use super::refit::refit;
 use super::search::{Chosen, World};
 use super::table::{Column, Layout, table};
+use super::waves;
 use super::weights::Plain;
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -19,7 +20,7 @@ use crate::identify::parameters::{Level, Pick, Selection, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::robust::Shape;
 use crate::identify::start::{self, base_gap};
-use crate::model::effects::{Effect, Kind, SiteKey};
+use crate::model::effects::{Effect, Kind};
 use crate::model::profile::{ControllerModel, Profile};
 
 /// The device stands where the profile has the base if it is nearer than this, metres.
@@ -82,29 +83,6 @@ pub fn is_nominal(profile: &Profile) -> bool {
     !geometry && profile.controller == ControllerModel::Nominal
 }
 
-fn pick_of(effect: &Effect) -> Pick {
-    let numbers = effect
-        .definition()
-        .site
-        .iter()
-        .filter_map(|place| match place {
-            SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => {
-                u32::try_from(effect.site.index + 1).ok()
-            }
-            SiteKey::On => u32::try_from(effect.site.on + 1).ok(),
-            SiteKey::Order | SiteKey::Row => Some(effect.site.order),
-            SiteKey::Tool => None,
-        });
-    Pick {
-        kind: Some(effect.kind),
-        places: numbers
-            .filter(|n| *n <= 6 || effect.definition().site.contains(&SiteKey::Order))
-            .map(|n| (n, n))
-            .collect(),
-        key: None,
-    }
-}
-
 /// What is fitted along: frames and geometry, what the profile already has, and joint compliance where it has nothing yet.
 fn selection(profile: &Profile) -> Selection {
     let nominal = is_nominal(profile);
@@ -125,15 +103,7 @@ fn selection(profile: &Profile) -> Selection {
                 | Kind::PayloadError
         )
     });
-    selection.identify = own.map(pick_of).collect();
-    let masses = !profile.bodies.is_empty() || profile.tools.values().any(|t| t.load.is_some());
-    if nominal && masses {
-        selection.identify.push(Pick {
-            kind: Some(Kind::JointCompliance),
-            places: Vec::new(),
-            key: None,
-        });
-    }
+    selection.identify = own.map(Pick::of).collect();
     selection
 }
 
@@ -336,15 +306,26 @@ impl Session {
     /// What the search looks at, with the rows in use.
     #[must_use]
     pub fn world<'a>(&'a self, used: &'a [bool], accepted: &'a [Pick]) -> World<'a> {
+        self.world_of(used, accepted, &self.shares)
+    }
+
+    /// The same with other shares: how freely what the profile has is fitted.
+    #[must_use]
+    pub(super) fn world_of<'a>(
+        &'a self,
+        used: &'a [bool],
+        accepted: &'a [Pick],
+        shares: &'a [f64],
+    ) -> World<'a> {
         let layout = &self.layout;
-        let held = held_of(&self.columns, &self.shares);
+        let held = held_of(&self.columns, shares);
         let in_use = (0..layout.rows()).filter(|row| used[*row]);
         let numbers: usize = in_use.map(|row| layout.row(row).len()).sum();
         World {
             layout,
             residual: &self.residual,
             held: &self.columns,
-            shares: &self.shares,
+            shares,
             candidates: &self.candidates,
             plain: Plain::of(layout, used, &self.residual, &held, self.floor()),
             ln_numbers: (numbers as f64).ln(),
@@ -364,14 +345,37 @@ impl Session {
         }
     }
 
-    /// Adds candidates with list values nearer to those found: a knee's torque, a time constant. Whether there were any.
-    pub fn refine(&mut self, chosen: &[Chosen]) -> bool {
-        let mut any = false;
+    /// Adds candidates with list values nearer to those found, a knee's torque, a time constant, and waves that what is left has.
+    /// Whether there were any.
+    pub fn refine(
+        &mut self,
+        chosen: &[Chosen],
+        used: &[bool],
+        leave: &dyn Fn(&Effect) -> bool,
+    ) -> bool {
+        let world = self.world(used, &[]);
+        let fit = world.fit(chosen);
+        let least = 2.0 * world.ln_numbers + 2.0 * (waves::places() as f64).ln();
+        let (problem, estimate) = (&self.problem, &self.estimate);
+        let mut peaks = waves::peaks(
+            problem,
+            estimate,
+            &self.layout,
+            &fit,
+            &self.candidates,
+            least,
+        );
+        // those beside a wave found say how well its order is known
+        let found = chosen.iter().map(|c| &c.candidate.effect);
+        peaks.extend(found.flat_map(|effect| waves::beside(effect, &self.candidates)));
+        peaks.retain(|effect| !leave(effect));
+        let mut any = !peaks.is_empty();
+        (self.candidates).add_waves(&self.problem, &self.estimate, peaks);
         for found in chosen {
             let effect = &found.candidate.effect;
             let number = match effect.kind {
                 Kind::ComplianceKnee => 0,
-                Kind::WarmUpDrift => 4,
+                Kind::WarmUpDrift | Kind::SessionDrift => 4,
                 _ => continue,
             };
             let at = effect.parameters[number];

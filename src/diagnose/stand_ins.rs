@@ -53,7 +53,7 @@ fn groups(chosen: &[Chosen]) -> Vec<Vec<usize>> {
     };
     for &kind in REGISTRY {
         let definition = kind.definition();
-        if definition.of_data() {
+        if definition.of_data {
             continue;
         }
         let like = |i: &usize| chosen[*i].candidate.effect.kind == kind;
@@ -178,7 +178,7 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
         let scored = view.scan(world, chosen, &keep);
         let cost: f64 = group.iter().map(|i| chosen[*i].cost).sum();
         for &kind in REGISTRY {
-            if kind == own || kind.definition().of_data() {
+            if kind == own || kind.definition().of_data {
                 continue;
             }
             let Some(first) = (scored.iter())

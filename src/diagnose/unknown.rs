@@ -56,6 +56,14 @@ pub struct Unknown {
     pub count: usize,
 }
 
+impl Unknown {
+    /// Its gain less what its parameters beyond those of an effect gain by chance.
+    #[must_use]
+    pub fn fair_gain(&self, parameters: usize) -> f64 {
+        self.gain - 3.0 * (self.count as f64 - parameters as f64).max(0.0)
+    }
+}
+
 /// Which functions are a joint's scale, coupling, harmonic, compliance or backlash.
 fn registered(name: &str) -> Option<Registered> {
     let joint = |digits: &str| digits.parse::<usize>().ok().map(|n| Registered::Of(n - 1));
@@ -63,13 +71,11 @@ fn registered(name: &str) -> Option<Registered> {
     match words.as_slice() {
         [q] if q.ends_with("^1") && q.starts_with('q') => Some(Registered::OfAll),
         ["cos" | "sin", order, q] if q.starts_with('q') => {
-            let known = order
-                .parse::<u32>()
-                .is_ok_and(|n| n <= super::candidates::MOST_ORDERS);
-            known.then(|| joint(&q[1..])).flatten()
+            let is_whole = order.parse::<u32>().is_ok();
+            is_whole.then(|| joint(&q[1..])).flatten()
         }
         ["torque", n] => joint(n),
-        [d] if d.starts_with("dir") => joint(&d[3..]),
+        [d] | [d, "|torque", _] if d.starts_with("dir") => joint(&d[3..]),
         _ => None,
     }
 }
@@ -124,21 +130,6 @@ fn features(problem: &Problem, estimate: &Estimate) -> Vec<Feature> {
                 format!("sin {order} {q}"),
                 None,
                 order < 3,
-                each(&|r| (n * angles[r][i]).sin()),
-            );
-        }
-        for order in 5..=24 {
-            let n = f64::from(order);
-            push(
-                format!("cos {order} {q}"),
-                Some(i),
-                false,
-                each(&|r| (n * angles[r][i]).cos()),
-            );
-            push(
-                format!("sin {order} {q}"),
-                Some(i),
-                false,
                 each(&|r| (n * angles[r][i]).sin()),
             );
         }
@@ -545,5 +536,5 @@ pub fn likeness(problem: &Problem, layout: &Layout, used: &[bool], fit: &Fit) ->
 /// Probability of a gain or more by chance, for one test.
 #[must_use]
 pub fn chance(gain: f64, count: usize) -> f64 {
-    chi_squared_tail(gain, count)
+    chi_squared_tail(gain, count as f64)
 }

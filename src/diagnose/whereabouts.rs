@@ -107,6 +107,8 @@ fn groupings(problem: &Problem, estimate: &Estimate) -> Vec<Grouping> {
             .map(|r| Some(r.conditions.direction[i]))
             .collect();
         all.extend(by_value(format!("dir{}", i + 1), 1.0, &directions));
+        let moves: Vec<Option<f64>> = rows.iter().map(|r| Some(r.conditions.moved[i])).collect();
+        all.extend(by_value(format!("move{}_deg", i + 1), degree, &moves));
     }
     all.extend(by_value(
         "temperature_c".into(),
@@ -239,7 +241,7 @@ pub fn spots(
             size_m: mean_square.sqrt() * sigma_m,
             largest_m: position(largest).sqrt() * sigma_m,
             part: between / total.max(1e-12),
-            p_value: chi_squared_tail(statistic, freedom),
+            p_value: chi_squared_tail(statistic, freedom as f64),
         });
     }
     found.sort_by(|a, b| {

@@ -429,6 +429,7 @@ pub(super) fn parameters(features: &[Feature]) -> Vec<Parameter> {
                 scale: *size,
                 rank: 0,
                 prior: None,
+                asked: false,
             });
         }
     }

@@ -115,7 +115,11 @@ fn leave_out_weak(normal: &Normal, parameters: &[Parameter], noise: f64, found: 
     };
     let mut covariance = factor.inverse();
     loop {
-        let physical = |at: &usize| parameters[found.kept[*at]].rank >= FIRST_PHYSICAL;
+        // what a person asked for by name is given with its standard deviation
+        let physical = |at: &usize| {
+            let parameter = &parameters[found.kept[*at]];
+            parameter.rank >= FIRST_PHYSICAL && !parameter.asked
+        };
         let sigma = |at: usize| noise * covariance[(at, at)].max(0.0).sqrt();
         let worst = (0..found.kept.len())
             .filter(physical)
@@ -238,6 +242,7 @@ impl Normal {
             gradient: DVector::from_fn(count, |i, _| self.gradient[kept[i]]),
             cost: self.cost,
             squares: self.squares.clone(),
+            prior_squares: kept.iter().map(|i| self.prior_squares[*i]).collect(),
         }
     }
 

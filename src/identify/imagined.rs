@@ -227,6 +227,7 @@ impl Derivatives {
             gradient: DVector::zeros(self.width),
             cost: 0.0,
             squares: Vec::new(),
+            prior_squares: vec![0.0; self.width],
         }
     }
 

@@ -21,6 +21,15 @@ pub const DISTANCE_COLUMNS: [&str; 4] = ["distance_mm", "from_x_mm", "from_y_mm"
 pub const POINT_COLUMNS: [&str; 3] = ["px_mm", "py_mm", "pz_mm"];
 /// Columns of the directions in which the joints last moved.
 pub const DIRECTION_COLUMNS: [&str; 6] = ["dir1", "dir2", "dir3", "dir4", "dir5", "dir6"];
+/// Columns of how far the joints moved last.
+pub const MOVE_COLUMNS: [&str; 6] = [
+    "move1_deg",
+    "move2_deg",
+    "move3_deg",
+    "move4_deg",
+    "move5_deg",
+    "move6_deg",
+];
 /// Columns of the external force on the tool.
 pub const FORCE_COLUMNS: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
 
@@ -130,6 +139,21 @@ pub struct Measurements {
     pub columns: Vec<String>,
 }
 
+/// How far the joints moved last at each of these postures, one after another: an arm that stands still has not moved since. Of
+/// the first nothing is known.
+#[must_use]
+pub fn last_moves(postures: &[[f64; 6]]) -> Vec<[f64; 6]> {
+    let mut moved = [0.0; 6];
+    let mut moves = vec![moved; postures.len().min(1)];
+    moves.extend(postures.windows(2).map(|pair| {
+        if pair[0] != pair[1] {
+            moved = std::array::from_fn(|i| pair[1][i] - pair[0][i]);
+        }
+        moved
+    }));
+    moves
+}
+
 impl Measurements {
     /// Whether the file has all these columns.
     #[must_use]
@@ -214,6 +238,14 @@ mod tests {
 
     fn fault(columns: &str, rows: &[&str]) -> MeasurementError {
         read(columns, rows).expect_err("it should be refused")
+    }
+
+    #[test]
+    fn an_arm_that_stands_still_has_not_moved_since() {
+        let at = |q: f64| [q, 0.0, 0.0, 0.0, 0.0, 2.0 * q];
+        let moves = last_moves(&[at(1.0), at(3.0), at(3.0), at(2.0)]);
+        assert_eq!(moves, [at(0.0), at(2.0), at(2.0), at(-1.0)]);
+        assert!(last_moves(&[]).is_empty());
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub struct Normal {
     pub cost: f64,
     /// Sum of squared residuals in standard deviations of each row, before robust weights.
     pub squares: Vec<f64>,
+    /// Squared distance of each parameter from its prior, in the prior's standard deviations; zero without one.
+    pub prior_squares: Vec<f64>,
 }
 
 /// A row's residual as it counts.
@@ -292,6 +294,7 @@ impl Normal {
             gradient: DVector::from_fn(count, |i, _| at(i, count)),
             cost: all.cost,
             squares: all.squares,
+            prior_squares: vec![0.0; count],
         };
         for (i, parameter) in parameters.iter().enumerate() {
             if let Some((mean, sigma)) = parameter.prior {
@@ -301,6 +304,7 @@ impl Normal {
                 normal.matrix[(i, i)] += slope * slope;
                 normal.gradient[i] += slope * gap;
                 normal.cost += gap * gap;
+                normal.prior_squares[i] = gap * gap;
             }
         }
         normal

@@ -11,6 +11,8 @@ const PARALLEL: f64 = 0.1;
 pub const FIRST_PHYSICAL: u32 = 2;
 /// The number that the base has among joints.
 const BASE_NUMBER: u32 = 7;
+/// And its word.
+const BASE_WORD: &str = "base";
 /// How far a measured point may be from where it is believed, one standard deviation, metres.
 const POINT_SIGMA_M: f64 = 0.01;
 
@@ -50,6 +52,8 @@ pub struct Parameter {
     pub rank: u32,
     /// Its expectation and standard deviation in SI, where they count as one more measurement.
     pub prior: Option<(f64, f64)>,
+    /// A person asked for it by name: it is kept however little is known of it.
+    pub asked: bool,
 }
 
 impl Parameter {
@@ -87,8 +91,13 @@ impl Pick {
         reason = "what is expected holds by construction"
     )]
     pub fn parse(text: &str) -> Result<Self, SelectionError> {
-        let (head, key) = match text.split_once('.') {
-            Some((head, key)) => (head, Some(key)),
+        // an order may have decimals, a key begins with a letter
+        let is_key = |(at, _): &(usize, &str)| {
+            let rest = &text[at + 1..];
+            !rest.starts_with(|c: char| c.is_ascii_digit())
+        };
+        let (head, key) = match text.match_indices('.').find(is_key) {
+            Some((at, _)) => (&text[..at], Some(&text[at + 1..])),
             None => (text, None),
         };
         let mut words = head.split(':');
@@ -121,14 +130,15 @@ impl Pick {
                 .ok_or_else(|| bad("no more numbers".into()))?;
             let (low, high) = place.range().expect("a counted place");
             let (first, last) = word.split_once('-').unwrap_or((word, word));
-            let parsed = first.parse().ok().zip(last.parse().ok());
-            let range = parsed.filter(|(a, b)| low <= *a && a <= b && *b <= high);
+            let parsed = place.from_files(first).zip(place.from_files(last));
+            let range = parsed.filter(|(a, b)| a <= b);
+            let is_base = *place == SiteKey::JointOrBase && word == BASE_WORD;
+            let range = range.or(is_base.then_some((BASE_NUMBER, BASE_NUMBER)));
             let name = place.key();
-            places.push(
-                range.ok_or_else(|| {
-                    bad(format!("{name}: a number or range from {low} to {high}"))
-                })?,
-            );
+            places.push(range.ok_or_else(|| {
+                let (low, high) = (place.in_files(low), place.in_files(high));
+                bad(format!("{name}: a number or range from {low} to {high}"))
+            })?);
         }
         let key = match key {
             None => None,
@@ -146,6 +156,33 @@ impl Pick {
             places,
             key,
         })
+    }
+
+    /// The word that means this effect: `joint_harmonic:6:2`.
+    #[must_use]
+    pub fn word(effect: &Effect) -> String {
+        let definition = effect.definition();
+        let places = definition.site.iter();
+        let words = places.filter_map(|place| {
+            let number = number(effect, *place)?;
+            Some(match place {
+                SiteKey::JointOrBase if number == BASE_NUMBER => format!(":{BASE_WORD}"),
+                _ => format!(":{}", place.in_files(number)),
+            })
+        });
+        definition.id.to_owned() + &words.collect::<String>()
+    }
+
+    /// What means this effect alone.
+    #[must_use]
+    pub fn of(effect: &Effect) -> Self {
+        let places = effect.definition().site.iter();
+        let numbers = places.filter_map(|place| number(effect, *place));
+        Self {
+            kind: Some(effect.kind),
+            places: numbers.map(|n| (n, n)).collect(),
+            key: None,
+        }
     }
 
     /// Every word of a list separated by commas.
@@ -189,7 +226,8 @@ impl Pick {
     }
 
     /// The effects this means, as they are begun with.
-    fn effects(&self) -> Vec<Effect> {
+    #[must_use]
+    pub fn effects(&self) -> Vec<Effect> {
         let Some(kind) = self.kind else {
             return Vec::new();
         };
@@ -201,14 +239,17 @@ impl Pick {
             .filter(|p| p.range().is_some());
         for (n, place) in counted.enumerate() {
             let default = match place {
-                SiteKey::Order | SiteKey::Row => (1, 1),
+                SiteKey::Order | SiteKey::Row => (place.one(), place.one()),
                 SiteKey::JointOrBase => (BASE_NUMBER, BASE_NUMBER),
                 _ => (1, 6),
             };
             let (low, high) = self.places.get(n).copied().unwrap_or(default);
             sites = sites
                 .iter()
-                .flat_map(|site| (low..=high).map(move |value| with(site, *place, value)))
+                .flat_map(|site| {
+                    let values = (low..=high).step_by(place.one() as usize);
+                    values.map(move |value| with(site, *place, value))
+                })
                 .collect();
         }
         let on = kind.definition().site.contains(&SiteKey::On);
@@ -226,7 +267,7 @@ impl Pick {
 fn first_values(kind: Kind) -> [f64; MOST_PARAMETERS] {
     let mut values = [0.0; MOST_PARAMETERS];
     for (value, parameter) in values.iter_mut().zip(kind.definition().parameters) {
-        if parameter.unit == Unit::Second {
+        if matches!(parameter.unit, Unit::Second | Unit::Row) {
             *value = parameter.prior_sigma * parameter.unit.in_si();
         }
     }
@@ -235,7 +276,7 @@ fn first_values(kind: Kind) -> [f64; MOST_PARAMETERS] {
 
 /// Whether a number of an effect means something at its place: a joint drifts by an angle, the base by lengths.
 fn means_something(effect: &Effect, key: &str) -> bool {
-    effect.kind != Kind::WarmUpDrift
+    !effect.definition().site.contains(&SiteKey::JointOrBase)
         || match key {
             "angle_deg" => effect.site.index != BASE,
             "x_mm" | "y_mm" | "z_mm" => effect.site.index == BASE,
@@ -471,6 +512,7 @@ pub(super) fn choose(
             scale,
             rank: rank(profile, effect, key),
             prior: (selection.priors && effect.kind != Kind::BaseFrame).then_some((0.0, scale)),
+            asked: (selection.identify.iter()).any(|pick| pick.holds(effect, key)),
         });
     }
     let fixed = selection.fix.iter().any(|pick| pick.kind.is_none());
@@ -486,6 +528,7 @@ pub(super) fn choose(
                 scale: POINT_SIGMA_M,
                 rank: 0,
                 prior: None,
+                asked: false,
             });
         }
     }
@@ -510,6 +553,20 @@ mod tests {
         assert_eq!(pick.effects().len(), 5);
         let pick = Pick::parse("joint_harmonic:6:2").expect("a joint and an order");
         assert_eq!(pick.effects()[0].label(), "joint_harmonic joint 6 order 2");
+        for word in [
+            "joint_harmonic:6:2",
+            "joint_harmonic:1:13.5",
+            "joint_harmonic:2:17",
+            "warm_up_drift:base",
+            "warm_up_drift:6",
+            "tool_slip:77",
+        ] {
+            let pick = Pick::parse(word).expect("a word of an effect");
+            let effects = pick.effects();
+            assert_eq!(effects.len(), 1, "{word}");
+            assert_eq!(Pick::word(&effects[0]), word);
+            assert!(pick.means(&effects[0]));
+        }
         let pick = Pick::parse("link_geometry:3.beta_deg").expect("one key");
         assert!(pick.holds(&at(Kind::LinkGeometry, 2), "beta_deg"));
         assert!(!pick.holds(&at(Kind::LinkGeometry, 2), "a_mm"));
@@ -524,6 +581,9 @@ mod tests {
             "joint_scale:1:1",
             "link_geometry.b_mm",
             "joint_scale:3-2",
+            "joint_harmonic:1:0.1",
+            "joint_harmonic:1:2.33333",
+            "joint_scale:1.5",
             "points:1",
         ] {
             assert!(Pick::parse(bad).is_err(), "{bad}");

@@ -349,7 +349,10 @@ impl Problem {
                     Need::Directions => measurements.has(&super::measurements::DIRECTION_COLUMNS),
                     Need::Temperature => measurements.has(&["temperature_c"]),
                     Need::Time => measurements.has(&["time_s"]),
-                    Need::Order => true,
+                    Need::Order | Need::NoTime => true,
+                    Need::Moves => self.rows.iter().any(|r| r.conditions.moved != [0.0; 6]),
+                    Need::Load => self.tools.iter().any(|t| t.load.is_some()),
+                    Need::Places => self.rows.iter().all(|r| r.observed.point_m().is_some()),
                 };
                 if !met {
                     return Err(IdentifyError::Missing {

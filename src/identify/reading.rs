@@ -4,8 +4,8 @@ use super::contact;
 use super::fault::{MeasurementError, MeasurementFault, UNIT_TOLERANCE, beyond};
 use super::measurements::{
     CENTRE_COLUMNS, DIFFERENCE_COLUMNS, DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS,
-    JOINT_COLUMNS, Measurement, Measurements, NORMAL_COLUMNS, Observed, POINT_COLUMNS,
-    POSITION_COLUMNS, Purpose, QUATERNION_COLUMNS, TARGET_COLUMNS,
+    JOINT_COLUMNS, MOVE_COLUMNS, Measurement, Measurements, NORMAL_COLUMNS, Observed,
+    POINT_COLUMNS, POSITION_COLUMNS, Purpose, QUATERNION_COLUMNS, TARGET_COLUMNS, last_moves,
 };
 use super::table::{Euler, Grid, Mapping, Row, Table};
 use crate::geometry::units::{DEG, m_from_mm};
@@ -236,6 +236,9 @@ impl Cells<'_> {
                 }
             }
         }
+        if kinds.moves {
+            conditions.moved = self.numbers(MOVE_COLUMNS)?.map(|q| q * DEG);
+        }
         if kinds.force {
             conditions.force_n = self.numbers(FORCE_COLUMNS)?;
         }
@@ -289,6 +292,7 @@ pub(super) struct Kinds {
     distance: bool,
     point: bool,
     directions: bool,
+    moves: bool,
     force: bool,
     contact: bool,
     pub(super) probe: bool,
@@ -339,6 +343,7 @@ impl Measurements {
             distance: reader.group(&DISTANCE_COLUMNS)?,
             point: reader.group(&POINT_COLUMNS)?,
             directions: reader.group(&DIRECTION_COLUMNS)?,
+            moves: reader.group(&MOVE_COLUMNS)?,
             force: reader.group(&FORCE_COLUMNS)?,
             contact: reader.group(&["contact"])?,
             probe: reader.group(&["probe_radius_mm"])?,
@@ -374,6 +379,12 @@ impl Measurements {
         }
         if rows.is_empty() {
             return Err(reader.whole_file(MeasurementFault::NoRows));
+        }
+        if !kinds.moves {
+            let moves = last_moves(&rows.iter().map(|row| row.q).collect::<Vec<_>>());
+            for (row, moved) in rows.iter_mut().zip(moves) {
+                row.conditions.moved = moved;
+            }
         }
         contact::settle(&mut rows).map_err(|conflict| MeasurementError {
             line: conflict.line,

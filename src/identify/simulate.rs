@@ -1,6 +1,6 @@
 //! Measurements of the robot that a profile describes: the truth that an identification must find again.
 
-use super::measurements::{Measurement, Observed};
+use super::measurements::{Measurement, Observed, last_moves};
 use super::random::Random;
 use crate::geometry::{Pose, Rotation, Vector, add, norm, sub};
 use crate::model::profile::{Mounted, Profile};
@@ -80,6 +80,7 @@ pub fn simulate(
     let mut random = Random::new(session.seed);
     let mut rows = Vec::new();
     let count = commands.len();
+    let moves = last_moves(&commands.iter().map(|c| c.q).collect::<Vec<_>>());
     for (i, command) in commands.iter().enumerate() {
         let mut conditions = command.conditions.unwrap_or_else(|| {
             let before = &commands[i.saturating_sub(1)].q;
@@ -93,6 +94,7 @@ pub fn simulate(
                 ..Conditions::default()
             }
         });
+        conditions.moved = moves[i];
         let part = i as f64 / (count.max(2) - 1) as f64;
         if let Some([first, last]) = session.temperature_c {
             conditions.temperature_c = Some(first + part * (last - first));

@@ -33,10 +33,15 @@ impl Uncertainty {
         loss: Loss,
         assumed: bool,
     ) -> Self {
-        let numbers: usize = counts.iter().sum();
+        // a row that the loss leaves out says nothing of the noise either
+        let rows = || {
+            let both = normal.squares.iter().zip(counts);
+            both.filter(|(squared, count)| loss.of(**squared, **count).1 > 0.0)
+        };
+        let numbers: usize = rows().map(|(_, count)| count).sum();
         let priors = parameters.iter().filter(|p| p.prior.is_some()).count();
         let degrees_of_freedom = (numbers + priors).saturating_sub(parameters.len());
-        let clipped = normal.squares.iter().zip(counts).map(|(squared, count)| {
+        let clipped = rows().map(|(squared, count)| {
             let most = (limit(*count) * loss.scale).powi(2);
             if loss.shape == Shape::Squares {
                 *squared
@@ -44,7 +49,8 @@ impl Uncertainty {
                 squared.min(most)
             }
         });
-        let sigma_factor = (clipped.sum::<f64>() / degrees_of_freedom.max(1) as f64).sqrt();
+        let squares = clipped.sum::<f64>() + normal.prior_squares.iter().sum::<f64>();
+        let sigma_factor = (squares / degrees_of_freedom.max(1) as f64).sqrt();
         let applied_factor = if assumed {
             sigma_factor
         } else {

@@ -136,7 +136,7 @@ pub fn validate(
     profile: &Profile,
     measurements: &Measurements,
     refit: Refit,
-    folds: Option<usize>,
+    folds: Option<Folds>,
 ) -> Result<Validation, IdentifyError> {
     validate_telling(profile, measurements, refit, folds, &mut |_, _| ())
 }
@@ -149,7 +149,7 @@ pub fn validate_telling(
     profile: &Profile,
     measurements: &Measurements,
     refit: Refit,
-    folds: Option<usize>,
+    folds: Option<Folds>,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Validation, IdentifyError> {
     let measurements = &*measurements.in_world_of(profile);
@@ -217,7 +217,7 @@ pub fn validate_telling(
         .map(|m| m.normalised * m.normalised);
     let normalised = (squares.sum::<f64>() / judged_real.misses.len() as f64).sqrt();
     let folds = match folds {
-        Some(count) => Some(cross_validate(profile, &judged_rows, count, tell)?),
+        Some(folds) => Some(cross_validate(profile, &judged_rows, folds, tell)?),
         None => None,
     };
     let frames_only = judged(&frames_problem.with_rows(is_judged), &frames);
@@ -333,18 +333,41 @@ fn calibration_middle(profile: &Profile) -> Option<Vector> {
     Some([x, y, z].map(crate::geometry::units::m_from_mm))
 }
 
+/// How rows are left out in turn, and what is identified again without them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Folds {
+    /// How many parts.
+    pub count: usize,
+    /// So much of the arm; the profile's own effects without.
+    pub level: Option<Level>,
+    /// Whether each parameter's typical size counts as one more measurement.
+    pub priors: bool,
+}
+
+impl Folds {
+    /// So many parts, the profile's own effects, no priors.
+    #[must_use]
+    pub const fn of(count: usize) -> Self {
+        Self {
+            count,
+            level: None,
+            priors: false,
+        }
+    }
+}
+
 /// Errors of every row by models that were identified without it: the profile's effects and frames, and frames alone.
 ///
 /// Rows of one configuration stay together; part k has every k-th configuration.
 fn cross_validate(
     profile: &Profile,
     measurements: &Measurements,
-    count: usize,
+    folds: Folds,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<(usize, Quality, Quality), IdentifyError> {
     let configurations = measurements.configurations();
     let total = configurations.last().map_or(0, |last| last + 1);
-    let count = count.clamp(2, total.max(2));
+    let count = folds.count.clamp(2, total.max(2));
     let free = measurements
         .rows
         .iter()
@@ -359,9 +382,23 @@ fn cross_validate(
         .as_ref()
         .map_or(profile.world_from_base, |s| s.world_from_base);
     let (mut problem, mut begun) = Problem::new(profile, measurements, &selection, base)?;
+    let mut frames = problem.parameters.clone();
+    if let Some(level) = folds.level {
+        selection.level = level;
+        selection.priors = folds.priors;
+        (problem, begun) = Problem::new(profile, measurements, &selection, base)?;
+        let is_frame = |p: &&Parameter| frames.iter().any(|f| f.key == p.key);
+        frames = problem
+            .parameters
+            .iter()
+            .filter(is_frame)
+            .cloned()
+            .collect();
+    } else {
+        let own = present(&begun, &frames, folds.priors);
+        problem.parameters.extend(own);
+    }
     problem.gravity_by_base = true;
-    let frames = problem.parameters.clone();
-    problem.parameters.extend(present(&begun, &frames));
     problem.parameters.sort_by_key(|p| p.rank);
     begun
         .effects
@@ -392,7 +429,12 @@ fn cross_validate(
         only_frames.parameters.clone_from(&frames);
         let solved = solve(&only_frames, nominal.clone(), Shape::Squares, true)?;
         alone.extend(misses(&test, &solved.estimate));
-        let solved = solve(&training, solved.estimate, Shape::Huber, true)?;
+        // what a level does not seek stays as the profile has it; else the profile's own effects are found again from nothing
+        let from = match folds.level {
+            Some(_) => begun.clone(),
+            None => solved.estimate,
+        };
+        let solved = solve(&training, from, Shape::Huber, true)?;
         full.extend(misses(&test, &solved.estimate));
         rows.extend(test.rows);
     }
@@ -400,7 +442,7 @@ fn cross_validate(
 }
 
 /// A parameter for each number of the profile's effects that is not zero and not sought already.
-fn present(estimate: &Estimate, sought: &[Parameter]) -> Vec<Parameter> {
+fn present(estimate: &Estimate, sought: &[Parameter], priors: bool) -> Vec<Parameter> {
     let mut all = Vec::new();
     for (index, effect) in estimate.effects.iter().enumerate() {
         for (number, parameter) in effect.definition().parameters.iter().enumerate() {
@@ -409,13 +451,15 @@ fn present(estimate: &Estimate, sought: &[Parameter]) -> Vec<Parameter> {
                 parameter: number,
             });
             if effect.parameters[number] != 0.0 && sought.iter().all(|p| p.subject != subject) {
+                let scale = parameter.prior_sigma * parameter.unit.in_si();
                 all.push(Parameter {
                     key: format!("{} {}", effect.label(), parameter.key),
                     subject,
                     unit: parameter.unit,
-                    scale: parameter.prior_sigma * parameter.unit.in_si(),
+                    scale,
                     rank: 7,
-                    prior: None,
+                    prior: (priors && effect.kind != Kind::BaseFrame).then_some((0.0, scale)),
+                    asked: false,
                 });
             }
         }

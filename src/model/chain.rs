@@ -39,6 +39,12 @@ pub struct Frames<S> {
     pub base: Pose<S>,
     /// Gravity and external force on the whole arm, along the world's axes, N.
     pub force: Vector<S>,
+    /// `world_from_flange`.
+    pub flange: Pose<S>,
+    /// `world_from_tool`.
+    pub tool: Pose<S>,
+    /// Moment of the tool's own weight about the flange, along the world's axes, N·m.
+    pub tool_moment: Vector<S>,
 }
 
 /// What a field of acceleration acts on: the mass on each link and all links farther out.
@@ -57,6 +63,9 @@ pub struct Loads<S = f64> {
     pub(super) gravity_m_s2: Vector<S>,
     /// One kilogram at the controller's tool: a field of so many m/s² pulls it with so many newton.
     pub(super) unit_mass: Hanging<S>,
+    /// Mass of the tool and its centre of gravity in the flange frame.
+    tool: Option<(S, Vector<S>)>,
+    link6_from_flange: Pose<S>,
 }
 
 impl<S: Scalar> Hanging<S> {
@@ -97,6 +106,8 @@ impl<S: Scalar> Loads<S> {
             masses: Hanging::of(chain, &bodies),
             gravity_m_s2: geometry.gravity_m_s2.map(S::constant),
             unit_mass: Hanging::of(chain, &[unit_mass]),
+            tool: geometry.load,
+            link6_from_flange: geometry.link6_from_flange,
         }
     }
 }
@@ -290,11 +301,19 @@ impl<S: Scalar> Chain<S> {
                 moments[i] = add(moments[i], moment);
             });
         }
+        let links: [Pose<S>; 6] = std::array::from_fn(|i| turning[i] * self.turning_from_link[i]);
+        let flange = links[5] * loads.link6_from_flange;
+        let tool_moment = loads.tool.map_or([S::zero(); 3], |(mass_kg, cog)| {
+            cross(flange.rotation * cog, scale(mass_kg, loads.gravity_m_s2))
+        });
         Frames {
-            links: std::array::from_fn(|i| turning[i] * self.turning_from_link[i]),
+            links,
             moments,
             base: self.world_from_base,
             force,
+            flange,
+            tool: pose,
+            tool_moment,
         }
     }
 
@@ -336,6 +355,9 @@ impl Frames<f64> {
             moments: self.moments.map(|moment| moment.map(S::constant)),
             base: self.base.cast(),
             force: self.force.map(S::constant),
+            flange: self.flange.cast(),
+            tool: self.tool.cast(),
+            tool_moment: self.tool_moment.map(S::constant),
         }
     }
 }
@@ -369,6 +391,10 @@ impl Loads {
             masses: self.masses.cast(),
             gravity_m_s2: self.gravity_m_s2.map(S::constant),
             unit_mass: self.unit_mass.cast(),
+            tool: self
+                .tool
+                .map(|(mass_kg, cog)| (S::constant(mass_kg), cog.map(S::constant))),
+            link6_from_flange: self.link6_from_flange.cast(),
         }
     }
 }

@@ -7,6 +7,8 @@ use crate::geometry::Vector;
 pub struct Conditions {
     /// Direction in which each joint last moved: −1, +1, or 0 where it is unknown.
     pub direction: [f64; 6],
+    /// How far each joint moved last, from the posture before, radians; 0 where that is unknown.
+    pub moved: [f64; 6],
     /// External force on the tool's origin along the world's axes, newton.
     pub force_n: Vector,
     /// Temperature of the arm, °C.

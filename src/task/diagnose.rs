@@ -100,8 +100,33 @@ pub struct FoundEffect {
     pub after: Option<SpreadMm>,
     /// Whether it is of the session and not of the robot.
     pub of_data: bool,
+    /// `certain`, `likely` or `possible`.
+    pub standing: &'static str,
+    /// What it may be instead, the likeliest first.
+    pub against: Vec<Against>,
     /// It in a sentence.
     pub sentence: String,
+}
+
+/// What may be in the place of an effect found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Against {
+    /// An effect, several, or a function outside the registry.
+    pub what: String,
+    /// Odds of the effect found against it.
+    pub odds: f64,
+}
+
+/// The residual that remains.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Unexplained {
+    /// Root mean square of a coordinate.
+    pub rms_mm: Option<f64>,
+    /// What it depends on, strongest first.
+    #[serde(rename = "where")]
+    pub spots: Vec<Spot>,
+    /// The function outside the registry that explains most of it.
+    pub function: Option<String>,
 }
 
 /// Where the disagreement lies.
@@ -201,6 +226,21 @@ pub struct HeldOut {
     pub absorbed: Option<SpreadMm>,
     /// With everything found.
     pub after: Option<SpreadMm>,
+    /// The comparison that judges the effects found: rows that neither model was fitted to.
+    pub compared: Option<Compared>,
+}
+
+/// Two models on rows that neither was fitted to.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Compared {
+    /// Without the effects found.
+    pub before: SpreadMm,
+    /// With them.
+    pub after: SpreadMm,
+    /// All that the profile has was fitted again without these rows, for both; else the profile is taken as it is.
+    pub refitted: bool,
+    /// Probability that the effects found are better by so much by chance.
+    pub p_value: Option<f64>,
 }
 
 /// A row that fits no model.
@@ -236,7 +276,7 @@ pub struct LeverageRow {
 /// What a diagnosis found.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Diagnosis {
-    /// `explained`, `nothing_missing` or `undetermined`.
+    /// `explained`, `improved`, `nothing_missing` or `undetermined`.
     pub verdict: &'static str,
     /// Why, one sentence each.
     pub reasons: Vec<String>,
@@ -263,6 +303,10 @@ pub struct Diagnosis {
     pub absorbed: Vec<&'static str>,
     /// Errors on rows not used.
     pub held_out: HeldOut,
+    /// The residual that remains.
+    pub unexplained: Unexplained,
+    /// What `--accept` takes to make this model again.
+    pub accept: String,
     /// Noise of a coordinate.
     pub noise_mm: Option<f64>,
     /// Where that comes from: `sigma_mm`, `repeats` or `residuals`.
@@ -389,7 +433,19 @@ pub fn diagnose(
             before: before.map(Into::into),
             absorbed: d.absorbed_only.map(Into::into),
             after: after.map(Into::into),
+            compared: d.judged.map(|c| Compared {
+                before: c.start.into(),
+                after: c.found.into(),
+                refitted: c.refitted,
+                p_value: finite(c.p_value),
+            }),
         },
+        unexplained: Unexplained {
+            rms_mm: finite(mm_from_m(d.left_m)),
+            spots: d.left_spots.iter().map(Into::into).collect(),
+            function: d.unknown.first().map(|u| u.name.clone()),
+        },
+        accept: d.accept(),
         noise_mm: finite(mm_from_m(d.noise_m)),
         noise_source: match d.noise_source {
             NoiseSource::Given => "sigma_mm",
@@ -464,13 +520,18 @@ impl Diagnosis {
     /// # Errors
     /// The profile's text is laid out so that the place of the calibration cannot be told.
     pub fn profile_text(&self, profile: &ProfileFile) -> Result<String, Failure> {
-        let labels = self.found.found.iter().map(|f| f.effect.label());
+        let found = self.found.found.iter();
+        let labels = found.clone().map(|f| f.effect.label());
+        let standing: Map<String, Value> = found
+            .map(|f| (f.effect.label(), json!(f.standing.id())))
+            .collect();
         let mut improved = self.found.profile.clone();
         improved.quality = None;
         improved.provenance = Some(json!({
             "program": PROGRAM,
             "diagnosis": self.verdict,
             "found": labels.collect::<Vec<_>>(),
+            "standing": standing,
             "profile_sha256": self.profile_sha256,
             "measurements_sha256": self.measurements_sha256,
             "rows": self.lines.len(),
@@ -511,8 +572,15 @@ impl From<&engine::Found> for FoundEffect {
             },
             before: f.before.map(Into::into),
             after: f.after.map(Into::into),
-            of_data: definition.of_data(),
-            sentence: sentence(&f.effect),
+            of_data: definition.of_data,
+            standing: f.standing.id(),
+            against: (f.against.iter())
+                .map(|a| Against {
+                    what: a.what.clone(),
+                    odds: a.odds,
+                })
+                .collect(),
+            sentence: sentence(&f.effect, f.base_m),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Effects in sentences that a person understands.
 
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::{Pose, Vector, norm, sub};
 use crate::model::JOINTS;
 use crate::model::effects::{BASE, Effect, Kind};
 
@@ -13,9 +14,9 @@ fn digits(value: f64) -> String {
     }
 }
 
-/// An effect in one sentence a person understands.
+/// An effect in one sentence a person understands; the robot stands at `base_m` in the world.
 #[must_use]
-pub(super) fn sentence(effect: &Effect) -> String {
+pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
     let (p, site) = (&effect.parameters, &effect.site);
     let joint = format!("J{}", site.index + 1);
     let deg = |value: f64| digits(value / DEG);
@@ -39,7 +40,7 @@ pub(super) fn sentence(effect: &Effect) -> String {
         Kind::JointHarmonic => format!(
             "{joint} runs fast and slow by {}°, {} times a turn (eccentric gear or encoder)",
             deg(length(&p[..2])),
-            site.order
+            site.periods()
         ),
         Kind::JointCoupling => format!(
             "{joint} is taken along by J{}: {}° in 90°",
@@ -86,10 +87,51 @@ pub(super) fn sentence(effect: &Effect) -> String {
             deg(p[0]),
             p[4] / 60.0
         ),
+        Kind::SessionDrift => format!(
+            "{} drifts by {} in the course of the session, most of it in {:.0} rows",
+            if site.index == BASE {
+                "The base or the measuring device".to_owned()
+            } else {
+                joint
+            },
+            if site.index == BASE {
+                mm(length(&p[1..4])) + " mm"
+            } else {
+                deg(p[0]) + "°"
+            },
+            p[4]
+        ),
+        Kind::Settling => format!(
+            "{joint} is read before it rests: {} % of its last move {}",
+            digits(100.0 * p[0].abs()),
+            if p[0] < 0.0 { "too far" } else { "is missing" }
+        ),
+        Kind::FrictionBacklash => format!(
+            "{joint} {} {}° under 100 N m by the side it comes from",
+            if p[0] < 0.0 {
+                "is held back"
+            } else {
+                "runs ahead"
+            },
+            deg(100.0 * p[0].abs())
+        ),
+        Kind::ToolCompliance => format!(
+            "The tool bends at the flange: {}° under 10 N m",
+            deg(10.0 * length(&p[..2]))
+        ),
+        Kind::MeasurementScale => format!(
+            "The measuring device's lengths are {} ppm too {}",
+            digits(1e6 * p[0].abs()),
+            if p[0] < 0.0 { "short" } else { "long" }
+        ),
         Kind::FrameShift => format!(
-            "The measuring device or the base moved before row {} by {} mm",
+            "The measuring device or the base moved before row {} by {} mm where the robot stands",
             site.order,
-            mm(length(&p[..3]))
+            // a turn about the device far away moves it by the lever
+            mm(norm(sub(
+                Pose::from_xyz_rxryrz(*p).transform(base_m),
+                base_m
+            )))
         ),
         Kind::ToolSlip => format!(
             "The tool or the reflector slipped before row {} by {} mm",

@@ -9,7 +9,9 @@ use crate::finding::{Finding, Severity};
 use crate::identify::IdentifyError;
 use crate::identify::measurements::{Measurement, Purpose};
 
-use crate::identify::validation::{self, Refit, Validation as Found, validate_telling};
+use crate::identify::validation::{
+    self, Folds as Leaving, Refit, Validation as Found, validate_telling,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -20,7 +22,7 @@ pub struct Options {
     /// Fit base, tool and points first: the device or the tool was set up anew.
     pub refit_frames: bool,
     /// Identify the effects again without each of so many parts of the configurations.
-    pub folds: Option<usize>,
+    pub folds: Option<Leaving>,
     /// Use rows of every set, not only those for `validate`.
     pub all_sets: bool,
 }

@@ -42,6 +42,8 @@ pub struct Moment {
     pub time: f64,
     /// From 1.
     pub row: usize,
+    /// From the posture before.
+    pub moved: [f64; 6],
 }
 
 /// What may be wrong with a robot, its set-up or the session.
@@ -79,6 +81,18 @@ pub enum Fault {
     Shift(usize, [f64; 6]),
     /// First row, displacement in the tool's frame.
     Slip(usize, V3),
+    /// Joint, the part of its last move that is missing.
+    Unsettled(usize, f64),
+    /// Joint, rad/(N m) by the side it comes from.
+    Friction(usize, f64),
+    /// rad/(N m) about x and y of the flange under the tool's own weight.
+    Adapter(f64, f64),
+    /// The device's lengths are longer by this part.
+    Longer(f64),
+    /// Joint, amplitude, rows.
+    JointCreep(usize, f64, f64),
+    /// Displacement in the world, rows.
+    BaseCreep(V3, f64),
     /// Not known to the product: a joint's error by any function of its commanded angles, torques and the moment.
     Joint(usize, fn(&[f64; 6], &[f64; 6], &Moment) -> f64, f64),
     /// Not known to the product: displacement of the measured point in the world.
@@ -144,6 +158,13 @@ fn moment_about(
     add(sum, cross(sub(nominal_tip, about), at.force))
 }
 
+/// Moment of the tool's weight alone about the flange.
+fn moment_about_flange(robot: &Robot, load: (f64, V3), flange: &M4) -> V3 {
+    let origin = [flange[0][3], flange[1][3], flange[2][3]];
+    let weight = robot.gravity.map(|g| g * load.0);
+    cross(sub(point(flange, load.1), origin), weight)
+}
+
 /// Where the tool really is in the world at the controller's joint angles `q`.
 pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> M4 {
     let (mut base, mut tool, mut rows, mut load) = (robot.base, robot.tool, robot.rows, robot.load);
@@ -170,6 +191,10 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
     let mut bent = [[0.0; 2]; 6];
     let mut tilt = [0.0; 2];
     let warm = |constant: f64| 1.0 - (-at.time / constant).exp();
+    let later = |rows: f64| 1.0 - (-(at.row as f64) / rows).exp();
+    let still_flange = times(&still[5], &robot.flange);
+    let hanging = moment_about_flange(robot, load, &still_flange);
+    let mut adapter = [0.0; 2];
     for fault in faults {
         match fault {
             Fault::Scale(i, k) => own[*i] += k * u[*i],
@@ -179,6 +204,13 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
             Fault::Leak(i, on, k) => own[*i] += k * u[*on],
             Fault::Knee(i, t, c) => own[*i] += c * torques[*i].clamp(-t, *t),
             Fault::JointDrift(i, a, constant) => own[*i] += a * warm(*constant),
+            Fault::Unsettled(i, part) => own[*i] -= part * at.moved[*i],
+            Fault::Friction(i, c) => own[*i] += c * torques[*i].abs() * at.direction[*i],
+            Fault::JointCreep(i, a, rows) => own[*i] += a * later(*rows),
+            Fault::Adapter(x, y) => {
+                adapter[0] += x * dot(hanging, axis(&still_flange, 0));
+                adapter[1] += y * dot(hanging, axis(&still_flange, 1));
+            }
             Fault::Joint(i, of, size) => own[*i] += size * of(&u, &torques, at),
             Fault::Bending(i, x, y) => {
                 bent[*i][0] += x * dot(moments[*i], axis(&still[*i], 0));
@@ -210,13 +242,18 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
             &times(&matrix::turn_x(bent[i][0]), &matrix::turn_y(bent[i][1])),
         );
     }
-    here = times(&here, &times(&robot.flange, &tool));
+    let bent = times(&matrix::turn_x(adapter[0]), &matrix::turn_y(adapter[1]));
+    here = times(&here, &times(&robot.flange, &times(&bent, &tool)));
     for fault in faults {
         match fault {
             Fault::Slip(row, by) if at.row >= *row => here = times(&here, &matrix::shift(*by)),
             Fault::BaseDrift(by, constant) => {
                 here = times(&matrix::shift(by.map(|x| x * warm(*constant))), &here);
             }
+            Fault::BaseCreep(by, rows) => {
+                here = times(&matrix::shift(by.map(|x| x * later(*rows))), &here);
+            }
+            Fault::Longer(part) => (0..3).for_each(|k| here[k][3] *= 1.0 + part),
             Fault::Shift(row, p) if at.row >= *row => here = times(&matrix::frame(p), &here),
             Fault::World(of, size) => {
                 here = times(&matrix::shift(of(&here, &u, at).map(|x| x * size)), &here);

@@ -1,7 +1,9 @@
 //! What is hidden in a robot: effects of every kind, of typical proportions.
 
 use super::Start;
-use poseshift::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey};
+use poseshift::model::effects::{
+    BASE, Effect, Kind, MOST_PARAMETERS, Need, REGISTRY, Site, SiteKey,
+};
 use rand::RngExt;
 use rand::rngs::StdRng;
 
@@ -36,7 +38,7 @@ pub fn hidden(
                     site.on = random.random_range(0..6);
                 }
             }
-            SiteKey::Order => site.order = random.random_range(1..5),
+            SiteKey::Order => site.order = place.one() * random.random_range(1..5),
             SiteKey::Row => {
                 site.order =
                     u32::try_from(random.random_range(rows / 5..rows * 4 / 5)).expect("small");
@@ -63,7 +65,10 @@ pub fn hidden(
             let which = [0, 1, 3][random.random_range(0..3)];
             (0..5).filter(|k| *k != which).for_each(|k| p[k] = 0.0);
         }
-        Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance => p = p.map(f64::abs),
+        Kind::JointCompliance
+        | Kind::LinkCompliance
+        | Kind::BaseCompliance
+        | Kind::ToolCompliance => p = p.map(f64::abs),
         Kind::ComplianceKnee => {
             p = [
                 random.random_range(0.1..0.4) * torques[site.index],
@@ -122,5 +127,7 @@ pub fn kinds(start: Start) -> Vec<Kind> {
         .iter()
         .copied()
         .filter(|k| start == Start::Calibrated || !absorbed.contains(k))
+        // cases have a clock
+        .filter(|k| !k.definition().needs.contains(&Need::NoTime))
         .collect()
 }

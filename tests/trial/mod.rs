@@ -5,8 +5,8 @@ pub mod truth;
 
 use crate::physics::{Fault, Moment, Robot, tool_pose};
 use hidden::{hidden, kinds, scaled};
-use poseshift::identify::measurements::Measurements;
-use poseshift::model::effects::{Effect, Kind, MOST_PARAMETERS, Site, SiteKey};
+use poseshift::identify::measurements::{Measurements, last_moves};
+use poseshift::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model};
 use rand::rngs::StdRng;
@@ -15,6 +15,8 @@ use truth::{faults, robot_of};
 
 /// Noise of a coordinate, mm.
 pub const NOISE_MM: f64 = 0.03;
+/// Draws of an effect until one of a physical size shows.
+const TRIES: usize = 50;
 
 /// Where a diagnosis starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,7 +134,7 @@ pub struct Case {
 
 /// An effect without its values: rows from which on it holds are rounded away.
 pub fn label(effect: &Effect) -> String {
-    if effect.definition().site.contains(&SiteKey::Row) {
+    if effect.definition().begins_at_a_row() {
         effect.definition().id.to_owned()
     } else {
         let mut plain = effect.clone();
@@ -259,6 +261,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
     let q: Vec<[f64; 6]> = q.flat_map(|q| std::iter::repeat_n(q, times)).collect();
     let mut conditions = Vec::new();
     let (mut last, mut direction) = ([0.0; 6], [0.0; 6]);
+    let moves = last_moves(&q);
     let length_s = 45.0 * rows as f64;
     let wave = random.random_range(0.0..6.0);
     for (r, joints) in q.iter().enumerate() {
@@ -272,6 +275,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
             temperature_c: Some((warm * 100.0).round() / 100.0),
             time_s: Some(45.0 * r as f64 + random.random_range(0.0..5.0_f64).round()),
             row: u32::try_from(r + 1).ok(),
+            moved: moves[r],
             ..Conditions::default()
         });
         last = *joints;
@@ -318,7 +322,9 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
     for k in 0..group.hidden {
         let wanted = random.random_range(group.size.0..group.size.1);
         let mut kind;
+        let mut tries = 0;
         loop {
+            tries += 1;
             kind = if k == 0 {
                 all_kinds[(number / 4) % all_kinds.len()]
             } else {
@@ -332,7 +338,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
                 continue;
             }
             let mut by = size * noise_m * 3.0_f64.sqrt() / moved;
-            // sizes stay physical: within four typical ones
+            // sizes stay physical, within four typical ones, where this robot and its tool show the effect at all
             let most = |e: &Effect| {
                 let typical = e
                     .definition()
@@ -350,7 +356,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
                     .fold(0.0, f64::max)
             };
             let largest = most(&unit);
-            if largest > 4.0 {
+            if largest > 4.0 && tries < TRIES {
                 size *= 4.0 / largest;
                 if size < group.size.0 {
                     continue;
@@ -479,6 +485,7 @@ fn seen_by_physics(
             temperature: c.temperature_c.unwrap_or(20.0),
             time: c.time_s.unwrap_or(0.0),
             row: c.row.map_or(0, |r| r as usize),
+            moved: c.moved,
         };
         let pose = tool_pose(robot, faults, q, &moment);
         [pose[0][3], pose[1][3], pose[2][3]]

@@ -53,7 +53,7 @@ pub fn faults(effect: &Effect) -> Fault {
         Kind::LinkGeometry => Fault::Link(i, [p[0], p[1], p[2], p[3], p[4]]),
         Kind::JointScale => Fault::Scale(i, p[0]),
         Kind::JointCompliance => Fault::Compliance(i, p[0]),
-        Kind::JointHarmonic => Fault::Harmonic(i, f64::from(s.order), p[0], p[1]),
+        Kind::JointHarmonic => Fault::Harmonic(i, f64::from(s.order) / 1000.0, p[0], p[1]),
         Kind::JointCoupling => Fault::Leak(i, s.on, p[0]),
         Kind::Backlash => Fault::Backlash(i, p[0]),
         Kind::PayloadError => Fault::Payload(p[0], [p[1], p[2], p[3]]),
@@ -65,6 +65,12 @@ pub fn faults(effect: &Effect) -> Fault {
         Kind::WarmUpDrift => Fault::JointDrift(i, p[0], p[4]),
         Kind::FrameShift => Fault::Shift(row, *p),
         Kind::ToolSlip => Fault::Slip(row, [p[0], p[1], p[2]]),
+        Kind::Settling => Fault::Unsettled(i, p[0]),
+        Kind::FrictionBacklash => Fault::Friction(i, p[0]),
+        Kind::ToolCompliance => Fault::Adapter(p[0], p[1]),
+        Kind::MeasurementScale => Fault::Longer(p[0]),
+        Kind::SessionDrift if i == BASE => Fault::BaseCreep([p[1], p[2], p[3]], p[4]),
+        Kind::SessionDrift => Fault::JointCreep(i, p[0], p[4]),
     }
 }
 
@@ -88,8 +94,8 @@ pub fn unregistered() -> Vec<(&'static str, Make)> {
         ("harmonic of a half order", |_, k| {
             Fault::Joint(0, |u, _, _| (2.5 * u[0]).sin(), k)
         }),
-        ("friction by torque and direction", |_, k| {
-            Fault::Joint(1, |_, t, at| at.direction[1] * t[1].abs(), k)
+        ("wave that is rectified", |_, k| {
+            Fault::Joint(2, |u, _, _| (1.7 * u[2]).sin().abs(), k)
         }),
         ("oscillation in time", |_, k| {
             Fault::World(
@@ -97,15 +103,8 @@ pub fn unregistered() -> Vec<(&'static str, Make)> {
                 k,
             )
         }),
-        ("tool that sags", |_, k| {
-            Fault::World(
-                |pose, _, _| {
-                    // along the tool's x as far as gravity points that way
-                    let down = -pose[2][0];
-                    [pose[0][0] * down, pose[1][0] * down, pose[2][0] * down]
-                },
-                k,
-            )
+        ("cable that pulls", |_, k| {
+            Fault::Joint(0, |u, _, _| u[0].abs() * u[3].cos(), k)
         }),
         ("wrist that follows the elbow", |_, k| {
             Fault::Joint(4, |u, _, _| u[2].sin() * u[3].cos(), k)

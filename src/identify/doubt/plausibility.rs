@@ -251,7 +251,12 @@ pub(crate) fn doubt_values(
         };
         matches!(
             kind,
-            Some(Kind::JointCompliance | Kind::LinkCompliance | Kind::BaseCompliance)
+            Some(
+                Kind::JointCompliance
+                    | Kind::LinkCompliance
+                    | Kind::BaseCompliance
+                    | Kind::ToolCompliance
+            )
         ) && value(p) < -SURELY * **sigma
     });
     if let Some((p, sigma)) = negative {

@@ -147,7 +147,9 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
                 "was the reflector followed? x_mm,y_mm,z_mm are what the device saw in each row",
             ));
         }
-        if wide < 1e-3 * long.max(1e-6) {
+        // orientations tell what points on a line do not
+        let is_turned = rows.iter().any(|r| matches!(r.observed, Observed::Pose(_)));
+        if wide < 1e-3 * long.max(1e-6) && !is_turned {
             refuse_far_off(measurements)?;
             return Err(suspicious(
                 format!(

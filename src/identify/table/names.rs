@@ -9,7 +9,10 @@ const LENGTHS: [&str; 17] = [
     "pz", "distance", "from_x", "from_y", "from_z", "sigma",
 ];
 /// Columns that hold angles.
-const ANGLES: [&str; 10] = ["q1", "q2", "q3", "q4", "q5", "q6", "rx", "ry", "rz", "rz2"];
+const ANGLES: [&str; 16] = [
+    "q1", "q2", "q3", "q4", "q5", "q6", "rx", "ry", "rz", "rz2", "move1", "move2", "move3",
+    "move4", "move5", "move6",
+];
 /// Columns that hold neither.
 const OTHERS: [&str; 29] = [
     "id",

@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, add, cross, scale, sub};
+use crate::geometry::{Rotation, Scalar, add, cross, sub};
 
 /// The base turns about x and y of its frame in proportion to the moment of the arm about its origin.
 pub(super) struct BaseCompliance;
@@ -21,6 +21,7 @@ impl Equation for BaseCompliance {
         needs: &[Need::Masses],
         deflects: true,
         bends: true,
+        of_data: false,
     };
     const READS_ANGLES: bool = false;
 
@@ -33,8 +34,9 @@ impl Equation for BaseCompliance {
         let moment = add(frames.moments[0], cross(lever, frames.force));
         let own = base.rotation.transpose() * moment;
         let turn = base.rotation * [p[0] * own[0], p[1] * own[1], S::zero()];
-        // small turns add up as vectors: Rx · Ry · Rz differs from them by their products
-        let shift = scale(-S::one(), cross(turn, base.translation));
+        // about the base's origin, which may be metres from the world's: to all orders
+        let by = Rotation::about_x(turn[0]) * Rotation::about_y(turn[1]) * Rotation::about_z(turn[2]);
+        let shift = sub(base.translation, by * base.translation);
         for k in 0..3 {
             deflection.world[k] += shift[k];
             deflection.world[3 + k] += turn[k];

@@ -21,6 +21,7 @@ impl Equation for ComplianceKnee {
         needs: &[Need::Masses],
         deflects: true,
         bends: false,
+        of_data: false,
     };
     const READS_ANGLES: bool = false;
 

@@ -1,6 +1,10 @@
 //! What the registry knows of an effect beside its equation.
 
 use crate::geometry::units;
+use serde_json::{Value, json};
+
+/// What decimal fractions cost.
+const ROUNDED: f64 = 1e-6;
 
 /// An effect in words and numbers.
 #[derive(Debug)]
@@ -23,20 +27,21 @@ pub struct Definition {
     pub deflects: bool,
     /// It moves links, the base or the tool with the posture, not only joints.
     pub bends: bool,
+    /// It is an effect of the data, not of the robot: it repairs the analysis of measurements and never enters a profile.
+    pub of_data: bool,
 }
 
 impl Definition {
-    /// Whether it is an effect of the data, not of the robot: it begins at a row of the measurements. It repairs their
-    /// analysis and never enters a profile.
+    /// Whether it is a step from a row of the measurements on.
     #[must_use]
-    pub fn of_data(&self) -> bool {
+    pub fn begins_at_a_row(&self) -> bool {
         self.site.contains(&SiteKey::Row)
     }
 
     /// Whether torques or moments enter.
     #[must_use]
     pub fn needs_masses(&self) -> bool {
-        self.needs.contains(&Need::Masses)
+        self.needs.contains(&Need::Masses) || self.needs.contains(&Need::Load)
     }
 }
 
@@ -51,7 +56,7 @@ pub enum SiteKey {
     On,
     /// `joint: 1…6`, optional: without it the base
     JointOrBase,
-    /// `order: 1…`, periods in one turn
+    /// `order: 1…`, periods in one turn: whole, or in thousandths where the gear's ratio is not
     Order,
     /// `row: 1…`, the row of the measurements from which on it holds
     Row,
@@ -59,7 +64,56 @@ pub enum SiteKey {
     Tool,
 }
 
+/// An order is counted in thousandths.
+const MILLI: u32 = 1000;
+
 impl SiteKey {
+    /// How many of its numbers are one in files.
+    #[must_use]
+    pub const fn one(self) -> u32 {
+        match self {
+            Self::Order => MILLI,
+            _ => 1,
+        }
+    }
+
+    /// Its number as files have it: `13.5`.
+    #[must_use]
+    pub fn in_files(self, number: u32) -> Value {
+        let one = self.one();
+        if number.is_multiple_of(one) {
+            json!(number / one)
+        } else {
+            json!(f64::from(number) / f64::from(one))
+        }
+    }
+
+    /// Its number from that of a file; `None` where there is no such number.
+    #[must_use]
+    pub fn from_files(self, text: &str) -> Option<u32> {
+        let (low, high) = self.range()?;
+        let number = match self.one() {
+            1 => text.parse().ok()?,
+            one => {
+                let thousandths = text.parse::<f64>().ok()? * f64::from(one);
+                let whole = thousandths.round();
+                if (thousandths - whole).abs() > ROUNDED
+                    || !(0.0..=f64::from(high)).contains(&whole)
+                {
+                    return None;
+                }
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "whole and within the range"
+                )]
+                let number = whole as u32;
+                number
+            }
+        };
+        (low..=high).contains(&number).then_some(number)
+    }
+
     /// Its key in profiles.
     #[must_use]
     pub const fn key(self) -> &'static str {
@@ -84,7 +138,7 @@ impl SiteKey {
     pub const fn range(self) -> Option<(u32, u32)> {
         match self {
             Self::Link | Self::Joint | Self::JointOrBase | Self::On => Some((1, 6)),
-            Self::Order => Some((1, 1000)),
+            Self::Order => Some((MILLI / 2, 1000 * MILLI)),
             Self::Row => Some((1, 1_000_000_000)),
             Self::Tool => None,
         }
@@ -123,6 +177,10 @@ pub enum Unit {
     Celsius,
     /// Seconds.
     Second,
+    /// Parts in a million.
+    Ppm,
+    /// Rows of measurements.
+    Row,
 }
 
 impl Unit {
@@ -139,6 +197,8 @@ impl Unit {
             Self::PerKelvin => "1/K",
             Self::Celsius => "°C",
             Self::Second => "s",
+            Self::Ppm => "ppm",
+            Self::Row => "rows",
         }
     }
 
@@ -154,7 +214,9 @@ impl Unit {
             | Self::NewtonMetre
             | Self::PerKelvin
             | Self::Celsius
-            | Self::Second => 1.0,
+            | Self::Second
+            | Self::Row => 1.0,
+            Self::Ppm => 1e-6,
         }
     }
 }
@@ -172,6 +234,14 @@ pub enum Need {
     Time,
     /// Rows in the order in which they were measured.
     Order,
+    /// The posture before each row.
+    Moves,
+    /// The mass of the tool.
+    Load,
+    /// Places, not distances or contacts.
+    Places,
+    /// Rows in order and no column `time_s`, which says more.
+    NoTime,
 }
 
 impl Need {
@@ -184,6 +254,12 @@ impl Need {
             Self::Temperature => "column temperature_c",
             Self::Time => "column time_s",
             Self::Order => "rows in the order in which they were measured",
+            Self::Moves => {
+                "columns move1_deg…move6_deg, or rows in the order in which they were measured"
+            }
+            Self::Load => "the tool's mass_kg in the profile",
+            Self::Places => "places, not distances or contacts",
+            Self::NoTime => "rows in order and no column time_s",
         }
     }
 }

@@ -93,6 +93,8 @@ impl EntryError {
 const MOST_DEG: f64 = 2.0;
 const MOST_MM: f64 = 20.0;
 const MOST_RAD_PER_N_M: f64 = 5e-3;
+/// And centres of gravity farther away, mm, are on no tool.
+const MOST_COG_MM: f64 = 2000.0;
 /// What units cost in digits.
 const ROUNDED: f64 = 1e-12;
 
@@ -101,7 +103,7 @@ fn usual_limit(parameter: &Parameter) -> Option<f64> {
     match parameter.unit {
         Unit::Degree => Some(MOST_DEG),
         // where a load has its centre is no error of the arm
-        Unit::Millimetre if parameter.key.starts_with("cog_") => None,
+        Unit::Millimetre if parameter.key.starts_with("cog_") => Some(MOST_COG_MM),
         Unit::Millimetre => Some(MOST_MM),
         Unit::RadPerNm => Some(MOST_RAD_PER_N_M),
         _ => None,
@@ -160,7 +162,8 @@ impl Effect {
                 (SiteKey::On, Some(value)) => {
                     site.on = whole(definition, *place, value)? as usize - 1;
                 }
-                (SiteKey::Order | SiteKey::Row, Some(value)) => {
+                (SiteKey::Order, Some(value)) => site.order = order(definition, value)?,
+                (SiteKey::Row, Some(value)) => {
                     site.order = whole(definition, *place, value)?;
                 }
             }
@@ -205,7 +208,9 @@ impl Effect {
                     entry.push((place.key(), json!(self.site.index + 1)));
                 }
                 SiteKey::On => entry.push((place.key(), json!(self.site.on + 1))),
-                SiteKey::Order | SiteKey::Row => entry.push((place.key(), json!(self.site.order))),
+                SiteKey::Order | SiteKey::Row => {
+                    entry.push((place.key(), place.in_files(self.site.order)));
+                }
                 SiteKey::Tool => entry.extend(
                     self.site
                         .tool
@@ -319,6 +324,21 @@ fn whole(definition: &Definition, place: SiteKey, value: &Value) -> Result<u32, 
     })
 }
 
+fn order(definition: &Definition, value: &Value) -> Result<u32, EntryError> {
+    let place = SiteKey::Order;
+    let number = value
+        .as_f64()
+        .and_then(|n| place.from_files(&n.to_string()));
+    number.ok_or_else(|| {
+        bad(
+            definition,
+            place.key(),
+            value,
+            "a number from 0.5 to 1000, to three decimals".into(),
+        )
+    })
+}
+
 fn number(
     definition: &Definition,
     parameter: &Parameter,
@@ -344,7 +364,11 @@ pub fn entry_schema() -> Value {
         let mut required = vec!["effect"];
         for place in definition.site {
             let schema = match place.range() {
-                Some((low, high)) => json!({"type": "integer", "minimum": low, "maximum": high}),
+                Some((low, high)) => json!({
+                    "type": if place.one() == 1 { "integer" } else { "number" },
+                    "minimum": place.in_files(low),
+                    "maximum": place.in_files(high),
+                }),
                 None => json!({"type": "string"}),
             };
             properties.insert(place.key().into(), schema);
@@ -370,6 +394,6 @@ pub fn entry_schema() -> Value {
         })
     };
     let of_robot = REGISTRY.iter().map(|kind| kind.definition());
-    let of_robot = of_robot.filter(|definition| !definition.of_data());
+    let of_robot = of_robot.filter(|definition| !definition.of_data);
     json!({"oneOf": of_robot.map(one).collect::<Vec<_>>()})
 }

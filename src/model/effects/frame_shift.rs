@@ -18,6 +18,7 @@ impl Equation for FrameShift {
         needs: &[Need::Order],
         deflects: true,
         bends: true,
+        of_data: true,
     };
     const READS_ANGLES: bool = false;
 

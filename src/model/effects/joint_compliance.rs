@@ -18,6 +18,7 @@ impl Equation for JointCompliance {
         needs: &[Need::Masses],
         deflects: true,
         bends: false,
+        of_data: false,
     };
     const READS_ANGLES: bool = false;
 

@@ -18,6 +18,7 @@ impl Equation for JointCoupling {
         needs: &[],
         deflects: true,
         bends: false,
+        of_data: false,
     };
 
     #[inline(always)]

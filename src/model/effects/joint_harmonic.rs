@@ -4,13 +4,13 @@ use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
-/// an eccentric gear or encoder adds a wave of whole periods in one turn.
+/// an eccentric gear or encoder adds a wave of so many periods in one turn.
 pub(super) struct JointHarmonic;
 
 impl Equation for JointHarmonic {
     const DEFINITION: Definition = Definition {
         id: "joint_harmonic",
-        summary: "an eccentric gear or encoder adds a wave of whole periods in one turn",
+        summary: "an eccentric gear or encoder adds a wave of so many periods in one turn",
         equation: "δq = cos · cos(order · q) + sin · sin(order · q)",
         source: "A. Nubiola, thesis, sec. 1.8",
         site: &[SiteKey::Joint, SiteKey::Order],
@@ -20,11 +20,12 @@ impl Equation for JointHarmonic {
         needs: &[],
         deflects: true,
         bends: false,
+        of_data: false,
     };
 
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
-        let (sine, cosine) = (S::constant(f64::from(site.order)) * state.commanded[site.index]).sin_cos();
+        let (sine, cosine) = (S::constant(site.periods()) * state.commanded[site.index]).sin_cos();
         deflection.joints[site.index] += p[0] * cosine + p[1] * sine;
     }
 }

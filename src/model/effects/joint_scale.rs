@@ -18,6 +18,7 @@ impl Equation for JointScale {
         needs: &[],
         deflects: true,
         bends: false,
+        of_data: false,
     };
 
     #[inline(always)]

@@ -23,6 +23,7 @@ fn conditions() -> Conditions {
         temperature_c: Some(27.0),
         time_s: Some(300.0),
         row: Some(7),
+        moved: [0.4, -0.9, 0.3, 1.2, -0.5, 2.0],
     }
 }
 
@@ -30,7 +31,7 @@ fn pose_with(kind: Kind, parameters: [f64; MOST_PARAMETERS], q: &[f64; 6]) -> Po
     let (profile, conditions) = (profile(), conditions());
     let effect = Effect {
         kind,
-        site: site(),
+        site: site(kind),
         parameters,
     };
     Model::build(
@@ -42,11 +43,17 @@ fn pose_with(kind: Kind, parameters: [f64; MOST_PARAMETERS], q: &[f64; 6]) -> Po
     .forward(q, &conditions)
 }
 
-fn site() -> Site {
+/// Two periods in one turn, or the second row.
+fn site(kind: Kind) -> Site {
+    let place = if kind.definition().begins_at_a_row() {
+        SiteKey::Row
+    } else {
+        SiteKey::Order
+    };
     Site {
         index: 3,
         on: 4,
-        order: 2,
+        order: 2 * place.one(),
         tool: None,
     }
 }
@@ -94,6 +101,8 @@ fn names_and_keys_are_unique_and_keys_end_in_their_units() {
                 "mm" => "_mm",
                 "deg" => "_deg",
                 "rad/(N m)" => "rad_per_n_m",
+                "ppm" => "ppm",
+                "rows" => "_rows",
                 _ => "",
             };
             assert!(
@@ -140,7 +149,7 @@ fn typical(kind: Kind) -> [f64; MOST_PARAMETERS] {
 fn compliance<S: Scalar>() -> Effect<S> {
     let effect = Effect {
         kind: Kind::JointCompliance,
-        site: site(),
+        site: site(Kind::JointCompliance),
         parameters: typical(Kind::JointCompliance),
     };
     effect.cast()
@@ -183,7 +192,7 @@ fn dual_derivatives_agree_with_central_differences() {
             values[index] = Dual::variable(at, 0);
             let effect = Effect {
                 kind: *kind,
-                site: site(),
+                site: site(*kind),
                 parameters: values,
             };
             let model = Model::build(
@@ -230,7 +239,8 @@ fn an_entry_written_is_read_as_the_same_effect() {
             match place {
                 SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => site.index = 3,
                 SiteKey::On => site.on = 4,
-                SiteKey::Order | SiteKey::Row => site.order = 2,
+                SiteKey::Order => site.order = 13_500,
+                SiteKey::Row => site.order = 2,
                 SiteKey::Tool => site.tool = Some("gripper".into()),
             }
         }
@@ -270,7 +280,7 @@ fn all_effects() -> Vec<Effect> {
             }
             Effect {
                 kind: *kind,
-                site: site(),
+                site: site(*kind),
                 parameters,
             }
         })

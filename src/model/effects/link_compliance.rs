@@ -21,6 +21,7 @@ impl Equation for LinkCompliance {
         needs: &[Need::Masses],
         deflects: true,
         bends: true,
+        of_data: false,
     };
     const READS_ANGLES: bool = false;
 

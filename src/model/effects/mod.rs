@@ -119,6 +119,11 @@ registry! {
     warm_up_drift::WarmUpDrift,
     frame_shift::FrameShift,
     tool_slip::ToolSlip,
+    settling::Settling,
+    friction_backlash::FrictionBacklash,
+    tool_compliance::ToolCompliance,
+    measurement_scale::MeasurementScale,
+    session_drift::SessionDrift,
 }
 
 impl Kind {
@@ -139,7 +144,7 @@ pub struct Site {
     pub index: usize,
     /// Index of the joint it leaks from.
     pub on: usize,
-    /// Periods in one turn; or the first row of the measurements, from 1, where an effect begins there.
+    /// Thousandths of periods in one turn; or the first row of the measurements, from 1, where an effect begins there.
     pub order: u32,
     /// Name of the tool; `None` is every tool.
     pub tool: Option<String>,
@@ -161,6 +166,14 @@ impl<S> Effect<S> {
     #[must_use]
     pub fn definition(&self) -> &'static Definition {
         self.kind.definition()
+    }
+}
+
+impl Site {
+    /// Periods in one turn, of a wave.
+    #[must_use]
+    pub fn periods(&self) -> f64 {
+        f64::from(self.order) / f64::from(SiteKey::Order.one())
     }
 }
 
@@ -231,6 +244,7 @@ mod tests {
     fn an_effect_that_does_not_read_angles_is_the_same_at_all() {
         let conditions = Conditions {
             direction: [1.0; 6],
+            moved: [0.2; 6],
             ..Conditions::default()
         };
         let mut found = 0;

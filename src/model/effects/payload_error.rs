@@ -24,6 +24,7 @@ impl Equation for PayloadError {
         needs: &[Need::Masses],
         deflects: false,
         bends: false,
+        of_data: false,
     };
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {

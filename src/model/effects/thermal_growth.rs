@@ -21,6 +21,7 @@ impl Equation for ThermalGrowth {
         needs: &[Need::Temperature],
         deflects: true,
         bends: true,
+        of_data: false,
     };
     const READS_ANGLES: bool = false;
 

@@ -19,6 +19,7 @@ impl Equation for ToolFrame {
         needs: &[],
         deflects: false,
         bends: false,
+        of_data: false,
     };
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {

@@ -22,6 +22,7 @@ impl Equation for ToolSlip {
         needs: &[Need::Order],
         deflects: true,
         bends: true,
+        of_data: true,
     };
     const READS_ANGLES: bool = false;
 

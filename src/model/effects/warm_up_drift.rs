@@ -27,6 +27,7 @@ impl Equation for WarmUpDrift {
         needs: &[Need::Time],
         deflects: true,
         bends: true,
+        of_data: false,
     };
     const READS_ANGLES: bool = false;
 

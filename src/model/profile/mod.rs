@@ -638,7 +638,7 @@ fn effects(
                 .unwrap_or(at);
             Fault::Effect(error).at(at)
         })?;
-        if effect.definition().of_data() {
+        if effect.definition().of_data {
             let id = effect.definition().id;
             return Err(Fault::EffectOfData { id }.at(at));
         }

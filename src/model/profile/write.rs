@@ -90,7 +90,7 @@ fn with_base(section: &str, base: &Pose) -> String {
 /// The effects that a profile has: those of one session's measurements are none of the robot's.
 fn of_robot(profile: &Profile) -> impl Iterator<Item = &Effect> {
     let all = profile.effects.iter();
-    all.filter(|effect| !effect.definition().of_data())
+    all.filter(|effect| !effect.definition().of_data)
 }
 
 /// First line of a profile whose calibration is not that of the file it was made from.

@@ -7,35 +7,80 @@ use crate::report::layout::{SPREAD_HEADER, aligned, spread_row};
 use crate::task::diagnose::{Diagnosis, Effect, FoundEffect, Group, ImpossibleGroup};
 use crate::task::parts::Statistics;
 
-/// The first lines of a report: what it is, and how much of the disagreement goes.
+/// The answer: the verdict in one line, each effect with its standing, what is left.
 fn summary(d: &Diagnosis) -> String {
-    let mut out = match d.found.verdict {
-        Verdict::Explained => String::new(),
-        Verdict::NothingMissing => {
-            "Nothing is missing: the model agrees with the measurements within the noise.\n"
-                .to_owned()
+    let mut out = verdict(d) + "\n";
+    for (effect, sentence) in d.effects.iter().map(|f| (f, &f.sentence)) {
+        out += &format!("{:<9} {sentence}", effect.standing);
+        if let Some(first) = effect.against.first() {
+            out += &format!(" Or {}: {}.", first.what, odds(first.odds));
         }
-        Verdict::Undetermined => "It cannot be told what is missing:\n".to_owned(),
-    };
-    for reason in &d.reasons {
-        out += &format!("  - {reason}\n");
+        out.push('\n');
     }
-    if d.found.verdict == Verdict::Undetermined && !d.effects.is_empty() {
-        out += "The best that the effects known can do:\n";
-    }
-    for f in &d.effects {
-        out += &format!("{}\n", f.sentence);
-    }
-    let tells = !d.effects.is_empty() || d.found.absorbed;
-    if let (Some(before), Some(after), true) = (d.held_out.before, d.held_out.after, tells) {
-        let (before, after) = (before.numbers(), after.numbers());
-        let gone = 100.0 * (1.0 - after.mean / before.mean.max(1e-12));
-        out += &format!(
-            "{gone:.0} % of the disagreement goes: {:.3} → {:.3} mm on {} poses not used.\n",
-            before.mean, after.mean, after.n
-        );
+    out += &left(d);
+    if !d.reasons.is_empty() {
+        out += match d.found.verdict {
+            Verdict::Undetermined => "\nwhy it cannot be told\n",
+            _ => "\nwhy that is not all\n",
+        };
+        for reason in &d.reasons {
+            out += &format!("  - {reason}\n");
+        }
     }
     out
+}
+
+/// The verdict in words, with what it is worth on rows that were not used.
+pub(in crate::report) fn verdict(d: &Diagnosis) -> String {
+    let words = match d.found.verdict {
+        Verdict::Explained => "Explained: the effects found account for the disagreement.",
+        Verdict::Improved => "Improved: rows left out are predicted better; something is left.",
+        Verdict::NothingMissing if d.found.noise_source == NoiseSource::Residuals => {
+            "Nothing is missing that these measurements can show."
+        }
+        Verdict::NothingMissing => {
+            "Nothing is missing: the model agrees with the measurements within the noise."
+        }
+        Verdict::Undetermined => "It cannot be told what is missing.",
+    };
+    let Some(compared) = (d.held_out.compared.as_ref())
+        .filter(|_| !d.effects.is_empty() && d.found.verdict != Verdict::Undetermined)
+    else {
+        return words.to_owned();
+    };
+    let (before, after) = (compared.before.numbers(), compared.after.numbers());
+    let start = if compared.refitted {
+        "not used, the profile fitted again without them"
+    } else {
+        "not used"
+    };
+    format!(
+        "{words}\n{:.0} % of the disagreement goes: {:.3} → {:.3} mm on {} poses {start}.",
+        100.0 * (1.0 - after.mean / before.mean.max(1e-12)),
+        before.mean,
+        after.mean,
+        after.n
+    )
+}
+
+/// Odds in words: `20 to 1`, `1 to 3`.
+pub(in crate::report) fn odds(odds: f64) -> String {
+    if odds >= 1.0 {
+        format!("odds {odds:.0} to 1")
+    } else {
+        format!("odds 1 to {:.0}", (1.0 / odds).min(1e6))
+    }
+}
+
+/// The residual that remains, and what it depends on most.
+pub(in crate::report) fn left(d: &Diagnosis) -> String {
+    let mut out = format!("{:<9} {} mm a coordinate", "left", fixed(d.left_mm, 4));
+    if let Some(function) = &d.unexplained.function {
+        out += &format!(", mostly of {function}");
+    } else if let Some(spot) = d.unexplained.spots.first() {
+        out += &format!(", mostly with {} (largest at {})", spot.column, spot.values);
+    }
+    out + ".\n"
 }
 
 /// A probability in few characters; what is too small for a number is said to be below one.

@@ -211,3 +211,24 @@ fn tables_that_are_no_csv_are_named_with_the_way_out() {
     );
     assert!(!told.contains("m.csv:21:1\n"), "{told}");
 }
+
+#[test]
+fn folds_identify_the_level_and_hold_to_the_priors_that_are_asked_for() {
+    let folder = measured(24);
+    let folded = |rest: &str| {
+        let (status, report, told) = validate(folder.path(), "TRUTH", rest);
+        assert_eq!(status, Some(0), "{told}");
+        let mean = report["folds"]["real"]["position"]["mean_mm"].as_f64();
+        mean.unwrap_or_else(|| panic!("{report:#}"))
+    };
+    let frames = folded(" --folds 4 --level 0");
+    let geometry = folded(" --folds 4 --level 2");
+    let held = folded(" --folds 4 --level 2 --priors");
+    // the profile's own effects stay where no level seeks them
+    assert!(frames < 0.1, "{frames}");
+    assert!((geometry - held).abs() > 1e-6, "{geometry} {held}");
+    // some thirty parameters from 54 numbers: priors help
+    assert!(held < geometry, "{held} {geometry}");
+    let (status, _, told) = validate(folder.path(), "TRUTH", " --level 2");
+    assert!(status == Some(2) && told.contains("--folds"), "{told}");
+}

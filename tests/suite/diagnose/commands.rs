@@ -20,7 +20,7 @@ fn files(case: &Case) -> (tempfile::TempDir, PathBuf, PathBuf) {
 /// A calibrated robot with an effect of this kind hidden in it.
 pub fn case_with(what: &str) -> Case {
     // kinds follow from the number
-    let number = (0..64)
+    let number = (0..96)
         .find(|n| case(group("calibrated"), *n, 3, 30).what == what)
         .expect("every kind is hidden");
     case(group("calibrated"), number, 3, 150)
@@ -266,17 +266,18 @@ fn one_pose_again_and_again_says_nothing() {
 fn the_text_is_read_in_a_minute() {
     let (status, out, error) = diagnosed(&case_with("backlash"), &[]);
     assert_eq!(status, 0, "{error}");
-    let first = out.lines().next().expect("a sentence");
+    let lines: Vec<&str> = out.lines().take(4).collect();
+    assert!(lines[0].starts_with("Explained:"), "{out}");
     assert!(
-        first.starts_with('J') && first.ends_with("when it turns the other way (backlash)."),
-        "{first}"
+        lines[1].contains("% of the disagreement goes: ")
+            && lines[1].ends_with("mm on 150 poses not used."),
+        "{out}"
     );
-    let second = out.lines().nth(1).expect("another");
     assert!(
-        second.contains("% of the disagreement goes: ")
-            && second.ends_with("mm on 150 poses not used."),
-        "{second}"
+        lines[2].starts_with("certain   J") && lines[2].ends_with("the other way (backlash)."),
+        "{out}"
     );
+    assert!(lines[3].starts_with("left      0.03"), "{out}");
     // no bar where nobody looks, no line wider than a terminal
     assert_eq!(error, "");
     for line in out.lines() {

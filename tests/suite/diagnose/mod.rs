@@ -5,6 +5,7 @@ mod page;
 mod physics;
 mod real;
 mod repeats;
+mod standing;
 
 use crate::trial::{Case, GROUPS, Group, case, label};
 use poseshift::diagnose::{Options, Verdict, diagnose};
@@ -85,12 +86,12 @@ fn trial(name: &str, numbers: impl Iterator<Item = usize>, wrong: usize) {
 #[test]
 fn one_effect_hidden_in_a_calibrated_robot_is_named() {
     // every kind once, robots and simulators in turn
-    trial("calibrated", (0..16).map(|k| 4 * k + k % 4), 1);
+    trial("calibrated", (0..20).map(|k| 4 * k + k % 4), 1);
 }
 
 #[test]
 fn one_effect_hidden_in_a_nominal_robot_is_named_and_geometry_is_not() {
-    trial("nominal", (0..12).map(|k| 4 * k + (k + 1) % 4), 1);
+    trial("nominal", (0..16).map(|k| 4 * k + (k + 1) % 4), 1);
 }
 
 #[test]

@@ -39,8 +39,9 @@ fn every_effect_is_the_same_in_two_implementations() {
         for kind in REGISTRY {
             let definition = kind.definition();
             for _ in 0..4 {
+                let waves = definition.site.contains(&SiteKey::Order);
                 let mut site = Site {
-                    order: 3,
+                    order: if waves { 13_500 } else { 3 },
                     on: 0,
                     index: random.random_range(1..6),
                     tool: None,
@@ -89,6 +90,7 @@ fn every_effect_is_the_same_in_two_implementations() {
                     temperature_c: Some(27.0),
                     time_s: Some(900.0),
                     row: Some(random.random_range(1..6)),
+                    moved: [0.7, -1.1, 0.2, 2.0, -0.6, 0.9],
                 };
                 let moment = Moment {
                     direction: conditions.direction,
@@ -96,6 +98,7 @@ fn every_effect_is_the_same_in_two_implementations() {
                     temperature: 27.0,
                     time: 900.0,
                     row: conditions.row.map_or(0, |r| r as usize),
+                    moved: conditions.moved,
                 };
                 let q = random_joints(&mut random, &profile);
                 let model = Model::build(&geometry, &profile.mechanism, &effects, &conditions);

@@ -159,7 +159,7 @@ fn fifty_configurations_hold_on_9905_others_and_their_49_million_pairs() {
             kind: Kind::JointHarmonic,
             site: Site {
                 index: joint,
-                order: 2,
+                order: 2000,
                 ..Site::default()
             },
             parameters,

@@ -5,7 +5,7 @@ use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
 use poseshift::identify::measurements::{Measurements, Observed, Purpose};
 use poseshift::identify::parameters::{Level, Selection};
 use poseshift::identify::statistics::Quality;
-use poseshift::identify::validation::{Refit, validate};
+use poseshift::identify::validation::{Folds, Refit, validate};
 use poseshift::model::profile::Profile;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
@@ -179,7 +179,8 @@ fn folds_and_links_carried_over_meet_the_reference() {
             ..Options::default()
         };
         let found = calibrate(&profile, rows, &options).expect("an answer");
-        let judged = validate(&found.profile(), rows, Refit::No, Some(count)).expect("folds");
+        let judged =
+            validate(&found.profile(), rows, Refit::No, Some(Folds::of(count))).expect("folds");
         let (_, full, frames) = judged.folds.expect("folds were asked for");
         let (frames, full) = (mean(&frames), mean(&full));
         println!("tx2_90l {count}-fold {level:?}: {frames:.3} -> {full:.3} mm");

@@ -3,7 +3,10 @@
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::Page;
 use crate::report::text::{labelled, together};
-use crate::task::diagnose::{Diagnosis, Effect, ImpossibleGroup};
+use crate::task::diagnose::{Diagnosis, Effect, FoundEffect, ImpossibleGroup};
+
+/// The least sure first.
+const STANDINGS: [&str; 3] = ["possible", "likely", "certain"];
 
 /// Every list that is not empty.
 pub(super) fn show(page: &mut Page, found: &Diagnosis) {
@@ -19,6 +22,30 @@ pub(super) fn show(page: &mut Page, found: &Diagnosis) {
     for list in all {
         list(page, found);
     }
+}
+
+/// How sure each effect is, the least sure first, and what is left in the last row.
+pub(super) fn show_standing(page: &mut Page, found: &Diagnosis) {
+    if found.effects.is_empty() {
+        return;
+    }
+    let mut list: Vec<&FoundEffect> = found.effects.iter().collect();
+    list.sort_by_key(|f| STANDINGS.iter().position(|s| *s == f.standing));
+    let first = |f: &FoundEffect| f.against.first().map(|a| (a.what.clone(), a.odds));
+    let rivals: Vec<Option<(String, f64)>> = list.iter().map(|f| first(f)).collect();
+    let name = |r: &Option<(String, f64)>| r.as_ref().map_or(String::new(), |r| r.0.clone());
+    let odds = |r: &Option<(String, f64)>| r.as_ref().map(|r| significant(r.1, 2));
+    let table = Table {
+        columns: vec![
+            Column::texts("standing", list.iter().map(|f| f.standing.to_owned())),
+            Column::texts("effect", list.iter().map(|f| f.effect.label.clone())),
+            Column::texts("may be instead", rivals.iter().map(name)),
+            Column::numbers("odds against that", "to 1", rivals.iter().map(odds)),
+        ],
+    };
+    let left = crate::report::text::left(found);
+    let left = left.split_whitespace().collect::<Vec<_>>().join(" ");
+    page.show("standing", "How sure each effect is", &left, table);
 }
 
 fn labels(found: &Diagnosis, which: &[String]) -> String {

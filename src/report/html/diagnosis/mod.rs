@@ -30,6 +30,10 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
             Level::Good,
             "Explained: the effects found account for the disagreement down to the noise",
         ),
+        Verdict::Improved => (
+            Level::Good,
+            "Improved: rows left out are predicted better with what was found; something is left",
+        ),
         Verdict::NothingMissing => (
             Level::Good,
             "Nothing is missing: the model agrees with the measurements within the noise",
@@ -62,6 +66,13 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
             format!("{before} \u{2192} {after} mm"),
         );
     }
+    if let Some(compared) = of.held_out.compared.as_ref().filter(|c| c.refitted) {
+        let [before, after] = [compared.before, compared.after].map(|s| decimals(s.mean_mm, 4));
+        page.fact(
+            "mean error, the profile fitted again without these rows",
+            format!("{before} \u{2192} {after} mm"),
+        );
+    }
     let sentences = of.effects.iter().map(|f| &f.sentence).chain(&of.reasons);
     let sentences: Vec<String> = sentences.cloned().collect();
     if !sentences.is_empty() {
@@ -70,6 +81,7 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
             lines: sentences,
         }));
     }
+    lists::show_standing(&mut page, of);
     show_steps(&mut page, of);
     for (number, one) in found.found.iter().enumerate() {
         show_effect(&mut page, of, number, one);
@@ -181,6 +193,15 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
         }
         EffectKind::LinkCompliance if site.index < 6 => torque(site.index),
         EffectKind::BaseCompliance | EffectKind::PayloadError => torque(1),
+        EffectKind::FrictionBacklash if site.index < 6 => torque(site.index),
+        EffectKind::ToolCompliance => torque(4),
+        EffectKind::Settling if site.index < 6 => Variable {
+            label: format!("last move of joint {}", site.index + 1),
+            unit: "deg",
+            values: (rows.iter())
+                .map(|row| Some(row.conditions.moved[site.index] / DEG))
+                .collect(),
+        },
         EffectKind::Backlash if site.index < 6 => Variable {
             label: format!("direction of joint {}", site.index + 1),
             unit: "",
@@ -252,6 +273,8 @@ fn show_effect(page: &mut Page, of: &Diagnosis, number: usize, one: &Found) {
             | EffectKind::JointCompliance
             | EffectKind::ComplianceKnee
             | EffectKind::Backlash
+            | EffectKind::FrictionBacklash
+            | EffectKind::Settling
     ) && site < 6
         && problem
             .rows

@@ -1,0 +1,378 @@
+//! What may be believed: of each effect found, and of the whole.
+//!
+//! Explanation and prediction are two questions. The verdict is `explained` where nothing speaks against the effects found, `improved` where
+//! something does but rows left out are predicted better with them; each effect has its own standing.
+
+use super::attempt::{ALIKE, Attempt};
+use super::candidates::range;
+use super::diagnosis::{Found, Rival, Verdict};
+use super::proof::Proof;
+use super::refit::{Beyond, Refit};
+use super::stand_ins::StandIn;
+use super::waves::near;
+use crate::model::JOINTS;
+use crate::model::effects::{Effect, Kind, Need, SiteKey};
+use std::f64::consts::TAU;
+
+/// Two effects cannot be told apart where one is better by less than this, in twice a log likelihood: odds of 1.6.
+const TIE: f64 = 1.0;
+/// One is clearly better beyond this: odds of 150 (R. E. Kass, A. E. Raftery, "Bayes factors" (1995): very strong).
+const CLEAR: f64 = 10.0;
+/// So many slow functions of one joint's angle, a harmonic among them, are the series of another.
+const SERIES: usize = 2;
+/// So many waves of one joint are the series of a function of its angle that is none: a gear has its first orders and those of its
+/// teeth, two of each.
+const WAVES: usize = 5;
+/// Fewer periods of a wave in the range of its angle are what any slow function looks like.
+const FEW_PERIODS: f64 = 2.0;
+/// A value fitted along is clearly below zero by more than this many standard deviations.
+const CLEARLY: f64 = 5.0;
+/// An effect is there by its own evidence where chance does that less often.
+const EVIDENT: f64 = 1e-4;
+/// And found again in this part of the measurements' parts.
+const AGAIN: f64 = 0.8;
+/// Numbers beyond the parameters that tell their own noise: to 7 %.
+const TELLS_NOISE: f64 = 100.0;
+/// Index of a joint's zero in its link's geometry.
+const THETA: usize = 3;
+/// Odds beyond e to this are not told apart.
+const MOST_LN_ODDS: f64 = 20.0;
+
+/// How sure an effect is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Standing {
+    /// Another explains as much, or it is not found again: it may be the answer.
+    Possible,
+    /// There, but something else may be in its place, or something larger is missing beside it.
+    Likely,
+    /// By its own evidence, with nothing in its place.
+    Certain,
+}
+
+impl Standing {
+    /// Its name in reports.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Certain => "certain",
+            Self::Likely => "likely",
+            Self::Possible => "possible",
+        }
+    }
+}
+
+/// What may be in the place of an effect found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Against {
+    /// An effect, several, or a function outside the registry.
+    pub what: String,
+    /// Odds of the effect found against it.
+    pub odds: f64,
+}
+
+/// The whole.
+pub(super) struct Judged {
+    /// Why it may not be the answer, one sentence each.
+    pub reasons: Vec<String>,
+    pub verdict: Verdict,
+}
+
+/// Judges the outcome of a search.
+pub(super) fn judge(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -> Judged {
+    let reasons = doubts(attempt, proof, found, rivals);
+    let is_possible = pushing(&attempt.refit).is_empty();
+    let is_better = proof.judged().is_some_and(|judged| judged.is_better());
+    let verdict = match (reasons.is_empty(), found.is_empty()) {
+        (true, true) => Verdict::NothingMissing,
+        (true, false) => Verdict::Explained,
+        (false, false) if is_better && is_possible => Verdict::Improved,
+        (false, _) => Verdict::Undetermined,
+    };
+    Judged { reasons, verdict }
+}
+
+/// Says how sure each effect is, and what may be in its place.
+pub(super) fn stand(
+    attempt: &Attempt,
+    found: &mut [Found],
+    rivals: &[Rival],
+    stand_ins: &[StandIn],
+) {
+    let series = series(attempt, found).map_or_else(Vec::new, |series| series.members);
+    let smooth: Vec<bool> = found.iter().map(|f| is_smooth(attempt, f)).collect();
+    let unresolved: Vec<bool> = (found.iter())
+        .map(|f| is_unresolved(attempt, found, f))
+        .collect();
+    for (i, one) in found.iter_mut().enumerate() {
+        let mut against: Vec<Against> = Vec::new();
+        let mut put = |what: String, behind: f64| {
+            if behind < CLEAR {
+                let odds = (0.5 * behind).clamp(-MOST_LN_ODDS, MOST_LN_ODDS).exp();
+                against.push(Against { what, odds });
+            }
+        };
+        for rival in rivals.iter().filter(|r| r.instead_of == i) {
+            if !is_same(rival, one) {
+                put(rival.effect.label(), rival.behind);
+            }
+        }
+        for (_, unknown) in attempt.rivalled.iter().filter(|(of, _)| *of == i) {
+            put(
+                unknown.name.clone(),
+                one.gain - unknown.fair_gain(one.sought.len()),
+            );
+        }
+        for group in stand_ins.iter().filter(|s| s.instead_of.contains(&i)) {
+            let labels: Vec<String> = group.effects.iter().map(Effect::label).collect();
+            put(labels.join(" + "), group.behind);
+        }
+        against.sort_by(|a, b| a.odds.total_cmp(&b.odds));
+        let is_tied = against.first().is_some_and(|a| a.odds < (0.5 * TIE).exp());
+        let (times, of) = one.found_again;
+        let is_again = times as f64 >= AGAIN * of as f64;
+        // what is left is larger than it, or as smooth: the shadow of that may look like this
+        let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i]);
+        one.standing = if is_tied || series.contains(&i) || is_seldom(one) {
+            Standing::Possible
+        } else if against.is_empty()
+            && is_again
+            && !(is_shadow || unresolved[i])
+            && one.p_value < EVIDENT
+        {
+            Standing::Certain
+        } else {
+            Standing::Likely
+        };
+        one.against = against;
+    }
+}
+
+/// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a little apart.
+fn is_same(rival: &Rival, found: &Found) -> bool {
+    let is_step = rival.effect.definition().begins_at_a_row();
+    rival.effect.kind == found.effect.kind && is_step || near(&rival.effect, &found.effect)
+}
+
+/// Whether a smooth function of the posture may stand for what it does: it has no step, no side that a joint comes from, and no
+/// two whole periods in its range.
+fn is_smooth(attempt: &Attempt, found: &Found) -> bool {
+    let definition = found.effect.definition();
+    let is_sharp = definition.of_data
+        || definition.needs.contains(&Need::Directions)
+        || definition.needs.contains(&Need::Moves)
+        || definition.site.contains(&SiteKey::Order) && periods(attempt, found) >= FEW_PERIODS;
+    !is_sharp
+}
+
+/// Periods of a wave in the range of its joint's angle.
+fn periods(attempt: &Attempt, found: &Found) -> f64 {
+    let site = &found.effect.site;
+    let angles = (attempt.session.problem.rows.iter()).map(|row| row.q[site.index]);
+    site.periods() * range(angles) / TAU
+}
+
+/// Whether another wave of the same joint differs from this one by less than a period in the range of its angle.
+fn is_unresolved(attempt: &Attempt, found: &[Found], one: &Found) -> bool {
+    let effect = &one.effect;
+    if !effect.definition().site.contains(&SiteKey::Order) {
+        return false;
+    }
+    let own = periods(attempt, one);
+    let of_joint = |f: &&Found| {
+        let other = &f.effect.site;
+        f.effect.kind == effect.kind && other.index == effect.site.index && *other != effect.site
+    };
+    let mut others = found.iter().filter(of_joint);
+    others.any(|f| (periods(attempt, f) - own).abs() < 1.0)
+}
+
+/// Found again in fewer than half of the parts of the measurements.
+fn is_seldom(found: &Found) -> bool {
+    let (times, of) = found.found_again;
+    2 * times < of
+}
+
+/// Whether what is left is the only thing that says how loud the noise is, and there is too little of it.
+fn nobody_knows(attempt: &Attempt) -> bool {
+    let states = !attempt.session.problem.sigma_assumed || attempt.repeats.is_some();
+    !states && attempt.refit.fit.freedom < TELLS_NOISE
+}
+
+/// Why the effects found may not be the answer, one sentence each; none where they are.
+fn doubts(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -> Vec<String> {
+    let mut reasons = Vec::new();
+    if let Some(judged) = proof.judged().filter(|j| !found.is_empty() && j.is_worse()) {
+        reasons.push(format!(
+            "rows left out are predicted worse with what was found: {:.3} → {:.3} mm",
+            judged.start.mean, judged.found.mean
+        ));
+    }
+    for one in found.iter().filter(|f| !f.accepted && is_seldom(f)) {
+        let (times, of) = one.found_again;
+        reasons.push(format!(
+            "{} is found again in {times} of {of} parts of the measurements only",
+            one.effect.label()
+        ));
+    }
+    let tied = |r: &&Rival| {
+        let own = &found[r.instead_of];
+        r.behind < TIE && !own.accepted && !is_same(r, own)
+    };
+    for rival in rivals.iter().filter(tied) {
+        reasons.push(format!(
+            "{} and {} explain the measurements equally well",
+            found[rival.instead_of].effect.label(),
+            rival.effect.label()
+        ));
+    }
+    reasons.extend(outdone(attempt, found));
+    if let Some(series) = series(attempt, found) {
+        reasons.push(format!(
+            "{} effects at joint {} are {} of its angle alone: together they may imitate one that is not known",
+            series.members.len(),
+            series.joint + 1,
+            series.what
+        ));
+    }
+    if let Some(unknown) = attempt.unknown.first() {
+        reasons.push(format!(
+            "what is left depends on {} (chi-squared falls by {:.0}): no effect known does that",
+            unknown.name, unknown.gain
+        ));
+    }
+    if attempt.likeness.in_order < ALIKE {
+        reasons.push(format!(
+            "rows one after another miss alike (p = {:.1e}): something changes with time",
+            attempt.likeness.in_order
+        ));
+    }
+    if attempt.likeness.in_posture < ALIKE {
+        reasons.push(format!(
+            "like postures miss alike (p = {:.1e}): the model lacks something",
+            attempt.likeness.in_posture
+        ));
+    }
+    if let Some(p) = attempt.strained {
+        reasons.push(format!(
+            "geometry or compliance in the profile are off as a whole (p = {p:.1e}): calibrate anew"
+        ));
+    }
+    reasons.extend(pushing(&attempt.refit));
+    if found.is_empty() && nobody_knows(attempt) {
+        reasons.push(format!(
+            "nothing states the noise, and {:.0} numbers beyond what is fitted are too few to tell it: state sigma_mm or repeat poses",
+            attempt.refit.fit.freedom
+        ));
+    }
+    if let Some(scale) = attempt.louder {
+        let source = if attempt.session.problem.sigma_assumed {
+            "repeated poses show"
+        } else {
+            "sigma_mm states"
+        };
+        reasons.push(format!(
+            "what is left is {scale:.2} times the noise that {source}"
+        ));
+    }
+    reasons
+}
+
+/// Values fitted along that nothing physical has, one sentence for each.
+fn pushing(refit: &Refit) -> Vec<String> {
+    let clear = refit.impossible.iter().filter(|b| b.sigmas > CLEARLY);
+    let sentence = |beyond: &Beyond| {
+        let effect = &refit.estimate.effects[beyond.slot.effect];
+        let parameter = &effect.definition().parameters[beyond.slot.parameter];
+        let value = effect.parameters[beyond.slot.parameter] / parameter.unit.in_si();
+        format!(
+            "{} fits the measurements with {} = {value:.2e}, {:.0} standard deviations below zero: no spring is like that, \
+             something else is missing or the masses are wrong",
+            effect.label(),
+            parameter.key,
+            beyond.sigmas
+        )
+    };
+    clear.map(sentence).collect()
+}
+
+/// Effects that functions outside the registry explain more than, one sentence for each function.
+fn outdone(attempt: &Attempt, found: &[Found]) -> Vec<String> {
+    let rivalled = attempt.rivalled.iter();
+    let rivalled: Vec<_> = rivalled.filter(|(i, _)| !found[*i].accepted).collect();
+    let mut names: Vec<&str> = rivalled.iter().map(|(_, u)| u.name.as_str()).collect();
+    names.dedup();
+    let mut told = Vec::new();
+    let sentence = |name: &str| {
+        let of: Vec<_> = rivalled.iter().filter(|(_, u)| u.name == name).collect();
+        let (i, unknown) = of[0];
+        let label = found[*i].effect.label();
+        let against = format!(
+            "chi-squared {:.0} against {:.0}",
+            unknown.gain, found[*i].gain
+        );
+        match of.len() {
+            1 => format!(
+                "{label} looks like the answer among the effects known, but {name} explains more ({against})"
+            ),
+            n => format!(
+                "{label} and {} more look like answers among the effects known, but {name} explains more than each ({against})",
+                n - 1
+            ),
+        }
+    };
+    for name in names {
+        let text = sentence(name);
+        if !told.contains(&text) {
+            told.push(text);
+        }
+    }
+    told
+}
+
+/// Effects that may together be the series of a function that is not known.
+struct Series {
+    joint: usize,
+    /// What they are of the joint's angle.
+    what: &'static str,
+    /// Indices of the effects found.
+    members: Vec<usize>,
+}
+
+/// Effects found at one joint that may together be the series of another function of its angle: slow ones, without two whole periods in
+/// its range, where a harmonic is among them; or more waves than a gear has.
+fn series(attempt: &Attempt, found: &[Found]) -> Option<Series> {
+    let harmonic = |f: &Found| f.effect.kind == Kind::JointHarmonic;
+    let members = |is: &dyn Fn(&Found) -> bool| -> Vec<usize> {
+        (0..found.len()).filter(|i| is(&found[*i])).collect()
+    };
+    (0..JOINTS).find_map(|joint| {
+        let slow = members(&|f| slow(attempt, joint, f));
+        let waves = members(&|f| harmonic(f) && f.effect.site.index == joint && !f.accepted);
+        let (what, members) = if waves.len() >= WAVES {
+            ("waves", waves)
+        } else if slow.len() >= SERIES && slow.iter().any(|i| harmonic(&found[*i])) {
+            ("slow functions", slow)
+        } else {
+            return None;
+        };
+        Some(Series {
+            joint,
+            what,
+            members,
+        })
+    })
+}
+
+/// Whether an effect is a function of this joint's angle alone that is no wave in its range.
+fn slow(attempt: &Attempt, joint: usize, found: &Found) -> bool {
+    let effect = &found.effect;
+    if effect.site.index != joint || found.accepted {
+        return false;
+    }
+    match effect.kind {
+        Kind::JointScale => true,
+        Kind::LinkGeometry => found.sought.contains(&THETA),
+        Kind::JointHarmonic => periods(attempt, found) < FEW_PERIODS,
+        _ => false,
+    }
+}
