@@ -10,13 +10,13 @@ mod physics;
 mod trial;
 
 use clap::Parser;
-use poseshift::diagnose::{Diagnosis, Options, Verdict, diagnose};
+use poseshift::diagnose::{Diagnosis, Found, Options, Standing, Verdict, diagnose};
 use poseshift::identify::parameters::Pick;
 use poseshift::model::effects::Effect;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::Instant;
-use trial::{Case, GROUPS, Group, NOISE_MM, case, label};
+use trial::{Case, GROUPS, Group, NOISE_MM, Start, case, label};
 
 /// Hide effects in robots, diagnose without the answer, and count how often it is right
 #[derive(Parser)]
@@ -65,6 +65,10 @@ struct Told {
     independent: bool,
     answer: Vec<String>,
     named: Vec<String>,
+    /// What the calibration did not determine is named, too.
+    more: bool,
+    /// Effects named that are certain.
+    certain: usize,
     verdict: Option<Verdict>,
     reason: String,
     /// Held-out rms after, over that of the noise; of rough data what 95 % of the rows stay below.
@@ -78,11 +82,14 @@ struct Told {
 impl Told {
     fn right(&self, group: &Group) -> bool {
         if group.unregistered {
-            return self.verdict != Some(Verdict::Explained);
+            // on a robot that was calibrated from measurements no effect may be certain, either
+            let is_sure = self.certain > 0 && group.start == Start::Measured;
+            return self.verdict != Some(Verdict::Explained) && !is_sure;
         }
         self.verdict.is_some()
             && self.named == self.answer
-            && (self.verdict == Some(Verdict::NothingMissing)) == self.answer.is_empty()
+            && (self.verdict == Some(Verdict::NothingMissing))
+                == (self.answer.is_empty() && !self.more)
             && self.verdict != Some(Verdict::Undetermined)
     }
 }
@@ -110,7 +117,8 @@ fn only(effects: &[Effect]) -> Options {
 
 /// Held-out error over that of the noise.
 fn floor_of(found: &Diagnosis, group: &Group, case: &Case) -> Option<f64> {
-    found.held_out.map(|(_, after)| {
+    let held = found.held_out.filter(|_| case.reads_positions);
+    held.map(|(_, after)| {
         if group.rough {
             // heavy tails: the root mean square is that of a few rows
             after.p95 / percentile_95(&case.noise_mm)
@@ -136,6 +144,8 @@ fn run(group: &Group, number: usize, seed: u64, rows: usize, oracle: bool) -> To
         independent: case.independent,
         answer: case.answer.clone(),
         named: Vec::new(),
+        certain: 0,
+        more: false,
         verdict: None,
         reason: String::new(),
         floor: None,
@@ -144,9 +154,17 @@ fn run(group: &Group, number: usize, seed: u64, rows: usize, oracle: bool) -> To
     };
     match result {
         Ok(found) => {
-            told.named = found.found.iter().map(|f| label(&f.effect)).collect();
+            let counts = |f: &&Found| {
+                let name = label(&f.effect);
+                case.answer.contains(&name) || !case.undetermined.contains(&name)
+            };
+            let all = || found.found.iter().filter(counts);
+            told.named = all().map(|f| label(&f.effect)).collect();
             told.named.sort();
             told.named.dedup();
+            let is_certain = |f: &&Found| f.standing == Standing::Certain;
+            told.certain = all().filter(is_certain).count();
+            told.more = found.found.len() > all().count();
             told.verdict = Some(found.verdict);
             told.reason = found.reasons.join("; ");
             told.floor = floor_of(&found, group, &case);

@@ -20,9 +20,10 @@ const TIE: f64 = 1.0;
 const CLEAR: f64 = 10.0;
 /// So many slow functions of one joint's angle, a harmonic among them, are the series of another.
 const SERIES: usize = 2;
-/// So many waves of one joint are the series of a function of its angle that is none: a gear has its first orders and those of its
-/// teeth, two of each.
-const WAVES: usize = 5;
+/// So many functions of one joint's angle, two waves among them, are the series of another, too.
+const WAVES: usize = 3;
+/// Waves from so many periods a turn on are those of a gear's teeth; eccentric parts make fewer.
+const TEETH: f64 = 10.0;
 /// Fewer periods of a wave in the range of its angle are what any slow function looks like.
 const FEW_PERIODS: f64 = 2.0;
 /// A value fitted along is clearly below zero by more than this many standard deviations.
@@ -99,6 +100,9 @@ pub(super) fn stand(
     stand_ins: &[StandIn],
 ) {
     let series = series(attempt, found).map_or_else(Vec::new, |series| series.members);
+    let is_missing = !series.is_empty()
+        || attempt.likeness.in_posture < ALIKE
+        || !pushing(&attempt.refit).is_empty();
     let smooth: Vec<bool> = found.iter().map(|f| is_smooth(attempt, f)).collect();
     let unresolved: Vec<bool> = (found.iter())
         .map(|f| is_unresolved(attempt, found, f))
@@ -130,8 +134,10 @@ pub(super) fn stand(
         let is_tied = against.first().is_some_and(|a| a.odds < (0.5 * TIE).exp());
         let (times, of) = one.found_again;
         let is_again = times as f64 >= AGAIN * of as f64;
-        // what is left is larger than it, or as smooth: the shadow of that may look like this
-        let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i]);
+        // the residual is larger than it, or as smooth: the shadow of what is missing may look like this
+        let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i])
+            || smooth[i] && is_missing
+            || one.effect.definition().of_data && attempt.likeness.in_order < ALIKE;
         one.standing = if is_tied || series.contains(&i) || is_seldom(one) {
             Standing::Possible
         } else if against.is_empty()
@@ -157,7 +163,7 @@ fn is_same(rival: &Rival, found: &Found) -> bool {
 /// two whole periods in its range.
 fn is_smooth(attempt: &Attempt, found: &Found) -> bool {
     let definition = found.effect.definition();
-    let is_sharp = definition.of_data
+    let is_sharp = definition.of_data && !definition.needs.contains(&Need::Places)
         || definition.needs.contains(&Need::Directions)
         || definition.needs.contains(&Need::Moves)
         || definition.site.contains(&SiteKey::Order) && periods(attempt, found) >= FEW_PERIODS;
@@ -228,10 +234,9 @@ fn doubts(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -
     reasons.extend(outdone(attempt, found));
     if let Some(series) = series(attempt, found) {
         reasons.push(format!(
-            "{} effects at joint {} are {} of its angle alone: together they may imitate one that is not known",
+            "{} effects at joint {} are functions of its angle alone: together they may imitate one that is not known",
             series.members.len(),
-            series.joint + 1,
-            series.what
+            series.joint + 1
         ));
     }
     if let Some(unknown) = attempt.unknown.first() {
@@ -332,47 +337,39 @@ fn outdone(attempt: &Attempt, found: &[Found]) -> Vec<String> {
 /// Effects that may together be the series of a function that is not known.
 struct Series {
     joint: usize,
-    /// What they are of the joint's angle.
-    what: &'static str,
     /// Indices of the effects found.
     members: Vec<usize>,
 }
 
 /// Effects found at one joint that may together be the series of another function of its angle: slow ones, without two whole periods in
-/// its range, where a harmonic is among them; or more waves than a gear has.
+/// its range, where a harmonic is among them; or more of them and of waves than an eccentric gear has.
 fn series(attempt: &Attempt, found: &[Found]) -> Option<Series> {
-    let harmonic = |f: &Found| f.effect.kind == Kind::JointHarmonic;
-    let members = |is: &dyn Fn(&Found) -> bool| -> Vec<usize> {
-        (0..found.len()).filter(|i| is(&found[*i])).collect()
-    };
+    let is_wave = |i: &usize| found[*i].effect.kind == Kind::JointHarmonic;
+    let is_slow = |i: &usize| !is_wave(i) || periods(attempt, &found[*i]) < FEW_PERIODS;
+    let is_low = |i: &usize| !is_wave(i) || found[*i].effect.site.periods() < TEETH;
     (0..JOINTS).find_map(|joint| {
-        let slow = members(&|f| slow(attempt, joint, f));
-        let waves = members(&|f| harmonic(f) && f.effect.site.index == joint && !f.accepted);
-        let (what, members) = if waves.len() >= WAVES {
-            ("waves", waves)
-        } else if slow.len() >= SERIES && slow.iter().any(|i| harmonic(&found[*i])) {
-            ("slow functions", slow)
-        } else {
-            return None;
+        let all = (0..found.len()).filter(|i| is_of_angle(joint, &found[*i]));
+        let members: Vec<usize> = all.collect();
+        let only = |is: &dyn Fn(&usize) -> bool| -> Vec<usize> {
+            members.iter().copied().filter(|i| is(i)).collect()
         };
-        Some(Series {
-            joint,
-            what,
-            members,
-        })
+        let (slow, low) = (only(&is_slow), only(&is_low));
+        let waves = low.iter().filter(|i| is_wave(i)).count();
+        let is_series =
+            slow.len() >= SERIES && slow.iter().any(is_wave) || low.len() >= WAVES && waves >= 2;
+        is_series.then_some(Series { joint, members })
     })
 }
 
-/// Whether an effect is a function of this joint's angle alone that is no wave in its range.
-fn slow(attempt: &Attempt, joint: usize, found: &Found) -> bool {
+/// Whether an effect is a function of this joint's angle alone.
+fn is_of_angle(joint: usize, found: &Found) -> bool {
     let effect = &found.effect;
     if effect.site.index != joint || found.accepted {
         return false;
     }
     match effect.kind {
-        Kind::JointScale => true,
+        Kind::JointScale | Kind::JointHarmonic => true,
         Kind::LinkGeometry => found.sought.contains(&THETA),
-        Kind::JointHarmonic => periods(attempt, found) < FEW_PERIODS,
         _ => false,
     }
 }

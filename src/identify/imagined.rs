@@ -48,6 +48,7 @@ pub(super) fn imagined(
         point_in_tool_m: None,
         conditions: Conditions::default(),
         sigma_m: None,
+        sigma_rad: None,
         purpose: None,
         contact: None,
     };

@@ -124,6 +124,8 @@ pub struct Measurement {
     pub conditions: Conditions,
     /// Standard uncertainty of a coordinate or distance, metres.
     pub sigma_m: Option<f64>,
+    /// Standard uncertainty of an orientation about an axis, radians.
+    pub sigma_rad: Option<f64>,
     /// What the row is for.
     pub purpose: Option<Purpose>,
     /// What the probe touched.

@@ -2,7 +2,7 @@
 
 use super::contact::{ContactKind, Touch};
 use super::measurements::Observed;
-use super::problem::{LEVER_M, PointRef, Row};
+use super::problem::{PointRef, Row};
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, sub};
 use crate::model::Motion;
 
@@ -92,7 +92,7 @@ impl<'a> Observation<'a> {
     #[must_use]
     pub fn weights(&self) -> [f64; MOST_NUMBERS] {
         let length = 1.0 / self.row.sigma_m;
-        let angle = LEVER_M * length;
+        let angle = 1.0 / self.row.sigma_rad;
         [length, length, length, angle, angle, angle]
     }
 

@@ -46,6 +46,8 @@ pub struct Row {
     pub conditions: Conditions,
     /// Standard deviation of a length, metres.
     pub sigma_m: f64,
+    /// Standard deviation of an orientation about an axis, radians.
+    pub sigma_rad: f64,
     /// Index of the arm's geometry among [`Problem::rigs`].
     pub rig: usize,
     /// Index of what was touched among [`Problem::features`] and the radius of the probe's ball, metres.
@@ -237,6 +239,7 @@ impl Problem {
                 PointRef::Named(at.expect("every name was gathered"))
             });
             sigma_assumed |= m.sigma_m.is_none();
+            let sigma_m = m.sigma_m.unwrap_or(DEFAULT_SIGMA_M);
             rows.push(Row {
                 measurement: index,
                 q: m.q,
@@ -247,7 +250,8 @@ impl Problem {
                     row: u32::try_from(index + 1).ok(),
                     ..m.conditions
                 },
-                sigma_m: m.sigma_m.unwrap_or(DEFAULT_SIGMA_M),
+                sigma_m,
+                sigma_rad: m.sigma_rad.unwrap_or(sigma_m / LEVER_M),
                 rig: 0,
                 touched: m.contact.as_ref().and_then(|contact| {
                     let at = features.iter().position(|f| f.name == contact.feature);

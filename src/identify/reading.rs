@@ -14,6 +14,8 @@ use crate::model::Conditions;
 
 /// Smallest standard deviation, metres.
 const LEAST_SIGMA_M: f64 = 1e-12;
+/// And of an orientation, radians.
+const LEAST_SIGMA_RAD: f64 = 1e-11;
 
 /// The columns of a table as groups of the format.
 pub(super) struct Reader<'a> {
@@ -243,10 +245,25 @@ impl Cells<'_> {
             conditions.force_n = self.numbers(FORCE_COLUMNS)?;
         }
         let sigma_m = self.optional("sigma_mm")?.map(m_from_mm);
-        if sigma_m.is_some_and(|sigma| sigma < LEAST_SIGMA_M) {
-            let (column, allowed) = ("sigma_mm", "greater than zero: 1e-9 mm or more");
-            let found = self.text(column).unwrap_or_default().to_owned();
-            return Err(self.not_allowed(column, found, allowed));
+        let sigma_rad = self.optional("sigma_deg")?.map(|sigma| sigma * DEG);
+        for (sigma, least, column, allowed) in [
+            (
+                sigma_m,
+                LEAST_SIGMA_M,
+                "sigma_mm",
+                "greater than zero: 1e-9 mm or more",
+            ),
+            (
+                sigma_rad,
+                LEAST_SIGMA_RAD,
+                "sigma_deg",
+                "greater than zero: 1e-9 deg or more",
+            ),
+        ] {
+            if sigma.is_some_and(|sigma| sigma < least) {
+                let found = self.text(column).unwrap_or_default().to_owned();
+                return Err(self.not_allowed(column, found, allowed));
+            }
         }
         let purpose = match self.name("set")?.as_deref() {
             None => None,
@@ -273,6 +290,7 @@ impl Cells<'_> {
             point_in_tool_m,
             conditions,
             sigma_m,
+            sigma_rad,
             purpose,
             contact,
         })
@@ -355,6 +373,7 @@ impl Measurements {
             "temperature_c",
             "time_s",
             "sigma_mm",
+            "sigma_deg",
             "set",
         ] {
             reader.group(&[single])?;

@@ -143,6 +143,7 @@ pub fn simulate(
                 point_in_tool_m: None,
                 conditions,
                 sigma_m: (session.noise_m > 0.0).then_some(session.noise_m),
+                sigma_rad: (session.noise_rad > 0.0).then_some(session.noise_rad),
                 purpose: None,
                 contact: None,
             });

@@ -84,6 +84,12 @@ pub fn simulate(
     })
 }
 
+/// The standard deviation of an orientation, where one was read.
+fn sigma_rad(row: &Measurement) -> Option<f64> {
+    let is_pose = matches!(row.observed, Observed::Pose(_));
+    row.sigma_rad.filter(|_| is_pose)
+}
+
 /// A file of measurements; every number is read back as it is.
 fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
     let Some(first) = rows.first() else {
@@ -105,6 +111,7 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
         (first.conditions.temperature_c.is_some(), "temperature_c"),
         (first.conditions.time_s.is_some(), "time_s"),
         (first.sigma_m.is_some(), "sigma_mm"),
+        (sigma_rad(first).is_some(), "sigma_deg"),
     ];
     header.extend(
         optional
@@ -139,6 +146,7 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
         cells.extend(row.conditions.temperature_c.map(cell));
         cells.extend(row.conditions.time_s.map(cell));
         cells.extend(row.sigma_m.map(|s| cell(mm_from_m(s))));
+        cells.extend(sigma_rad(row).map(|s| cell(s / DEG)));
         out += &(cells.join(",") + "\n");
     }
     out

@@ -126,7 +126,7 @@ pub fn kinds(start: Start) -> Vec<Kind> {
     REGISTRY
         .iter()
         .copied()
-        .filter(|k| start == Start::Calibrated || !absorbed.contains(k))
+        .filter(|k| start != Start::Nominal || !absorbed.contains(k))
         // cases have a clock
         .filter(|k| !k.definition().needs.contains(&Need::NoTime))
         .collect()

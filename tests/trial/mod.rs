@@ -1,115 +1,30 @@
 //! Seeded cases for `diagnose`: a robot with something hidden in it, measured by one of two implementations of the physics.
 
-mod hidden;
+mod device;
+mod groups;
+pub mod hidden;
+mod robots;
 pub mod truth;
 
-use crate::physics::{Fault, Moment, Robot, tool_pose};
+use crate::physics::matrix::M4;
+use crate::physics::{Fault, Moment, tool_pose};
+pub use device::Device;
+pub use groups::{GROUPS, Group, Start};
 use hidden::{hidden, kinds, scaled};
+use poseshift::identify::calibration::{Options as Calibrating, calibrate};
 use poseshift::identify::measurements::{Measurements, last_moves};
 use poseshift::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use truth::{faults, robot_of};
+use robots::{calibration, robot};
+use truth::{faults, matrix_of, robot_of};
 
 /// Noise of a coordinate, mm.
 pub const NOISE_MM: f64 = 0.03;
 /// Draws of an effect until one of a physical size shows.
 const TRIES: usize = 50;
-
-/// Where a diagnosis starts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Start {
-    /// The profile has the true geometry and compliance.
-    Calibrated,
-    /// The profile is a drawing.
-    Nominal,
-}
-
-/// What a group of cases has.
-#[derive(Clone, Debug)]
-pub struct Group {
-    pub name: &'static str,
-    pub start: Start,
-    /// Effects hidden in each case.
-    pub hidden: usize,
-    /// Root mean square of what they do, in that of the noise: smallest and largest.
-    pub size: (f64, f64),
-    /// Heavy tails, gross errors in 3 % of the rows, no column `sigma_mm`.
-    pub rough: bool,
-    /// Something the registry does not have.
-    pub unregistered: bool,
-    /// Part of the cases that must be right.
-    pub goal: f64,
-}
-
-/// Every group of the trial.
-pub const GROUPS: [Group; 7] = [
-    Group {
-        name: "calibrated",
-        start: Start::Calibrated,
-        hidden: 1,
-        size: (2.0, 15.0),
-        rough: false,
-        unregistered: false,
-        goal: 0.98,
-    },
-    Group {
-        name: "nominal",
-        start: Start::Nominal,
-        hidden: 1,
-        size: (2.0, 15.0),
-        rough: false,
-        unregistered: false,
-        goal: 0.95,
-    },
-    Group {
-        name: "small",
-        start: Start::Calibrated,
-        hidden: 1,
-        size: (0.5, 1.0),
-        rough: false,
-        unregistered: false,
-        goal: 0.90,
-    },
-    Group {
-        name: "rough",
-        start: Start::Calibrated,
-        hidden: 1,
-        size: (2.0, 15.0),
-        rough: true,
-        unregistered: false,
-        goal: 0.95,
-    },
-    Group {
-        name: "pairs",
-        start: Start::Calibrated,
-        hidden: 2,
-        size: (2.0, 15.0),
-        rough: false,
-        unregistered: false,
-        goal: 0.90,
-    },
-    Group {
-        name: "clean",
-        start: Start::Calibrated,
-        hidden: 0,
-        size: (0.0, 0.0),
-        rough: false,
-        unregistered: false,
-        goal: 0.99,
-    },
-    Group {
-        name: "unregistered",
-        start: Start::Calibrated,
-        hidden: 0,
-        size: (2.0, 15.0),
-        rough: false,
-        unregistered: true,
-        goal: 0.90,
-    },
-];
 
 /// One case.
 pub struct Case {
@@ -121,6 +36,8 @@ pub struct Case {
     pub csv: String,
     /// The answer, as [`label`] writes it, sorted.
     pub answer: Vec<String>,
+    /// What the robot has, but its calibration did not determine: right where it is named, and where not.
+    pub undetermined: Vec<String>,
     /// The effects hidden.
     pub effects: Vec<Effect>,
     /// What is hidden, for the table: the effect's name, or what it is.
@@ -128,6 +45,8 @@ pub struct Case {
     /// Size, in root mean squares of the noise.
     pub size: f64,
     pub independent: bool,
+    /// Its rows are positions of one point.
+    pub reads_positions: bool,
     /// Length of each row's noise.
     pub noise_mm: Vec<f64>,
 }
@@ -164,44 +83,6 @@ fn at(kind: Kind, index: usize, parameters: &[f64]) -> Effect {
     }
 }
 
-const ROBOTS: [&str; 2] = [
-    include_str!("../../robots/abb_irb120.yaml"),
-    include_str!("../../robots/kuka_kr210_r2700.yaml"),
-];
-const TOOLS: [&str; 2] = [
-    "tools:\n  probe: {frame: {x_mm: 50, y_mm: 25, z_mm: 100, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 2.6, cog_mm: [-23, 0, 100]}\n",
-    "tools:\n  probe: {frame: {x_mm: 120, y_mm: -80, z_mm: 250, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 90, cog_mm: [40, 20, 160]}\n",
-];
-
-/// Geometry errors and compliances of one robot.
-fn calibration(profile: &Profile, big: bool, random: &mut StdRng) -> Vec<Effect> {
-    let mut effects = Vec::new();
-    for link in 1..6 {
-        let parallel = profile.links[link].alpha_rad.sin().abs() < 0.1;
-        let next = link < 5 && profile.links[link + 1].alpha_rad.sin().abs() < 0.1;
-        let mut p = [0.0; 5];
-        p[0] = 5e-4 * normal(random);
-        p[1] = 2e-4 * normal(random);
-        p[2] = if parallel { 5e-4 * normal(random) } else { 0.0 };
-        p[3] = 1e-3 * normal(random);
-        p[4] = if next { 0.0 } else { 2e-4 * normal(random) };
-        effects.push(at(Kind::LinkGeometry, link, &p));
-    }
-    for joint in 1..6 {
-        let size = if big {
-            2e-7 * 10.0_f64.powf(0.25 * joint as f64)
-        } else {
-            3e-5 * 10.0_f64.powf(0.25 * joint as f64)
-        };
-        effects.push(at(
-            Kind::JointCompliance,
-            joint,
-            &[size * random.random_range(0.5..1.5)],
-        ));
-    }
-    effects
-}
-
 fn joints_of(profile: &Profile, count: usize, random: &mut StdRng) -> Vec<[f64; 6]> {
     (0..count)
         .map(|_| {
@@ -223,20 +104,34 @@ pub fn case(group: &Group, number: usize, seed: u64, rows: usize) -> Case {
 
 /// A case in which each pose is measured so many times, one after another.
 pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, usize)) -> Case {
+    let device = Device::of(group, number);
+    let (poses, times) = match device.rows_a_pose() {
+        1 => (poses, times),
+        each => (poses / each, each),
+    };
     let rows = poses * times;
     let mut random =
         StdRng::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
-    let which = number % 2;
-    let independent = (number / 2) % 2 == 1 || group.unregistered;
-    let yaml = ROBOTS[which].replace("tools: {}\n", TOOLS[which]);
+    let which = number % group.robots;
+    let round = number / group.robots;
+    let independent = round % 2 == 1 || group.unregistered;
+    let (yaml, soft) = robot(which);
     let nominal = Profile::from_yaml(&yaml).expect("a shipped profile with a tool");
     let name = nominal.tools.keys().next().expect("the tool").clone();
     let tool = nominal.tool(&name).expect("the tool");
-    let own = calibration(&nominal, which == 1, &mut random);
+    let own = calibration(&nominal, soft, &mut random);
     let mut profile = nominal.clone();
     let mut truth = nominal.clone();
     truth.effects.clone_from(&own);
-    if group.start == Start::Calibrated {
+    if group.start == Start::Measured {
+        let count = 50 + (37 * number) % 101;
+        let world = World {
+            profile: &truth,
+            tool: &tool,
+            independent,
+        };
+        profile = measured(&nominal, &world, &device, count, &mut random);
+    } else if group.start == Start::Calibrated {
         profile.effects = own;
     } else {
         // the device stands elsewhere and the tool is a guess
@@ -290,26 +185,18 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
             *most = most.max(t.abs());
         }
     }
-    let robot = robot_of(&truth, &tool);
-    let own_faults: Vec<Fault> = truth.effects.iter().map(faults).collect();
-    let see = |effects: &[Effect], more: &[Fault]| -> Vec<[f64; 3]> {
-        if independent {
-            let mut all = own_faults.clone();
-            all.extend(effects.iter().map(faults));
-            all.extend(more.iter().cloned());
-            seen_by_physics(&robot, &all, &q, &conditions)
-        } else {
-            let mut all = truth.effects.clone();
-            all.extend(effects.iter().cloned());
-            seen_by_model(&truth, &tool, &all, &q, &conditions)
-        }
+    let world = World {
+        profile: &truth,
+        tool: &tool,
+        independent,
     };
+    let see = |effects: &[Effect], more: &[Fault]| world.see(effects, more, &q, &conditions);
     let plain = see(&[], &[]);
-    let rms = |other: &[[f64; 3]]| {
+    let rms = |other: &[M4]| {
         let squares: f64 = plain
             .iter()
             .zip(other)
-            .map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>())
+            .map(|(a, b)| (0..3).map(|k| (a[k][3] - b[k][3]).powi(2)).sum::<f64>())
             .sum();
         (squares / rows as f64).sqrt()
     };
@@ -326,7 +213,8 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
         loop {
             tries += 1;
             kind = if k == 0 {
-                all_kinds[(number / 4) % all_kinds.len()]
+                all_kinds[(number / (2 * group.robots) + if group.robots > 2 { number } else { 0 })
+                    % all_kinds.len()]
             } else {
                 all_kinds[random.random_range(0..all_kinds.len())]
             };
@@ -386,56 +274,12 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
         (*name).clone_into(&mut what);
     }
     let seen = see(&effects, &more);
-    let mut text = String::from(
-        "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,dir1,dir2,dir3,dir4,dir5,dir6,temperature_c,time_s",
-    );
-    if !group.rough {
-        text += ",sigma_mm";
-    }
-    text += "\n";
-    let mut noise = Vec::new();
-    for r in 0..rows {
-        let mut p = seen[r].map(|x| x * 1e3);
-        // Student's t with three degrees of freedom, and gross errors
-        let heavy = if group.rough {
-            let chi: f64 = (0..3).map(|_| normal(&mut random).powi(2)).sum();
-            (3.0 / chi).sqrt()
-        } else {
-            1.0
-        };
-        let gross = if group.rough && random.random_range(0.0..1.0) < 0.03 {
-            random.random_range(1.0..10.0)
-        } else {
-            0.0
-        };
-        for x in &mut p {
-            *x += NOISE_MM * heavy * normal(&mut random) + gross * normal(&mut random);
-        }
-        noise.push(
-            (0..3)
-                .map(|k| (p[k] - 1e3 * seen[r][k]).powi(2))
-                .sum::<f64>()
-                .sqrt(),
-        );
-        let cells: Vec<String> = q[r]
-            .iter()
-            .map(|a| format!("{:.9}", a.to_degrees()))
-            .chain(p.iter().map(|x| format!("{x:.6}")))
-            .collect();
-        let c = &conditions[r];
-        let directions: Vec<String> = c.direction.iter().map(|d| format!("{d}")).collect();
-        text += &format!(
-            "{},{},{},{}",
-            cells.join(","),
-            directions.join(","),
-            c.temperature_c.unwrap_or(0.0),
-            c.time_s.unwrap_or(0.0)
-        );
-        if !group.rough {
-            text += &format!(",{NOISE_MM}");
-        }
-        text += "\n";
-    }
+    let (text, noise) = device.table(&q, &seen, &conditions, &effects, &mut random);
+    let missing = |e: &&Effect| !profile.effects.iter().any(|known| known.same_place(e));
+    let undetermined = match group.start {
+        Start::Measured => truth.effects.iter().filter(missing).map(label).collect(),
+        _ => Vec::new(),
+    };
     let mut answer: Vec<String> = effects.iter().map(label).collect();
     answer.sort();
     Case {
@@ -445,50 +289,88 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
         measurements: Measurements::from_csv(text.as_bytes()).expect("rows in the format"),
         csv: text,
         answer,
+        undetermined,
         effects,
         what,
         size,
         independent,
+        reads_positions: device.reads_positions(),
         noise_mm: noise,
     }
 }
 
-fn seen_by_model(
-    profile: &Profile,
-    tool: &Mounted,
-    effects: &[Effect],
-    q: &[[f64; 6]],
-    conditions: &[Conditions],
-) -> Vec<[f64; 3]> {
-    let model = Model::build(
-        &profile.geometry(tool),
-        &profile.mechanism,
-        effects,
-        &Conditions::default(),
-    );
-    q.iter()
-        .zip(conditions)
-        .map(|(q, c)| model.forward(q, c).translation)
-        .collect()
+/// A robot as it really is, in one of two implementations of the physics.
+struct World<'a> {
+    profile: &'a Profile,
+    tool: &'a Mounted,
+    independent: bool,
 }
 
-fn seen_by_physics(
-    robot: &Robot,
-    faults: &[Fault],
-    q: &[[f64; 6]],
-    conditions: &[Conditions],
-) -> Vec<[f64; 3]> {
-    let each = q.iter().zip(conditions).map(|(q, c)| {
-        let moment = Moment {
-            direction: c.direction,
-            force: c.force_n,
-            temperature: c.temperature_c.unwrap_or(20.0),
-            time: c.time_s.unwrap_or(0.0),
-            row: c.row.map_or(0, |r| r as usize),
-            moved: c.moved,
-        };
-        let pose = tool_pose(robot, faults, q, &moment);
-        [pose[0][3], pose[1][3], pose[2][3]]
-    });
-    each.collect()
+impl World<'_> {
+    /// Where the tool is at these joint angles, with more that is wrong.
+    fn see(
+        &self,
+        effects: &[Effect],
+        more: &[Fault],
+        q: &[[f64; 6]],
+        conditions: &[Conditions],
+    ) -> Vec<M4> {
+        let all: Vec<Effect> = self
+            .profile
+            .effects
+            .iter()
+            .chain(effects)
+            .cloned()
+            .collect();
+        let each = q.iter().zip(conditions);
+        if self.independent {
+            let robot = robot_of(self.profile, self.tool);
+            let all: Vec<Fault> = all.iter().map(faults).chain(more.iter().cloned()).collect();
+            return each
+                .map(|(q, c)| tool_pose(&robot, &all, q, &moment(c)))
+                .collect();
+        }
+        let geometry = self.profile.geometry(self.tool);
+        let model = Model::build(
+            &geometry,
+            &self.profile.mechanism,
+            &all,
+            &Conditions::default(),
+        );
+        each.map(|(q, c)| matrix_of(&model.forward(q, c))).collect()
+    }
+}
+
+/// A calibration of the robot from this many noisy rows of the same device.
+fn measured(
+    nominal: &Profile,
+    world: &World,
+    device: &Device,
+    count: usize,
+    random: &mut StdRng,
+) -> Profile {
+    let times = device.rows_a_pose();
+    let poses = joints_of(world.profile, count, random).into_iter();
+    let q: Vec<[f64; 6]> = poses.flat_map(|q| std::iter::repeat_n(q, times)).collect();
+    let conditions = vec![Conditions::default(); q.len()];
+    let seen = world.see(&[], &[], &q, &conditions);
+    let (text, _) = device
+        .calibrating()
+        .table(&q, &seen, &conditions, &[], random);
+    let rows = Measurements::from_csv(text.as_bytes()).expect("rows in the format");
+    let found = calibrate(nominal, &rows, &Calibrating::default()).expect("enough rows");
+    let mut profile = found.profile();
+    profile.provenance = Some(serde_json::json!({"rows": q.len()}));
+    profile
+}
+
+fn moment(c: &Conditions) -> Moment {
+    Moment {
+        direction: c.direction,
+        force: c.force_n,
+        temperature: c.temperature_c.unwrap_or(20.0),
+        time: c.time_s.unwrap_or(0.0),
+        row: c.row.map_or(0, |r| r as usize),
+        moved: c.moved,
+    }
 }

@@ -5,7 +5,8 @@ use poseshift::geometry::Pose;
 use poseshift::model::effects::{BASE, Effect, Kind};
 use poseshift::model::profile::{Mounted, Profile};
 
-fn matrix_of(pose: &Pose) -> matrix::M4 {
+/// A pose as a matrix.
+pub fn matrix_of(pose: &Pose) -> matrix::M4 {
     let (r, t) = (pose.rotation.0, pose.translation);
     [
         [r[0][0], r[0][1], r[0][2], t[0]],

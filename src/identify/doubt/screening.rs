@@ -313,6 +313,22 @@ pub fn doubt_start(
     Ok(remarks)
 }
 
+/// Gravity is along the device's z in what was identified.
+#[must_use]
+pub fn gravity_by_device(tilt_rad: f64, better: f64, gravity_m_s2: Vector) -> Remark {
+    let [x, y, z] = gravity_m_s2;
+    remark(
+        "gravity-by-device",
+        WHOLE_FILE,
+        format!(
+            "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame, and the arm bends as if the device were level: \
+             chi-squared is {better:.0} less than with gravity as the profile has it; gravity_m_s2 is ({x:.3}, {y:.3}, {z:.3}) now",
+            tilt_rad / DEG
+        ),
+        "right where the robot is mounted so; where the device was tilted, look for what else bends the arm",
+    )
+}
+
 fn doubt_reading(profile: &Profile, measurements: &Measurements) -> Result<(), IdentifyError> {
     let sample = measurements.filtered(|i, _| i < TRIED_ROWS);
     if sample.rows.len() < 4 {

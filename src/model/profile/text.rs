@@ -15,6 +15,12 @@ pub struct Comments {
     pub joints: [String; 6],
 }
 
+/// The line of gravity.
+pub(super) fn gravity(profile: &Profile) -> String {
+    let along = profile.gravity_m_s2.map(number).join(", ");
+    format!("gravity_m_s2: [{along}]\n")
+}
+
 /// The shortest decimals that give the number again, without the noise of a change of units.
 pub(super) fn number(value: f64) -> String {
     let rounded = (value * 1e9).round() / 1e9;
@@ -179,10 +185,7 @@ pub fn made(profile: &Profile, comments: &Comments) -> String {
         out += "shapes:\n";
         out.extend(profile.shapes.iter().map(shape));
     }
-    out += &format!(
-        "gravity_m_s2: [{}]\n",
-        profile.gravity_m_s2.map(number).join(", ")
-    );
+    out += &gravity(profile);
     out += if profile.tools.is_empty() {
         "tools: {}\n"
     } else {

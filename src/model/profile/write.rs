@@ -1,5 +1,6 @@
 //! A profile file with another calibration: everything else stays as a person wrote it, comments included.
 
+use super::text::gravity;
 use super::{Profile, ProfileError, Theirs};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -209,6 +210,7 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
         out += IDENTIFIED;
     }
     let (mut had_points, mut had_calibration, mut had_measurement) = (false, false, false);
+    let mut had_gravity = false;
     for (key, section) in sections(text) {
         match key.as_str() {
             "points" if original.points != profile.points => {
@@ -223,6 +225,10 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
                 had_calibration = true;
                 out += &calibration(profile);
             }
+            "gravity_m_s2" if original.gravity_m_s2 != profile.gravity_m_s2 => {
+                had_gravity = true;
+                out += &gravity(profile);
+            }
             "kinematics" if original.world_from_base != profile.world_from_base => {
                 out += &with_base(&section, &profile.world_from_base);
             }
@@ -231,6 +237,9 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
         if !out.is_empty() && !out.ends_with('\n') {
             out.push('\n');
         }
+    }
+    if !had_gravity && original.gravity_m_s2 != profile.gravity_m_s2 {
+        out += &gravity(profile);
     }
     if !had_points && original.points != profile.points {
         out += &points(profile);
@@ -244,6 +253,9 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
     let back = Profile::from_yaml(&out).map_err(|error| WriteError::Layout { error })?;
     let gap = back.world_from_base.separation(&profile.world_from_base);
     let differs = |key| Err(WriteError::Differs { key });
+    if back.gravity_m_s2 != profile.gravity_m_s2 {
+        return differs("gravity_m_s2");
+    }
     if gap.distance_m > 1e-9 || gap.angle_rad > 1e-9 {
         return differs("base");
     }

@@ -2,10 +2,12 @@
 //!
 //! `POSESHIFT_BLESS=1 cargo test documents` writes the generated tables anew.
 
-use crate::support::{files_below, is_tracked, poseshift, repository, scratch, text};
+mod commands;
+
+use crate::support::{files_below, is_tracked, poseshift, repository, text};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, PathBuf};
 
 fn listed(command: &str, key: &str) -> Vec<Value> {
     let output = poseshift()
@@ -171,55 +173,4 @@ fn links_between_documents_lead_somewhere() {
         }
     }
     assert!(links > 8);
-}
-
-#[test]
-fn commands_of_the_readme_do_what_it_says() {
-    let scratch = scratch();
-    let run = run_commands("README.md", scratch.path());
-    assert!(run >= 5, "{run} commands");
-    assert!(scratch.path().join("Deburr_compensated.mod").is_file());
-}
-
-#[test]
-fn commands_of_the_way_from_a_tracker_to_a_program_run() {
-    let scratch = scratch();
-    assert_eq!(run_commands("docs/calibration.md", scratch.path()), 6);
-    assert!(scratch.path().join("weld.src").is_file());
-}
-
-/// Runs the commands of a document's `console` blocks as they stand but for the program's own path. How many there are.
-fn run_commands(document: &str, folder: &Path) -> usize {
-    let readme = text(document);
-    let mut run = 0;
-    for block in readme.split("```console\n").skip(1) {
-        let block = block.split("```").next().expect("a block has an end");
-        for line in block.lines() {
-            let line = line.strip_prefix("$ ").unwrap_or(line);
-            let words: Vec<&str> = line.split_whitespace().collect();
-            let arguments = match words.as_slice() {
-                ["poseshift", rest @ ..] | ["cargo", "run", "--release", "--", rest @ ..] => rest,
-                ["cargo", ..] => continue,
-                other => panic!("not understood: {other:?}"),
-            };
-            let mut command = poseshift();
-            command.current_dir(folder);
-            for word in arguments {
-                let word = &word.replace('"', "");
-                // what an earlier command of the reader wrote is not an input
-                if word.contains('/') && is_tracked(word) {
-                    command.arg(repository(word));
-                } else {
-                    command.arg(word);
-                }
-            }
-            let output = command.output().expect("the program starts");
-            // the difference between two profiles is an answer like that of `diff`
-            let expected = i32::from(arguments.starts_with(&["profile", "diff"]));
-            let told = String::from_utf8_lossy(&output.stderr);
-            assert_eq!(output.status.code(), Some(expected), "{line}: {told}");
-            run += 1;
-        }
-    }
-    run
 }

@@ -1,7 +1,7 @@
 //! Robots with known errors, measured with noise: identification must find the errors within its own uncertainty.
 
 use crate::support::{random_joints, repository};
-use poseshift::geometry::Pose;
+use poseshift::geometry::{Pose, norm, sub};
 use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
 use poseshift::identify::measurements::{Measurements, Observed};
 use poseshift::identify::parameters::{Level, Pick, Selection};
@@ -10,7 +10,7 @@ use poseshift::identify::simulate::{Command, Device, Session, simulate};
 use poseshift::identify::validation::{Refit, validate};
 use poseshift::identify::{Calibration, IdentifyError};
 use poseshift::model::effects::{Effect, Kind, Site};
-use poseshift::model::profile::Profile;
+use poseshift::model::profile::{Profile, rewritten};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -274,6 +274,41 @@ fn a_device_that_stands_tilted_leaves_the_base_and_gravity_to_the_controller() {
         let gap = again.profile().world_from_device().separation(&device);
         assert!(gap.distance_m < 1e-8, "{gap:?}");
     }
+}
+
+#[test]
+fn a_robot_on_a_slope_under_a_levelled_device_bends_as_the_device_says() {
+    let mut random = StdRng::seed_from_u64(5);
+    let mut truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, true);
+    truth.effects.retain(|e| e.kind != Kind::BaseFrame);
+    // in the robot's own frame down is along the z of a device at 15 degrees
+    let device = Pose::from_xyz_rxryrz([2.0, 1.0, 0.4, 15.0 * DEG, 0.0, 0.8]);
+    let down = device.rotation.axis(2).map(|z| -9.81 * z);
+    truth.gravity_m_s2 = down;
+    let driven = commands(&mut random, &truth, 120);
+    let seen = measure(&truth, &driven, &Session::default()).moved(&device.inverse());
+    let options = Options {
+        base: BasePolicy::Controller,
+        ..known_tool(Level::Compliance)
+    };
+    let found = calibrate(&nominal(), &seen, &options).expect("an answer");
+    assert!(found.remarks.iter().any(|r| r.id == "gravity-by-device"));
+    assert!(found.remarks.iter().all(|r| r.id != "base-tilted"));
+    let profile = found.profile();
+    let apart = norm(sub(profile.gravity_m_s2, down));
+    assert!(apart < 1e-5, "{apart} m/s\u{b2}");
+    // judged in the controller's world
+    let here = Profile {
+        device: None,
+        ..profile.clone()
+    };
+    let (_, max) = worst_mm(&here, &truth, 200);
+    assert!(max < 1e-4, "{max} mm");
+    // the file says it, and is read back
+    let text = std::fs::read_to_string(repository("robots/abb_irb120_thesis.yaml"));
+    let text = rewritten(&text.expect("a shipped profile"), &profile);
+    let back = Profile::from_yaml(&text.expect("a plain layout")).expect("a profile");
+    assert_eq!(back.gravity_m_s2, profile.gravity_m_s2);
 }
 
 #[test]

@@ -51,6 +51,31 @@ fn rows_of_three_kinds_tell_together_what_none_tells_alone() {
 }
 
 #[test]
+fn orientations_count_by_what_the_device_says_of_them() {
+    let mut random = StdRng::seed_from_u64(77);
+    let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, true);
+    let session = Session {
+        device: Device::Pose,
+        noise_m: 0.02 * MM,
+        noise_rad: 0.1 * DEG,
+        seed: 3,
+        ..Session::default()
+    };
+    // orientations are read to a tenth of a degree, much worse than 0.02 mm over 0.3 m
+    let seen = measure(&truth, &commands(&mut random, &truth, 60), &session);
+    let mean = |said: bool| {
+        let mut rows = seen.clone();
+        for row in &mut rows.rows {
+            row.sigma_rad = row.sigma_rad.filter(|_| said);
+        }
+        let found = calibrate(&nominal(), &rows, &known_tool(Level::Compliance));
+        worst_mm(&found.expect("an answer").profile(), &truth, 200).0
+    };
+    let (said, unsaid) = (mean(true), mean(false));
+    assert!(said < 0.5 * unsaid && said < 0.05, "{said} {unsaid} mm");
+}
+
+#[test]
 fn priors_help_where_rows_are_few_and_bound_the_uncertainty() {
     let (mut with, mut without) = (0.0, 0.0);
     for seed in 0..6 {

@@ -1,4 +1,4 @@
-//! The commands: promised keys, bad input, and the page docs/measuring.md as it stands.
+//! The commands: promised keys and bad input.
 
 use crate::support::{poseshift, repository, scratch, text};
 use serde_json::Value;
@@ -207,51 +207,6 @@ fn bad_hand_eye_sets_are_refused_with_the_reason() {
         status == Some(2) && told.contains("other --setup"),
         "{told}"
     );
-}
-
-/// Blocks of the page: commands, and what they print.
-#[test]
-fn the_worked_examples_of_the_measuring_page_run_as_printed() {
-    let page = text("docs/measuring.md");
-    let folder = scratch();
-    for entry in std::fs::read_dir(repository("docs/measuring")).expect("the data of the page") {
-        let entry = entry.expect("a file");
-        std::fs::copy(entry.path(), folder.path().join(entry.file_name())).expect("scratch");
-    }
-    let (mut commands, mut lines) = (0, 0);
-    for block in page.split("```console\n").skip(1) {
-        let block = block.split("```").next().expect("a block has an end");
-        let mut out = String::new();
-        for line in block.lines() {
-            if let Some(command) = line.strip_prefix("$ poseshift ") {
-                let words: Vec<String> = command
-                    .split_whitespace()
-                    .map(|word| {
-                        let given = repository(word);
-                        let is_ours = word.contains('/') && given.exists();
-                        if is_ours {
-                            given.display().to_string()
-                        } else {
-                            word.to_owned()
-                        }
-                    })
-                    .collect();
-                let words: Vec<&str> = words.iter().map(String::as_str).collect();
-                let (status, printed, told) = run(folder.path(), &words);
-                assert_eq!(status, Some(0), "{command}: {told}");
-                out = printed + &told;
-                commands += 1;
-            } else {
-                let shown = line.trim_end();
-                assert!(
-                    out.lines().any(|l| l.trim_end() == shown),
-                    "{shown}\nis not in\n{out}"
-                );
-                lines += 1;
-            }
-        }
-    }
-    assert!(commands >= 11 && lines >= 15, "{commands} {lines}");
 }
 
 #[test]
