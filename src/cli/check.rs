@@ -238,14 +238,10 @@ impl Check {
                 "--update-baseline stores this run",
             ));
         }
-        let before = baseline::read(&text(&files.source(path)?)?)
-            .map_err(|error| Failure::new(format!("{}: {error}", name_of(path))))?;
-        let tolerances = baseline::Tolerances {
-            mm: self.tolerance,
-            deg: self.tolerance,
-        };
-        let now = serde_json::to_value(now).expect("numbers under text keys");
-        Ok(Some(baseline::compare(&before, &now, tolerances)))
+        let stored = text(&files.source(path)?)?;
+        now.compare(&stored, self.tolerance)
+            .map(Some)
+            .map_err(|error| Failure::new(format!("{}: {error}", name_of(path))))
     }
 
     fn tell(&self, found: &Run, refused: bool, notes: &[String], output: Output) -> String {

@@ -12,7 +12,9 @@ pub use html::programs::Drawing;
 
 use crate::finding::Finding;
 use crate::task::Document;
+use crate::program::Language;
 use crate::task::check::{Checked, Checking};
+use crate::task::compensate::Compensated;
 use crate::task::parts::Pose;
 use crate::task::programs::LeftOut;
 use html::page::Page;
@@ -45,6 +47,18 @@ impl<R: Report> Readable for R {
 pub fn check_html(of: &Checking, made: &str) -> String {
     let left_out = LeftOut::default();
     html::programs::check_page(of, &of.header(&left_out), 0).html(made)
+}
+
+/// The text of a check, as [`Readable::words`].
+#[must_use]
+pub fn check_words(of: &Checked) -> String {
+    check::text(of)
+}
+
+/// The text of a compensation, as [`Readable::words`].
+#[must_use]
+pub fn compensation_words(of: &Compensated, language: &dyn Language) -> String {
+    compensation::text(of, language)
 }
 
 /// `JUnit` XML of a check, for build servers.

@@ -4,7 +4,7 @@ use super::meshes::{Loader, Reader};
 use super::parts::{Names, finite};
 use super::programs::{LeftOut, common_language, explain, refuse_other_origin};
 use super::{Document, Failure, ProfileFile};
-use crate::check::baseline::Comparison;
+use crate::check::baseline::{self, BaselineError, Comparison, Tolerances};
 use crate::check::cell::Cell;
 use crate::check::collision::Clearance as Near;
 use crate::check::{
@@ -422,6 +422,20 @@ impl Document for Checked<'_> {
 }
 
 impl<'a> Checked<'a> {
+    /// What differs from a stored run, the text of its JSON; differences below `tolerance` in mm and degrees are none.
+    ///
+    /// # Errors
+    /// A text that is no stored run.
+    pub fn compare(&self, stored: &str, tolerance: f64) -> Result<Comparison, BaselineError> {
+        let before = baseline::read(stored)?;
+        let tolerances = Tolerances {
+            mm: tolerance,
+            deg: tolerance,
+        };
+        let now = serde_json::to_value(self).expect("numbers under text keys");
+        Ok(baseline::compare(&before, &now, tolerances))
+    }
+
     /// The report of a check.
     #[must_use]
     pub fn new(
