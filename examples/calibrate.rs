@@ -7,7 +7,7 @@ use std::error::Error;
 
 /// The example; an error where its result is not what it should be.
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let (nominal, measured) = support::nominal_and_measured()?;
+    let (nominal, measured) = support::nominal_and_measured("")?;
     let rows = Rows::read(&[measured], &Said::default(), &nominal.profile)?;
     let found = calibrate(&nominal, rows, &Options::default())?;
     let (before, after) = (&found.found.frames_only_quality, &found.found.after);

@@ -8,9 +8,10 @@ use poseshift::program::Source;
 use poseshift::task::{ProfileFile, plan::plan, simulate::simulate};
 use std::error::Error;
 
-/// The nominal profile, and simulated measurements of the calibrated one with 20 µm of noise.
-pub fn nominal_and_measured() -> Result<(ProfileFile, Source), Box<dyn Error>> {
+/// The nominal profile, and simulated measurements of the calibrated one and a `hidden` effect with 20 µm of noise.
+pub fn nominal_and_measured(hidden: &str) -> Result<(ProfileFile, Source), Box<dyn Error>> {
     let real = include_str!("../../robots/abb_irb120_thesis.yaml");
+    let real = real.replacen("effects:\n", &format!("effects:\n{hidden}"), 1);
     let real = ProfileFile::read(&Source::new("real.yaml", real.into()))?;
     let mut nominal = real.profile.clone();
     nominal.effects.clear();

@@ -172,10 +172,11 @@ def check(
     `nominal` is what they were made from, `cell` what stands around the robot, `baseline` a stored run (a file of its JSON, or
     another result). Meshes that profile or cell name are read from beside them.
     """
+    stored: tuple[str, str] | None = None
     if isinstance(baseline, Check):
         stored = ("baseline", baseline.json())
-    else:
-        stored = None if baseline is None else (os.fspath(baseline), Path(baseline).read_text(encoding="utf-8"))
+    elif baseline is not None:
+        stored = (os.fspath(baseline), Path(baseline).read_text(encoding="utf-8"))
     document, refused, junit = _poseshift.check(
         read_files(files),
         read_files(context),

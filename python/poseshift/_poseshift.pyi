@@ -7,6 +7,28 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "Arm",
+    "Document",
+    "Postures",
+    "Problem",
+    "Profile",
+    "Solutions",
+    "__version__",
+    "calibrate",
+    "check",
+    "compensate",
+    "diagnose",
+    "hand_eye",
+    "main",
+    "measurements_of_arrays",
+    "plan",
+    "register",
+    "set_threads",
+    "simulate",
+    "validate",
+]
+
 __version__: str
 
 _Files = Sequence[tuple[str, bytes]]

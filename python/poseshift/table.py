@@ -88,7 +88,7 @@ class Table(Mapping[str, Sequence[Any]]):
 
     def _repr_html_(self) -> str:
         heads = "".join(f"<th>{html.escape(name)}</th>" for name in self._columns)
-        lines = []
+        lines: list[str] = []
         for row in self.iter_rows():
             if len(lines) == _SHOWN:
                 break

@@ -175,7 +175,9 @@ impl Arm {
             if count == n || count == 1 {
                 return Ok(());
             }
-            Err(PyValueError::new_err(format!("{count} {what} for {n} poses")))
+            Err(PyValueError::new_err(format!(
+                "{count} {what} for {n} poses"
+            )))
         };
         let near = match &near_rad {
             None => vec![self.middle; n],
@@ -222,7 +224,9 @@ impl Arm {
             }
             let seeds = branches.par_chunks(FEW).zip(near.par_chunks(FEW));
             let chunks = wanted.par_chunks(FEW).zip(seeds);
-            chunks.flat_map_iter(|(wanted, (b, q))| solve((wanted, (b, q)))).collect()
+            chunks
+                .flat_map_iter(|(wanted, (b, q))| solve((wanted, (b, q))))
+                .collect()
         })?;
         solutions(py, &outcomes, &branches, single)
     }

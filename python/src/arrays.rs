@@ -1,6 +1,9 @@
 //! Arrays in and out: shapes, finiteness, rotations that are some.
 
-use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayDyn, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{
+    AllowTypeChange, IntoPyArray, PyArray1, PyArrayDyn, PyArrayLikeDyn, PyArrayMethods,
+    PyUntypedArrayMethods,
+};
 use poseshift::geometry::{Pose, Rotation};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -106,7 +109,13 @@ pub(crate) fn poses(name: &str, array: &Numbers<'_>) -> PyResult<(Vec<Pose>, boo
     finite(name, &numbers, shape)?;
     let all = numbers.as_chunks::<16>().0.iter().enumerate();
     let poses = all.map(|(i, m)| {
-        let at = || if single { name.to_owned() } else { format!("{name}[{i}]") };
+        let at = || {
+            if single {
+                name.to_owned()
+            } else {
+                format!("{name}[{i}]")
+            }
+        };
         pose(m).map_err(|why| PyValueError::new_err(format!("{}: {why}", at())))
     });
     Ok((poses.collect::<PyResult<_>>()?, single))
@@ -125,7 +134,9 @@ fn pose(m: &[f64; 16]) -> Result<Pose, String> {
         let last = &m[12..];
         return Err(format!("the last row is {last:?}; it must be [0, 0, 0, 1]"));
     }
-    let rotation = Rotation(std::array::from_fn(|i| std::array::from_fn(|j| m[4 * i + j])));
+    let rotation = Rotation(std::array::from_fn(|i| {
+        std::array::from_fn(|j| m[4 * i + j])
+    }));
     let square = rotation.transpose() * rotation;
     let off = |i: usize, j: usize| (square.0[i][j] - if i == j { 1.0 } else { 0.0 }).abs();
     let worst = (0..9).map(|k| off(k / 3, k % 3)).fold(0.0, f64::max);
@@ -153,8 +164,8 @@ fn pose(m: &[f64; 16]) -> Result<Pose, String> {
 pub(crate) fn matrix(pose: &Pose) -> [f64; 16] {
     let (r, t) = (&pose.rotation.0, pose.translation);
     [
-        r[0][0], r[0][1], r[0][2], t[0], r[1][0], r[1][1], r[1][2], t[1], r[2][0], r[2][1], r[2][2], t[2], 0.0, 0.0,
-        0.0, 1.0,
+        r[0][0], r[0][1], r[0][2], t[0], r[1][0], r[1][1], r[1][2], t[1], r[2][0], r[2][1],
+        r[2][2], t[2], 0.0, 0.0, 0.0, 1.0,
     ]
 }
 

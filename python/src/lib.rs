@@ -48,9 +48,7 @@ mod _poseshift {
     #[pymodule_export]
     use super::document::Document;
     #[pymodule_export]
-    use super::measuring::{
-        calibrate, diagnose, measurements_of_arrays, plan, simulate, validate,
-    };
+    use super::measuring::{calibrate, diagnose, measurements_of_arrays, plan, simulate, validate};
     #[pymodule_export]
     use super::problem::Problem;
     #[pymodule_export]

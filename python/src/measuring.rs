@@ -24,7 +24,14 @@ use pyo3::prelude::*;
 
 /// Tables of measurements and what is said of their columns: files, columns, units, euler, driven in order, and whether the two
 /// files are joints and points to be joined.
-type Tables = (Files, Option<String>, Option<String>, Option<String>, bool, bool);
+type Tables = (
+    Files,
+    Option<String>,
+    Option<String>,
+    Option<String>,
+    bool,
+    bool,
+);
 
 /// The rows of tables, as the reader of files has them.
 pub(crate) fn read(py: Python<'_>, profile: &ProfileFile, tables: Tables) -> PyResult<Rows> {
@@ -56,12 +63,16 @@ pub(crate) fn selection(
     priors: bool,
 ) -> PyResult<Selection> {
     Ok(Selection {
-        level: word("level", level, &[
-            ("frames", Level::Frames),
-            ("joints", Level::Joints),
-            ("geometry", Level::Geometry),
-            ("compliance", Level::Compliance),
-        ])?,
+        level: word(
+            "level",
+            level,
+            &[
+                ("frames", Level::Frames),
+                ("joints", Level::Joints),
+                ("geometry", Level::Geometry),
+                ("compliance", Level::Compliance),
+            ],
+        )?,
         identify: picks("identify", identify)?,
         fix: picks("fix", fix)?,
         priors,
@@ -69,28 +80,32 @@ pub(crate) fn selection(
 }
 
 fn shape(loss: &str) -> PyResult<Shape> {
-    word("loss", loss, &[
-        ("squares", Shape::Squares),
-        ("huber", Shape::Huber),
-        ("tukey", Shape::Tukey),
-    ])
+    word(
+        "loss",
+        loss,
+        &[
+            ("squares", Shape::Squares),
+            ("huber", Shape::Huber),
+            ("tukey", Shape::Tukey),
+        ],
+    )
 }
 
 /// How to identify.
-pub(crate) fn options(
-    selection: Selection,
-    loss: &str,
-    base: &str,
-) -> PyResult<Options> {
+pub(crate) fn options(selection: Selection, loss: &str, base: &str) -> PyResult<Options> {
     Ok(Options {
         selection,
         shape: shape(loss)?,
-        base: word("base", base, &[
-            ("controller", BasePolicy::Controller),
-            ("auto", BasePolicy::Nearest),
-            ("device", BasePolicy::Device),
-            ("profile", BasePolicy::Profile),
-        ])?,
+        base: word(
+            "base",
+            base,
+            &[
+                ("controller", BasePolicy::Controller),
+                ("auto", BasePolicy::Nearest),
+                ("device", BasePolicy::Device),
+                ("profile", BasePolicy::Profile),
+            ],
+        )?,
     })
 }
 
@@ -133,7 +148,10 @@ pub(crate) fn calibrate<'py>(
     };
     let covariance = array(py, (0..p * p).map(entry).collect(), &[p, p], false)?;
     let missed = misses(&found.found.problem, &solution.estimate);
-    let gaps: Vec<f64> = missed.iter().flat_map(|m| [m.gap[0], m.gap[1], m.gap[2]]).collect();
+    let gaps: Vec<f64> = missed
+        .iter()
+        .flat_map(|m| [m.gap[0], m.gap[1], m.gap[2]])
+        .collect();
     let residuals = array(py, gaps, &[missed.len(), 3], false)?;
     Ok((Document::new(found), text, names, covariance, residuals))
 }
@@ -188,7 +206,10 @@ pub(crate) fn diagnose(
     let rows = read(py, file, tables)?;
     let found = long(py, |stop| {
         let found = task::diagnose::diagnose(file, rows, &options, &mut |_| stop.here())?;
-        let better = found.is_sure().then(|| found.profile_text(file)).transpose()?;
+        let better = found
+            .is_sure()
+            .then(|| found.profile_text(file))
+            .transpose()?;
         Ok((found, better))
     })?;
     let (found, better) = identified(py, found)?;
@@ -204,7 +225,9 @@ fn corners(name: &str, array: &Numbers<'_>) -> PyResult<[[f64; 3]; 2]> {
             std::array::from_fn(|k| a[k].min(b[k])),
             std::array::from_fn(|k| a[k].max(b[k])),
         ]),
-        _ => Err(PyValueError::new_err(format!("{name} must be two corners: (2, 3)"))),
+        _ => Err(PyValueError::new_err(format!(
+            "{name} must be two corners: (2, 3)"
+        ))),
     }
 }
 
@@ -264,7 +287,15 @@ pub(crate) fn plan<'py>(
     let found = long(py, |stop| {
         let read = |path: &std::path::Path| std::fs::read(path);
         let tell = &mut |_, _| stop.here();
-        task::plan::plan(file, tool, &selection, &request, wanted.as_ref(), &read, tell)
+        task::plan::plan(
+            file,
+            tool,
+            &selection,
+            &request,
+            wanted.as_ref(),
+            &read,
+            tell,
+        )
     })?;
     let found = identified(py, found)?;
     let q: Vec<f64> = found.joints_deg.iter().flatten().map(|q| q * DEG).collect();
@@ -301,12 +332,19 @@ pub(crate) fn simulate(
         Some(array) => rows::<3>("from_m", array)?.rows().to_vec(),
     };
     if (kind == "distance") == from.is_empty() {
-        return Err(PyValueError::new_err("kind=\"distance\" and from_m belong together"));
+        return Err(PyValueError::new_err(
+            "kind=\"distance\" and from_m belong together",
+        ));
     }
     let device = match kind {
         "distance" => Device::Distance(from),
-        other => word("kind", other, &[("position", false), ("pose", true)])
-            .map(|is_pose| if is_pose { Device::Pose } else { Device::Position })?,
+        other => word("kind", other, &[("position", false), ("pose", true)]).map(|is_pose| {
+            if is_pose {
+                Device::Pose
+            } else {
+                Device::Position
+            }
+        })?,
     };
     let session = Session {
         device,
@@ -354,7 +392,10 @@ fn each<const N: usize>(
     if found.len() == count {
         return Ok(Some(found));
     }
-    let message = format!("{name} has {} rows; there are {count} configurations", found.len());
+    let message = format!(
+        "{name} has {} rows; there are {count} configurations",
+        found.len()
+    );
     Err(PyValueError::new_err(message))
 }
 
@@ -377,10 +418,21 @@ pub(crate) fn measurements_of_arrays(
             let all = rows::<3>("position_m", position)?;
             all.rows().iter().map(|p| Observed::Position(*p)).collect()
         }
-        (None, Some(pose)) => poses("pose", pose)?.0.into_iter().map(Observed::Pose).collect(),
-        _ => return Err(PyValueError::new_err("give position_m or pose, one of them")),
+        (None, Some(pose)) => poses("pose", pose)?
+            .0
+            .into_iter()
+            .map(Observed::Pose)
+            .collect(),
+        _ => {
+            return Err(PyValueError::new_err(
+                "give position_m or pose, one of them",
+            ));
+        }
     };
-    let sigma = sigma_m.as_ref().map(|array| column("sigma_m", array)).transpose()?;
+    let sigma = sigma_m
+        .as_ref()
+        .map(|array| column("sigma_m", array))
+        .transpose()?;
     let directions = each::<6>("direction", direction.as_ref(), n)?;
     let counts = [
         ("what was measured", Some(observed.len())),
@@ -390,7 +442,10 @@ pub(crate) fn measurements_of_arrays(
     ];
     for (name, count) in counts {
         if count.is_some_and(|count| count != n) {
-            let message = format!("{name} has {} rows; q_rad has {n}", count.unwrap_or_default());
+            let message = format!(
+                "{name} has {} rows; q_rad has {n}",
+                count.unwrap_or_default()
+            );
             return Err(PyValueError::new_err(message));
         }
     }
@@ -412,5 +467,10 @@ pub(crate) fn measurements_of_arrays(
             contact: None,
         })
         .collect();
-    Ok(measurements_csv(&all, directions.is_some(), false, tool.is_some()))
+    Ok(measurements_csv(
+        &all,
+        directions.is_some(),
+        false,
+        tool.is_some(),
+    ))
 }

@@ -26,7 +26,9 @@ impl Problem {
             return Ok(values.into_owned());
         }
         let (found, wanted) = (values.len(), self.x0.len());
-        Err(PyValueError::new_err(format!("x has {found} numbers; there are {wanted} parameters")))
+        Err(PyValueError::new_err(format!(
+            "x has {found} numbers; there are {wanted} parameters"
+        )))
     }
 }
 
@@ -37,12 +39,23 @@ impl Problem {
     fn new(
         py: Python<'_>,
         profile: &Profile,
-        tables: (Files, Option<String>, Option<String>, Option<String>, bool, bool),
+        tables: (
+            Files,
+            Option<String>,
+            Option<String>,
+            Option<String>,
+            bool,
+            bool,
+        ),
         level: &str,
         identify: &str,
         fix: &str,
     ) -> PyResult<Self> {
-        let options = options(selection(level, identify, fix, false)?, "squares", "controller")?;
+        let options = options(
+            selection(level, identify, fix, false)?,
+            "squares",
+            "controller",
+        )?;
         let file = &*profile.file;
         let rows = read(py, file, tables)?;
         let found = long(py, |_| -> Result<_, Failure> {

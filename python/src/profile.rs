@@ -138,7 +138,12 @@ impl Profile {
         effects
             .flat_map(|effect| {
                 let row = |(key, value, unit): &(&str, f64, &str)| {
-                    (effect.label.clone(), (*key).to_owned(), *value, (*unit).to_owned())
+                    (
+                        effect.label.clone(),
+                        (*key).to_owned(),
+                        *value,
+                        (*unit).to_owned(),
+                    )
                 };
                 effect.values.iter().map(row).collect::<Vec<_>>()
             })
@@ -187,9 +192,7 @@ impl Profile {
         Ok(Arm::new(&self.file.profile, &tool, which, conditions))
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
         let file = &slf.get().file;
         let make = slf.get_type().getattr("from_yaml")?;
         Ok((make, (file.text.clone(), file.name.clone())))

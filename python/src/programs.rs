@@ -32,13 +32,15 @@ pub(crate) type Files = Vec<(String, PyBackedBytes)>;
 type Written<'py> = Vec<(String, Bound<'py, PyBytes>)>;
 
 pub(crate) fn sources(files: &Files) -> Vec<Source> {
-    let source = |(name, bytes): &(String, PyBackedBytes)| Source::new(name.as_str(), bytes.to_vec());
+    let source =
+        |(name, bytes): &(String, PyBackedBytes)| Source::new(name.as_str(), bytes.to_vec());
     files.iter().map(source).collect()
 }
 
 fn with_context(files: &Files, context: &Files) -> Vec<Source> {
     let mut all = sources(files);
-    let declared = |(name, bytes): &(String, PyBackedBytes)| Source::context(name.as_str(), bytes.to_vec());
+    let declared =
+        |(name, bytes): &(String, PyBackedBytes)| Source::context(name.as_str(), bytes.to_vec());
     all.extend(context.iter().map(declared));
     all
 }
@@ -81,7 +83,9 @@ fn language(py: Python<'_>, id: Option<&str>) -> PyResult<Option<&'static dyn La
 }
 
 fn start_joints(array: Option<&Numbers<'_>>) -> PyResult<Option<[f64; 6]>> {
-    array.map(|array| fixed("start_joints_rad", array)).transpose()
+    array
+        .map(|array| fixed("start_joints_rad", array))
+        .transpose()
 }
 
 /// One of some words.
@@ -89,7 +93,10 @@ pub(crate) fn word<T: Copy>(option: &str, found: &str, words: &[(&str, T)]) -> P
     let meant = words.iter().find(|(word, _)| *word == found);
     meant.map(|(_, value)| *value).ok_or_else(|| {
         let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-        PyValueError::new_err(format!("{option} is \"{found}\"; it is one of: {}", words.join(", ")))
+        PyValueError::new_err(format!(
+            "{option} is \"{found}\"; it is one of: {}",
+            words.join(", ")
+        ))
     })
 }
 
@@ -125,7 +132,11 @@ impl Compensating {
 
     fn header<'a>(&'a self, prepared: &Prepared<'_>, left_out: &'a LeftOut) -> Header<'a> {
         Header {
-            inputs: self.sources.iter().map(|source| source.name.clone()).collect(),
+            inputs: self
+                .sources
+                .iter()
+                .map(|source| source.name.clone())
+                .collect(),
             outputs: Vec::new(),
             written: prepared.will_write(),
             sources: &self.sources,
@@ -198,14 +209,22 @@ pub(crate) fn compensate<'py>(
     if decimals.is_some_and(|decimals| decimals > 9) {
         return Err(PyValueError::new_err("decimals must be from 0 to 9"));
     }
-    if max_shift.is_some_and(|(mm, deg)| !(mm > 0.0 && deg > 0.0 && mm.is_finite() && deg.is_finite())) {
-        return Err(PyValueError::new_err("max_shift must be two finite numbers above 0: mm and degrees"));
+    if max_shift
+        .is_some_and(|(mm, deg)| !(mm > 0.0 && deg > 0.0 && mm.is_finite() && deg.is_finite()))
+    {
+        return Err(PyValueError::new_err(
+            "max_shift must be two finite numbers above 0: mm and degrees",
+        ));
     }
     let work_offset = work_offset.map(|array| one_pose("work_offset", &array));
     let options = Options {
         given: given(profile, tools, frames)?,
         work_offset: work_offset.transpose()?,
-        correct_joint_targets: word("joint_targets", joint_targets, &[("keep", false), ("correct", true)])?,
+        correct_joint_targets: word(
+            "joint_targets",
+            joint_targets,
+            &[("keep", false), ("correct", true)],
+        )?,
         decimals: decimals.map(usize::from),
         max_derived_error_m: max_derived_error_mm.map(m_from_mm),
         max_shift: max_shift.map(|(mm, deg)| Separation {
@@ -213,21 +232,33 @@ pub(crate) fn compensate<'py>(
             angle_rad: deg * DEG,
         }),
         split_targets,
-        at_singularity: word("at_singularity", at_singularity, &[
-            ("refuse", AtSingularity::Refuse),
-            ("flip", AtSingularity::Flip),
-            ("nearest", AtSingularity::Nearest),
-        ])?,
-        methods: word("method", method, &[("auto", Methods::Auto), ("pose-shift", Methods::PoseShift)])?,
+        at_singularity: word(
+            "at_singularity",
+            at_singularity,
+            &[
+                ("refuse", AtSingularity::Refuse),
+                ("flip", AtSingularity::Flip),
+                ("nearest", AtSingularity::Nearest),
+            ],
+        )?,
+        methods: word(
+            "method",
+            method,
+            &[("auto", Methods::Auto), ("pose-shift", Methods::PoseShift)],
+        )?,
         accepted: accepted(py, &accept)?,
         start_joints: start_joints(start_joints_rad.as_ref())?,
         ..Options::default()
     };
-    let despite_errors = word("despite_errors", despite_errors, &[
-        ("nothing", DespiteErrors::Nothing),
-        ("good", DespiteErrors::Good),
-        ("all", DespiteErrors::All),
-    ])?;
+    let despite_errors = word(
+        "despite_errors",
+        despite_errors,
+        &[
+            ("nothing", DespiteErrors::Nothing),
+            ("good", DespiteErrors::Good),
+            ("all", DespiteErrors::All),
+        ],
+    )?;
     let mut all = Compensating {
         sources: with_context(&files, &context),
         profile: Arc::clone(&profile.file),
@@ -245,18 +276,27 @@ pub(crate) fn compensate<'py>(
         let refused = prepared.is_refused();
         let header = all.header(&prepared, &left_out);
         let document = Compensated::new(&header, &prepared.compensation);
-        let told = (document.json(), compensation_words(&document, prepared.language));
+        let told = (
+            document.json(),
+            compensation_words(&document, prepared.language),
+        );
         let mut made = Vec::new();
         if header.written.contains(&true) {
             let written = prepared.written()?;
             let files = written.sources.into_iter().zip(written.is_written);
-            made.extend(files.filter(|(_, is_written)| *is_written).map(|(source, _)| source));
+            made.extend(
+                files
+                    .filter(|(_, is_written)| *is_written)
+                    .map(|(source, _)| source),
+            );
         }
         Ok((told, refused, made))
     })?;
     let (told, refused, made) = found.map_err(|failure| Kind::Program.raise(py, &failure))?;
     (all.json, all.words) = told;
-    let made = made.into_iter().map(|source| (source.name, PyBytes::new(py, &source.bytes)));
+    let made = made
+        .into_iter()
+        .map(|source| (source.name, PyBytes::new(py, &source.bytes)));
     Ok((Document::new(all), refused, made.collect()))
 }
 
@@ -333,7 +373,11 @@ pub(crate) fn check(
     force: bool,
 ) -> PyResult<(Document, bool, String)> {
     let least = [
-        ("max_path_error_mm", max_path_error_mm.unwrap_or(1.0), f64::MIN_POSITIVE),
+        (
+            "max_path_error_mm",
+            max_path_error_mm.unwrap_or(1.0),
+            f64::MIN_POSITIVE,
+        ),
         ("horizon_mm", horizon_mm, 0.0),
         ("limit_margin_deg", limit_margin_deg, 0.0),
         ("tolerance", tolerance, 0.0),
@@ -352,7 +396,11 @@ pub(crate) fn check(
         cell: cell.map(|(name, bytes)| Source::new(name, bytes.to_vec())),
         options: following::Options {
             given: given(profile, tools, frames)?,
-            turning: word("orientation", orientation, &[("slerp", Turning::Slerp), ("euler", Turning::Euler)])?,
+            turning: word(
+                "orientation",
+                orientation,
+                &[("slerp", Turning::Slerp), ("euler", Turning::Euler)],
+            )?,
             max_path_error_m: max_path_error_mm.map(|mm| mm * MM),
             horizon_m: horizon_mm * MM,
             limit_margin_rad: limit_margin_deg * DEG,

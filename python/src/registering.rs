@@ -19,11 +19,15 @@ pub(crate) fn register<'py>(
     weights: Option<Numbers<'py>>,
 ) -> PyResult<(Array<'py>, Array<'py>, f64, f64, Array<'py>)> {
     let (from, to) = (rows::<3>("from_m", &from_m)?, rows::<3>("to_m", &to_m)?);
-    let weights = weights.as_ref().map(|array| column("weights", array)).transpose()?;
+    let weights = weights
+        .as_ref()
+        .map(|array| column("weights", array))
+        .transpose()?;
     let (from, to, weights) = (from.rows(), to.rows(), weights.as_deref());
     if from.len() != to.len() || weights.is_some_and(|w| w.len() != from.len()) {
         let (a, b) = (from.len(), to.len());
-        let message = format!("from_m has {a} rows and to_m {b}; weights, where given, are as many");
+        let message =
+            format!("from_m has {a} rows and to_m {b}; weights, where given, are as many");
         return Err(PyValueError::new_err(message));
     }
     let found = py.detach(|| {
@@ -39,7 +43,12 @@ pub(crate) fn register<'py>(
             Kind::Register.raise(py, &Failure::with_hint(error.to_string(), error.hint()))
         })?;
     let n = residuals.len();
-    let residuals = array(py, residuals.into_iter().flatten().collect(), &[n, 3], false)?;
+    let residuals = array(
+        py,
+        residuals.into_iter().flatten().collect(),
+        &[n, 3],
+        false,
+    )?;
     let matrix = covariance.matrix.into_iter().flatten().collect();
     Ok((
         pose_array(py, &[fit.to_from_from], true)?,
@@ -65,13 +74,22 @@ pub(crate) fn hand_eye<'py>(
     Array<'py>,
     Array<'py>,
 )> {
-    let setup = word("setup", setup, &[
-        ("eye-to-hand", Setup::EyeToHand),
-        ("eye-in-hand", Setup::EyeInHand),
-    ])?;
+    let setup = word(
+        "setup",
+        setup,
+        &[
+            ("eye-to-hand", Setup::EyeToHand),
+            ("eye-in-hand", Setup::EyeInHand),
+        ],
+    )?;
     let (robot, _) = poses("robot", &robot)?;
     let (board, _) = poses("board", &board)?;
-    let methods = [Method::Tsai, Method::Park, Method::Horaud, Method::Daniilidis];
+    let methods = [
+        Method::Tsai,
+        Method::Park,
+        Method::Horaud,
+        Method::Daniilidis,
+    ];
     let found = py.detach(|| {
         let problem = HandEye::new(setup, &robot, &board)?;
         let refined = problem.refined()?;

@@ -87,10 +87,7 @@ impl Stop {
 }
 
 /// Long work without the interpreter's lock; a signal stops it at its next [`Stop::here`].
-pub(crate) fn long<T: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&Stop) -> T + Send,
-) -> PyResult<T> {
+pub(crate) fn long<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Send) -> PyResult<T> {
     let pool = pool()?;
     let stop = Stop::default();
     py.detach(|| {

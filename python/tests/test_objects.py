@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -46,10 +47,8 @@ def test_errors_say_where_and_what_to_do(root: Path, profile: ps.Profile) -> Non
 
 def test_a_refused_program_has_findings_and_no_files(root: Path, profile: ps.Profile, tmp_path: Path) -> None:
     program = (root / "programs/rapid/olp/in/Deburr.mod").read_text()
-    assert "[[" in program
-    first = program.index("[[", program.index("robtarget"))
-    end = program.index(",", first)
-    far = program[: first + 2] + "99999" + program[end:]
+    far, count = re.subn(r"(Move[LJ] \[\[)[-\d.]+", r"\g<1>99999", program, count=1)
+    assert count == 1
     found = ps.compensate({"Deburr.mod": far.encode()}, profile)
     assert found.refused
     with pytest.raises(ps.Refused) as caught:

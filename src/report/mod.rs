@@ -11,8 +11,8 @@ mod text;
 pub use html::programs::Drawing;
 
 use crate::finding::Finding;
-use crate::task::Document;
 use crate::program::Language;
+use crate::task::Document;
 use crate::task::check::{Checked, Checking};
 use crate::task::compensate::Compensated;
 use crate::task::parts::Pose;

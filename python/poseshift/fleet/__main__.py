@@ -11,7 +11,7 @@ from pathlib import Path
 
 from poseshift.errors import PoseshiftError
 from poseshift.fleet.collect import collect
-from poseshift.fleet.config import read
+from poseshift.fleet.config import keep_off, read
 from poseshift.fleet.executors import Ran, missing, run_local, run_ray
 from poseshift.fleet.store import Store
 from poseshift.fleet.units import plan
@@ -39,7 +39,9 @@ def _run(given: argparse.Namespace) -> int:
     store = Store(given.store)
     date = given.date or datetime.date.today().isoformat()
     datetime.date.fromisoformat(date)
-    units = plan(read(given.fleet), store)
+    robots = read(given.fleet)
+    keep_off(robots, given.store)
+    units = plan(robots, store)
     wanted = missing(units, store)
     if given.step == "plan":
         listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in wanted]

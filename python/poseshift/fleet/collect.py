@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
-from poseshift.fleet.config import FleetError
 from poseshift.fleet.store import Store, sha256, write_whole
 from poseshift.fleet.units import Unit
 
@@ -53,7 +52,6 @@ class Summary:
 
 def collect(units: Sequence[Unit], store: Store, failed: Mapping[str, str], date: str | None = None) -> Summary:
     """Writes `tables`, `out`, `pages`, `fleet.html` and `junit.xml` into the store's folder, from its results."""
-    _keep_off(units, store)
     found = {unit.key: store.result(unit.key) for unit in units}
     units = sorted(units, key=lambda unit: (unit.robot, unit.job))
     run_id = sha256("\n".join(unit.key for unit in units).encode())[:16]
@@ -73,21 +71,6 @@ def collect(units: Sequence[Unit], store: Store, failed: Mapping[str, str], date
     by_status = {status: sum(row["status"] == status for row in rows["robots"]) for status in ORDER}
     no_answer = by_status["none"] + by_status["crashed"] + by_status["error"]
     return Summary(len(by_robot), by_status, 2 if no_answer else 1 if by_status["refused"] else 0)
-
-
-def _keep_off(units: Iterable[Unit], store: Store) -> None:
-    """Nothing is ever written among the backups."""
-    own = store.folder.resolve()
-    for folder in {unit.folder for unit in units}:
-        if own.is_relative_to(Path(folder).resolve() / "") and any(
-            (own / part).is_relative_to(Path(folder).resolve() / name)
-            for part in ("results", "blobs", "tables", "out", "pages")
-            for name in (".",)
-        ):
-            names = {Path(name).parts[0] for unit in units if unit.folder == folder for _, name, _ in unit.inputs}
-            first = own.relative_to(Path(folder).resolve()).parts[:1]
-            if not first or first[0] in names:
-                raise FleetError(f"the store {store.folder} lies among the files of a robot", "choose another folder")
 
 
 def _status(result: dict[str, Any] | None) -> str:

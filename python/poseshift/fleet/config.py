@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -42,6 +42,15 @@ class Robot:
         """Every file that is named."""
         names = [self.profile, *self.programs, *self.measurements, *([self.cell] if self.cell else [])]
         return [self.folder / name for name in names]
+
+
+def keep_off(robots: Iterable[Robot], store: Path) -> None:
+    """Nothing is ever written among the backups: the store lies in no folder of an input, and no input in the store."""
+    own = store.resolve()
+    for robot in robots:
+        for file in robot.inputs():
+            if own.is_relative_to(file.resolve().parent) or file.resolve().is_relative_to(own):
+                raise FleetError(f"the store {store} lies among the files of robot {robot.id}", "choose a folder beside the backups")
 
 
 def options_of(task: str) -> dict[str, Any]:
