@@ -236,11 +236,19 @@ def validate(
     *,
     refit_frames: bool = False,
     folds: int | None = None,
+    level: str | None = None,
+    priors: bool = False,
     all_sets: bool = False,
 ) -> Validation:
-    """Errors of a profile's models on measurements that it has not seen."""
+    """Errors of a profile's models on measurements that it has not seen. `level` and `priors` are of the `folds`."""
     document = _poseshift.validate(
-        profile, measurements._tables, refit_frames=refit_frames, folds=folds, all_sets=all_sets
+        profile,
+        measurements._tables,
+        refit_frames=refit_frames,
+        folds=folds,
+        level=level,
+        priors=priors,
+        all_sets=all_sets,
     )
     return Validation(document)
 

@@ -153,7 +153,7 @@ def compensate(
     max_shift: tuple[float, float] | None = None,
     language: str | None = None,
     force: bool = False,
-    accept: Sequence[str] = [],
+    accept: Sequence[str] = ...,
     split_targets: bool = False,
     at_singularity: str = "refuse",
     method: str = "auto",
@@ -175,7 +175,7 @@ def check(
     limit_margin_deg: float = 1.0,
     tools: _Named,
     frames: _Named,
-    accept: Sequence[str] = [],
+    accept: Sequence[str] = ...,
     start_joints_rad: ArrayLike | None = None,
     language: str | None = None,
     force: bool = False,
@@ -193,7 +193,14 @@ def calibrate(
     date: str | None = None,
 ) -> tuple[Document, str, list[str], _Floats, _Floats]: ...
 def validate(
-    profile: Profile, tables: _Tables, *, refit_frames: bool = False, folds: int | None = None, all_sets: bool = False
+    profile: Profile,
+    tables: _Tables,
+    *,
+    refit_frames: bool = False,
+    folds: int | None = None,
+    level: str | None = None,
+    priors: bool = False,
+    all_sets: bool = False,
 ) -> Document: ...
 def diagnose(
     profile: Profile, tables: _Tables, *, accept: str = "", reject: str = "", quick: bool = False, steps: bool = False
@@ -215,7 +222,7 @@ def plan(
     margin_rad: float = ...,
     approach_rad: float = ...,
     inside_m: ArrayLike | None = None,
-    keep_out_m: Sequence[ArrayLike] = [],
+    keep_out_m: Sequence[ArrayLike] = ...,
     device_m: Sequence[float] | None = None,
     cone_rad: float = ...,
     program: str | None = None,

@@ -15,6 +15,7 @@ use poseshift::identify::plan::{Constraints, Request};
 use poseshift::identify::robust::Shape;
 use poseshift::identify::simulate::{Command, Device, Session};
 use poseshift::identify::statistics::misses;
+use poseshift::identify::validation::Folds;
 use poseshift::model::Conditions;
 use poseshift::task::plan::Wanted;
 use poseshift::task::simulate::{measurements_csv, simulate_at};
@@ -55,6 +56,17 @@ fn picks(option: &str, text: &str) -> PyResult<Vec<Pick>> {
         .map_err(|error| PyValueError::new_err(format!("{option}: {error}; {}", error.hint())))
 }
 
+/// How much of the arm is identified.
+fn level(name: &str) -> PyResult<Level> {
+    let levels = [
+        ("frames", Level::Frames),
+        ("joints", Level::Joints),
+        ("geometry", Level::Geometry),
+        ("compliance", Level::Compliance),
+    ];
+    word("level", name, &levels)
+}
+
 /// What is identified.
 pub(crate) fn selection(
     level: &str,
@@ -63,16 +75,7 @@ pub(crate) fn selection(
     priors: bool,
 ) -> PyResult<Selection> {
     Ok(Selection {
-        level: word(
-            "level",
-            level,
-            &[
-                ("frames", Level::Frames),
-                ("joints", Level::Joints),
-                ("geometry", Level::Geometry),
-                ("compliance", Level::Compliance),
-            ],
-        )?,
+        level: self::level(level)?,
         identify: picks("identify", identify)?,
         fix: picks("fix", fix)?,
         priors,
@@ -158,18 +161,29 @@ pub(crate) fn calibrate<'py>(
 
 /// Errors of a profile's models on measurements.
 #[pyfunction]
-#[pyo3(signature = (profile, tables, *, refit_frames=false, folds=None, all_sets=false))]
+#[pyo3(signature = (profile, tables, *, refit_frames=false, folds=None, level=None, priors=false, all_sets=false))]
 pub(crate) fn validate(
     py: Python<'_>,
     profile: &Profile,
     tables: Tables,
     refit_frames: bool,
     folds: Option<usize>,
+    level: Option<&str>,
+    priors: bool,
     all_sets: bool,
 ) -> PyResult<Document> {
     if folds.is_some_and(|folds| !(2..=1000).contains(&folds)) {
         return Err(PyValueError::new_err("folds must be from 2 to 1000"));
     }
+    if folds.is_none() && (level.is_some() || priors) {
+        return Err(PyValueError::new_err("level and priors are of the folds"));
+    }
+    let level = level.map(self::level).transpose()?;
+    let folds = folds.map(|count| Folds {
+        count,
+        level,
+        priors,
+    });
     let options = task::validate::Options {
         refit_frames,
         folds,

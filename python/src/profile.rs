@@ -185,7 +185,7 @@ impl Profile {
             force_n: force_n.transpose()?.unwrap_or_default(),
             temperature_c,
             time_s,
-            row: None,
+            ..Conditions::default()
         };
         let tool = self.file.tool(tool);
         let tool = tool.map_err(|failure| Kind::Profile.raise(py, &failure))?;

@@ -26,6 +26,11 @@ Backups = Callable[..., Path]
 
 @pytest.fixture(scope="module")
 def sources(root: Path, profile: ps.Profile) -> dict[str, bytes]:
+    return shipped(root, profile)
+
+
+def shipped(root: Path, profile: ps.Profile) -> dict[str, bytes]:
+    """The files of a robot."""
     rng = np.random.default_rng(2)
     q = rng.uniform([-2, -1, -1, -2, 0.2, -3], [2, 1, 0.8, 2, 1.8, 3], (40, 6))
     return {
@@ -37,8 +42,12 @@ def sources(root: Path, profile: ps.Profile) -> dict[str, bytes]:
 
 @pytest.fixture
 def backups(tmp_path: Path, sources: dict[str, bytes]) -> Path:
-    """Robots whose measurements differ, and the file that names them."""
-    for number in range(ROBOTS):
+    return fleet_of(ROBOTS, tmp_path, sources)
+
+
+def fleet_of(count: int, tmp_path: Path, sources: dict[str, bytes]) -> Path:
+    """Robots whose files differ, and the file that names them."""
+    for number in range(count):
         folder = tmp_path / "backups" / f"r{number}"
         folder.mkdir(parents=True)
         for name, data in sources.items():
@@ -203,13 +212,17 @@ def test_a_store_among_the_backups_is_refused(backups: Path, capsys: pytest.Capt
 
 def test_a_unit_that_ends_its_process_ends_nobody_else(backups: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent / "poison"))
-    monkeypatch.setenv("POISONED", "r1")
+    monkeypatch.setenv("POISON", str(backups.parent / "poison"))
+    (backups.parent / "poison").mkdir()
+    (backups.parent / "poison" / "r1").touch()
+    (backups.parent / "poison" / "r2.once").touch()
     status, store = run(backups)
     assert status == 2
     by_robot = {row["robot_id"]: row["status"] for row in _robots(store)}
     assert by_robot == {"r0": "done", "r1": "crashed", "r2": "done", "r3": "done"}
     # a crash is an answer, too: the next night does not die of it
-    monkeypatch.delenv("POISONED")
+    assert not (backups.parent / "poison" / "r2.once").exists()
+    monkeypatch.delenv("POISON")
     capsys.readouterr()
     run(backups)
     assert made(capsys) == 0

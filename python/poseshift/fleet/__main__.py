@@ -52,7 +52,7 @@ def _run(given: argparse.Namespace) -> int:
         if given.executor == "ray":
             import ray  # noqa: PLC0415
 
-            ray.init(address=given.address, log_to_driver=False)
+            ray.init(address=given.address, log_to_driver=False, logging_level="ERROR")
             ran = run_ray(units, store)
         else:
             ran = run_local(units, store, given.workers)

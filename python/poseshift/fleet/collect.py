@@ -52,6 +52,7 @@ class Summary:
 
 def collect(units: Sequence[Unit], store: Store, failed: Mapping[str, str], date: str | None = None) -> Summary:
     """Writes `tables`, `out`, `pages`, `fleet.html` and `junit.xml` into the store's folder, from its results."""
+    store.sweep()
     found = {unit.key: store.result(unit.key) for unit in units}
     units = sorted(units, key=lambda unit: (unit.robot, unit.job))
     run_id = sha256("\n".join(unit.key for unit in units).encode())[:16]

@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import json
 import os
+import shutil
 import tempfile
 import time
 from pathlib import Path
@@ -83,6 +84,13 @@ class Store:
         if sha256(data) != digest:
             raise OSError(f"{self.blob_place(digest)} is damaged: remove it, and run again")
         return data
+
+    def sweep(self) -> None:
+        """Removes what workers that died were writing. Nobody may be at work."""
+        for top in ("results", "blobs", "tables", "out", "pages", "."):
+            pattern = ".new-*" if top == "." else "**/.new-*"
+            for left in (self.folder / top).glob(pattern):
+                shutil.rmtree(left) if left.is_dir() else left.unlink(missing_ok=True)
 
     def notes(self, name: str) -> dict[str, Any]:
         """What a run notes for the next: it saves time, and nothing depends on it."""

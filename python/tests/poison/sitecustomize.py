@@ -1,20 +1,25 @@
-"""Ends the process that works on one robot: workers find it by PYTHONPATH."""
+"""Ends the process that works on a robot: workers find it by PYTHONPATH.
+
+In the folder `POISON` a file with the name of a robot ends each of them, one with `.once` behind it the first.
+"""
 
 import os
-import sys
+import signal
+from pathlib import Path
+
+_chdir = os.chdir
 
 
-class _Poison:
-    """Ends the process when it changes into the folder of the robot `POISONED`."""
+def _poisoned(folder: str) -> None:
+    poison = Path(os.environ["POISON"]) / Path(folder).name
+    once = poison.with_name(f"{poison.name}.once")
+    if once.exists():
+        once.unlink()
+        os.kill(os.getpid(), signal.SIGKILL)
+    if poison.exists():
+        os.kill(os.getpid(), signal.SIGKILL)
+    _chdir(folder)
 
-    def __init__(self) -> None:
-        self._chdir = os.chdir
 
-    def __call__(self, folder: object) -> None:
-        if os.path.basename(str(folder)) == os.environ.get("POISONED"):
-            os.kill(os.getpid(), 9)
-        self._chdir(folder)  # type: ignore[arg-type]
-
-
-if "POISONED" in os.environ and sys.platform != "win32":
-    os.chdir = _Poison()
+if "POISON" in os.environ:
+    os.chdir = _poisoned  # type: ignore[assignment]
