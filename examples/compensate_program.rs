@@ -25,7 +25,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     if prepared.is_refused() {
         return Err("not every target can be compensated".into());
     }
-    let s = prepared.compensation.summary.clone();
+    let s = prepared.compensation.summary;
     println!("{} of {} targets shifted", s.compensated, s.targets);
     println!(
         "mean error {:.6} m before, {:.6} m after",

@@ -132,7 +132,7 @@ fn branch(number: u8) -> PyResult<Branch> {
 
 #[pymethods]
 impl Arm {
-    /// world_from_tool (n, 4, 4) of joint angles (n, 6).
+    /// `world_from_tool` (n, 4, 4) of joint angles (n, 6).
     fn forward<'py>(&self, py: Python<'py>, q_rad: Numbers<'py>) -> PyResult<Array<'py>> {
         let found = rows::<6>("q_rad", &q_rad)?;
         let (q, single) = (found.rows(), found.single);

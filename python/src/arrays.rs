@@ -191,11 +191,11 @@ pub(crate) fn pose_array<'py>(
 }
 
 /// Whole numbers as an array.
-pub(crate) fn whole<'py, T: numpy::Element>(
-    py: Python<'py>,
+pub(crate) fn whole<T: numpy::Element>(
+    py: Python<'_>,
     numbers: Vec<T>,
     single: bool,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<Bound<'_, PyAny>> {
     let flat = numbers.into_pyarray(py);
     if single {
         return Ok(flat.reshape([0_usize; 0])?.into_any());

@@ -68,13 +68,13 @@ impl Profile {
         let shipped = SHIPPED.iter().find(|(known, _)| *known == name);
         let text = match shipped {
             Some((_, text)) => (*text).to_owned(),
-            None => match catalogue().into_iter().find(|arm| arm.name == name) {
-                Some(arm) => arm.text(),
-                None => {
-                    let message = format!("no profile `{name}`; Profile.names() lists them");
-                    return Err(PyKeyError::new_err(message));
-                }
-            },
+            None => {
+                let arm = catalogue().into_iter().find(|arm| arm.name == name);
+                let arm = arm.ok_or_else(|| {
+                    PyKeyError::new_err(format!("no profile `{name}`; Profile.names() lists them"))
+                })?;
+                arm.text()
+            }
         };
         Self::read(py, text, &format!("{name}.yaml"))
     }

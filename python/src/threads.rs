@@ -86,6 +86,11 @@ impl Stop {
     }
 }
 
+/// The exception of a signal that has come.
+fn signals(py: Python<'_>) -> PyResult<()> {
+    py.check_signals()
+}
+
 /// Long work without the interpreter's lock; a signal stops it at its next [`Stop::here`].
 pub(crate) fn long<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Send) -> PyResult<T> {
     let pool = pool()?;
@@ -102,7 +107,7 @@ pub(crate) fn long<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Send
             let mut signal = None;
             while waiting.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
                 if signal.is_none()
-                    && let Err(error) = Python::attach(|py| py.check_signals())
+                    && let Err(error) = Python::attach(signals)
                 {
                     stop.0.store(true, Ordering::Relaxed);
                     signal = Some(error);

@@ -19,8 +19,8 @@ import poseshift as ps
 pytestmark = pytest.mark.filterwarnings("ignore")
 ray = pytest.importorskip("ray")
 
-ROBOTS = 60
-PATIENCE_S = 240.0
+ROBOTS = 16
+PATIENCE_S = 600.0
 
 
 @pytest.fixture

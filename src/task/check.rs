@@ -426,6 +426,10 @@ impl<'a> Checked<'a> {
     ///
     /// # Errors
     /// A text that is no stored run.
+    #[allow(
+        clippy::missing_panics_doc,
+        reason = "a report holds only numbers under text keys"
+    )]
     pub fn compare(&self, stored: &str, tolerance: f64) -> Result<Comparison, BaselineError> {
         let before = baseline::read(stored)?;
         let tolerances = Tolerances {
