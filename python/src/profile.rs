@@ -66,15 +66,14 @@ impl Profile {
     #[staticmethod]
     fn shipped(py: Python<'_>, name: &str) -> PyResult<Self> {
         let shipped = SHIPPED.iter().find(|(known, _)| *known == name);
-        let text = match shipped {
-            Some((_, text)) => (*text).to_owned(),
-            None => {
-                let arm = catalogue().into_iter().find(|arm| arm.name == name);
-                let arm = arm.ok_or_else(|| {
-                    PyKeyError::new_err(format!("no profile `{name}`; Profile.names() lists them"))
-                })?;
-                arm.text()
-            }
+        let text = if let Some((_, text)) = shipped {
+            (*text).to_owned()
+        } else {
+            let arm = catalogue().into_iter().find(|arm| arm.name == name);
+            let arm = arm.ok_or_else(|| {
+                PyKeyError::new_err(format!("no profile `{name}`; Profile.names() lists them"))
+            })?;
+            arm.text()
         };
         Self::read(py, text, &format!("{name}.yaml"))
     }
