@@ -13,6 +13,11 @@
 //!
 //! Lengths are metres and angles radians everywhere but in files and printed text.
 //!
+//! # Features
+//!
+//! `cli` (default) is the command line, `html` (default) the texts and pages of results; the library needs neither. What each
+//! command does is in [`task`]; `examples/` has one program a task.
+//!
 //! # Example
 //!
 //! ```
@@ -31,6 +36,7 @@
 #![warn(unreachable_pub)]
 
 pub mod check;
+#[cfg(feature = "cli")]
 mod cli;
 pub mod compensate;
 pub mod diagnose;
@@ -44,9 +50,18 @@ mod nearest;
 mod printable;
 pub mod program;
 pub mod register;
-mod report;
+#[cfg(feature = "html")]
+#[cfg_attr(
+    not(feature = "cli"),
+    allow(
+        dead_code,
+        reason = "the command line alone lays texts out for a terminal"
+    )
+)]
+pub mod report;
 pub mod task;
 pub mod urdf;
 mod xml;
 
+#[cfg(feature = "cli")]
 pub use cli::run_with;

@@ -6,21 +6,16 @@ use super::programs::{Ignored, gather, read_context};
 use super::progress::Progress;
 use super::telling::{ReportFile, Said, deliver};
 use super::{Answer, Output, values};
-use crate::check::trace::trace;
-use crate::check::{self, CheckError, Options, Scene, Subject, Turning, baseline};
-use crate::finding::{Acceptance, accept_errors};
+use crate::check::{Options, Turning, baseline};
+use crate::finding::Acceptance;
 use crate::geometry::units::{DEG, MM};
 use crate::model::profile::Profile;
 use crate::motion::Given;
 use crate::printable::name_of;
-use crate::program::Source;
 use crate::report;
-use crate::report::html::programs::{Checked, SAMPLES, Scenery, check_page};
-use crate::task::check::{Checked as Run, Header};
-use crate::task::meshes::Loader;
-use crate::task::programs::{
-    acceptance, common_language, explain, language_by_id, refuse_other_origin,
-};
+use crate::report::html::programs::check_page;
+use crate::task::check::{Checked as Run, Request, check};
+use crate::task::programs::{acceptance, common_language, language_by_id};
 use crate::task::{Document, Failure, text};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -108,20 +103,9 @@ impl Check {
         self.refuse_nonsense()?;
         let files = Files::default();
         let file = files.profile(&self.profile)?;
-        let mut profile = file.profile.clone();
-        let (name, profile_sha256) = (file.name.clone(), file.sha256.clone());
         let read = |path: &Path| files.mesh(path);
-        let mut meshes = Loader::new(&read);
-        for shape in &mut profile.shapes {
-            meshes.load(&mut shape.shape, &name)?;
-        }
-        let cell = self
-            .cell
-            .as_ref()
-            .map(|path| meshes.cell(&files.source(path)?))
-            .transpose()?;
-        let scene = Scene::new(&profile, cell.as_ref(), &meshes.meshes)
-            .map_err(|missing| Failure::new(missing.to_string()))?;
+        let cell = self.cell.as_ref().map(|path| files.source(path));
+        let cell = cell.transpose()?;
         let asked = self.language.as_deref().map(language_by_id).transpose()?;
         let accepted: Vec<Acceptance> = self
             .accept
@@ -136,7 +120,7 @@ impl Check {
             read_context(&files, &self.with, asked, &self.ignored, programs)
         };
         sources.extend(with(asked, &paths)?);
-        let language = asked.map_or_else(|| common_language(&sources, &profile), Ok)?;
+        let language = asked.map_or_else(|| common_language(&sources, &file.profile), Ok)?;
         let nominal = if self.nominal.is_empty() {
             None
         } else {
@@ -149,48 +133,22 @@ impl Check {
         let written = self.baseline.iter().filter(|_| self.update_baseline);
         let written = written.chain(&self.junit).map(PathBuf::as_path);
         self.report.refuse_over(&files, written)?;
-        if let Some(originals) = nominal.as_deref().filter(|_| !self.force) {
-            refuse_other_origin(&sources, originals, &file)?;
-        }
-        let subject = Subject {
-            language,
+        let request = Request {
             sources: &sources,
             nominal: nominal.as_deref(),
-            profile: &profile,
-            scene: &scene,
+            language: Some(language),
+            profile: &file,
+            cell: cell.as_ref(),
+            read: &read,
+            options: self.options(&file.profile)?,
+            accepted: &accepted,
+            force: self.force,
         };
-        let options = self.options(&profile)?;
         let progress = Progress::new(output, "checking");
-        let found = check::check_telling(&subject, &options, &mut |done, of| {
-            progress.tell(done, of);
-        });
+        let found = check(&request, &mut |done, of| progress.tell(done, of))?;
         drop(progress);
-        let mut found = found.map_err(|error| match error {
-            CheckError::Program(error) => explain(&error, &sources),
-            CheckError::Nominal(error) => explain(&error, nominal.as_deref().unwrap_or(&[])),
-            CheckError::NoCounterpart { .. } => Failure::with_hint(
-                error.to_string(),
-                "is it the program that this one was made from?",
-            ),
-        })?;
-        accept_errors(&mut found.findings, &accepted, &sources[0].name);
-        let names = |sources: &[Source]| -> Vec<String> {
-            let own = sources.iter().filter(|source| !source.is_context);
-            own.map(|source| source.name.clone()).collect()
-        };
-        let (inputs, originals) = (
-            names(&sources),
-            nominal.as_deref().map(names).unwrap_or_default(),
-        );
-        let header = Header {
-            inputs: &inputs,
-            nominal: &originals,
-            language,
-            profile_sha256: &profile_sha256,
-            left_out: &left_out,
-            scene: &scene,
-        };
-        let run = Run::new(&header, &found, None);
+        let header = found.header(&left_out);
+        let run = Run::new(&header, &found.check, None);
         let comparison = self.compare(&files, &run)?;
         let mut outputs = Vec::new();
         if let (Some(path), true) = (&self.baseline, self.update_baseline) {
@@ -201,33 +159,20 @@ impl Check {
             outputs.push((path.clone(), xml.into_bytes()));
         }
         let worse = comparison.as_ref().map_or(0, |c| c.worse.len());
-        let page = self.report.is_wanted().then(|| {
-            // what could be checked can be followed
-            let traced = trace(&subject, &options, SAMPLES).unwrap_or_default();
-            check_page(&Checked {
-                header: &header,
-                sources: &sources,
-                check: &found,
-                traced: &traced,
-                worse,
-                scenery: &Scenery {
-                    profile: &profile,
-                    cell: cell.as_ref(),
-                    meshes: &meshes.meshes,
-                },
-            })
-        });
+        let page = self.report.is_wanted();
+        let page = page.then(|| check_page(&found, &header, worse));
         outputs.extend(self.report.output(page.as_ref()));
-        let answer = if found.is_refused() || worse > 0 {
+        let refused = found.check.is_refused();
+        let answer = if refused || worse > 0 {
             Answer::No
         } else {
             Answer::Yes
         };
-        let run = Run::new(&header, &found, comparison.as_ref());
+        let run = Run::new(&header, &found.check, comparison.as_ref());
         let said = if output.json {
             Said::json(&run)?
         } else {
-            Said::text(self.tell(&run, found.is_refused(), &meshes.notes, output))
+            Said::text(self.tell(&run, refused, &found.notes, output))
         };
         deliver(&files, &outputs, said, answer)
     }
@@ -293,14 +238,10 @@ impl Check {
                 "--update-baseline stores this run",
             ));
         }
-        let before = baseline::read(&text(&files.source(path)?)?)
-            .map_err(|error| Failure::new(format!("{}: {error}", name_of(path))))?;
-        let tolerances = baseline::Tolerances {
-            mm: self.tolerance,
-            deg: self.tolerance,
-        };
-        let now = serde_json::to_value(now).expect("numbers under text keys");
-        Ok(Some(baseline::compare(&before, &now, tolerances)))
+        let stored = text(&files.source(path)?)?;
+        now.compare(&stored, self.tolerance)
+            .map(Some)
+            .map_err(|error| Failure::new(format!("{}: {error}", name_of(path))))
     }
 
     fn tell(&self, found: &Run, refused: bool, notes: &[String], output: Output) -> String {

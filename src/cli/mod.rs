@@ -30,7 +30,6 @@ mod values;
 use crate::task::{Blame, Failure};
 use clap::{Args, Parser, Subcommand};
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 /// Makes an offline-programmed robot path land where the simulation wanted it
 #[derive(Parser)]
@@ -107,19 +106,20 @@ enum Answer {
 ///
 /// ```no_run
 /// fn main() -> std::process::ExitCode {
-///     poseshift::run_with(std::env::args_os())
+///     poseshift::run_with(std::env::args_os()).into()
 /// }
 /// ```
 #[must_use]
-pub fn run_with<A>(arguments: impl IntoIterator<Item = A>) -> ExitCode
+pub fn run_with<A>(arguments: impl IntoIterator<Item = A>) -> u8
 where
     A: Into<OsString> + Clone,
 {
-    let status = match CommandLine::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    telling::remember(&arguments);
+    match CommandLine::try_parse_from(arguments) {
         Ok(CommandLine { command, output }) => guarded(|| command.run(output)),
         Err(error) => screen::print_usage(&error),
-    };
-    ExitCode::from(status)
+    }
 }
 
 /// The exit status of what a command does; a panic is a fault of poseshift itself.

@@ -98,32 +98,6 @@ impl PlanCommand {
             None => Vec::new(),
             Some(path) => given(&files.source(path)?)?,
         };
-        for (option, value, most) in [
-            ("--sigma-mm", self.sigma_mm, 1e6),
-            ("--cone-deg", self.cone_deg, 180.0),
-        ] {
-            if !(1e-9..=most).contains(&value) {
-                return Err(Failure::new(format!(
-                    "{option} is {value:e}; it must be greater than 0 (1e-9 or more), and at most {most:e}"
-                )));
-            }
-        }
-        for (option, value) in [
-            ("--margin-deg", self.margin_deg),
-            ("--approach-deg", self.approach_deg),
-        ] {
-            if !(0.0..=90.0).contains(&value) {
-                return Err(Failure::new(format!(
-                    "{option} is {value}; it must be from 0 to 90"
-                )));
-            }
-        }
-        if self.count == 0 || self.candidates < self.count || self.candidates > 1_000_000 {
-            return Err(Failure::new(format!(
-                "{} of {} candidates: at least 1, and at most 1000000 to choose from",
-                self.count, self.candidates
-            )));
-        }
         let keep_out = self
             .keep_out_mm
             .iter()

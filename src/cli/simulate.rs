@@ -68,19 +68,6 @@ pub(super) struct Simulate {
 
 impl Simulate {
     fn session(&self) -> Result<Session, Failure> {
-        let sizes = [
-            ("--noise-mm", self.noise_mm, f64::INFINITY),
-            ("--noise-deg", self.noise_deg, 180.0),
-            ("--outliers", self.outliers, 1.0),
-            ("--outlier-mm", self.outlier_mm, f64::INFINITY),
-        ];
-        for (option, value, most) in sizes {
-            if !(0.0..=most).contains(&value) || !value.is_finite() {
-                return Err(Failure::new(format!(
-                    "{option} is {value}; it must be from 0 to {most}"
-                )));
-            }
-        }
         let from = self
             .from
             .iter()

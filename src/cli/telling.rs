@@ -11,8 +11,10 @@ use crate::report::{Report, Style};
 use crate::task::{Document, Failure};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::ffi::OsString;
 use std::io::{self, BufWriter, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 use tempfile::SpooledTempFile;
 
@@ -69,10 +71,21 @@ fn made() -> String {
         SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)
     });
     let date = humantime::format_rfc3339_seconds(now).to_string();
-    let words = std::env::args_os().skip(1);
-    let words = words.map(|word| shell_word(&word.to_string_lossy()).into_owned());
+    let words = WORDS.lock().unwrap_or_else(PoisonError::into_inner);
+    let words = words
+        .iter()
+        .map(|word| shell_word(&word.to_string_lossy()).into_owned());
     let words: Vec<String> = words.collect();
     format!("{date}: poseshift {}", words.join(" "))
+}
+
+/// The command line without the program's name: pages say it.
+static WORDS: Mutex<Vec<OsString>> = Mutex::new(Vec::new());
+
+/// Keeps the command line that is run.
+pub(super) fn remember(arguments: &[OsString]) {
+    let words = arguments.iter().skip(1).cloned().collect();
+    *WORDS.lock().unwrap_or_else(PoisonError::into_inner) = words;
 }
 
 /// How frames are shown besides.

@@ -59,6 +59,7 @@ mod line;
 mod pairs;
 mod reading;
 mod repeated;
+pub mod residuals;
 pub mod route;
 pub mod statistics;
 pub mod table;

@@ -8,10 +8,64 @@ mod junit;
 pub(crate) mod layout;
 mod text;
 
+pub use html::programs::Drawing;
+
 use crate::finding::Finding;
+use crate::program::Language;
 use crate::task::Document;
+use crate::task::check::{Checked, Checking};
+use crate::task::compensate::Compensated;
 use crate::task::parts::Pose;
+use crate::task::programs::LeftOut;
 use html::page::Page;
+
+/// What people read of a result.
+pub trait Readable: Document {
+    /// The text, without the findings.
+    fn words(&self) -> String;
+
+    /// The page as one HTML file that needs no network; `None` of a result that there is nothing to look at of. `made` says at
+    /// its foot when and by what it was made.
+    fn html(&self, made: &str) -> Option<String>;
+}
+
+impl<R: Report> Readable for R {
+    fn words(&self) -> String {
+        self.text(Style {
+            width: usize::MAX,
+            every: true,
+        })
+    }
+
+    fn html(&self, made: &str) -> Option<String> {
+        Some(self.page()?.html(made))
+    }
+}
+
+/// The page of a check, as [`Readable::html`].
+#[must_use]
+pub fn check_html(of: &Checking, made: &str) -> String {
+    let left_out = LeftOut::default();
+    html::programs::check_page(of, &of.header(&left_out), 0).html(made)
+}
+
+/// The text of a check, as [`Readable::words`].
+#[must_use]
+pub fn check_words(of: &Checked) -> String {
+    check::text(of)
+}
+
+/// The text of a compensation, as [`Readable::words`].
+#[must_use]
+pub fn compensation_words(of: &Compensated, language: &dyn Language) -> String {
+    compensation::text(of, language)
+}
+
+/// `JUnit` XML of a check, for build servers.
+#[must_use]
+pub fn check_junit(of: &Checked) -> String {
+    check::junit(of, of.baseline)
+}
 
 /// How a text is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

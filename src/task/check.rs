@@ -1,16 +1,153 @@
-//! The report of `check`: where the real robot goes on every move, and what it comes near.
+//! `check`: where the real robot goes on every move, and what it comes near.
 
-use super::Document;
+use super::meshes::{Loader, Reader};
 use super::parts::{Names, finite};
-use super::programs::LeftOut;
-use crate::check::baseline::Comparison;
+use super::programs::{LeftOut, common_language, explain, refuse_other_origin};
+use super::{Document, Failure, ProfileFile};
+use crate::check::baseline::{self, BaselineError, Comparison, Tolerances};
+use crate::check::cell::Cell;
 use crate::check::collision::Clearance as Near;
-use crate::check::{Check, MoveReport, Scene};
-use crate::finding::Finding;
+use crate::check::{
+    self as engine, Check, CheckError, Meshes, MoveReport, Options, Scene, Subject,
+};
+use crate::finding::{Acceptance, Finding, accept_errors};
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::program::{Language, Motion};
+use crate::model::profile::Profile;
+use crate::program::{Language, Motion, Source};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
+
+/// What is to be checked.
+pub struct Request<'a> {
+    /// Program files that belong together; those that are read for their declarations only are marked so.
+    pub sources: &'a [Source],
+    /// The program that says where the tool is wanted; `None` is the program itself.
+    pub nominal: Option<&'a [Source]>,
+    /// Their language where the user says it.
+    pub language: Option<&'static dyn Language>,
+    /// The robot.
+    pub profile: &'a ProfileFile,
+    /// What stands around it.
+    pub cell: Option<&'a Source>,
+    /// Reads the meshes that profile and cell name.
+    pub read: Reader<'a>,
+    /// How.
+    pub options: Options,
+    /// Errors that the user takes.
+    pub accepted: &'a [Acceptance],
+    /// Whatever the marker of a program says of its original and profile.
+    pub force: bool,
+}
+
+/// A program that was followed.
+pub struct Checking<'a> {
+    /// What was asked.
+    pub request: &'a Request<'a>,
+    /// The programs' language.
+    pub language: &'static dyn Language,
+    /// The robot, the meshes of its bodies by their keys.
+    pub profile: Profile,
+    /// What stands around it, likewise.
+    pub cell: Option<Cell>,
+    /// These meshes.
+    pub meshes: Meshes,
+    /// What is to be said of them.
+    pub notes: Vec<String>,
+    /// The bodies.
+    pub scene: Scene,
+    /// What was found.
+    pub check: Check,
+    /// The names of the programs.
+    inputs: Vec<String>,
+    /// The names of the originals.
+    nominal: Vec<String>,
+}
+
+/// Follows programs through the real robot; `tell` hears how many of how many moves are done.
+///
+/// # Errors
+/// Programs that are not understood, of several languages, or made from another original; an arm, a tool or a frame that is
+/// not known; a mesh or a cell that cannot be read.
+pub fn check<'a>(
+    request: &'a Request<'a>,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Checking<'a>, Failure> {
+    let (sources, file) = (request.sources, request.profile);
+    let mut profile = file.profile.clone();
+    let mut meshes = Loader::new(request.read);
+    for shape in &mut profile.shapes {
+        meshes.load(&mut shape.shape, &file.name)?;
+    }
+    let cell = request.cell.map(|cell| meshes.cell(cell)).transpose()?;
+    let Loader { meshes, notes, .. } = meshes;
+    let scene = Scene::new(&profile, cell.as_ref(), &meshes)
+        .map_err(|missing| Failure::new(missing.to_string()))?;
+    let asked = request.language;
+    let language = asked.map_or_else(|| common_language(sources, &profile), Ok)?;
+    if let Some(originals) = request.nominal.filter(|_| !request.force) {
+        refuse_other_origin(sources, originals, file)?;
+    }
+    let subject = Subject {
+        language,
+        sources,
+        nominal: request.nominal,
+        profile: &profile,
+        scene: &scene,
+    };
+    let found = engine::check_telling(&subject, &request.options, tell);
+    let mut check = found.map_err(|error| match error {
+        CheckError::Program(error) => explain(&error, sources),
+        CheckError::Nominal(error) => explain(&error, request.nominal.unwrap_or(&[])),
+        CheckError::NoCounterpart { .. } => Failure::with_hint(
+            error.to_string(),
+            "is it the program that this one was made from?",
+        ),
+    })?;
+    accept_errors(&mut check.findings, request.accepted, &sources[0].name);
+    let names = |sources: &[Source]| -> Vec<String> {
+        let own = sources.iter().filter(|source| !source.is_context);
+        own.map(|source| source.name.clone()).collect()
+    };
+    Ok(Checking {
+        inputs: names(sources),
+        nominal: request.nominal.map(names).unwrap_or_default(),
+        request,
+        language,
+        profile,
+        cell,
+        meshes,
+        notes,
+        scene,
+        check,
+    })
+}
+
+impl Checking<'_> {
+    /// What the report says beside the check itself.
+    #[must_use]
+    pub fn header<'h>(&'h self, left_out: &'h LeftOut) -> Header<'h> {
+        Header {
+            inputs: &self.inputs,
+            nominal: &self.nominal,
+            language: self.language,
+            profile_sha256: &self.request.profile.sha256,
+            left_out,
+            scene: &self.scene,
+        }
+    }
+
+    /// What was checked.
+    #[must_use]
+    pub fn subject(&self) -> Subject<'_> {
+        Subject {
+            language: self.language,
+            sources: self.request.sources,
+            nominal: self.request.nominal,
+            profile: &self.profile,
+            scene: &self.scene,
+        }
+    }
+}
 
 /// What the report says beside the check itself.
 pub struct Header<'a> {
@@ -285,6 +422,24 @@ impl Document for Checked<'_> {
 }
 
 impl<'a> Checked<'a> {
+    /// What differs from a stored run, the text of its JSON; differences below `tolerance` in mm and degrees are none.
+    ///
+    /// # Errors
+    /// A text that is no stored run.
+    #[allow(
+        clippy::missing_panics_doc,
+        reason = "a report holds only numbers under text keys"
+    )]
+    pub fn compare(&self, stored: &str, tolerance: f64) -> Result<Comparison, BaselineError> {
+        let before = baseline::read(stored)?;
+        let tolerances = Tolerances {
+            mm: tolerance,
+            deg: tolerance,
+        };
+        let now = serde_json::to_value(self).expect("numbers under text keys");
+        Ok(baseline::compare(&before, &now, tolerances))
+    }
+
     /// The report of a check.
     #[must_use]
     pub fn new(

@@ -16,7 +16,8 @@ pub enum Blame {
 }
 
 /// Why a task could not be done.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
 pub struct Failure {
     /// What went wrong, with the value and the limit.
     pub message: String,

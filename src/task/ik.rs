@@ -79,7 +79,7 @@ pub fn ik(
             hint,
         ));
     }
-    let inverse = inverse(profile, &tool, options.model)?;
+    let inverse = inverse(profile, &tool, options.model, Conditions::default())?;
     let (mut solutions, mut reached) = (Vec::new(), true);
     for (number, row) in table.rows().enumerate() {
         let wanted = pose(&row)?;
@@ -135,10 +135,18 @@ fn solution(id: String, branch: Branch, root: Option<u8>, outcome: &Outcome) -> 
     }
 }
 
-fn inverse(profile: &Profile, tool: &Mounted, which: Which) -> Result<Inverse, Failure> {
+/// The inverse of a profile's arm with a tool.
+///
+/// # Errors
+/// An arm without an inverse.
+pub fn inverse(
+    profile: &Profile,
+    tool: &Mounted,
+    which: Which,
+    conditions: Conditions,
+) -> Result<Inverse, Failure> {
     let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)
         .map_err(|error| Failure::new(error.to_string()))?;
-    let conditions = Conditions::default();
     let real = match which {
         Which::Real => profile.real_model(tool, &conditions),
         Which::Controller => profile.controller_model(tool),
@@ -151,7 +159,8 @@ fn inverse(profile: &Profile, tool: &Mounted, which: Which) -> Result<Inverse, F
 }
 
 /// Zero, or the end of a joint's range that is nearest to it.
-fn middle(profile: &Profile) -> [f64; 6] {
+#[must_use]
+pub fn middle(profile: &Profile) -> [f64; 6] {
     profile
         .mechanism
         .joints

@@ -11,6 +11,7 @@ use crate::identify::measurements::{
 };
 use crate::identify::simulate::{Command, Session, simulate as measure};
 use crate::model::Conditions;
+use crate::model::profile::Mounted;
 use crate::program::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -42,7 +43,6 @@ pub fn simulate(
     tool: Option<&str>,
     session: &Session,
 ) -> Result<Simulation, Failure> {
-    let profile = &file.profile;
     let tool = file.tool(tool)?;
     let table = Table::read(joints)?;
     table.require(&JOINTS)?;
@@ -62,6 +62,22 @@ pub fn simulate(
         })
     };
     let commands: Vec<Command> = table.rows().map(command).collect::<Result<_, Failure>>()?;
+    simulate_at(file, &commands, forces, &tool, session)
+}
+
+/// As [`simulate`], in these configurations; `forces` of them stand in the table.
+///
+/// # Errors
+/// Noise or outliers that are none.
+pub fn simulate_at(
+    file: &ProfileFile,
+    commands: &[Command],
+    forces: bool,
+    tool: &Mounted,
+    session: &Session,
+) -> Result<Simulation, Failure> {
+    refuse_nonsense(session)?;
+    let profile = &file.profile;
     let mut points: Vec<(Option<String>, [f64; 3])> = profile
         .points
         .iter()
@@ -70,13 +86,14 @@ pub fn simulate(
     if points.is_empty() {
         points.push((None, [0.0; 3]));
     }
-    let rows = measure(profile, &tool, &points, &commands, session);
+    let rows = measure(profile, tool, &points, commands, session);
     let seen = Measurements {
         rows,
         columns: Vec::new(),
     };
     let rows = seen.moved(&profile.world_from_device().inverse()).rows;
-    let csv = csv(&rows, forces, profile.tools.contains_key(&tool.name));
+    let named_tool = profile.tools.contains_key(&tool.name);
+    let csv = measurements_csv(&rows, true, forces, named_tool);
     Ok(Simulation {
         rows: rows.len(),
         output: None,
@@ -90,8 +107,32 @@ fn sigma_rad(row: &Measurement) -> Option<f64> {
     row.sigma_rad.filter(|_| is_pose)
 }
 
-/// A file of measurements; every number is read back as it is.
-fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
+/// Noise and outliers within what they can be.
+fn refuse_nonsense(session: &Session) -> Result<(), Failure> {
+    let sizes = [
+        ("--noise-mm", mm_from_m(session.noise_m), f64::INFINITY),
+        ("--noise-deg", session.noise_rad / DEG, 180.0),
+        ("--outliers", session.outliers, 1.0),
+        ("--outlier-mm", mm_from_m(session.outlier_m), f64::INFINITY),
+    ];
+    for (option, value, most) in sizes {
+        if !(0.0..=most).contains(&value) || !value.is_finite() {
+            return Err(Failure::new(format!(
+                "{option} is {value}; it must be from 0 to {most}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// A file of measurements; every number is read back as it is. Directions, forces and tools stand in it where they are asked for.
+#[must_use]
+pub fn measurements_csv(
+    rows: &[Measurement],
+    directions: bool,
+    forces: bool,
+    named_tool: bool,
+) -> String {
     let Some(first) = rows.first() else {
         return format!("{}\n", JOINTS.join(","));
     };
@@ -103,7 +144,7 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
         Observed::Distance { .. } => header.extend(DISTANCE_COLUMNS),
         Observed::Contact(_) => {}
     }
-    header.extend(DIRECTION_COLUMNS);
+    header.extend(DIRECTION_COLUMNS.iter().filter(|_| directions));
     header.extend(FORCE_COLUMNS.iter().filter(|_| forces));
     let optional = [
         (named_tool, "tool"),
@@ -137,7 +178,9 @@ fn csv(rows: &[Measurement], forces: bool, named_tool: bool) -> String {
             // no simulated device touches
             Observed::Contact(_) => {}
         }
-        cells.extend(row.conditions.direction.map(cell));
+        if directions {
+            cells.extend(row.conditions.direction.map(cell));
+        }
         if forces {
             cells.extend(row.conditions.force_n.map(cell));
         }

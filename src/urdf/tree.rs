@@ -124,6 +124,7 @@ fn judge_size(text: &str) -> Result<(), UrdfError> {
 }
 
 /// Whether a text is a xacro file whose macros nobody has expanded.
+#[cfg(feature = "cli")]
 pub(crate) fn is_xacro(text: &str) -> bool {
     has_macros(&without_comments(text))
 }

@@ -120,6 +120,7 @@ pub fn plan(
     read: Reader,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Plan, Failure> {
+    refuse_nonsense(request)?;
     let profile = &file.profile;
     let tool = file.tool(tool)?;
     let driving = Driving::new(file, &tool, &request.constraints, read)?;
@@ -172,6 +173,40 @@ pub fn plan(
         drawn: (profile.clone(), tool),
         name: file.name.clone(),
     })
+}
+
+/// Numbers within what they can be.
+fn refuse_nonsense(request: &Request) -> Result<(), Failure> {
+    let constraints = &request.constraints;
+    let cone_deg = constraints.sight.map(|(_, cone_rad)| cone_rad / DEG);
+    for (option, value, most) in [
+        ("--sigma-mm", mm_from_m(request.sigma_m), 1e6),
+        ("--cone-deg", cone_deg.unwrap_or(1.0), 180.0),
+    ] {
+        // a unit and back is a rounding more
+        if !(0.999e-9..=most * 1.001).contains(&value) {
+            return Err(Failure::new(format!(
+                "{option} is {value:e}; it must be greater than 0 (1e-9 or more), and at most {most:e}"
+            )));
+        }
+    }
+    for (option, value) in [
+        ("--margin-deg", constraints.margin_rad / DEG),
+        ("--approach-deg", constraints.approach_rad / DEG),
+    ] {
+        if !(0.0..=90.001).contains(&value) {
+            return Err(Failure::new(format!(
+                "{option} is {value}; it must be from 0 to 90"
+            )));
+        }
+    }
+    let (count, candidates) = (request.count, request.candidates);
+    if count == 0 || candidates < count || candidates > 1_000_000 {
+        return Err(Failure::new(format!(
+            "{count} of {candidates} candidates: at least 1, and at most 1000000 to choose from"
+        )));
+    }
+    Ok(())
 }
 
 fn no_program(language: &str) -> Failure {

@@ -1,36 +1,48 @@
 //! The page of `check`.
 
 use super::{
-    Lines, Scenery, answer, join, kept, largest, lead, path, thinned, title_of, tools_of, wanted,
+    Lines, SAMPLES, Scenery, answer, join, kept, largest, lead, path, thinned, title_of, tools_of,
+    wanted,
 };
 use crate::check::Check;
-use crate::check::trace::Traced;
+use crate::check::trace::{Traced, trace};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::{Motion, Source};
 use crate::report::html::cell::{Along, Cell, Points, Robot, bodies};
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
-use crate::task::check::Header;
+use crate::task::check::{Checking, Header};
 
 /// What the page of `check` is made of.
-pub(crate) struct Checked<'a> {
-    /// As for the JSON.
-    pub header: &'a Header<'a>,
-    /// The files.
-    pub sources: &'a [Source],
-    /// What was found.
-    pub check: &'a Check,
-    /// The path.
-    pub traced: &'a [Traced],
-    /// What got worse than a stored run.
-    pub worse: usize,
-    /// What is drawn.
-    pub scenery: &'a Scenery<'a>,
+struct Checked<'a> {
+    header: &'a Header<'a>,
+    sources: &'a [Source],
+    check: &'a Check,
+    traced: &'a [Traced],
+    worse: usize,
+    scenery: &'a Scenery<'a>,
 }
 
-/// The page of `check`.
+/// The page of `check`; `worse` numbers are so than a stored run's.
 #[must_use]
-pub(crate) fn check_page(of: &Checked) -> Page {
+pub(crate) fn check_page(of: &Checking, header: &Header, worse: usize) -> Page {
+    // what could be checked can be followed
+    let traced = trace(&of.subject(), &of.request.options, SAMPLES).unwrap_or_default();
+    page(&Checked {
+        header,
+        sources: of.request.sources,
+        check: &of.check,
+        traced: &traced,
+        worse,
+        scenery: &Scenery {
+            profile: &of.profile,
+            cell: of.cell.as_ref(),
+            meshes: &of.meshes,
+        },
+    })
+}
+
+fn page(of: &Checked) -> Page {
     let (header, found) = (of.header, of.check);
     let (mut level, mut text) = answer(&found.findings, "No error found", "");
     if of.worse > 0 {

@@ -11,15 +11,16 @@ use crate::task::compensate::Header;
 use crate::task::meshes::{Loader, Reader};
 
 /// The report while it is made: the program as it was, then as it is written.
-pub(crate) struct Drawing {
+pub struct Drawing {
     /// The page.
-    pub page: Page,
+    pub(crate) page: Page,
     original: Vec<Traced>,
 }
 
 impl Drawing {
     /// The program as it was. `read` reads meshes of the robot's bodies.
-    pub(crate) fn begin(
+    #[must_use]
+    pub fn begin(
         header: &Header,
         compensation: &Compensation,
         file: &ProfileFile,
@@ -49,15 +50,21 @@ impl Drawing {
         Self { page, original }
     }
 
+    /// The page as one HTML file that needs no network; `made` says at its foot when and by what.
+    #[must_use]
+    pub fn html(&self, made: &str) -> String {
+        self.page.html(made)
+    }
+
     /// How many moves were inserted to keep the path near the wanted one.
-    pub(crate) fn say_inserted(&mut self, moves: usize) {
+    pub fn say_inserted(&mut self, moves: usize) {
         if moves > 0 {
             self.page.fact("moves inserted", moves.to_string());
         }
     }
 
     /// And as it is written.
-    pub(crate) fn add_written(
+    pub fn add_written(
         &mut self,
         language: &dyn Language,
         written: &[Source],

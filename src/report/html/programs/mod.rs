@@ -4,9 +4,9 @@ mod check;
 mod compensate;
 mod drawing;
 
-pub(crate) use check::{Checked, check_page};
+pub(crate) use check::check_page;
 use compensate::{Compensated, add_written, compensate_page};
-pub(crate) use drawing::Drawing;
+pub use drawing::Drawing;
 
 use super::cell::Path;
 use super::numbers::{Number, fixed};
@@ -24,12 +24,12 @@ use std::collections::BTreeMap;
 /// Items that a page holds; of more it holds those with the largest numbers.
 const MOST_ITEMS: usize = 20_000;
 /// Samples of all paths together.
-pub(crate) const SAMPLES: usize = 24_000;
+const SAMPLES: usize = 24_000;
 /// Letters of a program's line that are shown.
 const LETTERS: usize = 96;
 
 /// What a page of a program draws beside its numbers.
-pub(crate) struct Scenery<'a> {
+struct Scenery<'a> {
     /// The robot.
     pub profile: &'a Profile,
     /// What stands around it.

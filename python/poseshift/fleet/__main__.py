@@ -1,0 +1,67 @@
+"""The command `poseshift-fleet`."""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from poseshift.errors import PoseshiftError
+from poseshift.fleet.collect import collect
+from poseshift.fleet.config import keep_off, read
+from poseshift.fleet.executors import Ran, missing, run_local, run_ray
+from poseshift.fleet.store import Store
+from poseshift.fleet.units import plan
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Runs the command; 0: every answer is yes, 1: some is no, 2: some robot has no answer."""
+    parser = argparse.ArgumentParser(prog="poseshift-fleet", description="Compensates, checks and diagnoses many robots")
+    parser.add_argument("step", choices=("plan", "run", "collect"), help="list what is missing; make it and collect; collect alone")
+    parser.add_argument("fleet", type=Path, help="fleet.yaml")
+    parser.add_argument("--store", type=Path, required=True, help="folder of results, tables and pages")
+    parser.add_argument("--executor", choices=("local", "ray"), default="local")
+    parser.add_argument("--address", help="of the Ray cluster; without it, one of this machine")
+    parser.add_argument("--workers", type=int, help="processes of this machine (default: one a core)")
+    parser.add_argument("--date", help="day of the history, YYYY-MM-DD (default: today)")
+    given = parser.parse_args(words)
+    try:
+        return _run(given)
+    except (PoseshiftError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+
+
+def _run(given: argparse.Namespace) -> int:
+    store = Store(given.store)
+    date = given.date or datetime.date.today().isoformat()
+    datetime.date.fromisoformat(date)
+    robots = read(given.fleet)
+    keep_off(robots, given.store)
+    units = plan(robots, store)
+    wanted = missing(units, store)
+    if given.step == "plan":
+        listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in wanted]
+        print(json.dumps({"poseshift": "fleet-plan/1", "units": len(units), "missing": listed}, indent=2))
+        return 0
+    ran = Ran()
+    if given.step == "run" and wanted:
+        if given.executor == "ray":
+            import ray  # noqa: PLC0415
+
+            ray.init(address=given.address, log_to_driver=False, logging_level="ERROR")
+            ran = run_ray(units, store)
+        else:
+            ran = run_local(units, store, given.workers)
+    summary = collect(units, store, ran.failed, date)
+    counts = ", ".join(f"{count} {status}" for status, count in summary.by_status.items() if count)
+    print(f"{summary.robots} robots: {counts}; {ran.made} of {len(units)} units made, {len(units) - len(wanted)} kept")
+    print(f"{given.store / 'fleet.html'}")
+    return summary.status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,93 @@
+"""One unit's answer, made where its files are."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import poseshift as ps
+from poseshift.fleet.store import Store, sha256
+from poseshift.fleet.units import SCHEMA, Unit
+
+
+def work(store_folder: str, units: list[Unit]) -> list[tuple[str, float]]:
+    """Makes the results of units and keeps them: keys and seconds."""
+    store, done = Store(Path(store_folder)), []
+    for unit in units:
+        begun = time.perf_counter()
+        if store.result(unit.key) is None:
+            store.keep(unit.key, answer(unit, store))
+        done.append((unit.key, time.perf_counter() - begun))
+    return done
+
+
+def crashed(unit: Unit, message: str) -> dict[str, Any]:
+    """The result of a unit that ends its process."""
+    return _result(unit, "crashed") | {"error": {"class": "Crash", "message": message, "hint": ""}}
+
+
+def answer(unit: Unit, store: Store) -> dict[str, Any]:
+    """What the library says of a unit. A file that has changed since the plan, or cannot be read, is an `OSError`."""
+    # names are relative, in the result as in the backup
+    os.chdir(unit.folder)
+    data: dict[str, bytes] = {}
+    for _, name, digest in unit.inputs:
+        data[name] = Path(name).read_bytes()
+        if sha256(data[name]) != digest:
+            raise OSError(f"{unit.folder}/{name} has changed while the fleet was read: run again")
+    options = json.loads(unit.options)
+    try:
+        profile = ps.Profile.from_yaml(data[unit.named("profile")[0]].decode(), unit.named("profile")[0])
+        return _JOBS[unit.job](unit, store, profile, data, options)
+    except (ps.PoseshiftError, ValueError, TypeError) as error:
+        told = error if isinstance(error, ps.PoseshiftError) else ps.PoseshiftError(str(error))
+        error_of = {"class": type(error).__name__, "message": told.message, "hint": told.hint, "file": told.file, "line": told.line}
+        return _result(unit, "error") | {"error": error_of}
+    except BaseException as error:
+        # a panic of the library is no Exception
+        if type(error).__name__ != "PanicException":
+            raise
+        return crashed(unit, str(error))
+
+
+def _programs(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, bytes], options: dict[str, Any]) -> dict[str, Any]:
+    programs = {name: data[name] for name in unit.named("program")}
+    done = ps.compensate(programs, profile, **options["compensate"])
+    documents, pages = {"compensation": done.document}, {}
+    files, refused = {}, done.refused
+    if refused:
+        pages["compensation.html"] = done.html()
+    else:
+        cell = unit.named("cell")
+        checked = ps.check(done.files, profile, nominal=programs, cell=cell[0] if cell else None, **options["check"])
+        documents["check"] = checked.document
+        refused = checked.refused
+        if refused:
+            pages["check.html"] = checked.html()
+        else:
+            files = {f"out/{name}": store.keep_blob(content) for name, content in done.files.items()}
+    files |= {f"pages/{name}": store.keep_blob(page.encode()) for name, page in pages.items()}
+    return _result(unit, "refused" if refused else "done") | {"documents": documents, "files": files}
+
+
+def _diagnose(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, bytes], options: dict[str, Any]) -> dict[str, Any]:
+    tables = tuple((name, data[name]) for name in unit.named("measurements"))
+    found = ps.diagnose(profile, ps.Measurements(tables), **options["diagnose"])
+    files = {}
+    if found.verdict != "nothing_missing":
+        files["pages/diagnosis.html"] = store.keep_blob(found.html().encode())
+    if found.profile is not None:
+        files["out/better.yaml"] = store.keep_blob(found.profile.to_yaml().encode())
+    status = "done" if found.is_sure else "refused"
+    return _result(unit, status) | {"documents": {"diagnosis": found.document}, "files": files}
+
+
+def _result(unit: Unit, status: str) -> dict[str, Any]:
+    return {"poseshift": SCHEMA, "key": unit.key, "job": unit.job, "status": status, "documents": {}, "files": {}}
+
+
+_JOBS: dict[str, Callable[..., dict[str, Any]]] = {"programs": _programs, "diagnose": _diagnose}

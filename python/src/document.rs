@@ -1,0 +1,54 @@
+//! What a command found: its JSON, its text, its page.
+
+use poseshift::report::Readable;
+use pyo3::prelude::*;
+
+/// What is told of a result.
+pub(crate) trait Told: Send + Sync {
+    fn json(&self) -> String;
+    fn words(&self) -> String;
+    /// `made` stands at the foot of the page.
+    fn html(&self, made: &str) -> Option<String>;
+}
+
+impl<R: Readable + Send + Sync> Told for R {
+    fn json(&self) -> String {
+        poseshift::task::Document::json(self)
+    }
+
+    fn words(&self) -> String {
+        Readable::words(self)
+    }
+
+    fn html(&self, made: &str) -> Option<String> {
+        Readable::html(self, made)
+    }
+}
+
+/// What a command found.
+#[pyclass(frozen, module = "poseshift._poseshift")]
+pub(crate) struct Document(Box<dyn Told>);
+
+impl Document {
+    pub(crate) fn new(told: impl Told + 'static) -> Self {
+        Self(Box::new(told))
+    }
+}
+
+#[pymethods]
+impl Document {
+    /// The JSON that the command prints with --json.
+    fn json(&self, py: Python<'_>) -> String {
+        py.detach(|| self.0.json())
+    }
+
+    /// The text that the command prints.
+    fn words(&self, py: Python<'_>) -> String {
+        py.detach(|| self.0.words())
+    }
+
+    /// The page that the command writes with --report.
+    fn html(&self, py: Python<'_>, made: &str) -> Option<String> {
+        py.detach(|| self.0.html(made))
+    }
+}

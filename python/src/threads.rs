@@ -1,0 +1,124 @@
+//! Threads: a pool of our own, made anew after a fork, and work that Ctrl-C stops.
+
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// How often a long call asks whether somebody wants it to stop.
+const TICK: Duration = Duration::from_millis(50);
+/// Rows that are worth a second thread.
+pub(crate) const FEW: usize = 512;
+
+/// As many as [`set`] says; 0 is not said.
+static COUNT: AtomicUsize = AtomicUsize::new(0);
+/// The pool and the process whose threads it has.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+fn count() -> usize {
+    let said = COUNT.load(Ordering::Relaxed);
+    if said > 0 {
+        return said;
+    }
+    let variable = std::env::var("POSESHIFT_THREADS").ok();
+    // 0 is one a core
+    variable.and_then(|text| text.parse().ok()).unwrap_or(0)
+}
+
+pub(crate) fn set(count: Option<usize>) {
+    COUNT.store(count.unwrap_or(0), Ordering::Relaxed);
+    forget(&mut POOL.lock().unwrap_or_else(PoisonError::into_inner));
+}
+
+/// A pool of another process has no threads here: nobody would answer its end.
+fn forget(kept: &mut Option<(u32, Arc<ThreadPool>)>) {
+    if let Some((process, pool)) = kept.take()
+        && process != std::process::id()
+    {
+        std::mem::forget(pool);
+    }
+}
+
+/// The pool of this process.
+fn pool() -> PyResult<Arc<ThreadPool>> {
+    let mut kept = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((process, pool)) = &*kept
+        && *process == std::process::id()
+    {
+        return Ok(Arc::clone(pool));
+    }
+    forget(&mut kept);
+    let made = ThreadPoolBuilder::new().num_threads(count()).build();
+    let made = Arc::new(made.map_err(|error| {
+        pyo3::exceptions::PyRuntimeError::new_err(format!("no threads can be started: {error}"))
+    })?);
+    *kept = Some((std::process::id(), Arc::clone(&made)));
+    Ok(made)
+}
+
+/// Work on `rows` rows without the interpreter's lock, in the pool where there are many.
+pub(crate) fn on_rows<T: Send>(
+    py: Python<'_>,
+    rows: usize,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    if rows <= FEW {
+        return Ok(py.detach(work));
+    }
+    let pool = pool()?;
+    Ok(py.detach(|| pool.install(work)))
+}
+
+/// Whether somebody wants the work to stop.
+#[derive(Default)]
+pub(crate) struct Stop(AtomicBool);
+
+impl Stop {
+    /// Ends the work here if so.
+    pub(crate) fn here(&self) {
+        if self.0.load(Ordering::Relaxed) {
+            // unwinds to `long` without a word
+            resume_unwind(Box::new(()));
+        }
+    }
+}
+
+/// The exception of a signal that has come.
+fn signals(py: Python<'_>) -> PyResult<()> {
+    py.check_signals()
+}
+
+/// Long work without the interpreter's lock; a signal stops it at its next [`Stop::here`].
+pub(crate) fn long<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Send) -> PyResult<T> {
+    let pool = pool()?;
+    let stop = Stop::default();
+    py.detach(|| {
+        std::thread::scope(|scope| {
+            let (done, waiting) = channel::<()>();
+            let (pool, stop) = (&pool, &stop);
+            let worker = scope.spawn(move || {
+                let found = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(stop))));
+                drop(done);
+                found
+            });
+            let mut signal = None;
+            while waiting.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+                if signal.is_none()
+                    && let Err(error) = Python::attach(signals)
+                {
+                    stop.0.store(true, Ordering::Relaxed);
+                    signal = Some(error);
+                }
+            }
+            let found = worker.join().unwrap_or_else(Err);
+            match (signal, found) {
+                (Some(signal), _) => Err(signal),
+                (None, Ok(found)) => Ok(found),
+                (None, Err(panic)) => resume_unwind(panic),
+            }
+        })
+    })
+}
