@@ -5,6 +5,7 @@ mod check;
 mod cli;
 mod diagnose;
 mod documents;
+mod external;
 mod findings;
 mod golden;
 mod laws;
