@@ -431,10 +431,7 @@ fn behind(text: &str, mark: &str, count: usize) -> Vec<Vec<f64>> {
 fn written_numbers(said: Said, text: &str) -> Vec<Vec<f64>> {
     match said {
         Said::Rapid => behind(text, "MoveJ [[", 7),
-        Said::Krl => behind(text, "{X", 6)
-            .into_iter()
-            .filter(|numbers| numbers.len() == 6)
-            .collect(),
+        Said::Krl => behind(text, "PTP {X", 6),
         Said::Fanuc => behind(text, "\tX =", 6),
         Said::Inform => {
             let rows = text.split("///RCONF 0,0,0,0,0,0,0,0").skip(1);
@@ -465,6 +462,9 @@ fn joints(robot: &Robot, wanted: &M4, near: &[f64; 6]) -> [f64; 6] {
     let mut q = *near;
     for _ in 0..12 {
         let error = of(&q);
+        if error.norm() < 1e-12 {
+            break;
+        }
         let step = 1e-6;
         let mut jacobian = Matrix6::zeros();
         for j in 0..6 {
