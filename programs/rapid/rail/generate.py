@@ -84,25 +84,25 @@ def write(path, text):
 
 def main():
     eax = "%.2f,9E9,9E9,9E9,9E9,9E9"
-    moves = "        ConfL\\Off;\n        MoveAbsJ [[0,10,20,0,60,0],[%s]]\\NoEOffs,v500,z50,tMill;\n" % (eax % 150)
+    moves = "        ConfJ\\Off;\n        ConfL\\Off;\n        MoveAbsJ [[0,10,20,0,60,0],[%s]]\\NoEOffs,v500,z50,tMill;\n" % (eax % 150)
     for e, pose in beam(1100.0):
-        moves += "        MoveL %s,v60,z1,tMill\\WObj:=wobj0;\n" % robtarget(pose, eax % e)
+        moves += "        %s %s,v60,z1,tMill\\WObj:=wobj0;\n" % ("MoveL" if "wobj0" in moves else "MoveJ", robtarget(pose, eax % e))
     write("rapid/rail/in/Beam.mod", rapid("Beam", "", moves))
     pipe = turn(0, -90, (1250, 100, 560))
     eax = "9E9,%.2f,9E9,9E9,9E9,9E9"
     data = '    ! the user frame is that of the unit\n    PERS wobjdata wPipe:=[FALSE,FALSE,"STN1",[[1250,100,560],[0.707106781,-0.707106781,0,0]],[[0,0,0],[1,0,0,0]]];'
-    moves = "        ConfL\\Off;\n        ActUnit STN1;\n        MoveAbsJ [[0,10,20,0,60,0],[%s]]\\NoEOffs,v500,z50,tMill;\n" % (eax % -170)
+    moves = "        ConfJ\\Off;\n        ConfL\\Off;\n        ActUnit STN1;\n        MoveAbsJ [[0,10,20,0,60,0],[%s]]\\NoEOffs,v500,z50,tMill;\n" % (eax % -170)
     for e, pose in seam(pipe, 160.0):
-        moves += "        MoveL %s,v20,z1,tMill\\WObj:=wPipe;\n" % robtarget(pose, eax % e)
+        moves += "        %s %s,v20,z1,tMill\\WObj:=wPipe;\n" % ("MoveL" if "wPipe" in moves else "MoveJ", robtarget(pose, eax % e))
     write("rapid/positioner/in/Pipe.mod", rapid("Pipe", data, moves))
     head = "DEF %s ( )\n; written by an offline system\n$TOOL={X 0,Y 0,Z 310,A 0,B 60,C 0}\n"
     lines = head % "beam" + "$BASE=$WORLD\nPTP {A1 0,A2 -80,A3 100,A4 0,A5 40,A6 0,E1 150.0}\n"
     for e, pose in beam(1900.0):
-        lines += "LIN %s C_DIS\n" % e6pos(mul(pose, turn(2, 180)), ",E1 %.2f" % e)
+        lines += "%s %s C_DIS\n" % ("LIN" if "C_DIS" in lines else "PTP", e6pos(mul(pose, turn(2, 180)), ",E1 %.2f" % e))
     write("krl/rail/in/beam.src", (lines + "END\n").replace("\n", "\r\n"))
     lines = head % "pipe" + "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0})\nPTP {A1 0,A2 -80,A3 100,A4 0,A5 40,A6 0,E1 -170.0}\n"
     for e, pose in seam(turn(0, -90, (2000, 100, 700)), 160.0):
-        lines += "LIN %s C_DIS\n" % e6pos(mul(pose, turn(2, 180)), ",E1 %.2f" % e)
+        lines += "%s %s C_DIS\n" % ("LIN" if "C_DIS" in lines else "PTP", e6pos(mul(pose, turn(2, 180)), ",E1 %.2f" % e))
     write("krl/positioner/in/pipe.src", (lines + "END\n").replace("\n", "\r\n"))
 
 
