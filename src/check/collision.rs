@@ -16,10 +16,11 @@
 
 use super::query::{Body, Nearest};
 use super::scene::{FixedForm, Other, Scene, Watched};
-use crate::geometry::{Jet, Pose, Vector, norm};
+use crate::geometry::{Jet, Pose, Scalar, Vector, norm};
 use crate::model::Model;
 use crate::model::effects::Deflection;
 use crate::motion::course::{Leg, Piece};
+use crate::motion::ride::Ride;
 use std::collections::BinaryHeap;
 
 /// The bound is within this of the nearest sample, metres.
@@ -58,6 +59,8 @@ pub(crate) struct Mover<'a> {
     pub jet: &'a Model<Jet>,
     /// Lengths from frame to frame.
     pub reaches: [f64; 6],
+    /// It is the real arm.
+    pub is_real: bool,
 }
 
 /// Bounds of the rates of a piece: what each joint adds to the speed and acceleration of what it carries.
@@ -72,7 +75,16 @@ struct Rates {
 }
 
 impl Mover<'_> {
-    fn rates(&self, piece: &Piece) -> Rates {
+    /// Where the world of this arm at home is.
+    fn carried<S: Scalar>(&self, ride: &Ride, s: S) -> Pose<S> {
+        if self.is_real {
+            ride.world_from_real_home(s)
+        } else {
+            ride.world_from_nominal_home(s)
+        }
+    }
+
+    fn rates(&self, leg: &Leg, piece: &Piece) -> Rates {
         let mechanism = self.model.mechanism();
         let commanded = mechanism.commanded(&piece.joints);
         let deflection: Deflection<Jet> = self.jet.deflection(&piece.joints, &piece.conditions);
@@ -89,6 +101,30 @@ impl Mover<'_> {
                 rates.turn[i] += bend.slope.magnitude();
                 rates.gain[i] += bend.bend.magnitude() + bend.slope.magnitude().powi(2);
             }
+        }
+        if let Some(ride) = &leg.ride {
+            let s = Jet::variable(piece.from, piece.to);
+            let carried = self.carried(ride, s);
+            // dR = [ω] R: of each the largest that it can be
+            let size = |part: fn(&Jet) -> f64| {
+                let all = carried.rotation.0.iter().flatten();
+                (0.5 * all.map(|x| part(x).powi(2)).sum::<f64>()).sqrt()
+            };
+            let (turn, gain) = (size(|x| x.slope.magnitude()), size(|x| x.bend.magnitude()));
+            let length = |part: fn(&Jet) -> f64| {
+                carried
+                    .translation
+                    .iter()
+                    .map(|x| part(x).powi(2))
+                    .sum::<f64>()
+                    .sqrt()
+            };
+            let far = length(|x| x.value.magnitude());
+            rates.world[0] = [turn, gain];
+            rates.world[1] = [
+                length(|x| x.slope.magnitude()) + turn * far,
+                length(|x| x.bend.magnitude()) + (gain + turn * turn) * far,
+            ];
         }
         for (i, part) in deflection.world.iter().enumerate() {
             let kind = usize::from(i < 3);
@@ -192,7 +228,7 @@ pub(crate) fn clearance(
         leg,
         horizon_m,
         pieces,
-        rates: pieces.iter().map(|piece| mover.rates(piece)).collect(),
+        rates: pieces.iter().map(|piece| mover.rates(leg, piece)).collect(),
         best: Clearance {
             clearance_m: horizon_m,
             sampled_m: f64::INFINITY,
@@ -277,9 +313,16 @@ pub(crate) fn clearance(
 }
 
 impl Search<'_> {
-    fn frames(&self, joints: &[f64; 6], node: &Node) -> Frames {
+    fn frames(&self, s: f64, joints: &[f64; 6], node: &Node) -> Frames {
         let conditions = &self.pieces[node.piece as usize].conditions;
-        self.mover.model.link_frames(joints, conditions)
+        let frames = self.mover.model.link_frames(joints, conditions);
+        match &self.leg.ride {
+            None => frames,
+            Some(ride) => {
+                let carried = self.mover.carried(ride, s);
+                frames.map(|frame| carried * frame)
+            }
+        }
     }
 
     /// The first body's pose seen from the second's frame.
@@ -318,7 +361,7 @@ impl Search<'_> {
         for k in 0..=4 {
             let s = node.from + (node.to - node.from) * f64::from(k) / 4.0;
             near = self.leg.joints(s, &near);
-            let frames = self.frames(&near, node);
+            let frames = self.frames(s, &near, node);
             for item in all {
                 let pair = &self.scene.watched[item.pair as usize];
                 let relative = self.relative(&frames, pair);
@@ -358,7 +401,8 @@ impl Search<'_> {
         let middle = self.leg.joints(at, &node.joints);
         let end = self.leg.joints(node.to, &middle);
         let begin = self.leg.joints(node.from, &node.joints);
-        let frames = [begin, middle, end].map(|joints| self.frames(&joints, node));
+        let ends = [(node.from, begin), (at, middle), (node.to, end)];
+        let frames = ends.map(|(s, joints)| self.frames(s, &joints, node));
         let rates = self.rates[node.piece as usize];
         let (mut bound, mut settled, mut items) = (f64::INFINITY, f64::INFINITY, Vec::new());
         for item in &node.items {
@@ -478,8 +522,15 @@ impl Search<'_> {
 }
 
 /// Names of closed meshes, each with a body that is inside it at these joints.
-pub(crate) fn inside(scene: &Scene, model: &Model, leg: &Leg, joints: &[f64; 6]) -> Vec<usize> {
-    let frames = model.link_frames(joints, &leg.conditions);
+pub(crate) fn inside(scene: &Scene, mover: &Mover, leg: &Leg, joints: &[f64; 6]) -> Vec<usize> {
+    let frames = mover.model.link_frames(joints, &leg.conditions);
+    let frames = match &leg.ride {
+        None => frames,
+        Some(ride) => {
+            let carried = mover.carried(ride, 0.0);
+            frames.map(|frame| carried * frame)
+        }
+    };
     let mut pairs = Vec::new();
     for (index, pair) in scene.watched.iter().enumerate() {
         let Other::Fixed(k) = pair.b else { continue };

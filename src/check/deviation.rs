@@ -58,17 +58,20 @@ impl Wanted<'_> {
 
     pub(super) fn at(&self, s: f64, joints: &[f64; 6]) -> Pose {
         if self.own {
-            return self.leg.controller_pose(s, joints, self.controller);
+            let pose = self.leg.controller_pose(s, joints, self.controller);
+            return self.leg.real_from_nominal(s, pose);
         }
         let s = self.along(s);
         let joints = self.leg.joints(s, &self.leg.start);
-        self.leg.controller_pose(s, &joints, self.controller)
+        let pose = self.leg.controller_pose(s, &joints, self.controller);
+        self.leg.real_from_nominal(s, pose)
     }
 
     fn over(&self, from: f64, to: f64, joints: &[Jet; 6]) -> Pose<Jet> {
         let s = Jet::variable(from, to);
         if self.own {
-            return self.leg.controller_pose(s, joints, self.controller_jet);
+            let pose = self.leg.controller_pose(s, joints, self.controller_jet);
+            return self.leg.real_from_nominal(s, pose);
         }
         let k = Jet::constant;
         let s = k(self.from) + s * k(self.to - self.from);
@@ -79,7 +82,8 @@ impl Wanted<'_> {
             }
             crate::motion::course::Course::Tool(_) => *joints,
         };
-        self.leg.controller_pose(s, &joints, self.controller_jet)
+        let pose = self.leg.controller_pose(s, &joints, self.controller_jet);
+        self.leg.real_from_nominal(s, pose)
     }
 }
 

@@ -227,7 +227,7 @@ impl Check {
     /// Where the controller believes the tool to be at the end of a move, in the world.
     #[must_use]
     pub fn commanded(&self, report: &MoveReport) -> &Pose {
-        &self.stop(report).pose
+        &self.stop(report).commanded
     }
 
     /// The controller's joints at the end of a move, radians.

@@ -32,12 +32,13 @@ impl Part {
     pub(super) fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
         let stop = original.stops[self.stop].expect("a part's move ends at a stop");
         if self.to >= 1.0 {
-            return stop.pose;
+            return stop.wanted;
         }
         let leg = original.leg(self.stop, options.turning);
-        leg.map_or(stop.pose, |leg| {
+        leg.map_or(stop.wanted, |leg| {
             let joints = leg.joints(self.to, &leg.start);
-            leg.controller_pose(self.to, &joints, &leg.equipped.controller)
+            let pose = leg.controller_pose(self.to, &joints, &leg.equipped.controller);
+            leg.real_from_nominal(self.to, pose)
         })
     }
 }
@@ -152,12 +153,13 @@ fn align_moves(
             let kept = (0..6).all(|k| (ours.q[k] - stop.q[k]).abs() < KEPT_RAD);
             let conditions = Conditions {
                 direction: ours.direction.map(f64::from),
+                gravity_m_s2: ours.gravity_m_s2,
                 ..Conditions::default()
             };
             let landed = walk.arms(&ours).plain.real.forward(&ours.q, &conditions);
             Some((
                 landed,
-                kept || landed.separation(&stop.pose).distance_m <= LANDED_M,
+                kept || landed.separation(&stop.wanted).distance_m <= LANDED_M,
             ))
         };
         let end = (first..ours.len())
@@ -175,7 +177,8 @@ fn align_moves(
                 (Some(leg), Some((landed, _))) => {
                     let along = |s: f64| {
                         let joints = leg.joints(s, &leg.start);
-                        leg.controller_pose(s, &joints, &leg.equipped.controller)
+                        let pose = leg.controller_pose(s, &joints, &leg.equipped.controller);
+                        leg.real_from_nominal(s, pose)
                     };
                     nearest_on(
                         &along,

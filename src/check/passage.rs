@@ -43,6 +43,7 @@ impl Passage {
             start: *from,
             branch: self.equipped.arm.posture(from).0,
             conditions: Conditions::default(),
+            ride: None,
         };
         let mover = self.arms.mover(Which::Real);
         let found = clearance(scene, &mover, &leg, &leg.pieces(), HORIZON_M);

@@ -14,6 +14,7 @@ use crate::geometry::{Jet, Pose};
 use crate::inverse::{Inverse, Status};
 use crate::model::Conditions;
 use crate::motion::course::{Course, Leg, ToolCourse};
+use crate::motion::external;
 use crate::program::number::{Fraction, Style};
 use crate::program::{Between, Displacement, Insertion, Posture, Role, Settings, Value};
 use rayon::prelude::*;
@@ -54,10 +55,7 @@ pub fn refine(
         compensation,
         limit_m,
         decimals: decimals.unwrap_or(0).max(DECIMALS),
-        settings: Settings {
-            pulses_per_deg: subject.profile.pulses_per_deg,
-            ..Settings::default()
-        },
+        settings: external::settings_of(subject.profile, false),
     };
     let changes: Vec<Change> = (0..walk.stops.len())
         .into_par_iter()
@@ -172,6 +170,7 @@ impl Job<'_> {
         let beside = |point: &Point| {
             let nominal = leg.joints(point.s, &leg.start);
             let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
+            let wanted = leg.real_from_nominal(point.s, wanted);
             let landed = arms.plain.real.forward(&point.q, &leg.conditions);
             landed.separation(&wanted).distance_m
         };
@@ -199,6 +198,9 @@ impl Job<'_> {
         }
         if motion.displacement != Displacement::None {
             return failed("its target is displaced at run time");
+        }
+        if leg.ride.as_ref().is_some_and(|ride| ride.moves()) {
+            return failed("external axes move on it");
         }
         let mut points = vec![first];
         if !self.split(&leg, index, &first, &last, 0, &mut points) {
@@ -270,6 +272,7 @@ impl Job<'_> {
         let arms = self.walk.arms(&stop);
         let nominal = leg.joints(s, near);
         let wanted = leg.controller_pose(s, &nominal, &arms.plain.controller);
+        let wanted = leg.real_from_nominal(s, wanted);
         let inverse = Inverse {
             conditions: leg.conditions,
             ..leg.equipped.inverse.clone()
@@ -304,6 +307,8 @@ impl Job<'_> {
             start: a.q,
             branch: leg.equipped.arm.posture(&a.q).0,
             conditions: leg.conditions,
+            // moves on which something rides along are not divided
+            ride: leg.ride.clone(),
         }
     }
 
@@ -403,7 +408,8 @@ impl Job<'_> {
         let text = |i: usize| numbers[i].text(&source.bytes);
         let roles = language.roles(target.layout);
         let mut values: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-        let frame = self.walk.frames[motion.frame].unwrap_or_else(Pose::identity);
+        let frame =
+            self.walk.frames[motion.frame].map_or_else(Pose::identity, |placed| placed.nominal);
         let value = Value::Pose(frame.inverse() * point.fake);
         let posture = |q: &[f64; 6]| {
             let (branch, _) = leg.equipped.arm.posture(q);

@@ -111,7 +111,7 @@ impl Tracer<'_> {
             target: motion.target?,
             file: motion.file as usize,
             line: source.line_column(motion.offset as usize).0,
-            commanded: stop.pose,
+            commanded: stop.commanded,
             joints: stop.q,
             continues: leg.is_some(),
             places: Vec::new(),
@@ -121,7 +121,7 @@ impl Tracer<'_> {
             let conditions = self.walk.conditions(&stop);
             let wanted = match (self.original, part) {
                 (Some(original), Some(part)) => part.end_pose(original, self.options),
-                _ => stop.pose,
+                _ => stop.wanted,
             };
             traced.places.push(PathPoint {
                 wanted_m: wanted.translation,
@@ -169,9 +169,18 @@ impl Tracer<'_> {
                 let s = f64::from(k) / f64::from(self.samples);
                 let joints = leg.joints(s, &near);
                 near = joints;
+                let (wanted, real) = (
+                    wanted.at(s, &joints),
+                    real.forward(&joints, &leg.conditions),
+                );
+                let carried = leg.ride.as_ref().map(|ride| ride.world_from_real_home(s));
+                let place = |pose: Pose| match &carried {
+                    None => pose.translation,
+                    Some(carried) => carried.transform(pose.translation),
+                };
                 PathPoint {
-                    wanted_m: wanted.at(s, &joints).translation,
-                    real_m: real.forward(&joints, &leg.conditions).translation,
+                    wanted_m: place(wanted),
+                    real_m: place(real),
                 }
             })
             .collect()

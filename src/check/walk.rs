@@ -7,19 +7,20 @@ use super::uncertainty::Spread;
 use crate::compensate::CompensateError;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Jet;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vector};
 use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
 use crate::motion::arms::Equipped;
 use crate::motion::course::{Course, Leg, ToolCourse, Turning};
 use crate::motion::doubt;
+use crate::motion::external::{self, Placed};
 use crate::motion::ground::Ground;
+use crate::motion::ride::Ride;
 use crate::motion::setting::Setting;
 use crate::motion::walk::{self, Arrival, WalkOptions};
-use crate::program::{
-    Displacement, Language, Motion, Move, Program, Settings, Shape, Source, Value,
-};
+use crate::program::{Displacement, Language, Motion, Move, Program, Shape, Source, Value};
+use std::sync::Arc;
 
 /// Models of one tool, for plain numbers and for bounds.
 pub(super) struct Arms {
@@ -61,6 +62,7 @@ impl Arms {
             model,
             jet,
             reaches,
+            is_real: which == Which::Real,
         }
     }
 }
@@ -77,8 +79,14 @@ pub(super) enum Which {
 pub(super) struct Stop {
     /// Index of the tool in the program.
     pub tool: usize,
-    /// Where the controller believes the tool to be, in the world.
+    /// Where the controller believes the tool to be, in the world of an arm at home.
     pub pose: Pose,
+    /// The same in the world.
+    pub commanded: Pose,
+    /// Where the real arm wants its tool for that, in the same world of its own.
+    pub wanted: Pose,
+    /// Gravity where the base leans.
+    pub gravity_m_s2: Option<Vector>,
     /// The branch of the inverse that the program means.
     pub branch: Branch,
     /// The controller's joint angles, radians.
@@ -97,8 +105,9 @@ pub(super) struct Walk {
     pub stops: Vec<Option<Stop>>,
     /// The move of each stop.
     motions: Vec<usize>,
-    /// `world_from_frame` by index of the program's work frames, as far as anybody knows them.
-    pub frames: Vec<Option<Pose>>,
+    /// By index of the program's work frames, as far as anybody knows them.
+    pub frames: Vec<Option<Placed>>,
+    profile: Profile,
     equipped: Vec<Option<Equipped>>,
     arms: Vec<Option<Arms>>,
 }
@@ -110,14 +119,12 @@ impl Walk {
         profile: &Profile,
         options: &Options,
     ) -> Result<Self, CompensateError> {
-        let settings = Settings {
-            pulses_per_deg: profile.pulses_per_deg,
-            // nothing is rewritten
-            accept_absolutely_accurate: true,
-        };
+        // nothing is rewritten
+        let settings = external::settings_of(profile, true);
         let mut program = crate::motion::read(language, sources, &settings)?;
         program.shrink_to_fit();
         let mut findings = std::mem::take(&mut program.findings);
+        external::settle(language, &mut program, sources, profile, &mut findings);
         let has_numbers = |motion: &Move| {
             let target = program.target_of(motion);
             target.is_some_and(|target| !program.numbers_of(target).is_empty())
@@ -149,9 +156,21 @@ impl Walk {
         }
         let stop = |arrival: &Arrival| {
             let pose = stop_pose(&ground, arrival)?;
+            let motion = &program.moves[arrival.motion as usize];
+            let placed = ground.setting.frames[ground.frame_of(motion)].as_ref();
+            let ride = ground.ride(None, motion);
             Some(Stop {
-                tool: program.moves[arrival.motion as usize].tool,
+                tool: motion.tool,
                 pose,
+                commanded: match &ride {
+                    None => pose,
+                    Some(ride) => ride.world_from_nominal_home(1.0) * pose,
+                },
+                wanted: match &ride {
+                    None => pose,
+                    Some(ride) => ride.real_from_nominal(1.0) * pose,
+                },
+                gravity_m_s2: placed.and_then(|placed| placed.gravity_m_s2),
                 branch: arrival.branch,
                 q: arrival.q,
                 direction: arrival.direction,
@@ -179,6 +198,7 @@ impl Walk {
             stops,
             motions,
             frames,
+            profile: profile.clone(),
             equipped,
             arms,
         })
@@ -223,13 +243,21 @@ impl Walk {
     pub(super) fn conditions(&self, stop: &Stop) -> Conditions {
         Conditions {
             direction: stop.direction.map(f64::from),
+            gravity_m_s2: stop.gravity_m_s2,
             ..Conditions::default()
         }
     }
 
+    /// What external axes do on the way to a stop, from another where that is known.
+    fn ride(&self, from: Option<usize>, to: usize) -> Option<Arc<Ride>> {
+        let stand = |stop: usize| self.program.frames[self.motion(stop).frame].stand.as_ref();
+        stand(to).map(|to| Ride::of(&self.profile, from.and_then(stand), to))
+    }
+
     /// A stop alone, where it is unknown how the robot comes there.
-    pub(super) fn standing(&self, stop: &Stop) -> Leg<'_> {
+    pub(super) fn standing(&self, index: usize, stop: &Stop) -> Leg<'_> {
         Leg {
+            ride: self.stand(index),
             branch: stop.branch,
             equipped: self.equipped(stop),
             course: Course::Joint {
@@ -239,6 +267,11 @@ impl Walk {
             start: stop.q,
             conditions: self.conditions(stop),
         }
+    }
+
+    /// Where external axes stand at a stop.
+    fn stand(&self, stop: usize) -> Option<Arc<Ride>> {
+        self.ride(Some(stop), stop)
     }
 
     /// The point on the way of the arc that ends at a stop.
@@ -276,18 +309,25 @@ impl Walk {
                 .controller
                 .forward(&start.q, &Conditions::default())
         };
+        let ride = self.ride(self.start(index), index);
         let course = match (motion.motion, via) {
             (Motion::Joint, _) => Course::Joint {
                 from: start.q,
                 to: stop.q,
             },
-            (_, Some(via)) => {
-                let through = via.pose.translation;
-                Course::Tool(ToolCourse::arc(&from, through, &stop.pose, turning))
+            (_, via) => {
+                let via = via.map(|via| via.pose);
+                Course::Tool(ToolCourse::of(
+                    &from,
+                    via.as_ref(),
+                    &stop.pose,
+                    turning,
+                    ride.clone(),
+                ))
             }
-            _ => Course::Tool(ToolCourse::straight(&from, &stop.pose, turning)),
         };
         Some(Leg {
+            ride,
             // the branch of the path's end is that of the whole path; at its beginning it may be open
             branch: match motion.motion {
                 Motion::Joint => equipped.arm.posture(&start.q).0,
@@ -317,5 +357,5 @@ fn stop_pose(ground: &Ground, arrival: &Arrival) -> Option<Pose> {
     let frame = ground.frame_of(motion);
     let is_pose = ground.program.targets[target].layout.shape == Shape::Pose;
     (!is_pose || ground.setting.frames[frame].is_some())
-        .then(|| ground.wanted(&value, motion.tool, frame))
+        .then(|| ground.meant(&value, motion.tool, frame))
 }

@@ -33,8 +33,22 @@ pub(super) struct Approach {
 }
 
 impl Approach {
-    /// Where the simulation wants the tool, in the world.
+    /// Where the simulation wants the tool of the real arm, in the world of an arm at home.
     pub(super) fn wanted(&self, job: &Job) -> Pose {
+        job.ground.placed(self.frame as usize).real * self.in_frame(job)
+    }
+
+    /// Where the simulation wants the tool of the controller's arm, on the part as it stands.
+    pub(super) fn meant(&self, job: &Job) -> Pose {
+        job.ground.placed(self.frame as usize).meant * self.in_frame(job)
+    }
+
+    /// Where the target's numbers say that the controller's tool is.
+    pub(super) fn programmed(&self, job: &Job) -> Pose {
+        job.ground.placed(self.frame as usize).nominal * self.in_frame(job)
+    }
+
+    fn in_frame(&self, job: &Job) -> Pose {
         let ground = &job.ground;
         let target = self.target as usize;
         let decoded =
@@ -42,13 +56,14 @@ impl Approach {
         let value = decoded
             .expect("the target of an approach has numbers")
             .value;
-        ground.wanted(&value, self.tool as usize, self.frame as usize)
+        ground.in_frame(&value, self.tool as usize)
     }
 
     /// The conditions of the real arm.
     pub(super) fn conditions(&self, job: &Job) -> Conditions {
         Conditions {
             direction: self.direction.map(f64::from),
+            gravity_m_s2: job.ground.placed(self.frame as usize).gravity_m_s2,
             ..job.ground.arm_with(self.tool as usize).inverse.conditions
         }
     }
@@ -159,7 +174,7 @@ fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>
         if known || again {
             continue;
         }
-        let wanted = approach.wanted(job);
+        let wanted = approach.meant(job);
         let arm = &job.ground.arm_with(approach.tool as usize).arm;
         let near = arm.solve_branch(&wanted, approach.branch, &approach.nominal_q);
         if near.beyond == 0.0 {
@@ -186,7 +201,9 @@ fn add_unused(
             findings.push(unused(job, target));
             continue;
         };
-        if ground.setting.frames[frame].is_none() {
+        // where a track stands then nobody says
+        let carried = !ground.profile.external.track.is_empty();
+        if carried || ground.setting.frames[frame].is_none() {
             findings.push(unused(job, target));
             continue;
         }
@@ -196,7 +213,7 @@ fn add_unused(
         let Value::Pose(_) = decoded.value else {
             continue;
         };
-        let wanted = ground.wanted(&decoded.value, tool, frame);
+        let wanted = ground.meant(&decoded.value, tool, frame);
         let configuration = &decoded.configuration;
         let arm = &equipped.arm;
         let posture = ground.posture_alone(arm, target, &wanted, configuration, findings);

@@ -62,8 +62,8 @@ pub(super) fn check(
             }
             Displacement::Overwritten => {
                 let lost = approach
-                    .wanted(job)
-                    .separation(&(*ground.world_from_frame(approach.frame as usize) * *fake));
+                    .meant(job)
+                    .separation(&(ground.placed(approach.frame as usize).nominal * *fake));
                 let message = format!(
                     "the running program writes numbers over some of a copy of {name}: these lose a correction of {:.3} mm (the limit \
                      is {:.3} mm)",
@@ -126,11 +126,11 @@ fn landing(
     shift: &Shift,
 ) -> Option<Separation> {
     let ground = &job.ground;
-    let world_from_frame = *ground.world_from_frame(approach.frame as usize);
-    let wanted_from_frame = ground.on_part(world_from_frame);
+    let placed = ground.placed(approach.frame as usize);
+    let wanted_from_frame = placed.real;
     let in_frame = wanted_from_frame.inverse() * approach.wanted(job);
     let wanted = wanted_from_frame * shift.apply(&in_frame);
-    let given = world_from_frame * shift.apply(fake_in_frame);
+    let given = placed.nominal * shift.apply(fake_in_frame);
     let equipped = ground.arm_with(approach.tool as usize);
     let (q, reached) = equipped.controller_joints(&given, approach.branch, &approach.nominal_q);
     let real = &equipped.inverse.real;

@@ -8,6 +8,7 @@ use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::inverse::Outcome;
 use crate::model::Conditions;
 use crate::motion::arms::Equipped;
+use crate::motion::external;
 use crate::motion::ground::Ground;
 use std::sync::OnceLock;
 
@@ -110,7 +111,8 @@ fn usual(ground: &Ground, equipped: &Equipped) -> Separation {
         };
         let real = equipped.inverse.real.forward(&q, &conditions);
         let told = equipped.controller.forward(&q, &Conditions::default());
-        gaps.push(real.separation(&told));
+        let [real_base, nominal_base] = external::bases(ground.profile, || random.draw());
+        gaps.push((real_base * real).separation(&(nominal_base * told)));
     }
     let mut counts = |part: fn(&Separation) -> f64| {
         gaps.sort_unstable_by(|a, b| part(a).total_cmp(&part(b)));

@@ -10,6 +10,9 @@
 //! fake target = world_from_frame⁻¹ · F
 //! ```
 //!
+//! External axes put the base and the frame elsewhere at each target ([`crate::motion`]): both poses are then those that an arm with
+//! its base at home sees.
+//!
 //! Each step is one file. [`crate::motion`] says with what and in which posture the robot comes to each target; `approach` lists
 //! the ways to come there, `solve` finds the joints (`singular` at the wrist's singularity), `shared` one set of numbers for all
 //! ways, `limit` what a correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new targets between
@@ -67,9 +70,9 @@ use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
-use crate::motion::{doubt, setting};
+use crate::motion::{doubt, external, setting};
 pub use crate::program::meaning;
-use crate::program::{Edits, Language, ReadError, Settings, Source};
+use crate::program::{Edits, Language, ReadError, Source};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -211,10 +214,7 @@ pub fn compensate(
     profile: &Profile,
     options: &Options,
 ) -> Result<Compensation, CompensateError> {
-    let settings = Settings {
-        pulses_per_deg: profile.pulses_per_deg,
-        accept_absolutely_accurate: options.accept_absolutely_accurate,
-    };
+    let settings = external::settings_of(profile, options.accept_absolutely_accurate);
     let mut program = crate::motion::read(language, sources, &settings)?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
@@ -226,6 +226,7 @@ pub fn compensate(
         findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
     }
     context::leave(&mut program, sources, &mut findings);
+    external::settle(language, &mut program, sources, profile, &mut findings);
     setting::check_measured(&program, &options.given)?;
     setting::check_given(&[&program], &options.given)?;
     if options.each_for_itself {
@@ -250,7 +251,9 @@ pub fn compensate(
         &options.given,
         |motion| approach::needs(&program, joints, motion),
     )?;
-    ground.work_offset = options.work_offset;
+    if let Some(offset) = &options.work_offset {
+        ground.move_part(offset);
+    }
     doubt::units(&ground, Severity::Error, &mut findings);
     limit::check_models(&ground, &mut findings);
     let limits = Limits::new(&ground, options.max_shift);

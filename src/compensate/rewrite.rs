@@ -153,9 +153,9 @@ impl<'a> Portion<'a> {
                 return false;
             };
             let approach = &alone[0].0;
-            let wanted = approach.wanted(job);
-            let frame = *job.ground.world_from_frame(approach.frame as usize);
-            let shift = wanted.separation(&(frame * fake.frame_from_tool));
+            let frame = job.ground.placed(approach.frame as usize).nominal;
+            let meant = approach.meant(job);
+            let shift = meant.separation(&(frame * fake.frame_from_tool));
             if let Some(finding) = job.limits.judge(job, approach, &shift) {
                 self.findings.push(finding);
                 return false;
@@ -175,9 +175,6 @@ impl<'a> Portion<'a> {
             {
                 return false;
             }
-            let given =
-                *job.ground.world_from_frame(approach.frame as usize) * fake.frame_from_tool;
-            report.shift = largest(report.shift, approach.wanted(job).separation(&given));
             let before = worst(alone.iter().map(|(approach, _)| uncorrected(job, approach)));
             report.before = largest(report.before, before);
             report.rounding = largest(report.rounding, landed);
@@ -216,9 +213,8 @@ impl<'a> Portion<'a> {
         report: &mut TargetReport,
     ) {
         let (approach, outcome) = &group[0];
-        let wanted = approach.wanted(job);
-        let given = *job.ground.world_from_frame(approach.frame as usize) * fake.frame_from_tool;
-        let shift = wanted.separation(&given);
+        let given = job.ground.placed(approach.frame as usize).nominal * fake.frame_from_tool;
+        let shift = approach.meant(job).separation(&given);
         if !given.is_finite() || !limit::are_finite(&[shift.distance_m, shift.angle_rad]) {
             report.status = None;
             let finding = limit::not_finite_finding(job, approach, "the fake target");
@@ -236,7 +232,7 @@ impl<'a> Portion<'a> {
             .extend(remarks::singularity(job, approach, outcome));
         self.findings
             .extend(remarks::other_posture(job, approach, outcome));
-        let moved = job.ground.off_part(wanted).separation(&given);
+        let moved = approach.programmed(job).separation(&given);
         if moved.distance_m < NO_SHIFT.distance_m && moved.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
@@ -413,13 +409,13 @@ fn uncorrected(job: &Job, approach: &Approach) -> Separation {
     let is_joints = job.ground.is_joints(approach.target as usize);
     let q = match &equipped.calibrated_controller {
         Some(_) if !is_joints => {
-            let as_programmed = job.ground.off_part(approach.wanted(job));
+            let as_programmed = approach.programmed(job);
             equipped
                 .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
                 .0
         }
-        _ if job.ground.work_offset.is_some() => {
-            let as_programmed = job.ground.off_part(approach.wanted(job));
+        _ if job.ground.part_moved => {
+            let as_programmed = approach.programmed(job);
             equipped
                 .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
                 .0

@@ -34,9 +34,9 @@ impl Fake {
         let world_from_tool = equipped
             .controller
             .forward(&outcome.q, &Conditions::default());
-        let world_from_frame = ground.world_from_frame(approach.frame as usize);
+        let frame = ground.placed(approach.frame as usize).nominal;
         Self {
-            frame_from_tool: world_from_frame.inverse() * world_from_tool,
+            frame_from_tool: frame.inverse() * world_from_tool,
             q: outcome.q,
         }
     }
@@ -186,7 +186,7 @@ pub(super) fn landing(
         Shape::Joints => given.q,
         Shape::Pose => {
             let world_from_tool =
-                *ground.world_from_frame(approach.frame as usize) * given.frame_from_tool;
+                ground.placed(approach.frame as usize).nominal * given.frame_from_tool;
             equipped
                 .controller_joints(&world_from_tool, approach.branch, &outcome.q)
                 .0

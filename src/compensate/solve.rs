@@ -105,13 +105,20 @@ fn tell_unknown(job: &Job, approaches: &[Approach], findings: &mut Vec<Finding>)
     }
 }
 
+/// What tells approaches of a base that leans apart; nothing where no effect feels gravity.
+fn leaning(job: &Job, approach: &Approach) -> [u64; 3] {
+    let conditions = approach.conditions(job);
+    let gravity = conditions.gravity_m_s2.unwrap_or_default();
+    gravity.map(f64::to_bits)
+}
+
 /// Solves some approaches, those with the same tool and conditions side by side, on all processors.
 fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut [Option<Outcome>]) {
-    let mut alike: BTreeMap<(u32, [i8; 6]), Vec<u32>> = BTreeMap::new();
+    let mut alike: BTreeMap<(u32, [i8; 6], [u64; 3]), Vec<u32>> = BTreeMap::new();
     for &at in which {
         let approach = &approaches[at as usize];
         let same = alike
-            .entry((approach.tool, approach.direction))
+            .entry((approach.tool, approach.direction, leaning(job, approach)))
             .or_default();
         same.push(at);
     }
@@ -169,6 +176,7 @@ fn changed_directions(
         };
         let carried = directions[arrival.from as usize];
         let end = fakes[at];
+        let mut from = before.motion;
         let (start, via) = if motion.motion == Motion::ArcEnd {
             let through = &ground.program.moves[before.motion as usize];
             let via = (through.motion == Motion::ArcVia).then(|| {
@@ -176,7 +184,10 @@ fn changed_directions(
                 equipped.controller.forward(q, &Conditions::default())
             });
             match (&via, arrivals.start_of(before)) {
-                (Some(_), Some(_)) => (fakes[before.from as usize], via),
+                (Some(_), Some(first)) => {
+                    from = first.motion;
+                    (fakes[before.from as usize], via)
+                }
                 _ => (fakes[arrival.from as usize], None),
             }
         } else {
@@ -190,6 +201,7 @@ fn changed_directions(
             via.as_ref(),
             &wanted,
             &end,
+            ground.ride(Some(from), motion),
             walk_options,
         );
         directions[at] =

@@ -5,7 +5,7 @@ use super::waves;
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
 use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
-use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, REGISTRY, Site, SiteKey};
+use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, Site, SiteKey, of_arm};
 use crate::model::{JOINTS, Slot};
 
 /// Harmonics are sought up to this many periods a turn.
@@ -109,6 +109,12 @@ fn sites(kind: Kind, tools: &[String]) -> Vec<Site> {
                     .map(|t| with(&|s| s.tool = Some(t.clone())))
                     .collect(),
                 SiteKey::Tool | SiteKey::Row => vec![site.clone()],
+                // no measurements say yet where external axes stood
+                SiteKey::Axis
+                | SiteKey::Along(_)
+                | SiteKey::About(_)
+                | SiteKey::Degree(..)
+                | SiteKey::Period => Vec::new(),
             }
         };
         all = all.iter().flat_map(each).collect();
@@ -284,6 +290,7 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
                 let still = rows.iter().all(|r| r.conditions.direction == [0.0; 6]);
                 still.then(|| "a direction in dir1…dir6: all are 0".to_owned())
             }
+            Need::ExternalDirections => Some(need.describe().to_owned()),
             Need::Temperature if !measurements.has(&["temperature_c"]) => {
                 Some(need.describe().to_owned())
             }
@@ -396,7 +403,7 @@ impl Candidates {
         let mut peers: Vec<usize> = Vec::new();
         let times = problem.rows.iter().filter_map(|r| r.conditions.time_s);
         let has_time = range(times) > 0.0;
-        for &kind in REGISTRY {
+        for kind in of_arm() {
             if has_time && kind.definition().needs.contains(&Need::NoTime) {
                 continue;
             }

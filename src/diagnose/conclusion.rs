@@ -21,7 +21,7 @@ use crate::identify::parameters::Pick;
 use crate::identify::problem::Estimate;
 use crate::identify::robust::limit;
 use crate::identify::statistics::Spread;
-use crate::model::effects::{Effect, REGISTRY};
+use crate::model::effects::{Effect, of_arm};
 use crate::model::profile::Profile;
 use rayon::prelude::*;
 
@@ -158,7 +158,7 @@ fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
 
 /// A p-value with the number of tests made.
 fn corrected(gain: f64, count: usize, peers: usize) -> f64 {
-    (chance(gain, count.max(1)) * (peers * REGISTRY.len()) as f64).min(1.0)
+    (chance(gain, count.max(1)) * (peers * of_arm().count()) as f64).min(1.0)
 }
 
 /// The effects found, with their values, their evidence, and what each is worth on rows not used.

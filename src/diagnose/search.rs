@@ -6,7 +6,7 @@ use super::scan::View;
 use super::table::{Column, Layout};
 use super::weights::{Plain, Weighted};
 use crate::identify::parameters::Pick;
-use crate::model::effects::{Effect, Kind, REGISTRY};
+use crate::model::effects::{Effect, Kind, of_arm};
 
 /// An effect must be better than nothing by this, in units of twice a log likelihood.
 const MARGIN: f64 = 3.0;
@@ -150,7 +150,7 @@ impl World<'_> {
     /// peers and among all kinds, and the odds against a rare one.
     pub(super) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
         let parameters = (count + candidate.chosen) as f64;
-        let kinds = REGISTRY.len() as f64;
+        let kinds = of_arm().count() as f64;
         parameters * self.ln_numbers
             + 2.0 * (candidate.peers as f64).ln()
             + 2.0 * kinds.ln()

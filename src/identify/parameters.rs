@@ -240,6 +240,8 @@ impl Pick {
         for (n, place) in counted.enumerate() {
             let default = match place {
                 SiteKey::Order | SiteKey::Row => (place.one(), place.one()),
+                SiteKey::Axis => (1, 1),
+                SiteKey::Degree(low, _) => (*low, *low),
                 SiteKey::JointOrBase => (BASE_NUMBER, BASE_NUMBER),
                 _ => (1, 6),
             };
@@ -286,10 +288,12 @@ fn means_something(effect: &Effect, key: &str) -> bool {
 
 fn number(effect: &Effect, place: SiteKey) -> Option<u32> {
     let index = match place {
-        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => effect.site.index + 1,
+        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
+            effect.site.index + 1
+        }
         SiteKey::On => effect.site.on + 1,
-        SiteKey::Order | SiteKey::Row => return Some(effect.site.order),
-        SiteKey::Tool => return None,
+        SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) => return Some(effect.site.order),
+        SiteKey::Tool | SiteKey::Along(_) | SiteKey::About(_) | SiteKey::Period => return None,
     };
     u32::try_from(index).ok()
 }
@@ -297,10 +301,12 @@ fn number(effect: &Effect, place: SiteKey) -> Option<u32> {
 fn with(site: &Site, place: SiteKey, value: u32) -> Site {
     let mut site = site.clone();
     match place {
-        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => site.index = value as usize - 1,
+        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
+            site.index = value as usize - 1;
+        }
         SiteKey::On => site.on = value as usize - 1,
-        SiteKey::Order | SiteKey::Row => site.order = value,
-        SiteKey::Tool => {}
+        SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) => site.order = value,
+        SiteKey::Tool | SiteKey::Along(_) | SiteKey::About(_) | SiteKey::Period => {}
     }
     site
 }

@@ -351,6 +351,7 @@ impl Problem {
                 let met = match need {
                     Need::Masses => masses,
                     Need::Directions => measurements.has(&super::measurements::DIRECTION_COLUMNS),
+                    Need::ExternalDirections => false,
                     Need::Temperature => measurements.has(&["temperature_c"]),
                     Need::Time => measurements.has(&["time_s"]),
                     Need::Order | Need::NoTime => true,

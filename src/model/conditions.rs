@@ -15,6 +15,8 @@ pub struct Conditions {
     pub temperature_c: Option<f64>,
     /// Time since the session began, seconds.
     pub time_s: Option<f64>,
+    /// Gravity along the axes of the arm's own world, m/s², where the base leans with a track; else that of the profile.
+    pub gravity_m_s2: Option<Vector>,
     /// Row of the measurements, from 1; none outside a session of measurements.
     pub row: Option<u32>,
 }

@@ -23,6 +23,7 @@ mod chain;
 mod classic;
 mod conditions;
 pub mod effects;
+pub mod external;
 mod geometry;
 pub mod profile;
 mod real;

@@ -10,6 +10,7 @@ use super::conditions::Conditions;
 use super::effects::{Deflection, Effect, State};
 use super::geometry::{Geometry, Mechanism};
 use crate::geometry::{Dual, Pose, Scalar, Turn};
+use std::borrow::Cow;
 
 /// An arm with one tool, ready to be evaluated: joint angles in the controller's sense in, tool pose in the world out.
 ///
@@ -143,7 +144,21 @@ impl<S: Scalar> Model<S> {
     #[must_use]
     pub fn torques(&self, q: &[S; 6], conditions: &Conditions) -> [S; 6] {
         let turns = Turn::of_each(&self.mechanism.commanded(q));
-        self.chain.torques(&turns, &self.loads, conditions.force_n)
+        let loads = self.loads_in(conditions);
+        self.chain.torques(&turns, &loads, conditions.force_n)
+    }
+
+    /// What hangs on the chain, pulled as the base leans.
+    #[inline(always)]
+    fn loads_in(&self, conditions: &Conditions) -> Cow<'_, Loads<S>> {
+        match conditions.gravity_m_s2 {
+            None => Cow::Borrowed(&self.loads),
+            Some(gravity) => Cow::Owned({
+                let mut loads = self.loads;
+                loads.gravity_m_s2 = gravity.map(S::constant);
+                loads
+            }),
+        }
     }
 
     #[inline(always)]
@@ -155,12 +170,13 @@ impl<S: Scalar> Model<S> {
         deflection: &mut Deflection<S>,
     ) {
         let mut torques = [S::zero(); 6];
+        let loads = self.loads_in(conditions);
         if self.loaded {
-            torques = self.chain.torques(turns, &self.loads, conditions.force_n);
+            torques = self.chain.torques(turns, &loads, conditions.force_n);
         }
         let bent;
         let frames = if self.bends {
-            bent = self.chain.frames(turns, &self.loads, conditions.force_n);
+            bent = self.chain.frames(turns, &loads, conditions.force_n);
             Some(&bent)
         } else {
             None

@@ -4,11 +4,13 @@
 //! slope and curvature over whole intervals of s.
 
 use super::arms::Equipped;
+use super::ride::Ride;
 use crate::geometry::{
     Jet, Pose, Rotation, Scalar, Vector, add, constant, cross, dot, norm, scale, sub,
 };
 use crate::inverse::Branch;
 use crate::model::{Conditions, Model};
+use std::sync::Arc;
 
 /// Angles below this, radians, are no rotation; circles whose three points are as near to a line are a line.
 const SMALL: f64 = 1e-9;
@@ -50,6 +52,8 @@ pub(crate) enum Course {
 pub(crate) struct ToolCourse {
     line: Line,
     turn: Turn,
+    /// It is a line on a part that moves.
+    ride: Option<Arc<Ride>>,
 }
 
 #[derive(Clone, Debug)]
@@ -80,6 +84,30 @@ enum Turn {
 }
 
 impl ToolCourse {
+    /// The straight way, or the arc through a point; on what external axes carry meanwhile where they bend it.
+    #[must_use]
+    pub(crate) fn of(
+        from: &Pose,
+        via: Option<&Pose>,
+        to: &Pose,
+        turning: Turning,
+        ride: Option<Arc<Ride>>,
+    ) -> Self {
+        let moves = |ride: &Arc<Ride>| ride.bends() || (via.is_some() && ride.moves());
+        let ride = ride.filter(moves);
+        let on_part = |pose: &Pose, s: f64| match &ride {
+            Some(ride) => ride.home_from_part(s).inverse() * *pose,
+            None => *pose,
+        };
+        let (from, to) = (on_part(from, 0.0), on_part(to, 1.0));
+        let course = match via {
+            // half way, as far as anybody knows
+            Some(via) => Self::arc(&from, on_part(via, 0.5).translation, &to, turning),
+            None => Self::straight(&from, &to, turning),
+        };
+        Self { ride, ..course }
+    }
+
     /// The straight way.
     #[must_use]
     pub(crate) fn straight(from: &Pose, to: &Pose, turning: Turning) -> Self {
@@ -89,6 +117,7 @@ impl ToolCourse {
                 along: sub(to.translation, from.translation),
             },
             turn: Turn::between(from, to, turning),
+            ride: None,
         }
     }
 
@@ -126,18 +155,21 @@ impl ToolCourse {
                 angle_rad,
             },
             turn: Turn::between(from, to, turning),
+            ride: None,
         }
     }
 
     /// Length of the tool's way, metres.
     #[must_use]
     pub(crate) fn length_m(&self) -> f64 {
-        match &self.line {
-            Line::Straight { along, .. } => norm(*along),
-            Line::Circle {
-                axes, angle_rad, ..
-            } => norm(axes[0]) * angle_rad,
-        }
+        let carried = self.ride.as_ref().map_or(0.0, |ride| ride.lengths().0);
+        carried
+            + match &self.line {
+                Line::Straight { along, .. } => norm(*along),
+                Line::Circle {
+                    axes, angle_rad, ..
+                } => norm(axes[0]) * angle_rad,
+            }
     }
 
     /// By how much the tool turns, or the arc goes round, radians.
@@ -147,9 +179,10 @@ impl ToolCourse {
             Turn::Axis { angle_rad, .. } => angle_rad.abs(),
             Turn::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
         };
+        let carried = self.ride.as_ref().map_or(0.0, |ride| ride.lengths().1);
         match &self.line {
-            Line::Straight { .. } => turned,
-            Line::Circle { angle_rad, .. } => turned + angle_rad,
+            Line::Straight { .. } => turned + carried,
+            Line::Circle { angle_rad, .. } => turned + angle_rad + carried,
         }
     }
 
@@ -197,9 +230,13 @@ impl ToolCourse {
                     * Rotation::about_x(angle(2))
             }
         };
-        Pose {
+        let pose = Pose {
             rotation,
             translation,
+        };
+        match &self.ride {
+            None => pose,
+            Some(ride) => ride.home_from_part(s) * pose,
         }
     }
 }
@@ -271,6 +308,8 @@ pub(crate) struct Leg<'a> {
     /// The branch of the inverse on which a path of the tool is followed.
     pub branch: Branch,
     pub conditions: Conditions,
+    /// What external axes do meanwhile.
+    pub ride: Option<Arc<Ride>>,
 }
 
 /// A part of a move over which the joints' rates are bounded.
@@ -335,6 +374,14 @@ impl Leg<'_> {
         }
     }
 
+    /// Where the real arm wants its tool at `s` for the controller's to be at a pose: both at home.
+    pub(crate) fn real_from_nominal<S: Scalar>(&self, s: S, pose: Pose<S>) -> Pose<S> {
+        match &self.ride {
+            None => pose,
+            Some(ride) => ride.real_from_nominal(s) * pose,
+        }
+    }
+
     /// Where the controller, with this model, believes the tool to be.
     pub(crate) fn controller_pose<S: Scalar>(
         &self,
@@ -383,6 +430,11 @@ impl Leg<'_> {
             certified,
         };
         piece.certified &= piece.is_bounded();
+        // gravity is taken as it is at the end, and what begins nobody knows where is taken to stand
+        piece.certified &= self
+            .ride
+            .as_ref()
+            .is_none_or(|ride| ride.is_known() && !(ride.moves() && ride.leans()));
         piece
     }
 

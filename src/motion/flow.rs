@@ -1014,7 +1014,12 @@ impl<'a> Flow<'a> {
         first: u32,
         parts: std::ops::Range<u32>,
     ) -> Option<ValueId> {
-        let Held::Record { name, parts: old } = self.value(value).clone() else {
+        let Held::Record {
+            name,
+            parts: old,
+            on,
+        } = self.value(value).clone()
+        else {
             return None;
         };
         let script = self.script;
@@ -1052,6 +1057,7 @@ impl<'a> Flow<'a> {
         self.made.push(Held::Record {
             name,
             parts: start..end,
+            on,
         });
         let made = short(script.values.len() + self.made.len() - 1);
         self.made_records.insert(content, made);

@@ -1,7 +1,9 @@
 //! A program with all that is known of its tools, work frames and arm.
 
 use super::arms::Equipped;
+use super::external::Placed;
 use super::posture::{self, Asked};
+use super::ride::Ride;
 use super::setting::{Given, Missing, PlacementError, Setting};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
@@ -12,6 +14,7 @@ use crate::program::{
     Configuration, FrameId, Language, Move, Program, Settings, Shape, Source, TargetId, ToolId,
     Value,
 };
+use std::sync::Arc;
 
 /// A program with all that is known of its tools, work frames and arm.
 pub(crate) struct Ground<'a> {
@@ -23,8 +26,8 @@ pub(crate) struct Ground<'a> {
     pub setting: Setting,
     /// The arm with each tool of the setting that a move needs.
     pub arms: Vec<Option<Equipped>>,
-    /// Where the part really stands: moves every wanted pose in the world.
-    pub work_offset: Option<Pose>,
+    /// The part stands elsewhere than the program has it.
+    pub part_moved: bool,
 }
 
 impl<'a> Ground<'a> {
@@ -50,7 +53,7 @@ impl<'a> Ground<'a> {
             profile,
             setting,
             arms: Vec::new(),
-            work_offset: None,
+            part_moved: false,
         };
         ground.check_known(&needs)?;
         ground.equip(&needs)?;
@@ -94,12 +97,35 @@ impl<'a> Ground<'a> {
         Ok(())
     }
 
-    /// The work frame of a move; joints stand in the world.
+    /// The work frame of a move; joints stand in the world, which external axes move.
     pub(crate) fn frame_of(&self, motion: &Move) -> FrameId {
-        if self.program.goes_to_pose(motion) {
+        let stand = self.program.frames[motion.frame].stand.as_ref();
+        if self.program.goes_to_pose(motion) || stand.is_some_and(|stand| stand.of_joints) {
             motion.frame
         } else {
             self.setting.world()
+        }
+    }
+
+    /// Whether nobody knows where external axes carry the arm or the work piece at a move to a pose.
+    pub(crate) fn is_adrift(&self, motion: &Move) -> bool {
+        let frame = &self.program.frames[motion.frame];
+        let carried = frame.is_carried() || !self.profile.external.track.is_empty();
+        carried && frame.stand.is_none()
+    }
+
+    /// What external axes do on the way from the end of one move to that of another.
+    pub(crate) fn ride(&self, from: Option<u32>, to: &Move) -> Option<Arc<Ride>> {
+        let stand = |motion: &Move| self.program.frames[motion.frame].stand.as_ref();
+        let from = from.and_then(|from| stand(&self.program.moves[from as usize]));
+        stand(to).map(|to| Ride::of(self.profile, from, to))
+    }
+
+    /// Moves the part in the world: every wanted pose with it.
+    pub(crate) fn move_part(&mut self, offset: &Pose) {
+        self.part_moved = true;
+        for placed in self.setting.frames.iter_mut().flatten() {
+            *placed = placed.moved(offset);
         }
     }
 
@@ -114,30 +140,27 @@ impl<'a> Ground<'a> {
             .expect("an arm was made for each tool that a move needs")
     }
 
-    pub(crate) fn world_from_frame(&self, frame: FrameId) -> &Pose {
+    /// A work frame in the world of an arm at home.
+    pub(crate) fn placed(&self, frame: FrameId) -> &Placed {
         self.setting.frames[frame]
             .as_ref()
             .expect("the work frame of a move that needs it is known")
     }
 
-    /// A pose that the program means, where the part as it stands has it.
-    pub(crate) fn on_part(&self, wanted: Pose) -> Pose {
-        self.work_offset.map_or(wanted, |offset| offset * wanted)
+    /// What a target's numbers mean in its work frame; joints in that of the arm at home.
+    pub(crate) fn in_frame(&self, value: &Value, tool: ToolId) -> Pose {
+        match value {
+            Value::Joints(q) => self
+                .arm_with(tool)
+                .controller
+                .forward(q, &Conditions::default()),
+            Value::Pose(frame_from_tool) => *frame_from_tool,
+        }
     }
 
-    /// The reverse of [`Self::on_part`].
-    pub(crate) fn off_part(&self, wanted: Pose) -> Pose {
-        self.work_offset
-            .map_or(wanted, |offset| offset.inverse() * wanted)
-    }
-
-    /// Where a target's numbers want the tool, in the world.
-    pub(crate) fn wanted(&self, value: &Value, tool: ToolId, frame: FrameId) -> Pose {
-        let controller = &self.arm_with(tool).controller;
-        self.on_part(match value {
-            Value::Joints(q) => controller.forward(q, &Conditions::default()),
-            Value::Pose(frame_from_tool) => *self.world_from_frame(frame) * *frame_from_tool,
-        })
+    /// Where a target's numbers want the tool of the controller's arm at home, on the part as it stands.
+    pub(crate) fn meant(&self, value: &Value, tool: ToolId, frame: FrameId) -> Pose {
+        self.placed(frame).meant * self.in_frame(value, tool)
     }
 
     /// The posture at a target that the robot comes to from nowhere.

@@ -26,12 +26,14 @@ pub(crate) mod arms;
 mod before;
 pub(crate) mod course;
 pub(crate) mod doubt;
+pub(crate) mod external;
 mod flow;
 pub(crate) mod ground;
 mod holding;
 mod posture;
 mod readers;
 mod resolve;
+pub(crate) mod ride;
 pub(crate) mod setting;
 pub(crate) mod walk;
 

@@ -32,8 +32,12 @@ pub(super) fn resolve(
         targets: std::mem::take(&mut script.targets),
         numbers: std::mem::take(&mut script.numbers),
         findings: std::mem::take(&mut script.findings),
+        externals: std::mem::take(&mut script.externals),
+        externals_of_moves: std::mem::take(&mut script.externals_of_moves),
         ..Program::default()
     };
+    program.externals.sort_by_key(|(target, _)| *target);
+    program.externals_of_moves.sort_by_key(|(at, _)| *at);
     let flow = Flow::of(&script);
     let mut resolver = Resolver {
         language,
@@ -149,13 +153,14 @@ impl Resolver<'_, '_> {
         let instruction = &script.instructions[at as usize];
         let reached = self.flow.reached[stop as usize].expect("stops that are reached are listed");
         let guard = self.flow.modes[reached.modes as usize].guard;
-        let guards = self.guards(guard, instruction);
+        let (guards, external_offset) = self.guards(guard, instruction);
         let mut listed = Listed {
             at,
             stop,
             instruction,
             choices: self.choices(reached.modes)?,
             guards,
+            external_offset,
         };
         match reached.target {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
@@ -252,21 +257,34 @@ impl Resolver<'_, '_> {
     }
 
     /// What speaks against a move; what is only worth a word is said.
-    fn guards(&mut self, guard: Holding, instruction: &Instruction) -> Vec<(RemarkId, Site)> {
+    /// With that, what is added to external axes: an index in [`Program::external_offsets`].
+    fn guards(
+        &mut self,
+        guard: Holding,
+        instruction: &Instruction,
+    ) -> (Vec<(RemarkId, Site)>, u32) {
         let mut refused = Vec::new();
+        let mut offset: Option<[f64; 6]> = None;
         if guard == NOTHING {
-            return refused;
+            return (refused, 0);
         }
         for (atom, site) in self.atoms(guard) {
             let remark = match atom {
                 Atom::Value(value) if value != ValueId::MAX => match self.flow.value(value) {
                     Held::Remark(remark) => *remark,
+                    Held::ExternalOffset(by) => {
+                        let by = **by;
+                        if offset.replace(by).is_none_or(|before| before == by) {
+                            continue;
+                        }
+                        self.report.remark(several_offsets())
+                    }
                     _ => continue,
                 },
                 Atom::Unknown(remark) => remark,
                 _ => continue,
             };
-            if self.script.remarks[remark as usize].severity == Severity::Error {
+            if self.report.remark_of(self.script, remark).severity == Severity::Error {
                 refused.push((remark, site));
             } else {
                 let place = self.flow.place_of(site).unwrap_or(instruction.place);
@@ -274,7 +292,18 @@ impl Resolver<'_, '_> {
                     .say_once(&self.script.remarks[remark as usize], place);
             }
         }
-        refused
+        let offsets = &mut self.report.program.external_offsets;
+        let index = match offset.filter(|by| *by != [0.0; 6]) {
+            None => 0,
+            Some(by) => {
+                let known = offsets.iter().position(|known| *known == by);
+                short(known.unwrap_or_else(|| {
+                    offsets.push(by);
+                    offsets.len() - 1
+                })) + 1
+            }
+        };
+        (refused, index)
     }
 
     fn loads(&self, holding: Holding) -> Vec<Option<ValueId>> {
@@ -327,6 +356,7 @@ impl Resolver<'_, '_> {
         is_tool: bool,
     ) -> Result<Result<NamedFrame, Refused>, ReadError> {
         let nameless = NamedFrame {
+            on: Box::default(),
             name: Box::default(),
             pose: None,
             load: None,
@@ -335,13 +365,16 @@ impl Resolver<'_, '_> {
             Atom::Value(ValueId::MAX) => Ok(nameless),
             Atom::Value(value) => match self.flow.value(value).clone() {
                 Held::Frame(frame) => Ok(frame),
-                Held::Record { name, parts } => {
+                Held::Record { name, parts, on } => {
                     let parts = self.flow.parts_of(&parts);
                     let found = self
                         .language
                         .frame_of(is_tool, &name, &parts, self.sources)?;
                     match found {
-                        Ok(frame) => Ok(frame),
+                        Ok(mut frame) => {
+                            frame.on = if on.is_empty() { frame.on } else { on };
+                            Ok(frame)
+                        }
                         Err(remark) => {
                             let known = self.report.remark(remark);
                             Err(Refused::Said(known))
@@ -353,7 +386,9 @@ impl Resolver<'_, '_> {
                     ..nameless
                 }),
                 Held::Remark(remark) => Err(Refused::Said(remark)),
-                Held::Actual | Held::Load(_) | Held::Flag(_) => Err(Refused::NoFrame),
+                Held::Actual | Held::Load(_) | Held::Flag(_) | Held::ExternalOffset(_) => {
+                    Err(Refused::NoFrame)
+                }
             },
             Atom::Target {
                 target,
@@ -379,6 +414,7 @@ impl Resolver<'_, '_> {
         self.as_frames.entry(target).or_insert(place);
         match meaning.map(|decoded| decoded.value) {
             Some(Meaning::Pose(pose)) => Ok(NamedFrame {
+                on: Box::default(),
                 name,
                 pose: Some(pose),
                 load: None,
@@ -424,6 +460,8 @@ impl Resolver<'_, '_> {
             frames.push(Frame {
                 name: frame.name.into(),
                 world_from_frame: frame.pose,
+                on: frame.on,
+                stand: None,
             });
             frames.len() - 1
         });
@@ -555,7 +593,7 @@ impl Resolver<'_, '_> {
         self.as_written[target] = true;
         for &(remark, site) in &listed.guards {
             let because = self.flow.place_of(site);
-            let remark = &self.script.remarks[remark as usize];
+            let remark = self.report.remark_of(self.script, remark).clone();
             let because = because.or(Some(listed.instruction.place));
             self.report
                 .block(target, remark.id, &remark.text, remark.hint, because);
@@ -618,6 +656,8 @@ impl Resolver<'_, '_> {
         frames.push(Frame {
             name: String::new(),
             world_from_frame: None,
+            on: Box::default(),
+            stand: None,
         });
         let made = frames.len() - 1;
         self.frames.insert(key, Ok(made));
@@ -684,6 +724,7 @@ impl Resolver<'_, '_> {
             before: Before::Start,
             tool_written,
             frame_written,
+            external_offset: listed.external_offset,
         });
     }
 
@@ -900,7 +941,7 @@ impl Resolver<'_, '_> {
             let of = &self.script.variables[variable as usize];
             // a mode that is off is off when another routine starts
             let is_mode = matches!(of.declared, Expr::Value(value)
-                if matches!(self.flow.value(value), Held::Flag(_)));
+                if matches!(self.flow.value(value), Held::Flag(_) | Held::ExternalOffset(_)));
             let is_unknown = matches!(of.declared, Expr::Absent | Expr::Unknown(_));
             if of.shared || is_mode || is_unknown {
                 continue;
@@ -940,6 +981,16 @@ struct Listed<'a> {
     instruction: &'a Instruction,
     choices: Rc<Choices>,
     guards: Vec<(RemarkId, Site)>,
+    external_offset: u32,
+}
+
+/// External axes are shifted by one of several offsets.
+fn several_offsets() -> Remark {
+    Remark::error(
+        "external-offset-unknown",
+        "only the running program knows by how much external axes are shifted here",
+        "switch the shift off, or set it with numbers before the move in the same routine",
+    )
 }
 
 /// Collects findings.

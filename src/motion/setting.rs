@@ -1,5 +1,6 @@
 //! The tools and work frames of a program, as far as files, profile and command line tell them.
 
+use super::external::Placed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -312,7 +313,7 @@ pub(crate) struct Setting {
     /// The program's, and one more: what the user gave for targets that no move uses.
     pub tools: Vec<Option<Mounted>>,
     /// The program's, and two more: what the user gave for targets that no move uses, and the world for joint targets.
-    pub frames: Vec<Option<Pose>>,
+    pub frames: Vec<Option<Placed>>,
 }
 
 impl Setting {
@@ -349,10 +350,12 @@ impl Setting {
             .iter()
             .map(|frame| {
                 let is_unframed = Some(frame.name.as_str()) == unframed;
-                frame_of(frame, given).or_else(|| is_unframed.then(Pose::identity))
+                let known = frame_of(frame, given).or_else(|| is_unframed.then(Pose::identity));
+                known.map(|pose| Placed::of(profile, frame, pose))
             })
             .collect();
-        frames.extend([given.frames.get(&None).copied(), Some(Pose::identity())]);
+        let unused = given.frames.get(&None).copied().map(Placed::still);
+        frames.extend([unused, Some(Placed::still(Pose::identity()))]);
         Self { tools, frames }
     }
 
@@ -371,7 +374,9 @@ impl Setting {
     pub(crate) fn same_frame(&self, a: FrameId, b: FrameId) -> bool {
         a == b
             || match (&self.frames[a], &self.frames[b]) {
-                (Some(a), Some(b)) => same_pose(a, b),
+                (Some(a), Some(b)) => {
+                    same_pose(&a.nominal, &b.nominal) && same_pose(&a.real, &b.real)
+                }
                 _ => false,
             }
     }

@@ -7,6 +7,7 @@
 use super::course::{Course, Leg, STANDSTILL_RAD_M, ToolCourse, Turning};
 use super::ground::Ground;
 use super::posture::{self, Asked, Posture};
+use super::ride::Ride;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -15,6 +16,7 @@ use crate::model::Conditions;
 use crate::program::{Before, Configuration, Displacement, Motion, Move, Role, TargetId, Value};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
 /// A joint that moves less than this on a joint move keeps the direction in which it moved before, radians.
 const STANDSTILL_RAD: f64 = 1e-6;
@@ -306,7 +308,10 @@ impl Walker<'_, '_> {
             };
         }
         let frame = ground.frame_of(motion);
-        if ground.equipped(motion.tool).is_none() || ground.setting.frames[frame].is_none() {
+        let is_known = ground.equipped(motion.tool).is_some()
+            && ground.setting.frames[frame].is_some()
+            && !ground.is_adrift(motion);
+        if !is_known {
             return nowhere;
         }
         if let Some(angle) = self.endless_angle(target) {
@@ -321,19 +326,25 @@ impl Walker<'_, '_> {
             (value, Displacement::Unknown | Displacement::Overwritten) => (*value, true),
             (value, _) => (*value, false),
         };
-        let wanted = ground.wanted(&value, motion.tool, frame);
+        let wanted = ground.meant(&value, motion.tool, frame);
         // the point on the way of an arc comes before its end
         let (via, start) = match (motion.motion, before) {
             (Motion::ArcEnd, Some(before)) => self.arc_start(&before, start),
             _ => (None, start),
         };
+        let from = match via {
+            Some(_) => before
+                .and_then(|before| self.arrivals.start_of(&before))
+                .copied(),
+            None => before,
+        };
+        let ride = ground.ride(from.map(|from| from.motion), motion);
         let Some(posture) = self.posture(
             motion,
             target,
             &wanted,
             &decoded.configuration,
-            start,
-            via.as_ref(),
+            (start, via.as_ref(), ride.clone()),
         ) else {
             return nowhere;
         };
@@ -353,6 +364,7 @@ impl Walker<'_, '_> {
                     via.as_ref(),
                     &wanted,
                     &q,
+                    ride,
                     self.walk_options,
                 );
                 arrival_direction(equipped, &course, &start, &q, posture.branch, direction)
@@ -393,8 +405,7 @@ impl Walker<'_, '_> {
         target: TargetId,
         wanted: &Pose,
         configuration: &Configuration,
-        start: Option<[f64; 6]>,
-        via: Option<&Pose>,
+        (start, via, ride): (Option<[f64; 6]>, Option<&Pose>, Option<Arc<Ride>>),
     ) -> Option<Posture> {
         let ground = self.ground;
         let equipped = ground.arm_with(motion.tool);
@@ -410,6 +421,7 @@ impl Walker<'_, '_> {
                 via,
                 wanted,
                 &start,
+                ride,
                 self.walk_options,
             );
             if let Some((branch, q)) = follow(equipped, &course, &start) {
@@ -560,6 +572,10 @@ fn sign(by: f64, least: f64) -> Option<i8> {
 }
 
 /// The controller's path of a move.
+#[allow(
+    clippy::too_many_arguments,
+    reason = "where it begins, over what it goes, where it ends, on what it rides"
+)]
 pub(crate) fn course(
     motion: &Move,
     equipped: &super::arms::Equipped,
@@ -567,6 +583,7 @@ pub(crate) fn course(
     via: Option<&Pose>,
     wanted: &Pose,
     q: &[f64; 6],
+    ride: Option<Arc<Ride>>,
     walk_options: &WalkOptions,
 ) -> Course {
     if motion.motion == Motion::Joint {
@@ -576,10 +593,8 @@ pub(crate) fn course(
         };
     }
     let from = equipped.controller.forward(start, &Conditions::default());
-    Course::Tool(match via {
-        Some(via) => ToolCourse::arc(&from, via.translation, wanted, walk_options.turning),
-        None => ToolCourse::straight(&from, wanted, walk_options.turning),
-    })
+    let turning = walk_options.turning;
+    Course::Tool(ToolCourse::of(&from, via, wanted, turning, ride))
 }
 
 /// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations by continuity. `None` where it
@@ -689,6 +704,7 @@ pub(crate) fn arrival_direction(
         start: *start,
         branch,
         conditions: Conditions::default(),
+        ride: None,
     };
     let last = leg.joints(1.0, end);
     let shortly_before = leg.joints(1.0 - back, &last);

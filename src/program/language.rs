@@ -61,6 +61,7 @@ pub trait Language: Sync {
     ) -> Result<Result<script::NamedFrame, script::Remark>, ReadError> {
         let _ = (is_tool, parts, sources);
         Ok(Ok(script::NamedFrame {
+            on: Box::default(),
             name: name.into(),
             pose: None,
             load: None,
@@ -214,6 +215,11 @@ pub trait Language: Sync {
     ) -> Inserted {
         let _ = (sources, program, file);
         Inserted::none(insertions)
+    }
+
+    /// The names of external axes in the order of their offsets, see [`Program::external_offsets`].
+    fn external_names(&self) -> [&'static str; 6] {
+        ["E1", "E2", "E3", "E4", "E5", "E6"]
     }
 
     /// A program that drives through configurations; `None` where none can be written in this language, or not with these

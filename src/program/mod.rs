@@ -116,9 +116,56 @@ pub struct Layout {
     pub variant: u8,
 }
 
+/// Where an external axis stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct External {
+    /// Index in [`ExternalNames::listed`].
+    pub axis: u8,
+    /// The value in the file's unit; not a number where the text does not tell.
+    pub value: f64,
+}
+
+/// External axes by their names in programs.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct ExternalNames {
+    /// Those of which it is known what they carry.
+    pub listed: Vec<String>,
+    /// Encoder pulses of one millimetre or degree of each of these, for programs that count in pulses.
+    pub pulses: Vec<Option<f64>>,
+    /// Those that carry nothing a pose depends on.
+    pub ignored: Vec<String>,
+}
+
+/// What is known of an external axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExternalUse {
+    /// What it carries; the index in [`ExternalNames::listed`].
+    Listed(u8),
+    /// That it carries nothing.
+    Ignored,
+    /// Nothing.
+    Unknown,
+}
+
+impl ExternalNames {
+    /// What is known of the axis of a name.
+    #[must_use]
+    pub fn meaning(&self, name: &str) -> ExternalUse {
+        let is = |known: &String| known.eq_ignore_ascii_case(name);
+        let listed = self.listed.iter().position(is).map(u8::try_from);
+        match listed {
+            Some(Ok(at)) => ExternalUse::Listed(at),
+            _ if self.ignored.iter().any(is) => ExternalUse::Ignored,
+            _ => ExternalUse::Unknown,
+        }
+    }
+}
+
 /// What a language must know beside the files.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Settings {
+    /// External axes that the profile describes.
+    pub external: ExternalNames,
     /// Encoder pulses of one degree of each joint, where programs count in pulses.
     pub pulses_per_deg: Option<[f64; 6]>,
     /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
@@ -332,6 +379,8 @@ pub struct Move {
     pub tool_written: Option<Place>,
     /// Likewise its work frame.
     pub frame_written: Option<Place>,
+    /// What is added to external axes: from 1 an index in [`Program::external_offsets`], 0 is nothing.
+    pub external_offset: u32,
 }
 
 impl Default for Move {
@@ -351,6 +400,7 @@ impl Default for Move {
             before: Before::Start,
             tool_written: None,
             frame_written: None,
+            external_offset: 0,
         }
     }
 }
@@ -394,8 +444,38 @@ pub struct Load {
 pub struct Frame {
     /// Its name in the program.
     pub name: String,
-    /// Where it is; `None` where the files do not tell.
+    /// Where it is; `None` where the files do not tell. On a mechanical unit, where it is on that.
     pub world_from_frame: Option<Pose>,
+    /// The mechanical unit that carries it, by all its names; none where it stands still.
+    pub on: Box<[Box<str>]>,
+    /// Where external axes stand at the moves that have it, as far as the profile knows any.
+    pub stand: Option<Stand>,
+}
+
+/// [`Frame::on`] of a frame that rides on the axes of the robot's own base.
+pub const BASE_UNIT: &str = "the base";
+
+impl Frame {
+    /// Whether a mechanical unit beside the robot's own base carries it.
+    #[must_use]
+    pub fn is_carried(&self) -> bool {
+        self.on.first().is_some_and(|unit| **unit != *BASE_UNIT)
+    }
+}
+
+/// Where external axes stand at a move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stand {
+    /// By index in [`ExternalNames::listed`], metres and radians; those that no pose of the move depends on are not a number.
+    pub values: Box<[f64]>,
+    /// Direction in which each moves there: −1, +1, or 0 where it is unknown.
+    pub directions: Box<[f64]>,
+    /// Index of the positioner that carries the frame.
+    pub positioner: Option<usize>,
+    /// The frame rides on the base.
+    pub on_base: bool,
+    /// It is the frame of moves to joints: the world, seen from what carries the work piece.
+    pub of_joints: bool,
 }
 
 /// What program files hold.
@@ -417,6 +497,12 @@ pub struct Program {
     pub speed_zones: Vec<SpeedZone>,
     /// Moves that come before others where there are several.
     pub befores: Vec<Box<[Before]>>,
+    /// Where targets say that external axes stand, by target.
+    pub externals: Vec<(TargetId, External)>,
+    /// Likewise moves, by [`Move::instruction`]: they go before their targets.
+    pub externals_of_moves: Vec<(u32, External)>,
+    /// What programs add to external axes, in the units and the order of the language.
+    pub external_offsets: Vec<[f64; 6]>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }

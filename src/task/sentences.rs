@@ -19,6 +19,7 @@ fn digits(value: f64) -> String {
 pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
     let (p, site) = (&effect.parameters, &effect.site);
     let joint = format!("J{}", site.index + 1);
+    let axis = format!("external axis {}", site.index + 1);
     let deg = |value: f64| digits(value / DEG);
     let mm = |value: f64| digits(mm_from_m(value));
     let length = |x: &[f64]| x.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -138,7 +139,45 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
             site.order,
             mm(length(&p[..3]))
         ),
+        Kind::TrackScale => format!("{axis} goes {} mm too far in a metre", mm(p[0])),
+        Kind::TrackDirection => format!(
+            "{axis} runs {}° beside the direction of the profile",
+            deg(length(&p[..2]))
+        ),
+        Kind::TrackStraightness => format!("{axis} is bent by {} mm at its ends", mm(p[0])),
+        Kind::TrackRipple => format!(
+            "The error of {axis} repeats every {} mm, by {} mm",
+            mm(site.period_m()),
+            mm(length(&p[..2]))
+        ),
+        Kind::TrackRotation => format!(
+            "The carriage of {axis} rotates by {}° to its ends",
+            deg(p[0])
+        ),
+        Kind::TrackBacklash => format!("{axis} loses {} mm when it goes the other way", mm(p[0])),
+        Kind::PositionerAxis => format!(
+            "{axis} is {} mm and {}° from where the profile has it",
+            mm(length(&p[..2])),
+            deg(length(&p[2..4]))
+        ),
+        Kind::PositionerZero => format!("{axis} has its zero {}° elsewhere", deg(p[0])),
+        Kind::PositionerScale => format!("{axis} turns {}° too far in 90°", deg(p[0] * 90.0 * DEG)),
+        Kind::PositionerRipple => format!(
+            "{axis} runs fast and slow by {}°, {} times a turn",
+            deg(length(&p[..2])),
+            site.order
+        ),
+        Kind::PositionerRunout => format!(
+            "{axis} wobbles by {} mm, {} times a turn",
+            mm(length(&p[..2])),
+            site.order
+        ),
+        Kind::PositionerPlate => format!(
+            "The plate on {axis} sits {} mm and {}° from where the profile has it",
+            mm(length(&p[..3])),
+            deg(length(&p[3..]))
+        ),
     };
-    debug_assert!(site.index <= JOINTS);
+    debug_assert!(site.index <= JOINTS || effect.definition().of_external_axis());
     format!("{text} ({}).", effect.definition().id)
 }

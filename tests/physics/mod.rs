@@ -3,6 +3,7 @@
 //! It states every effect in its full form (a base that tilts is turned about its origin, an arm that grows has longer
 //! lengths), where the product adds up small motions. Metres, radians, newtons. See docs/model.md for the equations.
 
+pub mod external;
 pub mod matrix;
 
 use matrix::{M4, V3, add, cross, dot, point, sub, times};

@@ -6,6 +6,7 @@ mod cli;
 mod diagnose;
 mod documents;
 mod examples;
+mod external;
 mod findings;
 mod golden;
 mod laws;

@@ -1,9 +1,7 @@
 //! What is hidden in a robot: effects of every kind, of typical proportions.
 
 use super::Start;
-use poseshift::model::effects::{
-    BASE, Effect, Kind, MOST_PARAMETERS, Need, REGISTRY, Site, SiteKey,
-};
+use poseshift::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, Site, SiteKey, of_arm};
 use rand::RngExt;
 use rand::rngs::StdRng;
 
@@ -44,6 +42,7 @@ pub fn hidden(
                     u32::try_from(random.random_range(rows / 5..rows * 4 / 5)).expect("small");
             }
             SiteKey::Tool => {}
+            other => unreachable!("an effect of the arm has no {}", other.key()),
         }
     }
     if definition.needs_masses() && definition.site.contains(&SiteKey::Joint) {
@@ -123,9 +122,7 @@ pub fn kinds(start: Start) -> Vec<Kind> {
         Kind::LinkGeometry,
         Kind::JointCompliance,
     ];
-    REGISTRY
-        .iter()
-        .copied()
+    of_arm()
         .filter(|k| start != Start::Nominal || !absorbed.contains(k))
         // cases have a clock
         .filter(|k| !k.definition().needs.contains(&Need::NoTime))

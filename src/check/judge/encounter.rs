@@ -48,7 +48,7 @@ impl Job<'_> {
         let found = collision::clearance(scene, &arms.mover(Which::Real), leg, pieces, horizon);
         report.clearance = Some(Box::new(found));
         if first {
-            for pair in collision::inside(scene, &arms.plain.real, leg, &leg.start) {
+            for pair in collision::inside(scene, &arms.mover(Which::Real), leg, &leg.start) {
                 let (a, b) = scene.names_of(&scene.watched[pair]);
                 let message = format!("{a} is inside {b}");
                 let hint = "is the cell in the robot's world frame?";
@@ -135,7 +135,7 @@ impl Job<'_> {
         if let (Some(original), Some(part)) = (self.original, part) {
             let stop = original.stops[part.stop]?;
             let arriving = original.leg(part.stop, self.options.turning);
-            let leg = arriving.unwrap_or_else(|| original.standing(&stop));
+            let leg = arriving.unwrap_or_else(|| original.standing(part.stop, &stop));
             let mover = original.arms(&stop).mover(Which::Controller);
             let pieces = leg.pieces();
             return Some(collision::clearance(scene, &mover, &leg, &pieces, horizon));

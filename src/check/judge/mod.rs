@@ -39,7 +39,7 @@ impl Job<'_> {
         let part = self.parts.and_then(|parts| parts[index]);
         let wanted_end = match (self.original, part) {
             (Some(original), Some(part)) => part.end_pose(original, self.options),
-            _ => stop.pose,
+            _ => stop.wanted,
         };
         let conditions = self.walk.conditions(&stop);
         let landed = arms.plain.real.forward(&stop.q, &conditions);
@@ -61,7 +61,7 @@ impl Job<'_> {
         };
         let arriving = self.walk.leg(index, self.options.turning);
         let comes = arriving.is_some();
-        let leg = arriving.unwrap_or_else(|| self.walk.standing(&stop));
+        let leg = arriving.unwrap_or_else(|| self.walk.standing(index, &stop));
         let pieces = leg.pieces();
         if comes {
             report.path = Some(self.path_error(&leg, &pieces, arms, index));

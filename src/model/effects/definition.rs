@@ -38,6 +38,12 @@ impl Definition {
         self.site.contains(&SiteKey::Row)
     }
 
+    /// Whether it belongs to an external axis.
+    #[must_use]
+    pub fn of_external_axis(&self) -> bool {
+        self.site.contains(&SiteKey::Axis)
+    }
+
     /// Whether torques or moments enter.
     #[must_use]
     pub fn needs_masses(&self) -> bool {
@@ -62,10 +68,24 @@ pub enum SiteKey {
     Row,
     /// `tool: NAME`, optional: without it every tool
     Tool,
+    /// `axis: 1…`, which of the profile's external axes in the order of the file
+    Axis,
+    /// `along: x`, one of these letters
+    Along(&'static str),
+    /// `about: x`, one of these letters
+    About(&'static str),
+    /// `degree: 2…6`, of a power, from and to
+    Degree(u32, u32),
+    /// `period_mm: 12.5`
+    Period,
 }
 
 /// An order is counted in thousandths.
 const MILLI: u32 = 1000;
+/// External axes of one profile.
+pub const MOST_EXTERNAL_AXES: u32 = 12;
+/// Directions by letter.
+pub(super) const LETTERS: &str = "xyz";
 
 impl SiteKey {
     /// How many of its numbers are one in files.
@@ -124,6 +144,11 @@ impl SiteKey {
             Self::Order => "order",
             Self::Row => "row",
             Self::Tool => "tool",
+            Self::Axis => "axis",
+            Self::Along(_) => "along",
+            Self::About(_) => "about",
+            Self::Degree(..) => "degree",
+            Self::Period => "period_mm",
         }
     }
 
@@ -133,14 +158,25 @@ impl SiteKey {
         matches!(self, Self::Tool | Self::JointOrBase)
     }
 
-    /// Smallest and largest number; `None` where it is a name.
+    /// The letters that it may be; `None` where it is no direction.
+    #[must_use]
+    pub const fn letters(self) -> Option<&'static str> {
+        match self {
+            Self::Along(letters) | Self::About(letters) => Some(letters),
+            _ => None,
+        }
+    }
+
+    /// Smallest and largest number; `None` where it is a name, a letter or a length.
     #[must_use]
     pub const fn range(self) -> Option<(u32, u32)> {
         match self {
             Self::Link | Self::Joint | Self::JointOrBase | Self::On => Some((1, 6)),
             Self::Order => Some((MILLI / 2, 1000 * MILLI)),
             Self::Row => Some((1, 1_000_000_000)),
-            Self::Tool => None,
+            Self::Axis => Some((1, MOST_EXTERNAL_AXES)),
+            Self::Degree(low, high) => Some((low, high)),
+            Self::Tool | Self::Along(_) | Self::About(_) | Self::Period => None,
         }
     }
 }
@@ -228,6 +264,8 @@ pub enum Need {
     Masses,
     /// Columns `dir1…dir6` in measurements; the direction of motion.
     Directions,
+    /// Columns `dir_e1…`; the direction in which external axes moved.
+    ExternalDirections,
     /// Column `temperature_c`.
     Temperature,
     /// Column `time_s`.
@@ -251,6 +289,7 @@ impl Need {
         match self {
             Self::Masses => "masses (bodies or tool mass_kg in the profile)",
             Self::Directions => "columns dir1…dir6",
+            Self::ExternalDirections => "columns dir_e1…",
             Self::Temperature => "column temperature_c",
             Self::Time => "column time_s",
             Self::Order => "rows in the order in which they were measured",

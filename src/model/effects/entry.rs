@@ -1,6 +1,6 @@
 //! An effect as an entry of a profile: `{effect: ID, joint: 2, rad_per_n_m: 3.2e-5}`.
 
-use super::definition::{Definition, Parameter, SiteKey, Unit};
+use super::definition::{Definition, LETTERS, Parameter, SiteKey, Unit};
 use super::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
 use crate::nearest;
 use serde_json::{Map, Value, json};
@@ -156,15 +156,24 @@ impl Effect {
                     });
                 }
                 (SiteKey::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
-                (SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase, Some(value)) => {
+                (
+                    SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis,
+                    Some(value),
+                ) => {
                     site.index = whole(definition, *place, value)? as usize - 1;
                 }
                 (SiteKey::On, Some(value)) => {
                     site.on = whole(definition, *place, value)? as usize - 1;
                 }
                 (SiteKey::Order, Some(value)) => site.order = order(definition, value)?,
-                (SiteKey::Row, Some(value)) => {
+                (SiteKey::Row | SiteKey::Degree(..), Some(value)) => {
                     site.order = whole(definition, *place, value)?;
+                }
+                (SiteKey::Along(letters) | SiteKey::About(letters), Some(value)) => {
+                    site.on = letter(definition, *place, letters, value)?;
+                }
+                (SiteKey::Period, Some(value)) => {
+                    site.order = micrometres(definition, *place, value)?;
                 }
             }
         }
@@ -204,12 +213,19 @@ impl Effect {
         for place in definition.site {
             match place {
                 SiteKey::JointOrBase if self.site.index == BASE => {}
-                SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => {
+                SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
                     entry.push((place.key(), json!(self.site.index + 1)));
                 }
                 SiteKey::On => entry.push((place.key(), json!(self.site.on + 1))),
-                SiteKey::Order | SiteKey::Row => {
+                SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) => {
                     entry.push((place.key(), place.in_files(self.site.order)));
+                }
+                SiteKey::Along(_) | SiteKey::About(_) => {
+                    let on = self.site.on;
+                    entry.push((place.key(), json!(LETTERS[on..=on])));
+                }
+                SiteKey::Period => {
+                    entry.push((place.key(), json!(f64::from(self.site.order) / 1000.0)));
                 }
                 SiteKey::Tool => entry.extend(
                     self.site
@@ -278,9 +294,13 @@ impl Effect {
     pub fn same_place(&self, other: &Self) -> bool {
         let (mine, others) = (&self.site, &other.site);
         let same = |place: &SiteKey| match place {
-            SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase => mine.index == others.index,
-            SiteKey::On => mine.on == others.on,
-            SiteKey::Order | SiteKey::Row => mine.order == others.order,
+            SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
+                mine.index == others.index
+            }
+            SiteKey::On | SiteKey::Along(_) | SiteKey::About(_) => mine.on == others.on,
+            SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) | SiteKey::Period => {
+                mine.order == others.order
+            }
             SiteKey::Tool => mine.tool == others.tool,
         };
         self.kind == other.kind && self.definition().site.iter().all(same)
@@ -339,6 +359,50 @@ fn order(definition: &Definition, value: &Value) -> Result<u32, EntryError> {
     })
 }
 
+/// The number of a direction.
+fn letter(
+    definition: &Definition,
+    place: SiteKey,
+    letters: &str,
+    value: &Value,
+) -> Result<usize, EntryError> {
+    // to YAML a bare y is true
+    let text = value
+        .as_bool()
+        .map_or(value.as_str(), |yes| yes.then_some("y"));
+    let found = text.filter(|text| text.len() == 1);
+    let found = found.filter(|text| letters.contains(*text));
+    found.and_then(|text| LETTERS.find(text)).ok_or_else(|| {
+        let one_of: Vec<String> = letters.chars().map(String::from).collect();
+        bad(
+            definition,
+            place.key(),
+            value,
+            format!("one of {}", one_of.join(", ")),
+        )
+    })
+}
+
+/// Longest period along a rail, millimetres.
+const MOST_PERIOD_MM: f64 = 100_000.0;
+
+/// A period in whole micrometres: what belongs to one place is compared exactly.
+fn micrometres(definition: &Definition, place: SiteKey, value: &Value) -> Result<u32, EntryError> {
+    let mm = value
+        .as_f64()
+        .filter(|mm| (0.001..=MOST_PERIOD_MM).contains(mm));
+    let whole = mm.map(|mm| (mm * 1000.0).round());
+    let exact = whole
+        .zip(mm)
+        .filter(|(um, mm)| (um / 1000.0 - mm).abs() < 1e-9 * mm);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    exact.map(|(um, _)| um as u32).ok_or_else(|| {
+        let expected =
+            format!("a length from 0.001 to {MOST_PERIOD_MM} mm with at most three decimals");
+        bad(definition, place.key(), value, expected)
+    })
+}
+
 fn number(
     definition: &Definition,
     parameter: &Parameter,
@@ -363,13 +427,21 @@ pub fn entry_schema() -> Value {
             Map::from_iter([("effect".to_owned(), json!({"const": definition.id}))]);
         let mut required = vec!["effect"];
         for place in definition.site {
-            let schema = match place.range() {
-                Some((low, high)) => json!({
-                    "type": if place.one() == 1 { "integer" } else { "number" },
-                    "minimum": place.in_files(low),
-                    "maximum": place.in_files(high),
-                }),
-                None => json!({"type": "string"}),
+            let schema = match (place, place.range(), place.letters()) {
+                (_, Some((low, high)), _) => {
+                    json!({
+                        "type": if place.one() == 1 { "integer" } else { "number" },
+                        "minimum": place.in_files(low),
+                        "maximum": place.in_files(high),
+                    })
+                }
+                (_, _, Some(letters)) => {
+                    json!({"enum": letters.chars().map(String::from).collect::<Vec<_>>()})
+                }
+                (SiteKey::Period, ..) => {
+                    json!({"type": "number", "minimum": 0.001, "maximum": MOST_PERIOD_MM})
+                }
+                _ => json!({"type": "string"}),
             };
             properties.insert(place.key().into(), schema);
             if !place.optional() {

@@ -12,7 +12,7 @@ mod entry;
 #[cfg(test)]
 mod laws;
 
-pub use definition::{Definition, Need, Parameter, SiteKey, Unit};
+pub use definition::{Definition, MOST_EXTERNAL_AXES, Need, Parameter, SiteKey, Unit};
 pub use entry::{EntryError, entry_schema};
 
 use super::chain::Frames;
@@ -54,6 +54,68 @@ trait Equation {
     ) {
         let _ = (site, p, state, deflection);
     }
+
+    /// Adds what is wrong with an external axis to `error`.
+    fn carry<S: Scalar>(
+        site: &Site,
+        p: &[S; MOST_PARAMETERS],
+        at: &AxisState<S>,
+        error: &mut AxisError<S>,
+    ) {
+        let _ = (site, p, at, error);
+    }
+}
+
+/// Where an external axis stands.
+#[derive(Clone, Copy, Debug)]
+pub struct AxisState<S> {
+    /// How far from the middle of its limits a linear axis is, metres; the angle of a rotary one from its zero, radians.
+    pub moved: S,
+    /// The same of a linear axis as a part of half its travel: −1 to 1.
+    pub part: S,
+    /// Direction in which it last moved: −1, +1, or 0 where it is unknown.
+    pub direction: f64,
+}
+
+/// What is wrong with an external axis at one place: sums over its effects.
+#[derive(Clone, Copy, Debug)]
+pub struct AxisError<S> {
+    /// Of the travel or angle.
+    pub scale: S,
+    /// Pitch and yaw of a rail, radians.
+    pub direction: [S; 2],
+    /// Along the axes of the rail, or of the rotary axis as it stands, metres.
+    pub offset: Vector<S>,
+    /// Of the carriage about the axes of the rail, radians.
+    pub turn: Vector<S>,
+    /// x, y, rx, ry of a rotary axis.
+    pub place: [S; 4],
+    /// Added to the angle, radians.
+    pub angle: S,
+    /// Of the plate, as [`crate::geometry::Pose::from_xyz_rxryrz`].
+    pub plate: [S; 6],
+}
+
+impl<S: Scalar> AxisError<S> {
+    /// Nothing is wrong.
+    #[must_use]
+    pub fn none() -> Self {
+        let zero = S::zero();
+        Self {
+            scale: zero,
+            direction: [zero; 2],
+            offset: [zero; 3],
+            turn: [zero; 3],
+            place: [zero; 4],
+            angle: zero,
+            plate: [zero; 6],
+        }
+    }
+}
+
+/// A whole power.
+fn power<S: Scalar>(base: S, degree: u32) -> S {
+    (0..degree).fold(S::one(), |product, _| product * base)
 }
 
 macro_rules! registry {
@@ -91,6 +153,13 @@ macro_rules! registry {
                 }
             }
 
+            /// Adds what is wrong with the external axis that this effect belongs to, where it does to one.
+            pub fn carry(&self, at: &AxisState<S>, error: &mut AxisError<S>) {
+                match self.kind {
+                    $(Kind::$name => $file::$name::carry(&self.site, &self.parameters, at, error),)+
+                }
+            }
+
             /// Adds what the posture does where this effect depends on it.
             #[inline(always)]
             pub fn deflect(&self, state: &State<S>, deflection: &mut Deflection<S>) {
@@ -124,6 +193,24 @@ registry! {
     tool_compliance::ToolCompliance,
     measurement_scale::MeasurementScale,
     session_drift::SessionDrift,
+    track_scale::TrackScale,
+    track_direction::TrackDirection,
+    track_straightness::TrackStraightness,
+    track_ripple::TrackRipple,
+    track_rotation::TrackRotation,
+    track_backlash::TrackBacklash,
+    positioner_axis::PositionerAxis,
+    positioner_zero::PositionerZero,
+    positioner_scale::PositionerScale,
+    positioner_ripple::PositionerRipple,
+    positioner_runout::PositionerRunout,
+    positioner_plate::PositionerPlate,
+}
+
+/// The effects of the arm, its place and its measurements: all that belong to no external axis.
+pub fn of_arm() -> impl Iterator<Item = Kind> + Clone {
+    let all = REGISTRY.iter().copied();
+    all.filter(|kind| !kind.definition().of_external_axis())
 }
 
 impl Kind {
@@ -140,14 +227,24 @@ impl Kind {
 /// What an effect belongs to. Only what its [`Definition::site`] lists is used.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Site {
-    /// Index of the joint or link, 0 to 5; 6 is the base where an effect may belong to it.
+    /// Index of the joint or link, 0 to 5; 6 is the base where an effect may belong to it; or index of the external axis in
+    /// the profile's list.
     pub index: usize,
-    /// Index of the joint it leaks from.
+    /// Index of the joint it leaks from; of an external axis the direction: 0 is x, 1 is y, 2 is z.
     pub on: usize,
-    /// Thousandths of periods in one turn; or the first row of the measurements, from 1, where an effect begins there.
+    /// Thousandths of periods in one turn; the degree of a power; a period in micrometres; or the first row of the measurements,
+    /// from 1, where an effect begins there.
     pub order: u32,
     /// Name of the tool; `None` is every tool.
     pub tool: Option<String>,
+}
+
+impl Site {
+    /// The period along a rail, metres.
+    #[must_use]
+    pub fn period_m(&self) -> f64 {
+        f64::from(self.order) * 1e-6
+    }
 }
 
 /// One effect with its parameters in SI units, in the order of its definition; unused ones are zero.

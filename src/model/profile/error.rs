@@ -55,6 +55,55 @@ pub enum Fault {
         /// Upper limit, degrees.
         max: f64,
     },
+    /// Limits of a linear axis the wrong way round.
+    #[error("min_mm {min} is not below max_mm {max}")]
+    LimitsMm {
+        /// Lower limit, mm.
+        min: f64,
+        /// Upper limit, mm.
+        max: f64,
+    },
+    /// A direction of no length.
+    #[error("{key} is [0, 0, 0], which is no direction")]
+    NoDirection {
+        /// The key.
+        key: &'static str,
+    },
+    /// A rail of which nobody knows the sides.
+    #[error("up is nearly along direction: the sides of the rail are not known")]
+    UpAlong,
+    /// More axes than there can be.
+    #[error("too many {what}; the limit is {most}")]
+    TooManyAxes {
+        /// Of what.
+        what: &'static str,
+        /// The limit.
+        most: usize,
+    },
+    /// A positioner that does not turn.
+    #[error("positioner `{name}` has no axis")]
+    NoAxis {
+        /// Its name.
+        name: String,
+    },
+    /// An external axis or unit without a name of its own.
+    #[error("the external axis or unit `{name}` has no name of its own")]
+    AxisName {
+        /// The name.
+        name: String,
+    },
+    /// An effect of an external axis that is not listed, or of another kind.
+    #[error("`{label}`: axis {axis} is not {needs}")]
+    NoSuchAxis {
+        /// The effect.
+        label: String,
+        /// The number, from 1.
+        axis: usize,
+        /// What it should be.
+        needs: &'static str,
+        /// Names of the listed axes in their order.
+        listed: Vec<String>,
+    },
     /// A number outside its range.
     #[error("{key} is {found}; it must be from {low} to {high}")]
     OutOfRange {
@@ -268,6 +317,15 @@ impl ProfileError {
             Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange itself".into(),
             Fault::EndlessAngle { .. } => "angles are in degrees, between -360 and 360".into(),
             Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
+            Fault::UpAlong => "give `up` across the rail: for a lift [1, 0, 0]".into(),
+            Fault::AxisName { .. } => "each name stands once, as programs write it".into(),
+            Fault::NoSuchAxis { listed, .. } if listed.is_empty() => {
+                "list the axes under `external_axes`".into()
+            }
+            Fault::NoSuchAxis { listed, .. } => {
+                let listed = listed.iter().zip(1..).map(|(name, n)| format!("{n} is {name}"));
+                listed.collect::<Vec<_>>().join(", ")
+            }
             Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),
             _ => String::new(),
         }

@@ -46,6 +46,9 @@ pub struct ProfileFile {
     #[serde(default)]
     #[schemars(with = "Vec<super::shape::LinkShapeFile>")]
     pub shapes: Vec<Spanned<super::shape::LinkShapeFile>>,
+    /// What stands around the arm and moves: a track that carries the base, positioners that carry work pieces.
+    #[serde(default)]
+    pub external_axes: super::external::ExternalFile,
     /// Gravity in the world.
     #[serde(default = "earth")]
     pub gravity_m_s2: [Number; 3],
@@ -178,7 +181,7 @@ pub struct JointFile {
     pub offset_deg: Number,
 }
 
-fn plus() -> i8 {
+pub(super) fn plus() -> i8 {
     1
 }
 

@@ -4,6 +4,7 @@ mod catalogue;
 mod device;
 mod edit;
 mod error;
+pub(crate) mod external;
 pub(crate) mod file;
 mod makers;
 mod rewrite;
@@ -27,6 +28,7 @@ pub use text::{Comments, made};
 pub use write::{WriteError, rewritten};
 
 use super::effects::{Effect, Kind, Need};
+use super::external::ExternalAxes;
 use super::shape::{Form, LinkShape};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -77,6 +79,8 @@ pub struct Profile {
     pub bodies: Vec<Body>,
     /// Bodies of the links, for collisions.
     pub shapes: Vec<LinkShape>,
+    /// What stands around the arm and moves.
+    pub external: ExternalAxes,
     /// Gravity in the world, m/s².
     pub gravity_m_s2: Vector,
     /// Tools by name.
@@ -167,6 +171,7 @@ impl Profile {
             link6_from_flange: Pose::identity(),
             bodies: Vec::new(),
             shapes: Vec::new(),
+            external: ExternalAxes::default(),
             gravity_m_s2: file::earth().map(|n| n.0),
             tools: BTreeMap::new(),
             points: BTreeMap::new(),
@@ -189,10 +194,12 @@ impl Profile {
         }
         let kinematics = file.kinematics;
         let mut large = Reasons::default();
+        let external = file.external_axes.read()?;
         let own_effects = own_effects(
             file.controller.model,
             file.controller.effects,
             &mut large.controller,
+            &external,
         )?;
         let payload_kg = match file.robot.payload_kg {
             Some(kg) if kg.value.0 <= 0.0 => {
@@ -304,7 +311,7 @@ impl Profile {
                 .into_iter()
                 .map(|(name, point)| (name, metres(point)))
                 .collect(),
-            effects: effects(file.calibration.effects, &mut large.calibration)?,
+            effects: effects(file.calibration.effects, &mut large.calibration, &external)?,
             large,
             tables: file.measurement,
             device: file
@@ -315,6 +322,7 @@ impl Profile {
                 .transpose()?,
             quality: file.calibration.quality,
             provenance: file.calibration.provenance,
+            external,
         };
         Ok(profile)
     }
@@ -588,15 +596,23 @@ fn own_effects(
     model: ControllerModel,
     entries: Option<Vec<file::EffectFile>>,
     large: &mut BTreeMap<String, String>,
+    external: &ExternalAxes,
 ) -> Result<Option<Vec<Effect>>, ProfileError> {
     let Some(entries) = entries else {
         return Ok(None);
     };
     let places: Vec<Location> = entries.iter().map(|entry| entry.defined).collect();
-    let effects = effects(entries, large)?;
+    let effects = effects(entries, large, external)?;
     for (effect, at) in effects.iter().zip(places) {
         if model == ControllerModel::Nominal {
             return Err(Fault::EffectsOfNominal.at(at));
+        }
+        if effect.definition().of_external_axis() {
+            return Err(Fault::NotOfController {
+                label: effect.label(),
+                need: "external_axes as the controller has them, which is their nominal form",
+            }
+            .at(at));
         }
         let needs = effect.definition().needs;
         if let Some(need) = needs.iter().find(|need| **need != Need::Masses) {
@@ -614,6 +630,7 @@ fn own_effects(
 fn effects(
     entries: Vec<file::EffectFile>,
     large: &mut BTreeMap<String, String>,
+    external: &ExternalAxes,
 ) -> Result<Vec<Effect>, ProfileError> {
     let mut out: Vec<Effect> = Vec::new();
     for mut entry in entries {
@@ -641,6 +658,10 @@ fn effects(
         if effect.definition().of_data {
             let id = effect.definition().id;
             return Err(Fault::EffectOfData { id }.at(at));
+        }
+        if let Some(fault) = external::check_effect(&effect, external) {
+            let at = places.get("axis").copied().unwrap_or(at);
+            return Err(fault.at(at));
         }
         if out.iter().any(|other| other.same_place(&effect)) {
             return Err(Fault::DuplicateEffect {

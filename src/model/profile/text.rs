@@ -4,7 +4,8 @@ use super::{ControllerModel, FORMAT, Profile};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector};
 use crate::model::shape::{Form, LinkShape};
-use crate::printable::{printable, quoted};
+use crate::printable::printable;
+pub(super) use crate::printable::quoted;
 
 /// What a made profile says beside its numbers.
 #[derive(Clone, Debug, Default)]
@@ -185,6 +186,7 @@ pub fn made(profile: &Profile, comments: &Comments) -> String {
         out += "shapes:\n";
         out.extend(profile.shapes.iter().map(shape));
     }
+    out += &super::external::section(&profile.external);
     out += &gravity(profile);
     out += if profile.tools.is_empty() {
         "tools: {}\n"

@@ -255,6 +255,7 @@ impl Reader {
         let script = &mut self.builder.script;
         *self.tools.entry(name).or_insert_with_key(|name| {
             script.value(Held::Frame(NamedFrame {
+                on: Box::default(),
                 name: name.as_str().into(),
                 pose: None,
                 load: None,
@@ -271,6 +272,7 @@ impl Reader {
             .entry((name, is_named))
             .or_insert_with_key(|(name, is_named)| {
                 script.value(Held::Frame(NamedFrame {
+                    on: Box::default(),
                     name: name.as_str().into(),
                     pose: (*is_named && name == WORLD).then(Pose::identity),
                     load: None,

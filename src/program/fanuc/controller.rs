@@ -75,7 +75,6 @@ pub(super) enum Why {
     Axes,
     Configuration,
     Ambiguous,
-    ExternalAxis,
 }
 
 impl Why {
@@ -95,7 +94,7 @@ impl Why {
                 "moves with a stationary tool are not compensated",
             ),
             Self::Coordinated => (
-                "moving-frame",
+                "group-without-geometry",
                 "the move is coordinated with a positioner (COORD), which moves the work piece",
                 moving,
             ),
@@ -144,11 +143,6 @@ impl Why {
                 "target-name-ambiguous",
                 "this point stands in /POS more than once",
                 "keep the one that is meant",
-            ),
-            Self::ExternalAxis => (
-                "external-axis",
-                "an axis beside the six of the arm is away from zero: where it carries the arm or the work piece, the pose is another than the one that is computed",
-                "points are compensated where such axes are 0 or absent",
             ),
         };
         let severity = match self {
@@ -389,6 +383,7 @@ impl Controller {
 /// A tool or frame of this name.
 pub(super) fn frame(script: &mut Script, name: &str, pose: Option<Pose>) -> ValueId {
     script.value(Held::Frame(NamedFrame {
+        on: Box::default(),
         name: name.into(),
         pose,
         load: None,

@@ -4,7 +4,7 @@ use super::controller::Why;
 use super::sections::line_end;
 use crate::program::kit::Fault;
 use crate::program::script::short;
-use crate::program::{Number, number};
+use crate::program::{Number, Source, number};
 use std::ops::Range;
 
 /// Bytes of a number and the blanks before it.
@@ -41,8 +41,8 @@ pub(super) struct Point {
     pub frame: Option<u32>,
     /// Its tool, likewise.
     pub tool: Option<u32>,
-    /// An axis beside the six of the arm is away from zero.
-    pub extended: bool,
+    /// Axes beside the six of the arm, of other groups as `G2J1`, and their values; not a number where they were never taught.
+    pub external: Vec<(String, f64)>,
 }
 
 /// A number that no robot can use.
@@ -141,7 +141,7 @@ impl<'a> Points<'a> {
             numbers: 0..0,
             frame: None,
             tool: None,
-            extended: false,
+            external: Vec::new(),
         };
         self.expect(b'{', "{")?;
         self.groups(start, &mut point)?;
@@ -207,7 +207,7 @@ impl<'a> Points<'a> {
                         Some(b'=') => {
                             self.at += 1;
                             let within = self.in_group(group, &key)?;
-                            self.value(key, within, &mut first)?;
+                            self.value(key, group, within, &mut first)?;
                         }
                         _ => return Err(self.unexpected("= or :")),
                     }
@@ -286,7 +286,13 @@ impl<'a> Points<'a> {
     }
 
     /// `X =  1922.978  mm`
-    fn value(&mut self, key: Range<usize>, within: bool, first: &mut Group) -> Result<(), Fault> {
+    fn value(
+        &mut self,
+        key: Range<usize>,
+        group: Option<u32>,
+        within: bool,
+        first: &mut Group,
+    ) -> Result<(), Fault> {
         let field = self.at;
         self.skip_blanks_in_line();
         let digits = self.at;
@@ -325,6 +331,12 @@ impl<'a> Points<'a> {
         let letters = letters.count();
         let unit = &self.bytes[self.at..self.at + letters];
         self.at += letters;
+        if let (Some(other), [b'J', _]) =
+            (group.filter(|group| *group != 1), &self.bytes[key.clone()])
+        {
+            let name = format!("G{other}{}", Source::text(&self.bytes[key.clone()]));
+            first.external.push((name, value.unwrap_or(f64::NAN)));
+        }
         if within {
             // the field keeps its last column where blanks stand before the number; a tab is none of its
             let blanks = self.bytes[field..digits].iter().rev();
@@ -359,7 +371,8 @@ struct Group {
     uninitialised: bool,
     remote: bool,
     other: bool,
-    extended: bool,
+    /// Axes beside the six that stand somewhere: name and value, not a number where it was never taught.
+    external: Vec<(String, f64)>,
     pose: [Option<Number>; 6],
     joints: [Option<Number>; 6],
     /// The six numbers of the configuration data, or that they are not understood.
@@ -381,7 +394,8 @@ impl Group {
                 return;
             }
             [b'E', b'1'..=b'9'] | [b'J', b'7'..=b'9'] => {
-                self.extended |= found.is_some_and(|n| n.value != 0.0);
+                let value = found.map_or(f64::NAN, |number| number.value);
+                self.external.push((Source::text(key).into(), value));
                 return;
             }
             _ => {
@@ -405,7 +419,7 @@ impl Group {
 
     fn finish(self, point: &mut Point, numbers: &mut Vec<Number>) {
         let start = numbers.len();
-        point.extended = self.extended;
+        point.external = self.external;
         let complete = |numbers: [Option<Number>; 6]| numbers.iter().all(Option::is_some);
         let trouble = if self.uninitialised {
             Some(Why::Uninitialised)

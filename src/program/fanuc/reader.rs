@@ -11,9 +11,11 @@ use super::words::{Named, Register};
 use crate::finding::{Finding, Severity};
 use crate::program::kit::{Fault, not_this_language};
 use crate::program::script::{
-    Builder, Expr, How, Place, RoutineId, Script, Start, Variable, VariableId, short,
+    Builder, Expr, How, Place, Remark, RoutineId, Script, Start, Variable, VariableId, short,
 };
-use crate::program::{Layout, ReadError, Shape, Source, Target, TargetId};
+use crate::program::{
+    External, ExternalNames, ExternalUse, Layout, ReadError, Shape, Source, Target, TargetId,
+};
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -89,12 +91,12 @@ pub(super) struct Reader<'a> {
 }
 
 /// The statements of all files.
-pub(super) fn script(sources: &[Source]) -> Result<Script, ReadError> {
+pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
     let (mut values, mut listings) = (Frames::default(), Vec::new());
     for (file, source) in sources.iter().enumerate() {
         if let Some(sections) = Sections::of(&source.bytes) {
-            let listing = listing(&mut builder, source, short(file), &sections);
+            let listing = listing(&mut builder, source, short(file), &sections, names);
             listings.push(listing.map_err(|fault| fault.in_source(source))?);
         } else if let Some(kind) = frames::kind(&source.bytes) {
             let found = frames::read(&source.bytes, kind)
@@ -158,6 +160,7 @@ fn listing(
     source: &Source,
     file: u32,
     sections: &Sections,
+    names: &ExternalNames,
 ) -> Result<Listing, Fault> {
     let bytes = &source.bytes;
     let lines = &bytes[sections.lines.clone()];
@@ -177,14 +180,14 @@ fn listing(
     let mut points = Points::new(bytes, sections.points.start);
     points.numbers = std::mem::take(&mut script.numbers);
     while let Some(point) = points.next()? {
-        add(script, &mut listing, &point);
+        add(script, &mut listing, &point, names);
     }
     script.numbers = points.numbers;
     Ok(listing)
 }
 
 /// Lists a point. Indices stay those of the text: points without group 1 are of another robot and have no target.
-fn add(script: &mut Script, listing: &mut Listing, point: &Point) {
+fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &ExternalNames) {
     let index = short(listing.points.len());
     let target = point.content.map(|content| {
         let (shape, variant, trouble) = match content {
@@ -204,8 +207,20 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point) {
         let target = script.targets.len() - 1;
         if let Some(trouble) = trouble {
             refuse(script, target, trouble);
-        } else if point.extended {
-            refuse(script, target, Why::ExternalAxis);
+        }
+        for (name, value) in &point.external {
+            match names.meaning(name) {
+                ExternalUse::Listed(axis) => {
+                    let value = *value;
+                    script.externals.push((target, External { axis, value }));
+                }
+                // a user frame that stands still does not feel other groups
+                ExternalUse::Unknown if *value != 0.0 && !name.starts_with('G') => {
+                    let remark = script.remark(Remark::external_unknown(name, *value));
+                    script.refused.push((target, remark));
+                }
+                _ => {}
+            }
         }
         target
     });

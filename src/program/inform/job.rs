@@ -54,8 +54,14 @@ pub(super) fn external(name: &[u8]) -> Option<External> {
         .map(|number| (*letters, number))
 }
 
-/// An axis that does not stand at zero, from 1, and where it stands.
-pub(super) type Moved = Option<(usize, f64)>;
+/// Where the axes of the base or of a station stand.
+#[derive(Debug, Clone)]
+pub(super) struct Moved {
+    /// What the numbers are.
+    pub coordinates: Option<Coordinates>,
+    /// One for each axis; not a number where the text is none.
+    pub values: Vec<f64>,
+}
 
 /// Header lines that hold for the positions below them, in the order in which jobs have them.
 pub(super) const HEADERS: usize = 5;
@@ -350,8 +356,13 @@ impl<'a> Positions<'a> {
             [b'P', digits @ ..] => (Letter::P, digits),
             _ => {
                 if let Some(external) = external(name) {
-                    job.external
-                        .insert(external, moved(&line.text[equals + 1..]));
+                    let coordinates = self.headers.last().and_then(Header::coordinates);
+                    let values = moved(&line.text[equals + 1..]);
+                    let moved = Moved {
+                        coordinates,
+                        values,
+                    };
+                    job.external.insert(external, moved);
                 }
                 return Ok(());
             }
@@ -403,10 +414,10 @@ impl<'a> Positions<'a> {
     }
 }
 
-/// The first axis that does not stand at zero; one that is no number stands nowhere.
-fn moved(text: &[u8]) -> Moved {
+/// Where each axis stands; one that is no number stands nowhere.
+fn moved(text: &[u8]) -> Vec<f64> {
     let values = text.split(|&b| b == b',').map(<[u8]>::trim_ascii);
-    let mut values = values.map(|text| number::parse(text).unwrap_or(f64::NAN));
-    let axis = values.clone().position(|value| value != 0.0)?;
-    values.nth(axis).map(|value| (axis + 1, value))
+    values
+        .map(|text| number::parse(text).unwrap_or(f64::NAN))
+        .collect()
 }

@@ -146,6 +146,10 @@ impl Language for Inform {
         insert::insert(&sources[file], program, file, insertions)
     }
 
+    fn external_names(&self) -> [&'static str; 6] {
+        ["BC1", "BC2", "BC3", "EC1", "EC2", "EC3"]
+    }
+
     fn drive(&self, steps: &[Step], settings: &Settings) -> Option<String> {
         Some(drive::drive(steps, settings.pulses_per_deg?))
     }
@@ -183,7 +187,12 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
             return Err(not_this_language(&ABOUT, source));
         }
     }
-    Ok(reader::script(sources, positions, &conditions))
+    Ok(reader::script(
+        sources,
+        positions,
+        &conditions,
+        &settings.external,
+    ))
 }
 
 /// Behind the NOP of the first job, where none has one before the last END, else at the end.

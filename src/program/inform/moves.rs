@@ -171,10 +171,9 @@ impl<'a> Reader<'a> {
             let is_pose = header.coordinates() == Some(Coordinates::Rectangular);
             !is_pose || header.origin() == Origin::Robot
         });
-        if !is_free {
-            for name in [base, station].into_iter().flatten() {
-                reasons.extend(self.external(name));
-            }
+        for name in [base, station].into_iter().flatten() {
+            let reason = self.external(name);
+            reasons.extend(reason.filter(|_| !is_free));
         }
         modal.guards = self.variables.guards(&mut self.builder, &reasons);
         self.builder.go(instruction, modal);

@@ -2,7 +2,7 @@
 
 use super::cnd::Conditions;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
-use super::job::{Letter, Positions};
+use super::job::{Coordinates, Letter, Positions};
 use super::lines::{Line, Lines, words};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
@@ -10,7 +10,7 @@ use crate::program::script::{
     Argument, Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId,
     ValueId, VariableId, Write, Written, short,
 };
-use crate::program::{Source, TargetId};
+use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// The statements of all jobs.
@@ -18,6 +18,7 @@ pub(super) fn script<'a>(
     sources: &'a [Source],
     positions: Positions<'a>,
     conditions: &Conditions,
+    external_names: &'a ExternalNames,
 ) -> Script {
     let mut builder = Builder::default();
     let variables = Variables::of(&mut builder, &positions, conditions);
@@ -40,6 +41,7 @@ pub(super) fn script<'a>(
         called: HashSet::new(),
         shifts: false,
         here: Here::default(),
+        external_names,
         positions,
     };
     for job in &reader.positions.jobs {
@@ -103,6 +105,8 @@ pub(super) struct Reader<'a> {
     pub called: HashSet<RoutineId>,
     pub shifts: bool,
     pub here: Here,
+    /// External axes that the profile describes.
+    external_names: &'a ExternalNames,
 }
 
 impl<'a> Reader<'a> {
@@ -412,30 +416,59 @@ impl<'a> Reader<'a> {
         self.write(line, written, How::Whole(unknown));
     }
 
-    /// Why positions of a job with other axes must stay: the first of base or station axes that does not stand at zero.
+    /// Notes where the axes of the base or of a station stand at the present move. Why positions of the job must stay: the first
+    /// of these axes that does not stand at zero and of which nobody knows what it carries.
     pub(super) fn external(&mut self, name: &[u8]) -> Option<VariableId> {
         let is_station = name.starts_with(b"E") || name.starts_with(b"LE");
         let known = &self.positions.jobs[self.here.job].external;
         let moved = super::job::external(name).and_then(|external| known.get(&external));
         let what = if is_station { "station" } else { "base" };
         let shown = Source::text(&name[..name.len().min(20)]);
-        let text = match moved {
-            Some(None) => return None,
-            Some(Some((axis, value))) => {
+        let (is_known, mut unknown) = (moved.is_some(), None);
+        let counts = moved.is_some_and(|moved| moved.coordinates == Some(Coordinates::Pulses));
+        let values = moved.map(|moved| moved.values.clone()).unwrap_or_default();
+        for (n, value) in (1..).zip(values) {
+            let letters = if is_station { "EC" } else { "BC" };
+            match self.external_names.meaning(&format!("{letters}{n}")) {
+                ExternalUse::Listed(axis) => {
+                    let value = value / self.pulses_of(axis, counts);
+                    let external = External { axis, value };
+                    let script = &mut self.builder.script;
+                    let at = short(script.instructions.len());
+                    script.externals_of_moves.push((at, external));
+                }
+                ExternalUse::Unknown if value != 0.0 && unknown.is_none() => {
+                    unknown = Some((n, value));
+                }
+                _ => {}
+            }
+        }
+        let text = match (is_known, unknown) {
+            (true, None) => return None,
+            (_, Some((axis, value))) => {
                 format!("axis {axis} of the {what} stands at {value} ({shown}), not at zero")
             }
-            None => {
+            (false, None) => {
                 format!("only the running program knows where the {what} stands ({shown})")
             }
         };
         let remark = Remark::error(
-            "external-axis",
+            "external-axis-unknown",
             text,
-            "write the position in robot coordinates (POSTYPE ROBOT) or in pulses; positions with other axes at zero are compensated",
+            "describe the axis under `external_axes` of the profile (BC1…, EC1…), or write the position in robot coordinates (POSTYPE ROBOT) or in pulses",
         );
         let builder = &mut self.builder;
         let reason = &mut self.here.external[usize::from(is_station)];
         Some(*reason.get_or_insert_with(|| always(builder, remark)))
+    }
+
+    /// How much a value that counts in pulses is of one millimetre or degree; not a number where nobody knows.
+    fn pulses_of(&self, axis: u8, counts: bool) -> f64 {
+        let pulses = self.external_names.pulses.get(usize::from(axis));
+        match pulses.copied().flatten() {
+            _ if !counts => 1.0,
+            pulses => pulses.unwrap_or(f64::NAN),
+        }
     }
 
     /// A `C` position of the present job.

@@ -8,7 +8,7 @@ use crate::program::script::{
     Builder, Expr, Held, NamedFrame, Place, Remark, RoutineId, Table, TableId, Variable,
     VariableId, short,
 };
-use crate::program::{Load, TargetId};
+use crate::program::{BASE_UNIT, Load, TargetId};
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeMap;
 
@@ -123,7 +123,7 @@ impl Variables {
         let fixed = Some((Pose::identity(), None));
         let none = frame(builder, NO_TOOL.into(), None);
         let base = frame(builder, "BASE".into(), fixed);
-        let robot = frame(builder, "ROBOT".into(), fixed);
+        let robot = riding(builder);
         let mut unknown = |cause: Cause| Expr::Unknown(builder.script.remark(cause.remark()));
         let (relative, not_named) = (
             unknown(Cause::ToolCoordinates),
@@ -233,9 +233,21 @@ fn constant(builder: &mut Builder, value: Held) -> VariableId {
         .variable(Variable::new(Box::default(), NOWHERE, declared))
 }
 
+/// The coordinates of the robot itself, which ride on the axes of its base.
+fn riding(builder: &mut Builder) -> Expr {
+    let value = builder.script.value(Held::Frame(NamedFrame {
+        on: [BASE_UNIT.into()].into(),
+        name: "ROBOT".into(),
+        pose: Some(Pose::identity()),
+        load: None,
+    }));
+    Expr::Value(value)
+}
+
 /// A tool or work frame.
 fn frame(builder: &mut Builder, name: String, known: Option<(Pose, Option<Load>)>) -> Expr {
     let value = builder.script.value(Held::Frame(NamedFrame {
+        on: Box::default(),
         name: name.into(),
         pose: known.map(|(pose, _)| pose),
         load: known.and_then(|(_, load)| load),

@@ -481,6 +481,7 @@ impl<'a> Reader<'a> {
     /// A tool or base of this name.
     pub(super) fn frame_value(&mut self, name: &str, pose: Option<Pose>) -> Expr {
         let frame = Held::Frame(NamedFrame {
+            on: Box::default(),
             name: name.into(),
             pose,
             load: None,

@@ -9,6 +9,8 @@ use crate::program::{Number, number};
 pub(super) const LARGEST: f64 = 1e6;
 /// From here on the value of an external axis says that there is none.
 const UNUSED: f64 = 8.9e9;
+/// External axes in their order.
+const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
 /// S and T have fewer bits than this number needs.
 const MOST_STATUS: f64 = 65_535.0;
 
@@ -182,14 +184,10 @@ impl Aggregate {
         whole.then(|| std::array::from_fn(|i| self.position[i]))
     }
 
-    /// The first external axis that is driven, and where to: absent, 0 and 9E+09 are axes that are not used.
-    pub(super) fn driven(&self) -> Option<(usize, f64)> {
-        let mut axes = (1..).zip(self.external);
-        axes.find_map(|(axis, value)| {
-            let value =
-                value.filter(|value| *value != 0.0 && (*value < UNUSED || value.is_nan()))?;
-            Some((axis, value))
-        })
+    /// The external axes that are driven, and where to: absent and 9E+09 are axes that are not used.
+    pub(super) fn driven(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let axes = EXTERNAL.into_iter().zip(self.external);
+        axes.filter_map(|(name, value)| Some((name, value.filter(|v| v.is_nan() || *v < UNUSED)?)))
     }
 }
 
@@ -290,20 +288,22 @@ mod tests {
         let frame = found.frame().map(|numbers| numbers.map(|n| n.value));
         assert_eq!(frame, Some([0.1, -0.5, 3.0, 4.0, 5.0, 6.0]));
         assert_eq!(found.has, 0xff);
-        assert!(
-            found
-                .driven()
-                .is_some_and(|(axis, at)| axis == 1 && at.is_nan())
-        );
+        let driven: Vec<_> = found.driven().collect();
+        assert!(matches!(driven[..], [("E1", at)] if at.is_nan()));
         assert!((found.position[7].value - 2.0).abs() < 1e-12);
         assert_eq!(found.position[7].length, 5);
     }
 
     #[test]
-    fn external_axes_that_are_not_used_are_absent_or_zero_or_9e9() {
-        let driven = |text: &str| parsed(text).expect("an aggregate").driven();
-        assert_eq!(driven("{X 1,E1 0.0,E2 9E+09,E3 9.0E9}"), None);
-        assert_eq!(driven("{X 1,E1 0,E2 -1500.5}"), Some((2, -1500.5)));
+    fn external_axes_that_are_not_used_are_absent_or_9e9() {
+        let driven = |text: &str| -> Vec<(&str, f64)> {
+            parsed(text).expect("an aggregate").driven().collect()
+        };
+        assert_eq!(driven("{X 1,E1 0.0,E2 9E+09,E3 9.0E9}"), [("E1", 0.0)]);
+        assert_eq!(
+            driven("{X 1,E1 0,E2 -1500.5}"),
+            [("E1", 0.0), ("E2", -1500.5)]
+        );
     }
 
     #[test]

@@ -7,8 +7,9 @@ use super::reader::Reader;
 use super::remarks;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::units::m_from_mm;
+use crate::program::script::Remark;
 use crate::program::script::short;
-use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
+use crate::program::{External, ExternalUse, Layout, Load, Shape, Source, Target, TargetId};
 use std::ops::Range;
 
 impl Reader {
@@ -147,11 +148,20 @@ impl Reader {
             let remark = script.remark(flaw);
             script.refused.push((id, remark));
         }
-        if let Some((axis, value)) = aggregate.driven() {
-            // the same is rarely said twice
-            script.remarks.push(remarks::external(axis, value));
-            let remark = short(script.remarks.len() - 1);
-            script.refused.push((id, remark));
+        for (name, value) in aggregate.driven() {
+            match self.external.meaning(name) {
+                ExternalUse::Listed(axis) => {
+                    script.externals.push((id, External { axis, value }));
+                }
+                // what stands at zero is mostly not there
+                ExternalUse::Unknown if value != 0.0 => {
+                    // the same is rarely said twice
+                    script.remarks.push(Remark::external_unknown(name, value));
+                    let remark = short(script.remarks.len() - 1);
+                    script.refused.push((id, remark));
+                }
+                _ => {}
+            }
         }
         id
     }
@@ -189,15 +199,15 @@ impl Reader {
                 self.declared.add(table, element, frame, self.file);
             }
             None if is_aggregate => {
-                let mut moving = false;
+                let mut machine = None;
                 aggregate::each(cursor, |key, _, field| {
                     if let (b"MACH_DEF_INDEX", aggregate::Field::Number(number)) = (key, field) {
-                        moving = number.value > 0.0;
+                        machine = whole(Some(number.value)).filter(|number| *number > 0);
                     }
                     Ok(())
                 })?;
-                if moving {
-                    self.declared.moving.insert(element);
+                if let Some(machine) = machine {
+                    self.declared.moving.insert(element, machine);
                 }
             }
             None => {}

@@ -12,7 +12,7 @@ use crate::program::script::{
     VariableId, short,
 };
 use crate::program::{Load, Number};
-use foldhash::{HashMap, HashMapExt, HashSet};
+use foldhash::{HashMap, HashMapExt};
 
 /// A table of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -52,8 +52,8 @@ enum Entry {
 pub(super) struct Declared {
     entries: HashMap<(Table, u32), Entry>,
     pub loads: HashMap<u32, Load>,
-    /// Bases that hang on another kinematic.
-    pub moving: HashSet<u32>,
+    /// Bases that hang on another kinematic, and the number of that.
+    pub moving: HashMap<u32, u32>,
 }
 
 impl Declared {
@@ -159,13 +159,31 @@ pub(super) struct States {
     chosen_guards: u32,
 }
 
+/// A kinematic of the controller by its names.
+pub(super) fn unit(number: u32) -> Box<[Box<str>]> {
+    [format!("MACHINE_DEF[{number}]"), number.to_string()]
+        .map(Into::into)
+        .into()
+}
+
 pub(super) fn record(script: &mut Script, name: &str, parts: &[Part]) -> ValueId {
+    carried_record(script, name, parts, Box::default())
+}
+
+/// A frame on a kinematic.
+pub(super) fn carried_record(
+    script: &mut Script,
+    name: &str,
+    parts: &[Part],
+    on: Box<[Box<str>]>,
+) -> ValueId {
     let first = short(script.parts.len());
     script.parts.extend_from_slice(parts);
     let parts = first..short(script.parts.len());
     script.value(Held::Record {
         name: name.into(),
         parts,
+        on,
     })
 }
 
@@ -295,6 +313,7 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
     }
     let [frame @ .., mass_kg, x, y, z] = numbers;
     Ok(NamedFrame {
+        on: Box::default(),
         name: name.into(),
         pose: (missing == 0).then(|| pose_of(frame)),
         load: (parts.len() == 10).then_some(Load {
@@ -323,15 +342,15 @@ impl Reader {
         let declared = self.declared.entries.get(&(table, at)).copied();
         let declared = match declared.unwrap_or(Entry::Missing) {
             _ if table == Table::Load => self.load_value(self.declared.loads.get(&at).copied()),
-            _ if table == Table::Base && self.declared.moving.contains(&at) => {
-                self.unknown(moving())
-            }
             Entry::Ambiguous => self.unknown(Remark::error(
                 "frame-name-ambiguous",
                 "the tool or base is declared more than once with different values",
                 "pass one $config.dat only",
             )),
             Entry::Frame(parts) => Expr::Value(self.frame_value(table, &name, at, &parts)),
+            Entry::Missing if table == Table::Base && self.declared.moving.contains_key(&at) => {
+                self.unknown(moving())
+            }
             Entry::Missing => {
                 let value = match at {
                     0 => PartValue::Number(0.0),
@@ -363,7 +382,13 @@ impl Reader {
                 length: 0,
             }));
         }
-        record(&mut self.builder.script, name, &parts)
+        let machine = self
+            .declared
+            .moving
+            .get(&at)
+            .filter(|_| table == Table::Base);
+        let on = machine.map_or_else(Box::default, |machine| unit(*machine));
+        carried_record(&mut self.builder.script, name, &parts, on)
     }
 
     pub(super) fn load_value(&mut self, load: Option<Load>) -> Expr {

@@ -168,7 +168,7 @@ impl Language for Krl {
 
 /// All files into one script: what they declare, then what they do.
 fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
-    let mut reader = Reader::new();
+    let mut reader = Reader::new(settings.external.clone());
     for (file, source) in sources.iter().enumerate() {
         if !sniff::recognises(&source.bytes) {
             return Err(not_this_language(&ABOUT, source));

@@ -5,10 +5,10 @@ use super::moves::Last;
 use super::names::{DataKind, Datum, Head, Index, Names};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals, lines};
-use crate::program::Source;
 use crate::program::kit::{Fault, content_start};
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, VariableId, short};
+use crate::program::{ExternalNames, Source};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Reads files into one script.
@@ -37,6 +37,8 @@ pub(super) struct Reader {
     pub(super) beside: Vec<(Symbol, Context)>,
     /// Moves to the pose where the robot is.
     pub(super) stays: Vec<Place>,
+    /// External axes that the profile describes.
+    pub(super) external: ExternalNames,
     /// The present statement.
     pub(super) here: Place,
     /// What the spline that is open sets for its moves.
@@ -68,11 +70,12 @@ enum Line<'a> {
 }
 
 impl Reader {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(external: ExternalNames) -> Self {
         let mut builder = Builder::default();
         Self {
             states: States::new(&mut builder.script),
             builder,
+            external,
             names: Names::default(),
             declared: Declared::default(),
             file: 0,

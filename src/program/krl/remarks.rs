@@ -20,19 +20,6 @@ pub(super) fn expressions() -> Remark {
     )
 }
 
-pub(super) fn external(axis: usize, value: f64) -> Remark {
-    let to = if value.is_nan() {
-        "an expression".to_owned()
-    } else {
-        value.to_string()
-    };
-    Remark::error(
-        "external-axis",
-        format!("external axis E{axis} goes to {to}, and what that moves is not known"),
-        "targets with external axes in use are not compensated",
-    )
-}
-
 pub(super) fn assigned() -> Remark {
     Remark::error(
         "target-assigned-at-run-time",

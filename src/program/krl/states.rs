@@ -2,7 +2,7 @@
 
 use super::aggregate;
 use super::data::{Carried, fdat, is_external, load};
-use super::frames::{Choice, State, Table, part, record};
+use super::frames::{Choice, State, Table, carried_record, part, record, unit};
 use super::names::{Index, Stored, whole};
 use super::reader::Reader;
 use super::remarks::{carried, frame_assigned, moving};
@@ -184,7 +184,8 @@ impl Reader {
                     let choice = self.choice(inner, Table::Base);
                     self.element(Table::Base, choice)
                 }
-                (b"EK", _) if table == Table::Base => self.unknown(moving()),
+                (b"EK", Some(inner)) if table == Table::Base => self.carried(called, inner)?,
+                (b"EK", None) if table == Table::Base => self.unknown(moving()),
                 _ => self.chosen(),
             });
         }
@@ -205,6 +206,36 @@ impl Reader {
                 Ok(self.frame_named(symbol, at))
             }
         }
+    }
+
+    /// `EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 0,...})`: a base on a kinematic.
+    fn carried(&mut self, called: &str, mut inner: Cursor) -> Read<Expr> {
+        let machine = |cursor: &mut Cursor| -> Read<Option<u32>> {
+            let name = cursor.next();
+            let at = cursor.brackets()?;
+            let is_machine = cursor.text(name).eq_ignore_ascii_case(b"MACHINE_DEF");
+            let index = match Index::of(at, cursor) {
+                Index::At([number, 0, 0]) if is_machine => Some(number),
+                _ => None,
+            };
+            let is_part = cursor.take(b'.') && cursor.next().kind == Kind::Name;
+            Ok(index.filter(|_| is_part && cursor.take(b',')))
+        };
+        let (root, kind) = (machine(&mut inner)?, machine(&mut inner)?);
+        let known = root.filter(|root| Some(*root) == kind && inner.blanks() == b'{');
+        let Some(number) = known else {
+            return Ok(self.unknown(moving()));
+        };
+        let found = aggregate::read(&mut inner)?;
+        let file = self.file;
+        Ok(match found.frame() {
+            Some(numbers) => {
+                let parts = numbers.map(|number| part(number, file));
+                let script = &mut self.builder.script;
+                Expr::Value(carried_record(script, called, &parts, unit(number)))
+            }
+            None => self.chosen(),
+        })
     }
 
     /// A tool or base that is a variable.

@@ -35,7 +35,7 @@ pub(super) enum Leaf {
     /// TRUE or FALSE.
     Bool(bool),
     /// A string, empty or not.
-    Text { empty: bool },
+    Text { start: u32, length: u16 },
     /// An expression.
     Computed,
     /// Not given.
@@ -156,7 +156,8 @@ impl Reader<'_> {
             (b's', Kind::Text) => {
                 self.advance()?;
                 Leaf::Text {
-                    empty: first.end - first.start == 2,
+                    start: first.start,
+                    length: u16::try_from(first.end - first.start).unwrap_or(u16::MAX),
                 }
             }
             _ => Leaf::Computed,

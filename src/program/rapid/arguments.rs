@@ -14,7 +14,7 @@ const DEEPEST: usize = 16;
 /// Coordinates (mm) and angles (degrees) of targets are smaller: 9E9 means "not connected".
 pub(super) const LARGEST: f64 = 1e6;
 /// External axes from here on are not connected: 9E9, or what is left of it in 32 bits.
-const NOT_CONNECTED: f64 = 8e9;
+pub(super) const NOT_CONNECTED: f64 = 8e9;
 /// Deviation of a quaternion's length from 1 that rounding explains.
 pub(super) const UNIT_TOLERANCE: f64 = 0.01;
 

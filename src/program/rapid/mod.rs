@@ -82,8 +82,8 @@ impl Language for Rapid {
         sniff::recognises(&source.bytes)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
-        script(sources)
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+        script(sources, settings)
     }
 
     fn frame_of(
@@ -143,6 +143,10 @@ impl Language for Rapid {
         insert::MANNER.insert(sources, program, insertions)
     }
 
+    fn external_names(&self) -> [&'static str; 6] {
+        EXTERNAL
+    }
+
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
         Some(drive::drive(steps))
     }
@@ -152,8 +156,11 @@ impl Language for Rapid {
     }
 }
 
+/// External axes in their order.
+const EXTERNAL: [&str; 6] = ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"];
+
 /// Parsed what all files say, then puts it together.
-fn script(sources: &[Source]) -> Result<Script, ReadError> {
+fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
     let (mut parsed, mut verbs) = (Parsed::default(), Verbs::default());
     for (file, source) in sources.iter().enumerate() {
         let recognised = Reader::read(source, short(file), &mut parsed, &mut verbs)
@@ -178,7 +185,7 @@ fn script(sources: &[Source]) -> Result<Script, ReadError> {
         (target.numbers, target.blocked) = (0..0, true);
         dead.insert(bad.target);
     }
-    Ok(translate::translate(&resolved, script, dead))
+    Ok(translate::translate(&resolved, script, dead, settings))
 }
 
 #[cfg(test)]

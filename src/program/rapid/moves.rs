@@ -20,6 +20,8 @@ struct Parts {
     synchronised: bool,
     /// A sensor corrects its path.
     corrected: bool,
+    /// External axes are not shifted in it.
+    unshifted: bool,
     /// Speed and zone where they are predefined ones.
     speed_zone: SpeedZone,
 }
@@ -133,6 +135,7 @@ impl Translator<'_> {
             load: option(words.tload),
             synchronised: option(words.id).is_some(),
             corrected: option(words.corr).is_some(),
+            unshifted: option(words.noeoffs).is_some(),
             speed_zone,
         })
     }
@@ -221,7 +224,8 @@ impl Translator<'_> {
             self.ambiguous = false;
             let target = self.position_from(all[at].expression, wanted);
             let guards = match (absolute, self.ambiguous) {
-                (true, false) => 0,
+                (true, false) if parts.unshifted => 0,
+                (true, false) => self.modes.absolute_guards,
                 (false, false) => self.modes.guards,
                 (_, true) => self.modes.ambiguous_guards,
             };

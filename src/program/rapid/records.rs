@@ -24,7 +24,10 @@ pub(super) fn part_of(leaf: Leaf, place: Place) -> Part {
             length,
         } => (PartValue::Number(value), at(start), length),
         Leaf::Bool(flag) => (PartValue::Flag(flag), place, 0),
-        Leaf::Text { empty } => (PartValue::Text { empty }, place, 0),
+        Leaf::Text { start, length } => {
+            let empty = length == 2;
+            (PartValue::Text { empty }, at(start), length)
+        }
         Leaf::Computed => (PartValue::Computed, place, 0),
         Leaf::Missing => (PartValue::Missing, place, 0),
     };
@@ -95,6 +98,50 @@ impl Parts<'_> {
         Ok(Ok(Some(Pose::from_parts(translation, rotation))))
     }
 
+    /// The mechanical unit that carries a work object: its user frame is not fixed (`ufprog` FALSE) and `ufmec` names the unit.
+    fn unit(&self) -> Result<Option<Box<str>>, Remark> {
+        let fixed = match self.value(1) {
+            PartValue::Flag(fixed) => fixed,
+            PartValue::Missing => true,
+            _ => return Err(assigned()),
+        };
+        let PartValue::Text { empty } = self.value(2) else {
+            let unknown = !fixed || self.value(2) == PartValue::Computed;
+            return if unknown { Err(assigned()) } else { Ok(None) };
+        };
+        if fixed {
+            // a name beside a fixed frame means nothing
+            return Ok(None);
+        }
+        if empty {
+            return Err(Remark::error(
+                "moving-frame",
+                "the user frame is not fixed (ufprog FALSE), and ufmec names no unit that carries it",
+                "name the unit, or set ufprog TRUE",
+            ));
+        }
+        let Part { place, length, .. } = self.parts[2];
+        let start = place.offset as usize + 1;
+        let bytes = &self.sources[place.file as usize].bytes;
+        let name = Source::text(&bytes[start..start + usize::from(length).saturating_sub(2)]);
+        let capital = name.to_ascii_uppercase();
+        if capital.starts_with("CNV") {
+            return Err(Remark::error(
+                "moving-frame",
+                format!("the conveyor `{name}` moves the work object"),
+                "moves on a conveyor are not compensated",
+            ));
+        }
+        if capital.starts_with("ROB_") {
+            return Err(Remark::error(
+                "two-robots",
+                format!("the robot `{name}` carries the work object"),
+                "moves relative to another robot are not compensated",
+            ));
+        }
+        Ok(Some(name.into()))
+    }
+
     /// The load whose parts start at `first`, where it has a mass.
     fn load(&self, first: usize) -> Option<Load> {
         let number = |at: usize| self.number(first + at);
@@ -121,12 +168,18 @@ pub(super) fn frame_of(
     sources: &[Source],
 ) -> Result<Result<NamedFrame, Remark>, ReadError> {
     let parts = Parts { parts, sources };
+    let unit = if is_tool { Ok(None) } else { parts.unit() };
+    let unit = match unit {
+        Ok(unit) => unit,
+        Err(remark) => return Ok(Err(remark)),
+    };
     let pose = if is_tool {
         tool(name, &parts)?
     } else {
-        work_object(name, &parts)?
+        work_object(name, &parts, unit.is_some())?
     };
     Ok(pose.map(|pose| NamedFrame {
+        on: unit.into_iter().collect(),
         name: name.into(),
         pose,
         load: is_tool.then(|| parts.load(TOOL_LOAD)).flatten(),
@@ -156,19 +209,12 @@ fn tool(name: &str, parts: &Parts) -> Found {
     Ok(parts.pose(1)?.map(or_tool0))
 }
 
-fn work_object(name: &str, parts: &Parts) -> Found {
+fn work_object(name: &str, parts: &Parts, carried: bool) -> Found {
     if parts.is(0, true) {
         return Ok(Err(Remark::error(
             "held-work-piece",
             "the robot holds the work object (robhold TRUE)",
             "moves with a held work piece are not compensated",
-        )));
-    }
-    if parts.is(1, false) || parts.value(2) == (PartValue::Text { empty: false }) {
-        return Ok(Err(Remark::error(
-            "moving-frame",
-            "a conveyor or another mechanical unit moves the work object (ufprog FALSE or ufmec named)",
-            "moves in a moving frame are not compensated",
         )));
     }
     let user = match parts.pose(3)? {
@@ -179,6 +225,10 @@ fn work_object(name: &str, parts: &Parts) -> Found {
         Ok(object) => object,
         Err(remark) => return Ok(Err(remark)),
     };
+    if carried {
+        // the user frame is that of the unit: what the file has in its place is not used
+        return Ok(Ok(object));
+    }
     Ok(Ok(match (user, object) {
         (Some(user), Some(object)) => Some(user * object),
         _ => name.eq_ignore_ascii_case("wobj0").then(Pose::identity),

@@ -449,6 +449,8 @@ pub(super) enum Mode {
 pub(super) enum Set {
     /// By the options of the instruction.
     ByOption,
+    /// By the numbers of the instruction.
+    Given,
     On,
     Off,
 }

@@ -531,7 +531,7 @@ fn external_axes_are_refused_until_their_unit_is_known() {
         assert_eq!(ids(&program), [""; 0], "{axes}");
     }
     let program = path(&(go("1500,9E9,9E9,9E9,9E9,9E9") + &go("0,9E9,9E9,9E9,9E9,9E9")));
-    assert_eq!(ids(&program), ["external-axis"; 2]);
+    assert_eq!(ids(&program), ["external-axis-unknown"; 2]);
     assert!(said(&program)[0].message.contains("eax_a is 1500"));
     assert!(said(&program)[1].message.contains("eax_a is 0"));
     let program = path(&("!x\n".to_owned() + &go("9E9,-15.5,9E9,9E9,9E9,9E9")));
@@ -642,12 +642,25 @@ fn work_pieces_in_hand_and_moving_frames_are_refused() {
             "moving-frame",
         ),
         (
-            "PERS wobjdata x:=[FALSE,TRUE,\"STN1\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];",
-            "moving-frame",
+            "PERS wobjdata x:=[FALSE,FALSE,\"ROB_2\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];",
+            "two-robots",
         ),
     ] {
         let program = path(&format!("{declaration}\nMoveL p1,v5,z5,t\\WObj:=x;"));
         assert_eq!((ids(&program), blocked(&program)), (vec![id], vec!["p1"]));
+    }
+    // on a unit the frame is that of the unit, and the user frame of the file is not used; a fixed one is fixed whatever is named
+    for (fixed, on, x) in [("FALSE", 1, 0.002), ("TRUE", 0, 0.003)] {
+        let wobj = format!(
+            "PERS wobjdata x:=[FALSE,{fixed},\"STN1\",[[1,0,0],[1,0,0,0]],[[2,0,0],[1,0,0,0]]];"
+        );
+        let program = path(&format!("{wobj}\nMoveL p1,v5,z5,t\\WObj:=x;"));
+        let frame = &program.frames[0];
+        assert_eq!((ids(&program), frame.on.len()), (vec![], on));
+        assert_eq!(
+            frame.world_from_frame.map(|pose| pose.translation[0]),
+            Some(x)
+        );
     }
     let program = path(
         "PERS tooldata x:=[FALSE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nMoveL p1,v5,z5,x;",
@@ -670,7 +683,7 @@ fn an_active_displacement_blocks_what_it_may_reach() {
     let program = path("EOffsSet e;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;");
     assert_eq!(ids(&program), [""; 0], "nothing calls it meanwhile");
     let program = path("EOffsSet e;\nsub;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;");
-    assert_eq!(ids(&program), ["displacement-active"]);
+    assert_eq!(ids(&program), ["external-offset-unknown"]);
     let program = path("WHILE a DO\nMoveL p1,v5,z5,t;\nPDispSet d;\nENDWHILE\nPDispOff;");
     assert_eq!(blocked(&program), ["p1"], "the second time round");
 }

@@ -1,5 +1,7 @@
 //! From what was noted to statements: who may be where, is for [`crate::motion`].
 
+use super::EXTERNAL;
+use super::arguments::NOT_CONNECTED;
 use super::handlers::Handlers;
 use super::resolved::{Entity, Resolved};
 use super::syntax::{
@@ -11,7 +13,7 @@ use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, NamedFrame, Part as RecordPart, PartValue,
     Place, Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
 };
-use crate::program::{Shape, TargetId};
+use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Names of options.
@@ -21,6 +23,7 @@ pub(super) struct Words {
     pub tload: Option<Symbol>,
     pub id: Option<Symbol>,
     pub corr: Option<Symbol>,
+    pub noeoffs: Option<Symbol>,
     off: Option<Symbol>,
     wrist: Option<Symbol>,
 }
@@ -36,9 +39,14 @@ pub(super) struct Modes {
     /// The guards of moves that a displacement concerns, and of those whose target's name is ambiguous.
     pub guards: u32,
     pub ambiguous_guards: u32,
+    /// Those of moves to joints, which only an offset of external axes concerns.
+    pub absolute_guards: u32,
     on: ValueId,
     off: ValueId,
     displaced: ValueId,
+    /// By an amount that nobody knows, and by nothing.
+    shifted: ValueId,
+    unshifted: ValueId,
 }
 
 /// Puts a script together.
@@ -77,7 +85,12 @@ pub(super) struct Translator<'a> {
 }
 
 /// The script of what was noted. `dead` are targets that are written over and have no numbers of their own.
-pub(super) fn translate(resolved: &Resolved, script: Script, dead: HashSet<TargetId>) -> Script {
+pub(super) fn translate(
+    resolved: &Resolved,
+    script: Script,
+    dead: HashSet<TargetId>,
+    settings: &Settings,
+) -> Script {
     let mut builder = Builder::default();
     builder.script = script;
     for routine in &resolved.parsed.routines {
@@ -107,6 +120,7 @@ pub(super) fn translate(resolved: &Resolved, script: Script, dead: HashSet<Targe
             wobj: find(b"wobj"),
             tload: find(b"tload"),
             id: find(b"id"),
+            noeoffs: find(b"noeoffs"),
             corr: find(b"corr"),
             off: find(b"off"),
             wrist: find(b"wrist"),
@@ -114,6 +128,7 @@ pub(super) fn translate(resolved: &Resolved, script: Script, dead: HashSet<Targe
         modes,
         actual: script.value(Held::Actual),
         wobj0: script.value(Held::Frame(NamedFrame {
+            on: Box::default(),
             name: "wobj0".into(),
             pose: Some(crate::geometry::Pose::identity()),
             load: None,
@@ -135,7 +150,7 @@ pub(super) fn translate(resolved: &Resolved, script: Script, dead: HashSet<Targe
     };
     translator.find_own();
     translator.find_wanted();
-    translator.external_axes();
+    translator.external_axes(&settings.external);
     for at in 0..resolved.parsed.statements.len() {
         translator.statement(at);
     }
@@ -149,10 +164,17 @@ impl Modes {
         let off = script.value(Held::Flag(false));
         let remark = script.remark(Remark::error(
             "displacement-active",
-            "a program displacement or external offset may be active",
-            "switch it off with PDispOff or EOffsOff before the move",
+            "a program displacement may be active",
+            "switch it off with PDispOff before the move",
         ));
         let displaced = script.value(Held::Remark(remark));
+        let remark = script.remark(Remark::error(
+            "external-offset-unknown",
+            "external axes are shifted by an amount that only the running program knows (EOffsOn, or EOffsSet without numbers)",
+            "write EOffsSet with numbers, or switch it off with EOffsOff before the move",
+        ));
+        let shifted = script.value(Held::Remark(remark));
+        let unshifted = script.value(Held::ExternalOffset(Box::default()));
         let remark = script.remark(Remark::error(
             "target-name-ambiguous",
             "this name is declared more than once, and a use does not tell which one is meant",
@@ -169,13 +191,14 @@ impl Modes {
         let (conf_j, conf_l) = (mode("ConfJ", on), mode("ConfL", on));
         let wrist = mode("SingArea", off);
         let program_displacement = mode("PDispOn", off);
-        let external_offset = mode("EOffsOn", off);
+        let external_offset = mode("EOffsOn", unshifted);
         let ambiguous = mode("", ambiguous);
         let displacements = [program_displacement, external_offset];
         script.guards.push(Box::new(displacements));
         script
             .guards
             .push(Box::new([program_displacement, external_offset, ambiguous]));
+        script.guards.push(Box::new([external_offset]));
         let last = crate::program::script::short(script.guards.len() - 1);
         Self {
             conf_j,
@@ -183,11 +206,14 @@ impl Modes {
             wrist,
             program_displacement,
             external_offset,
-            guards: last - 1,
-            ambiguous_guards: last,
+            guards: last - 2,
+            ambiguous_guards: last - 1,
+            absolute_guards: last,
             on,
             off,
             displaced,
+            shifted,
+            unshifted,
         }
     }
 }
@@ -332,21 +358,43 @@ impl Translator<'_> {
             Mode::ConfJ => (modes.conf_j, flag(!has(words.off))),
             Mode::ConfL => (modes.conf_l, flag(!has(words.off))),
             Mode::Wrist => (modes.wrist, flag(has(words.wrist))),
-            Mode::ProgramDisplacement | Mode::ExternalOffset => {
-                let value = if set == Set::Off {
-                    modes.off
-                } else {
-                    modes.displaced
+            Mode::ProgramDisplacement if set == Set::Off => (modes.program_displacement, modes.off),
+            Mode::ProgramDisplacement => (modes.program_displacement, modes.displaced),
+            Mode::ExternalOffset if set == Set::Off => (modes.external_offset, modes.unshifted),
+            Mode::ExternalOffset => {
+                let (variable, unknown) = (modes.external_offset, modes.shifted);
+                let given = (set == Set::Given)
+                    .then(|| self.offsets(arguments))
+                    .flatten();
+                let known = |by| {
+                    self.builder
+                        .script
+                        .value(Held::ExternalOffset(Box::new(by)))
                 };
-                let variable = if mode == Mode::ExternalOffset {
-                    modes.external_offset
-                } else {
-                    modes.program_displacement
-                };
-                (variable, value)
+                (variable, given.map_or(unknown, known))
             }
         };
         self.set(variable, Expr::Value(value));
+    }
+
+    /// The six numbers of `EOffsSet [100,0,0,0,0,0]`; axes that are not connected are not shifted.
+    fn offsets(&self, arguments: Part) -> Option<[f64; 6]> {
+        let argument = self.resolved.parsed.arguments[indices(arguments)].first()?;
+        let (start, end) = argument.span;
+        let bytes = &self.resolved.sources[self.here.file as usize].bytes;
+        let text = bytes[start as usize..end as usize].trim_ascii();
+        let inside = text.strip_prefix(b"[")?.strip_suffix(b"]")?;
+        let mut parts = inside.split(|b| *b == b',');
+        let mut by = [0.0; 6];
+        for slot in &mut by {
+            let value = crate::program::number::parse(parts.next()?.trim_ascii())?;
+            *slot = if value.abs() < NOT_CONNECTED {
+                value
+            } else {
+                0.0
+            };
+        }
+        parts.next().is_none().then_some(by)
     }
 
     pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
@@ -442,7 +490,11 @@ impl Translator<'_> {
             (Component::Whole, Assigned::Leaves(leaves)) => {
                 let parts = self.record_parts(leaves, self.here);
                 let name = self.resolved.spelling(name).into();
-                let record = self.builder.script.value(Held::Record { name, parts });
+                let record = self.builder.script.value(Held::Record {
+                    name,
+                    parts,
+                    on: Box::default(),
+                });
                 How::Whole(Expr::Value(record))
             }
             (Component::Whole, Assigned::To(expression)) => match expression {
@@ -511,35 +563,67 @@ impl Translator<'_> {
         }
     }
 
-    /// External axes say where the robot or the work piece is carried, which the files do not describe.
-    fn external_axes(&mut self) {
+    /// External axes say where the robot or the work piece is carried: the profile knows what, or that they carry nothing.
+    fn external_axes(&mut self, names: &ExternalNames) {
         let parsed = &self.resolved.parsed;
         let moving = parsed
             .external
             .iter()
             .fold(0, |axes, (_, axis, _)| axes | 1 << axis);
-        if moving == 0 {
+        let meanings = EXTERNAL.map(|name| names.meaning(name));
+        let is_listed = |axis: usize| matches!(meanings[axis], ExternalUse::Listed(_));
+        if moving == 0 && !(0..6).any(is_listed) {
             return;
         }
         let mut all: Vec<(TargetId, u8, f64)> = parsed.external.clone();
         for (target, zeros) in parsed.external_zeros.iter().enumerate() {
-            let standing = (0..6).filter(|axis| zeros & moving & 1 << axis != 0);
-            all.extend(standing.map(|axis| (target, axis, 0.0)));
+            for axis in 0..6_u8 {
+                let listed = is_listed(usize::from(axis));
+                let is_zero = zeros & 1 << axis != 0;
+                if is_zero && (listed || moving & 1 << axis != 0) {
+                    all.push((target, axis, 0.0));
+                } else if listed {
+                    // before the value that it may have: the last one counts
+                    all.push((target, axis, f64::NAN));
+                }
+            }
         }
-        all.sort_unstable_by_key(|(target, axis, _)| (*target, *axis));
+        all.sort_by(|a, b| {
+            let key =
+                |(target, axis, value): &(TargetId, u8, f64)| (*target, *axis, !value.is_nan());
+            key(a).cmp(&key(b))
+        });
         let mut known: HashMap<(u8, u64), RemarkId> = HashMap::new();
         let script = &mut self.builder.script;
         for (target, axis, value) in all {
-            if script.targets[target].layout.shape == Shape::Joints {
+            let name = EXTERNAL[usize::from(axis)];
+            match meanings[usize::from(axis)] {
+                ExternalUse::Listed(axis) => {
+                    script.externals.push((target, External { axis, value }));
+                    continue;
+                }
+                ExternalUse::Ignored => continue,
+                ExternalUse::Unknown => {}
+            }
+            let found = &script.targets[target];
+            if found.layout.shape == Shape::Joints {
                 continue;
             }
+            // an arm with seven joints has the seventh here, and data of its configuration that no other has
+            let numbers = &script.numbers[found.numbers.start as usize..found.numbers.end as usize];
+            let seven = axis == 0 && numbers.last().is_some_and(|cfx| cfx.value >= 100.0);
             let remarks = &mut script.remarks;
-            let remark = *known.entry((axis, value.to_bits())).or_insert_with(|| {
-                let name = char::from(b'a' + axis);
-                remarks.push(Remark::error("external-axis", format!(
-                        "external axis eax_{name} is {value}, and where that carries the robot or the work piece is not known"
+            let key = (axis + 6 * u8::from(seven), value.to_bits());
+            let remark = *known.entry(key).or_insert_with(|| {
+                remarks.push(if seven {
+                    Remark::error(
+                        "seven-axis-arm",
+                        format!("{name} is {value} and cfx has hundreds: it is the seventh joint of the arm"),
+                        "only arms with six joints are compensated",
                     )
-                    , "targets with external axes are not compensated until the profile describes the unit"));
+                } else {
+                    Remark::external_unknown(name, value)
+                });
                 crate::program::script::short(remarks.len() - 1)
             });
             script.refused.push((target, remark));

@@ -368,6 +368,7 @@ impl Translator<'_> {
         let known = self.named_elements.get(&name).copied();
         Expr::Value(known.unwrap_or_else(|| {
             let value = self.builder.script.value(Held::Frame(NamedFrame {
+                on: Box::default(),
                 name: name.as_str().into(),
                 pose: None,
                 load: None,
@@ -398,7 +399,11 @@ impl Translator<'_> {
             _ => 0..0,
         };
         let name = self.resolved.spelling(name).into();
-        let value = self.builder.script.value(Held::Record { name, parts });
+        let value = self.builder.script.value(Held::Record {
+            name,
+            parts,
+            on: Box::default(),
+        });
         self.records.insert(entity, value);
         Expr::Value(value)
     }

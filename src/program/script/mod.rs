@@ -9,7 +9,7 @@ mod order;
 
 pub use builder::Builder;
 
-use super::{Displacement, Load, Motion, Number, SpeedZone, Target, TargetId};
+use super::{Displacement, External, Load, Motion, Number, SpeedZone, Target, TargetId};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use std::collections::BTreeMap;
@@ -90,6 +90,10 @@ pub struct Script {
     pub guards: Vec<Box<[VariableId]>>,
     /// What speaks against targets themselves, should a move go to them.
     pub refused: Vec<(TargetId, RemarkId)>,
+    /// Where targets say that external axes stand, by target.
+    pub externals: Vec<(TargetId, External)>,
+    /// Likewise moves, by index in [`Script::instructions`]: they go before their targets.
+    pub externals_of_moves: Vec<(u32, External)>,
     /// Sets of what moves expect variables to hold, see [`Modal::expected`].
     pub expected: Vec<Box<[Expected]>>,
     /// What no move in the files uses, nothing uses: targets cannot be named from other files.
@@ -125,6 +129,8 @@ impl Default for Script {
             arguments: Vec::new(),
             guards: vec![Box::default()],
             refused: Vec::new(),
+            externals: Vec::new(),
+            externals_of_moves: Vec::new(),
             expected: vec![Box::default()],
             is_closed: false,
             labels: 0,
@@ -185,6 +191,8 @@ pub enum Held {
         name: Box<str>,
         /// In [`Script::parts`].
         parts: Range<u32>,
+        /// The mechanical unit that carries it, by all its names; none where it stands still.
+        on: Box<[Box<str>]>,
     },
     /// The load of the flange; none where it is set to nothing.
     Load(Option<Load>),
@@ -196,6 +204,8 @@ pub enum Held {
     Remark(RemarkId),
     /// Where the robot is when the statement runs.
     Actual,
+    /// What is added to external axes, in the units and the order of the language.
+    ExternalOffset(Box<[f64; 6]>),
 }
 
 /// A tool or a work frame.
@@ -205,6 +215,8 @@ pub struct NamedFrame {
     pub name: Box<str>,
     /// `flange_from_tool` or `world_from_frame`; `None` where the files do not tell.
     pub pose: Option<Pose>,
+    /// The mechanical unit that carries a work frame, by all its names: the pose is then on the unit. None where it stands still.
+    pub on: Box<[Box<str>]>,
     /// Of a tool: its load, where the files give one.
     pub load: Option<Load>,
 }
@@ -297,6 +309,21 @@ impl Remark {
             text: text.into(),
             hint,
         }
+    }
+
+    /// Why a target is refused whose external axis nobody knows; a value that is not a number is an expression.
+    #[must_use]
+    pub fn external_unknown(name: &str, value: f64) -> Self {
+        let to = if value.is_nan() {
+            "an expression".to_owned()
+        } else {
+            value.to_string()
+        };
+        Self::error(
+            "external-axis-unknown",
+            format!("external axis {name} is {to}, and the profile does not say what that carries"),
+            "describe it under `external_axes` of the profile: as an axis of `track:` or of one of `positioners:`, or in `other:` where it moves nothing that a pose depends on",
+        )
     }
 }
 

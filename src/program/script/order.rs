@@ -62,5 +62,9 @@ impl Script {
         for (target, _) in &mut self.refused {
             *target = new_ids[*target];
         }
+        self.externals.retain(|&(target, _)| kept[target]);
+        for (target, _) in &mut self.externals {
+            *target = new_ids[*target];
+        }
     }
 }

@@ -79,6 +79,7 @@ pub(super) struct Common {
 impl Common {
     pub(super) fn new(script: &mut Script) -> Self {
         let base = script.value(Held::Frame(NamedFrame {
+            on: Box::default(),
             name: BASE.into(),
             pose: Some(Pose::identity()),
             load: None,
@@ -155,6 +156,7 @@ impl Common {
         let key = (name.to_owned(), pose.as_ref().map_or([u64::MAX; 7], bits));
         let value = *self.frames.entry(key).or_insert_with(|| {
             script.value(Held::Frame(NamedFrame {
+                on: Box::default(),
                 name: name.into(),
                 pose,
                 load: None,

@@ -74,6 +74,7 @@ impl<'a> Reader<'a> {
 
     fn frame_value(&mut self, name: String, pose: Option<Pose>) -> Expr {
         self.value(Held::Frame(NamedFrame {
+            on: Box::default(),
             name: name.into(),
             pose,
             load: None,

@@ -97,7 +97,7 @@ fn with_context(files: &Path, folder: &Path, case: &Case) -> Vec<Source> {
 
 #[test]
 fn written_samples_bring_the_real_tool_where_it_was_wanted() {
-    let mut landed = 0;
+    let (mut landed, mut carried) = (0, 0);
     for (folder, case) in cases() {
         let scratch = scratch();
         let out = scratch.path().join("out");
@@ -105,6 +105,11 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
             serde_json::from_slice(&run(&folder, &case, &out, &["--json"])).expect("JSON");
         let text = std::fs::read_to_string(folder.join(&case.profile)).expect("a profile");
         let profile = Profile::from_yaml(&text).expect("a valid profile");
+        if !profile.external.is_empty() {
+            // tests/suite/external lands these kinds of programs
+            carried += 1;
+            continue;
+        }
         let is_irb120 = profile.model.starts_with("IRB 120");
         let written = with_context(&out, &folder, &case);
         let language = program::language_of(&written[0]).expect("a known language");
@@ -171,5 +176,6 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
             landed += 1;
         }
     }
+    assert_eq!(carried, 4);
     assert!(landed > 5000, "{landed} targets");
 }

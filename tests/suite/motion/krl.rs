@@ -200,8 +200,8 @@ fn external_axes_in_use_are_refused_until_they_are_described() {
     assert_eq!(one("}"), (vec![], 1));
     assert_eq!(one(",E1 0.0,E2 0}"), (vec![], 1));
     assert_eq!(one(",E1 9E+09}"), (vec![], 1));
-    assert_eq!(one(",E1 1800.0}"), (vec!["external-axis"], 0));
-    assert_eq!(one(",E1 -1800.0}"), (vec!["external-axis"], 0));
+    assert_eq!(one(",E1 1800.0}"), (vec!["external-axis-unknown"], 0));
+    assert_eq!(one(",E1 -1800.0}"), (vec!["external-axis-unknown"], 0));
 }
 
 #[test]

@@ -173,7 +173,7 @@ fn external_axes_that_carry_something_are_refused_until_they_are_described() {
     };
     assert_eq!(one("9E9"), [""; 0]);
     assert_eq!(one("0"), [""; 0]);
-    assert_eq!(one("1500"), ["external-axis"]);
+    assert_eq!(one("1500"), ["external-axis-unknown"]);
 }
 
 #[test]

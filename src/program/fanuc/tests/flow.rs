@@ -267,7 +267,7 @@ fn moves_have_configuration_data_but_where_the_orientation_is_free() {
 fn axes_beside_the_six_are_an_error_where_they_are_used() {
     let extended = usual("1").replace("-.287 deg", "-.287 deg,\n\tE1=  -345.000  mm");
     let program = read("J P[1] 100% FINE ;", &extended);
-    assert_eq!(ids(&program), ["external-axis"]);
+    assert_eq!(ids(&program), ["external-axis-unknown"]);
     assert_eq!(blocked(&program), ["P[1]"]);
     assert_eq!(values(&program, 0).len(), 12);
     let zero = extended.replace("-345.000", "0.000");

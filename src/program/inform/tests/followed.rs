@@ -35,10 +35,10 @@ fn moves_that_cannot_be_compensated_are_errors() {
         ("MOVL V=5", "move-not-supported"),
         ("MOVL C00009 V=5", "target-not-in-files"),
         ("MOVL P077 V=5", "target-not-in-files"),
-        ("MOVL C00000 BC00001 V=5", "external-axis"),
-        ("MOVL C00000 BC00007 V=5", "external-axis"),
-        ("MOVL C00000 LBP001 V=5", "external-axis"),
-        ("MOVJ C00000 VJ=5.0  +MOVJ EC00001", "external-axis"),
+        ("MOVL C00000 BC00001 V=5", "external-axis-unknown"),
+        ("MOVL C00000 BC00007 V=5", "external-axis-unknown"),
+        ("MOVL C00000 LBP001 V=5", "external-axis-unknown"),
+        ("MOVJ C00000 VJ=5.0  +MOVJ EC00001", "external-axis-unknown"),
         (
             "SFTON P001 UF#(1)\nMOVL C00000 V=5\nSFTOF",
             "displacement-active",
@@ -83,7 +83,10 @@ fn moves_that_cannot_be_compensated_are_errors() {
 #[test]
 fn a_moved_axis_is_told_with_its_value() {
     let program = cell("MOVL C00000 BC00001 V=5");
-    let found = program.findings.iter().find(|f| f.id == "external-axis");
+    let found = program
+        .findings
+        .iter()
+        .find(|f| f.id == "external-axis-unknown");
     let message = &found.expect("an error").message;
     assert!(
         message.contains("axis 2 of the base stands at 500 (BC00001)"),

@@ -132,12 +132,12 @@ fn external_axes_in_use_are_refused_by_name() {
         assert_eq!(told(&path(&at(unused))), [""; 0], "{unused}");
     }
     for (used, shown) in [
-        ("E1 1800.0", "E1 goes to 1800"),
-        ("E1 0,E3 -1500", "E3 goes to -1500"),
-        ("E2 q", "E2 goes to an expression"),
+        ("E1 1800.0", "E1 is 1800"),
+        ("E1 0,E3 -1500", "E3 is -1500"),
+        ("E2 q", "E2 is an expression"),
     ] {
         let program = path(&at(used));
-        assert_eq!(told(&program), ["external-axis"], "{used}");
+        assert_eq!(told(&program), ["external-axis-unknown"], "{used}");
         assert_eq!(blocked(&program), ["-"], "{used}");
         assert!(program.findings[0].message.contains(shown), "{used}");
     }
@@ -146,7 +146,10 @@ fn external_axes_in_use_are_refused_by_name() {
     for (text, count) in [("LIN XP1\nLIN XP1", 1), ("LIN XP2", 0)] {
         let text = format!("DEF M()\n{text}\nEND\n");
         let program = read_files(&[("m.src", &text), ("m.dat", &data)]);
-        let found = program.findings.iter().filter(|f| f.id == "external-axis");
+        let found = program
+            .findings
+            .iter()
+            .filter(|f| f.id == "external-axis-unknown");
         assert_eq!(found.count(), count, "{text}");
     }
 }

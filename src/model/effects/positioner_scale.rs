@@ -1,0 +1,30 @@
+//! How far a rotary axis goes.
+
+use super::definition::{Definition, Parameter, SiteKey, Unit};
+use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::Scalar;
+
+/// The angle from its zero, times a ratio.
+pub(super) struct PositionerScale;
+
+impl Equation for PositionerScale {
+    const DEFINITION: Definition = Definition {
+        id: "positioner_scale",
+        summary: "an axis of a positioner goes farther or less far than it is told",
+        equation: "angle · (1 + ratio)",
+        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
+        site: &[SiteKey::Axis],
+        parameters: &[
+            Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 1e-4 },
+        ],
+        needs: &[],
+        deflects: false,
+        bends: false,
+        of_data: false,
+    };
+    const READS_ANGLES: bool = false;
+
+    fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &AxisState<S>, error: &mut AxisError<S>) {
+        error.scale += p[0];
+    }
+}

@@ -1,0 +1,30 @@
+//! How far a linear axis goes.
+
+use super::definition::{Definition, Parameter, SiteKey, Unit};
+use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::Scalar;
+
+/// Travel counted from the middle of the axis’ limits, times a ratio.
+pub(super) struct TrackScale;
+
+impl Equation for TrackScale {
+    const DEFINITION: Definition = Definition {
+        id: "track_scale",
+        summary: "a linear axis goes farther or less far than it is told",
+        equation: "travel · (1 + ratio), counted from the middle of its limits",
+        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
+        site: &[SiteKey::Axis],
+        parameters: &[
+            Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 1e-4 },
+        ],
+        needs: &[],
+        deflects: false,
+        bends: false,
+        of_data: false,
+    };
+    const READS_ANGLES: bool = false;
+
+    fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &AxisState<S>, error: &mut AxisError<S>) {
+        error.scale += p[0];
+    }
+}

@@ -1,0 +1,526 @@
+//! Where external axes stand at each move, and what they carry then.
+//!
+//! ```text
+//! values of targets and moves, offsets that are active, values that are kept from the move before → stand of each move
+//! stand + work frame + profile → the poses that the arm is asked for, in the world of an arm that stands at home
+//! ```
+//!
+//! A move with a stand gets a work frame of its own ([`Program::frames`]): what comes behind knows frames only, and that a wanted
+//! pose of the real arm is another than the nominal one's.
+
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::geometry::{Pose, Vector};
+use crate::model::effects::{Effect, Kind};
+use crate::model::external::{At, ExternalAxes, Follows, Listed};
+use crate::model::profile::Profile;
+use crate::program::{
+    Before, ExternalNames, Frame, FrameId, Language, Move, Program, Settings, Shape, Source, Stand,
+};
+use std::collections::HashMap;
+
+/// How far beyond its limits a value may be: files round. Metres and radians.
+const BORDER: f64 = 1e-6;
+/// A value that differs by less from the one before has not moved.
+const STILL: f64 = 1e-9;
+
+/// What languages must know of a profile to read programs.
+pub(crate) fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Settings {
+    let external = &profile.external;
+    let ignored = external.positioners.iter();
+    let ignored = ignored.filter(|positioner| positioner.follows == Follows::Never);
+    let ignored = ignored.flat_map(|positioner| &positioner.axes);
+    let ignored = ignored.map(|axis| axis.axis.clone());
+    Settings {
+        pulses_per_deg: profile.pulses_per_deg,
+        accept_absolutely_accurate,
+        external: ExternalNames {
+            listed: external
+                .listed()
+                .map(|axis| axis.name().to_owned())
+                .collect(),
+            pulses: external
+                .listed()
+                .map(|axis| match axis {
+                    Listed::Track(axis) => axis.pulses_per_mm,
+                    Listed::Rotary(axis, ..) => axis.pulses_per_deg,
+                })
+                .collect(),
+            ignored: external.other.iter().cloned().chain(ignored).collect(),
+        },
+    }
+}
+
+/// What is known of a value of an axis at a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Known {
+    /// Not looked at yet.
+    Open,
+    Is(f64),
+    /// Only the running program knows, or nobody does.
+    Unknown,
+}
+
+impl Known {
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Open, known) | (known, Self::Open) => known,
+            (Self::Is(a), Self::Is(b)) if (a - b).abs() <= STILL => self,
+            _ => Self::Unknown,
+        }
+    }
+}
+
+/// Gives moves the stand of external axes, and blocks targets of which it is not known, or beyond limits.
+pub(crate) fn settle(
+    language: &dyn Language,
+    program: &mut Program,
+    sources: &[Source],
+    profile: &Profile,
+    findings: &mut Vec<Finding>,
+) {
+    let axes: Vec<Listed> = profile.external.listed().collect();
+    if axes.is_empty() && !program.frames.iter().any(Frame::is_carried) {
+        return;
+    }
+    let own = own_values(language, program, &axes);
+    let (values, directions) = followed(program, profile, &own, axes.len());
+    let mut settler = Settler {
+        program,
+        sources,
+        profile,
+        findings,
+        axes: &axes,
+        backlash: (0..axes.len())
+            .map(|k| has_backlash(&profile.effects, Some(k)))
+            .collect(),
+        made: HashMap::new(),
+    };
+    for motion in 0..settler.program.moves.len() {
+        let at = motion * axes.len();
+        let range = at..at + axes.len();
+        settler.motion(motion, &values[range.clone()], &directions[range]);
+    }
+}
+
+/// What each move says itself of each axis, in metres and radians; `None` where it says nothing.
+fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Vec<Option<f64>> {
+    let offset_of: Vec<Option<usize>> = axes
+        .iter()
+        .map(|axis| {
+            let names = language.external_names();
+            names
+                .iter()
+                .position(|name| name.eq_ignore_ascii_case(axis.name()))
+        })
+        .collect();
+    let mut own = vec![None; program.moves.len() * axes.len()];
+    for (motion, slots) in program.moves.iter().zip(own.chunks_mut(axes.len().max(1))) {
+        let Some(target) = motion.target else {
+            slots.fill(Some(f64::NAN));
+            continue;
+        };
+        let of_target = part_of(&program.externals, target);
+        let of_move = part_of(&program.externals_of_moves, motion.instruction);
+        for (_, external) in of_target {
+            slots[usize::from(external.axis)] = Some(external.value);
+        }
+        for (_, external) in of_move {
+            slots[usize::from(external.axis)] = Some(external.value);
+        }
+        let offset = (motion.external_offset as usize).checked_sub(1);
+        let offset = offset.map(|at| program.external_offsets[at]);
+        for ((slot, axis), name) in slots.iter_mut().zip(axes).zip(&offset_of) {
+            let by = offset.zip(*name).map_or(0.0, |(offset, at)| offset[at]);
+            *slot = slot.map(|value| {
+                if axis.is_linear() {
+                    m_from_mm(value + by)
+                } else {
+                    (value + by) * DEG
+                }
+            });
+        }
+    }
+    own
+}
+
+/// The entries of a key in a list that is sorted by it.
+fn part_of<K: Ord + Copy, T>(list: &[(K, T)], key: K) -> &[(K, T)] {
+    let first = list.partition_point(|(known, _)| *known < key);
+    let count = list[first..].partition_point(|(known, _)| *known == key);
+    &list[first..first + count]
+}
+
+/// The value of each axis at each move, kept from the moves before where it says nothing itself, and the direction in which
+/// it moves there.
+fn followed(
+    program: &Program,
+    profile: &Profile,
+    own: &[Option<f64>],
+    count: usize,
+) -> (Vec<Known>, Vec<Known>) {
+    let mut values: Vec<Known> = own
+        .iter()
+        .map(|value| match value {
+            None => Known::Open,
+            Some(value) if value.is_finite() => Known::Is(*value),
+            Some(_) => Known::Unknown,
+        })
+        .collect();
+    let mut directions = vec![Known::Open; values.len()];
+    let directed = has_backlash(&profile.effects, None);
+    let all_own = own.iter().all(Option::is_some);
+    if all_own && !directed {
+        return (values, directions);
+    }
+    // what is open becomes known, and what is known unknown: this ends
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for (at, motion) in program.moves.iter().enumerate() {
+            for k in 0..count {
+                let here = at * count + k;
+                let (mut value, mut direction) = (Known::Open, Known::Open);
+                for before in program.before(motion) {
+                    let from = match before {
+                        Before::One(before) => *before as usize * count + k,
+                        Before::Start | Before::Anywhere | Before::Several(_) => {
+                            (value, direction) = (Known::Unknown, Known::Unknown);
+                            continue;
+                        }
+                    };
+                    value = value.and(values[from]);
+                    direction = direction.and(match (values[from], values[here]) {
+                        (Known::Is(from), Known::Is(to)) if (to - from).abs() > STILL => {
+                            Known::Is((to - from).signum())
+                        }
+                        (Known::Is(_), Known::Is(_)) => directions[from],
+                        (Known::Open, _) | (_, Known::Open) => Known::Open,
+                        _ => Known::Unknown,
+                    });
+                }
+                if own[here].is_none() && values[here] != values[here].and(value) {
+                    values[here] = values[here].and(value);
+                    changed = true;
+                }
+                if directed && directions[here] != directions[here].and(direction) {
+                    directions[here] = directions[here].and(direction);
+                    changed = true;
+                }
+            }
+        }
+    }
+    (values, directions)
+}
+
+/// Whether an axis, or any, stands elsewhere when it comes from the other side.
+fn has_backlash(effects: &[Effect], axis: Option<usize>) -> bool {
+    effects.iter().any(|effect| {
+        effect.kind == Kind::TrackBacklash
+            && !effect.is_zero()
+            && axis.is_none_or(|axis| axis == effect.site.index)
+    })
+}
+
+/// Stands are the same where all their bits are.
+type Key = (FrameId, Vec<u64>, Vec<u64>, Option<usize>, bool);
+
+struct Settler<'a> {
+    program: &'a mut Program,
+    sources: &'a [Source],
+    profile: &'a Profile,
+    findings: &'a mut Vec<Finding>,
+    axes: &'a [Listed<'a>],
+    /// Axes that stand elsewhere when they come from the other side.
+    backlash: Vec<bool>,
+    made: HashMap<Key, FrameId>,
+}
+
+impl Settler<'_> {
+    fn motion(&mut self, at: usize, values: &[Known], directions: &[Known]) {
+        let motion = &self.program.moves[at];
+        let Some(target) = motion.target else {
+            return;
+        };
+        let of_joints = self.program.targets[target].layout.shape == Shape::Joints;
+        if self.program.targets[target].blocked {
+            return;
+        }
+        let from = motion.frame;
+        let frame = &self.program.frames[from];
+        let external = &self.profile.external;
+        let positioner = match carrier(frame, external) {
+            Ok(positioner) => positioner,
+            Err(_) if of_joints => None,
+            Err((id, why)) => {
+                let hint = "describe it under `external_axes` of the profile (positioners: name, axes with at, limits; see docs/external-axes.md)";
+                return self.block(at, id, &why, hint);
+            }
+        };
+        let first = positioner.map_or(0, |positioner| external.first_of(positioner));
+        let count = positioner.map_or(0, |positioner| external.positioners[positioner].axes.len());
+        let matters = |k: usize| k < external.track.len() || (first..first + count).contains(&k);
+        let mut stand = vec![f64::NAN; values.len()];
+        for (k, known) in values.iter().enumerate().filter(|(k, _)| matters(*k)) {
+            let axis = &self.axes[k];
+            let unit = if axis.is_linear() { "mm" } else { "deg" };
+            let shown = |value: f64| {
+                let value = if axis.is_linear() {
+                    mm_from_m(value)
+                } else {
+                    value / DEG
+                };
+                (value * 1e6).round() / 1e6
+            };
+            let Known::Is(value) = known else {
+                let why = format!(
+                    "nothing says where external axis {} stands at this move",
+                    axis.name()
+                );
+                let hint =
+                    "write its value into the target, or into one that is certainly before it";
+                return self.block(at, "external-value-unknown", &why, hint);
+            };
+            let (low, high) = axis.limits();
+            if *value < low - BORDER || *value > high + BORDER {
+                let why = format!(
+                    "external axis {} goes to {} {unit}; its limits are {} and {} {unit}",
+                    axis.name(),
+                    shown(*value),
+                    shown(low),
+                    shown(high)
+                );
+                let hint =
+                    "correct the program, or the limits under `external_axes` of the profile";
+                return self.block(at, "external-axis-limit", &why, hint);
+            }
+            stand[k] = *value;
+        }
+        for (k, direction) in directions.iter().enumerate() {
+            if self.backlash[k] && !matches!(direction, Known::Is(_)) {
+                self.tell_direction(at, k);
+            }
+        }
+        if stand.iter().all(|value| value.is_nan()) && !of_joints && positioner.is_none() {
+            return;
+        }
+        let directions: Vec<f64> = directions
+            .iter()
+            .map(|direction| match direction {
+                Known::Is(direction) => *direction,
+                _ => 0.0,
+            })
+            .collect();
+        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+        // joints do not depend on the frame but for what carries the work piece
+        let of = if of_joints { FrameId::MAX } else { from };
+        let key = (of, bits(&stand), bits(&directions), positioner, of_joints);
+        let frames = &mut self.program.frames;
+        let made = *self.made.entry(key).or_insert_with(|| {
+            let mut own = frames[from].clone();
+            if of_joints {
+                own.world_from_frame = Some(Pose::identity());
+            }
+            own.stand = Some(Stand {
+                values: stand.into(),
+                directions: directions.into(),
+                positioner,
+                on_base: !own.on.is_empty() && !own.is_carried(),
+                of_joints,
+            });
+            frames.push(own);
+            frames.len() - 1
+        });
+        self.program.moves[at].frame = made;
+    }
+
+    /// Nobody knows from which side an axis with backlash comes.
+    fn tell_direction(&mut self, at: usize, axis: usize) {
+        let motion = &self.program.moves[at];
+        let message = format!(
+            "nothing says from which side external axis {} with backlash comes here: it is taken to stand in the middle",
+            self.axes[axis].name()
+        );
+        let hint = "come to the target on a move that is certainly before it, from another value";
+        let source = &self.sources[motion.file as usize];
+        let (id, severity) = ("direction-uncertain", Severity::Warning);
+        let finding = source.finding(motion.offset as usize, id, severity, message, hint);
+        self.findings.push(finding);
+    }
+
+    /// The target of a move has to stay as it is.
+    fn block(&mut self, at: usize, id: &'static str, why: &str, hint: &str) {
+        let motion: &Move = &self.program.moves[at];
+        let target = motion.target.expect("moves without a target have no stand");
+        let found = &mut self.program.targets[target];
+        found.blocked = true;
+        let severity = match found.layout.shape {
+            Shape::Pose => Severity::Error,
+            Shape::Joints => Severity::Warning,
+        };
+        let name = found.name.as_deref().unwrap_or("target");
+        let message = format!("{name}: {why}");
+        let source = &self.sources[motion.file as usize];
+        let finding = source.finding(motion.offset as usize, id, severity, message, hint);
+        self.findings.push(finding);
+    }
+}
+
+/// The positioner that carries a frame.
+///
+/// # Errors
+/// The program says that a unit carries it, and the profile does not know the unit: the finding and why.
+fn carrier(
+    frame: &Frame,
+    external: &ExternalAxes,
+) -> Result<Option<usize>, (&'static str, String)> {
+    let of = |wanted: Follows| {
+        let mut all = external.positioners.iter();
+        all.position(|positioner| positioner.follows == wanted)
+    };
+    let Some(name) = frame.on.first().filter(|_| frame.is_carried()) else {
+        // what rides on the base rides on nothing else
+        return Ok(of(Follows::Always).filter(|_| frame.on.is_empty()));
+    };
+    let is_named = |named: &str| frame.on.iter().any(|name| name.eq_ignore_ascii_case(named));
+    let found = external.positioners.iter().position(|p| is_named(&p.name));
+    match found {
+        Some(at) if external.positioners[at].follows == Follows::Never => Err((
+            "positioner-unknown",
+            format!(
+                "the unit `{name}` carries the work frame, and the profile says `follows: never` of it"
+            ),
+        )),
+        Some(at) => Ok(Some(at)),
+        None if external.track.iter().any(|axis| is_named(&axis.axis)) => Err((
+            "external-chain",
+            format!("the unit `{name}`, which carries the base, carries the work frame too"),
+        )),
+        None => Err((
+            "positioner-unknown",
+            format!(
+                "the unit `{name}` carries the work frame, and the profile does not describe it"
+            ),
+        )),
+    }
+}
+
+/// Where the real base and the nominal one are in the world, from where they are at home, on a work piece that is carried where the
+/// controller has it: with each external axis at a part of its travel that `draw` gives, from 0 to 1.
+pub(crate) fn bases(profile: &Profile, mut draw: impl FnMut() -> f64) -> [Pose; 2] {
+    let external = &profile.external;
+    let mut values = Vec::new();
+    for axis in external.listed() {
+        let (low, high) = axis.limits();
+        // a rotary axis goes round once at most: beyond, everything repeats
+        let high = if axis.is_linear() {
+            high
+        } else {
+            high.min(low + std::f64::consts::TAU)
+        };
+        values.push(low + (high - low) * draw());
+    }
+    if values.is_empty() {
+        return [Pose::identity(); 2];
+    }
+    let at = At {
+        values: &values,
+        directions: &[],
+    };
+    let effects = profile.real_effects();
+    let origin = profile.world_from_base.translation;
+    let mut nominal = external.base_nominal(&values);
+    let positioners = external.positioners.len();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    if positioners > 0 {
+        let which = ((draw() * positioners as f64) as usize).min(positioners - 1);
+        let part = external.plate(which, at, &effects) * external.plate(which, at, &[]).inverse();
+        nominal = part * nominal;
+    }
+    [external.base_real(at, origin, &effects), nominal]
+}
+
+/// A work frame where external axes stand, seen from the world of an arm that stands at home: with the base where it is with
+/// every axis of the track at zero.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    /// Of the controller: what a target's numbers are relative to.
+    pub nominal: Pose,
+    /// Of the controller, where the part as it stands has it.
+    pub meant: Pose,
+    /// Of the real arm, where the part as it stands has it.
+    pub real: Pose,
+    /// Where home is seen from the real world, nominally and really.
+    pub home_from_world: [Pose; 2],
+    /// Gravity in the world of the real arm where its base leans.
+    pub gravity_m_s2: Option<Vector>,
+}
+
+impl Placed {
+    /// A frame that stands still in the world.
+    pub(crate) fn still(world_from_frame: Pose) -> Self {
+        Self {
+            nominal: world_from_frame,
+            meant: world_from_frame,
+            real: world_from_frame,
+            home_from_world: [Pose::identity(); 2],
+            gravity_m_s2: None,
+        }
+    }
+
+    /// A frame of a program; `world_from_frame` is what its numbers say.
+    pub(crate) fn of(profile: &Profile, frame: &Frame, world_from_frame: Pose) -> Self {
+        let Some(stand) = &frame.stand else {
+            return Self::still(world_from_frame);
+        };
+        let external = &profile.external;
+        let at = At {
+            values: &stand.values,
+            directions: &stand.directions,
+        };
+        let effects = profile.real_effects();
+        let plate = |effects: &[Effect]| {
+            stand.positioner.map_or(Pose::identity(), |positioner| {
+                external.plate(positioner, at, effects)
+            })
+        };
+        let base_nominal = external.base_nominal(at.values);
+        let origin = profile.world_from_base.translation;
+        let base_real = external.base_real(at, origin, &effects);
+        let (nominal, real) = if stand.of_joints {
+            (
+                base_nominal,
+                plate(&effects) * plate(&[]).inverse() * base_nominal,
+            )
+        } else {
+            let riding = if stand.on_base {
+                base_nominal
+            } else {
+                external.riding(at.values)
+            };
+            (
+                riding * plate(&[]) * world_from_frame,
+                riding * plate(&effects) * world_from_frame,
+            )
+        };
+        let home_from_world = [base_nominal.inverse(), base_real.inverse()];
+        let leans = base_real.rotation != crate::geometry::Rotation::identity();
+        Self {
+            nominal: home_from_world[0] * nominal,
+            meant: home_from_world[0] * nominal,
+            real: home_from_world[1] * real,
+            home_from_world,
+            gravity_m_s2: leans.then(|| home_from_world[1].rotation * profile.gravity_m_s2),
+        }
+    }
+
+    /// With the part moved in the world.
+    pub(crate) fn moved(self, offset: &Pose) -> Self {
+        let by = |home_from_world: Pose| home_from_world * *offset * home_from_world.inverse();
+        Self {
+            meant: by(self.home_from_world[0]) * self.meant,
+            real: by(self.home_from_world[1]) * self.real,
+            ..self
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What external axes do along a move: all go at constant rates from where they stand to where they stand then.
+
+use crate::geometry::{Pose, Rotation, Scalar, Vector};
+use crate::model::effects::Effect;
+use crate::model::external::{At, ExternalAxes};
+use crate::model::profile::Profile;
+use crate::program::Stand;
+use std::sync::Arc;
+
+/// What external axes do along a move.
+#[derive(Debug)]
+pub(crate) struct Ride {
+    external: ExternalAxes,
+    effects: Vec<Effect>,
+    origin: Vector,
+    from: Vec<f64>,
+    to: Vec<f64>,
+    directions: Vec<f64>,
+    positioner: Option<usize>,
+    on_base: bool,
+    of_joints: bool,
+    /// Where it begins is known of all axes that matter.
+    is_known: bool,
+}
+
+impl Ride {
+    /// Of the move that ends with one stand, and begins with another where that is known.
+    pub(crate) fn of(profile: &Profile, from: Option<&Stand>, to: &Stand) -> Arc<Self> {
+        let at = |k: usize| from.map_or(f64::NAN, |from| from.values[k]);
+        let mut is_known = true;
+        let begin = to.values.iter().enumerate().map(|(k, &end)| {
+            is_known &= end.is_nan() || !at(k).is_nan();
+            if at(k).is_nan() { end } else { at(k) }
+        });
+        let begin = begin.collect();
+        Arc::new(Self {
+            external: profile.external.clone(),
+            effects: profile.real_effects(),
+            origin: profile.world_from_base.translation,
+            from: begin,
+            to: to.values.to_vec(),
+            directions: to.directions.to_vec(),
+            positioner: to.positioner,
+            on_base: to.on_base,
+            of_joints: to.of_joints,
+            is_known,
+        })
+    }
+
+    /// Whether all that is said of the way holds.
+    pub(crate) fn is_known(&self) -> bool {
+        self.is_known
+    }
+
+    /// Whether anything moves on the way.
+    pub(crate) fn moves(&self) -> bool {
+        self.from
+            .iter()
+            .zip(&self.to)
+            .any(|(from, to)| from != to && !to.is_nan())
+    }
+
+    /// Whether what is a straight line in the work frame is none for the arm.
+    pub(crate) fn bends(&self) -> bool {
+        self.positioner.is_some() && self.moves()
+    }
+
+    /// How far linear axes go, metres, and rotary ones, radians.
+    pub(crate) fn lengths(&self) -> (f64, f64) {
+        let (mut length, mut angle) = (0.0, 0.0);
+        for (k, (from, to)) in self.from.iter().zip(&self.to).enumerate() {
+            let by = (to - from).abs();
+            if by.is_nan() {
+                continue;
+            }
+            if k < self.external.track.len() {
+                length += by;
+            } else {
+                angle += by;
+            }
+        }
+        (length, angle)
+    }
+
+    fn values<S: Scalar>(&self, s: S) -> Vec<S> {
+        let ends = self.from.iter().zip(&self.to);
+        ends.map(|(from, to)| {
+            // what no pose depends on is not looked at
+            let (from, by) = if to.is_nan() {
+                (0.0, 0.0)
+            } else {
+                (*from, to - from)
+            };
+            S::constant(from) + S::constant(by) * s
+        })
+        .collect()
+    }
+
+    fn plate<S: Scalar>(&self, values: &[S], effects: &[Effect<S>]) -> Pose<S> {
+        let at = At {
+            values,
+            directions: &self.directions,
+        };
+        self.positioner
+            .map_or(Pose::identity(), |n| self.external.plate(n, at, effects))
+    }
+
+    /// Where the world of the controller's arm at home is at `s`.
+    pub(crate) fn world_from_nominal_home<S: Scalar>(&self, s: S) -> Pose<S> {
+        self.external.base_nominal(&self.values(s))
+    }
+
+    /// Where the world of the real arm at home is at `s`.
+    pub(crate) fn world_from_real_home<S: Scalar>(&self, s: S) -> Pose<S> {
+        let values = self.values(s);
+        let effects: Vec<Effect<S>> = self.effects.iter().map(Effect::cast).collect();
+        let at = At {
+            values: &values,
+            directions: &self.directions,
+        };
+        self.external.base_real(at, self.origin, &effects)
+    }
+
+    /// What stands still for the numbers of the move, seen from the controller's arm at home at `s`.
+    pub(crate) fn home_from_part<S: Scalar>(&self, s: S) -> Pose<S> {
+        let values = self.values(s);
+        let base = self.external.base_nominal(&values);
+        if self.of_joints {
+            return base.inverse();
+        }
+        let riding = if self.on_base {
+            base
+        } else {
+            self.external.riding(&values)
+        };
+        base.inverse() * riding * self.plate(&values, &[])
+    }
+
+    /// From a pose that the controller's arm at home has to the one that the real arm at home has where the real part wants it.
+    pub(crate) fn real_from_nominal<S: Scalar>(&self, s: S) -> Pose<S> {
+        let values = self.values(s);
+        let effects: Vec<Effect<S>> = self.effects.iter().map(Effect::cast).collect();
+        let part = self.plate(&values, &effects) * self.plate(&values, &[]).inverse();
+        let base = self.external.base_nominal(&values);
+        let real = self.world_from_real_home(s).inverse();
+        if self.on_base || self.of_joints {
+            return real * part * base;
+        }
+        // what rides along is where the controller has it
+        let riding = self.external.riding(&values);
+        real * riding * part * riding.inverse() * base
+    }
+
+    /// Whether the base leans: gravity is another at each place.
+    pub(crate) fn leans(&self) -> bool {
+        self.world_from_real_home(1.0_f64).rotation != Rotation::identity()
+    }
+}

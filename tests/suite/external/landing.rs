@@ -1,0 +1,662 @@
+//! Hundreds of targets on rails and positioners, in each language.
+
+use super::{profile, rapid, tool, written};
+use crate::physics::external::{Rail, RailFault, Table, TableFault, carried, plate};
+use crate::physics::matrix::{M4, frame, times, turn_x, turn_y, turn_z};
+use crate::physics::{Fault, Moment, Robot, tool_pose};
+use crate::trial::truth::robot_of;
+use nalgebra::{Matrix6, Vector6};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+/// Numbers with three decimals of a millimetre, and what their angles are worth at the tool, mm.
+const LANDS_MM: f64 = 0.004;
+const TARGETS: usize = 300;
+
+/// A cell as the reference knows it.
+struct Cell {
+    external: &'static str,
+    effects: Vec<String>,
+    rails: Vec<Rail>,
+    tables: Vec<Table>,
+    on_axis: M4,
+    plate_fault: [f64; 6],
+    /// The names of its axes in each language.
+    names: [&'static [&'static str]; 4],
+}
+
+/// A rigid pose's inverse.
+fn inverse(m: &M4) -> M4 {
+    let mut out = [[0.0, 0.0, 0.0, 0.0]; 4];
+    for i in 0..3 {
+        for j in 0..3 {
+            out[i][j] = m[j][i];
+        }
+    }
+    for row in out.iter_mut().take(3) {
+        row[3] = -(0..3).map(|k| row[k] * m[k][3]).sum::<f64>();
+    }
+    out[3][3] = 1.0;
+    out
+}
+
+impl Cell {
+    /// The same cell as the controller has it.
+    fn nominal(&self) -> (Vec<Rail>, Vec<Table>) {
+        let rails = self.rails.iter().map(|rail| Rail {
+            faults: Vec::new(),
+            ..rail.clone()
+        });
+        let tables = self.tables.iter().map(|table| Table {
+            faults: Vec::new(),
+            ..table.clone()
+        });
+        (rails.collect(), tables.collect())
+    }
+
+    fn base(rails: &[Rail], home: &M4, e: &[f64], direction: f64) -> M4 {
+        rails
+            .iter()
+            .zip(e)
+            .fold(*home, |base, (rail, e)| carried(rail, &base, *e, direction))
+    }
+
+    fn part(&self, tables: &[Table], fault: &[f64; 6], e: &[f64]) -> M4 {
+        plate(tables, &self.on_axis, fault, &e[self.rails.len()..])
+    }
+}
+
+/// What is wrong with the arm, in both words.
+fn arm() -> (Vec<String>, Vec<Fault>) {
+    let effects = [
+        "{effect: link_geometry, link: 2, a_mm: 0.4, alpha_deg: 0.02}",
+        "{effect: link_geometry, link: 3, theta_deg: 0.05, a_mm: -0.2}",
+        "{effect: joint_compliance, joint: 2, rad_per_n_m: 4.0e-5}",
+        "{effect: joint_compliance, joint: 3, rad_per_n_m: 3.0e-5}",
+        "{effect: base_frame, x_mm: 0.3, y_mm: -0.2, rz_deg: 0.01}",
+    ];
+    let rad = f64::to_radians;
+    let faults = vec![
+        Fault::Link(1, [rad(0.02), 0.4e-3, 0.0, 0.0, 0.0]),
+        Fault::Link(2, [0.0, -0.2e-3, 0.0, rad(0.05), 0.0]),
+        Fault::Compliance(1, 4.0e-5),
+        Fault::Compliance(2, 3.0e-5),
+        Fault::Base([0.3e-3, -0.2e-3, 0.0, 0.0, 0.0, rad(0.01)]),
+    ];
+    (effects.map(str::to_owned).to_vec(), faults)
+}
+
+fn rail_cell() -> Cell {
+    let rad = f64::to_radians;
+    Cell {
+        external: "external_axes:\n  track:\n    - {axis: AXIS1, direction: [0.6, 0.8, 0.0], up: [0, 0, 1], zero_mm: 500, min_mm: 0, max_mm: 3000}\n",
+        effects: [
+            "{effect: track_scale, axis: 1, ratio: 2.5e-4}",
+            "{effect: track_direction, axis: 1, y_deg: 0.05, z_deg: -0.04}",
+            "{effect: track_straightness, axis: 1, along: y, degree: 2, mm: 0.8}",
+            "{effect: track_straightness, axis: 1, along: z, degree: 3, mm: -0.5}",
+            "{effect: track_rotation, axis: 1, about: x, degree: 1, deg: 0.06}",
+            "{effect: track_rotation, axis: 1, about: y, degree: 2, deg: -0.05}",
+            "{effect: track_rotation, axis: 1, about: z, degree: 1, deg: 0.04}",
+            "{effect: track_ripple, axis: 1, along: x, period_mm: 12.566, cos_mm: 0.05, sin_mm: -0.08}",
+            "{effect: track_backlash, axis: 1, width_mm: 0.12}",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+        rails: vec![Rail {
+            direction: [0.6, 0.8, 0.0],
+            up: [0.0, 0.0, 1.0],
+            zero: 0.5,
+            low: 0.0,
+            high: 3.0,
+            faults: vec![
+                RailFault::Scale(2.5e-4),
+                RailFault::Direction(rad(0.05), rad(-0.04)),
+                RailFault::Bent(1, 2, 0.8e-3),
+                RailFault::Bent(2, 3, -0.5e-3),
+                RailFault::Turned(0, 1, rad(0.06)),
+                RailFault::Turned(1, 2, rad(-0.05)),
+                RailFault::Turned(2, 1, rad(0.04)),
+                RailFault::Ripple(0, 12.566e-3, 0.05e-3, -0.08e-3),
+                RailFault::Backlash(0.12e-3),
+            ],
+        }],
+        tables: Vec::new(),
+        on_axis: frame(&[0.0; 6]),
+        plate_fault: [0.0; 6],
+        names: [&["eax_a"], &["E1"], &["E1"], &["BC1"]],
+    }
+}
+
+const PLATE: [f64; 6] = [0.02, -0.01, 0.05, 0.1, -0.2, 0.3];
+
+fn table_cell(axes: usize) -> Cell {
+    let rad = f64::to_radians;
+    let one = "        - {axis: AXIS1, at: {x_mm: 700, y_mm: -150, z_mm: 600, rx_deg: 5, ry_deg: 20, rz_deg: 40}, sign: -1, zero_deg: 10, min_deg: -180, max_deg: 180}\n";
+    let two = "        - {axis: AXIS2, at: {x_mm: 40, y_mm: 0, z_mm: 120, rx_deg: -85, ry_deg: 3, rz_deg: 0}, min_deg: -180, max_deg: 180}\n";
+    let head =
+        "external_axes:\n  positioners:\n    - name: UNIT\n      follows: FOLLOWS\n      axes:\n";
+    let plate = "      plate: {x_mm: 20, y_mm: -10, z_mm: 50, rx_deg: 5.729577951308232, ry_deg: -11.459155902616464, rz_deg: 17.188733853924695}\n";
+    let external: String = match axes {
+        1 => [head, one, plate].concat(),
+        _ => [head, one, two, plate].concat(),
+    };
+    let mut effects: Vec<String> = [
+        "{effect: positioner_axis, axis: 1, x_mm: 1.1, y_mm: -0.7, rx_deg: 0.08, ry_deg: -0.06}",
+        "{effect: positioner_zero, axis: 1, deg: 0.05}",
+        "{effect: positioner_scale, axis: 1, ratio: 2.0e-4}",
+        "{effect: positioner_ripple, axis: 1, order: 2, cos_deg: 0.01, sin_deg: -0.02}",
+        "{effect: positioner_runout, axis: 1, along: z, order: 1, cos_mm: 0.1, sin_mm: 0.05}",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    let mut tables = vec![Table {
+        at: frame(&[0.7, -0.15, 0.6, rad(5.0), rad(20.0), rad(40.0)]),
+        sign: -1.0,
+        zero: rad(10.0),
+        faults: vec![
+            TableFault::Axis([1.1e-3, -0.7e-3, rad(0.08), rad(-0.06)]),
+            TableFault::Zero(rad(0.05)),
+            TableFault::Scale(2.0e-4),
+            TableFault::Ripple(2.0, rad(0.01), rad(-0.02)),
+            TableFault::Runout(2, 1.0, 0.1e-3, 0.05e-3),
+        ],
+    }];
+    if axes == 2 {
+        effects.push(
+            "{effect: positioner_axis, axis: 2, x_mm: -0.5, y_mm: 0.4, rx_deg: -0.03, ry_deg: 0.05}"
+                .into(),
+        );
+        tables.push(Table {
+            at: frame(&[0.04, 0.0, 0.12, rad(-85.0), rad(3.0), 0.0]),
+            sign: 1.0,
+            zero: 0.0,
+            faults: vec![TableFault::Axis([-0.5e-3, 0.4e-3, rad(-0.03), rad(0.05)])],
+        });
+    }
+    effects.push(format!(
+        "{{effect: positioner_plate, axis: {axes}, x_mm: 0.6, y_mm: -0.4, z_mm: 0.3, rx_deg: 0.04, ry_deg: -0.05, rz_deg: 0.06}}"
+    ));
+    Cell {
+        external: external.leak(),
+        effects,
+        rails: Vec::new(),
+        tables,
+        on_axis: frame(&PLATE),
+        plate_fault: [0.6e-3, -0.4e-3, 0.3e-3, rad(0.04), rad(-0.05), rad(0.06)],
+        names: [
+            &["eax_b", "eax_c"],
+            &["E1", "E2"],
+            &["G2J1", "G2J2"],
+            &["EC1", "EC2"],
+        ],
+    }
+}
+
+// ---- the languages
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Said {
+    Rapid,
+    Krl,
+    Fanuc,
+    Inform,
+}
+
+/// One target: joints to come from, the numbers of the pose, the values of the axes in mm and degrees.
+struct Line {
+    q_deg: [f64; 6],
+    numbers: Vec<f64>,
+    e: Vec<f64>,
+}
+
+/// Rz(a) · Ry(b) · Rx(c), or a quaternion.
+fn numbers_of(said: Said, pose: &M4) -> Vec<f64> {
+    let mm = |i: usize| pose[i][3] * 1e3;
+    let deg = |rad: f64| rad.to_degrees();
+    let b = (-pose[2][0]).atan2(pose[0][0].hypot(pose[1][0]));
+    let a = pose[1][0].atan2(pose[0][0]);
+    let c = pose[2][1].atan2(pose[2][2]);
+    match said {
+        Said::Krl => vec![mm(0), mm(1), mm(2), deg(a), deg(b), deg(c)],
+        Said::Fanuc | Said::Inform => vec![mm(0), mm(1), mm(2), deg(c), deg(b), deg(a)],
+        Said::Rapid => {
+            let [(sa, ca), (sb, cb), (sc, cc)] = [a, b, c].map(|x| (x / 2.0).sin_cos());
+            vec![
+                mm(0),
+                mm(1),
+                mm(2),
+                ca * cb * cc + sa * sb * sc,
+                ca * cb * sc - sa * sb * cc,
+                ca * sb * cc + sa * cb * sc,
+                sa * cb * cc - ca * sb * sc,
+            ]
+        }
+    }
+}
+
+fn pose_of(said: Said, n: &[f64]) -> M4 {
+    let turned = match said {
+        Said::Krl => [n[3], n[4], n[5]].map(f64::to_radians),
+        Said::Fanuc | Said::Inform => [n[5], n[4], n[3]].map(f64::to_radians),
+        Said::Rapid => {
+            let length = n[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
+            let [w, x, y, z] = std::array::from_fn(|i| n[3 + i] / length);
+            return [
+                [
+                    1.0 - 2.0 * (y * y + z * z),
+                    2.0 * (x * y - w * z),
+                    2.0 * (x * z + w * y),
+                    n[0] * 1e-3,
+                ],
+                [
+                    2.0 * (x * y + w * z),
+                    1.0 - 2.0 * (x * x + z * z),
+                    2.0 * (y * z - w * x),
+                    n[1] * 1e-3,
+                ],
+                [
+                    2.0 * (x * z - w * y),
+                    2.0 * (y * z + w * x),
+                    1.0 - 2.0 * (x * x + y * y),
+                    n[2] * 1e-3,
+                ],
+                [0.0, 0.0, 0.0, 1.0],
+            ];
+        }
+    };
+    let [a, b, c] = turned;
+    let mut pose = times(&turn_z(a), &times(&turn_y(b), &turn_x(c)));
+    for i in 0..3 {
+        pose[i][3] = n[i] * 1e-3;
+    }
+    pose
+}
+
+/// The numbers as a program has them: what is rounded is the wanted pose.
+fn round(said: Said, numbers: &mut [f64]) {
+    for (i, x) in numbers.iter_mut().enumerate() {
+        let digits = if said == Said::Rapid && i > 2 {
+            1e9
+        } else {
+            1e5
+        };
+        *x = (*x * digits).round() / digits;
+    }
+}
+
+fn list(numbers: &[f64]) -> String {
+    let texts: Vec<String> = numbers.iter().map(|x| format!("{x:.9}")).collect();
+    texts.join(",")
+}
+
+fn program(said: Said, cell: &Cell, lines: &[Line]) -> (&'static str, String) {
+    let tables = !cell.tables.is_empty();
+    let mut body = String::new();
+    match said {
+        Said::Rapid => {
+            for line in lines {
+                let mut eax = ["9E9".to_owned(), "9E9".into(), "9E9".into()];
+                for (name, e) in cell.names[0].iter().zip(&line.e) {
+                    eax[usize::from(name.as_bytes()[4] - b'a')] = e.to_string();
+                }
+                let eax = format!("[{},9E9,9E9,9E9]", eax.join(","));
+                let n = &line.numbers;
+                let wobj = if tables { "\\WObj:=w" } else { "" };
+                body += &format!(
+                    "MoveAbsJ [[{}],{eax}],v100,fine,t;\nMoveJ [[{}],[{}],[0,0,0,0],{eax}],v100,fine,t{wobj};\n",
+                    list(&line.q_deg),
+                    list(&n[..3]),
+                    list(&n[3..])
+                );
+            }
+            // the user frame of a frame on a unit is not used
+            let data = "PERS wobjdata w:=[FALSE,FALSE,\"STN1\",[[1701.5,-720.4,649.1],[1,0,0,0]],[[15,-25,35],[1,0,0,0]]];";
+            ("t.mod", rapid(if tables { data } else { "" }, &body))
+        }
+        Said::Krl => {
+            for line in lines {
+                let e: String = cell.names[1]
+                    .iter()
+                    .zip(&line.e)
+                    .map(|(name, e)| format!(",{name} {e}"))
+                    .collect();
+                let axes: Vec<String> = (1..)
+                    .zip(line.q_deg)
+                    .map(|(i, q)| format!("A{i} {q:.9}"))
+                    .collect();
+                let n = &line.numbers;
+                body += &format!(
+                    "PTP {{{}{e}}}\nPTP {{X {:.5},Y {:.5},Z {:.5},A {:.5},B {:.5},C {:.5}{e}}}\n",
+                    axes.join(","),
+                    n[0],
+                    n[1],
+                    n[2],
+                    n[3],
+                    n[4],
+                    n[5]
+                );
+            }
+            let base = if tables {
+                "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 15,Y -25,Z 35,A 0,B 0,C 0})"
+            } else {
+                "$BASE=$WORLD"
+            };
+            (
+                "t.src",
+                format!("DEF t()\n$TOOL=TOOL_DATA[1]\n{base}\n{body}END\n"),
+            )
+        }
+        Said::Fanuc => {
+            let (mut moves, mut points) = (String::new(), String::new());
+            for (k, line) in lines.iter().enumerate() {
+                let (first, second) = (2 * k + 1, 2 * k + 2);
+                moves += &format!(
+                    "   {first}:J P[{first}] 10% FINE    ;\n   {second}:J P[{second}] 10% FINE    ;\n"
+                );
+                let (mut rail, mut group) = (String::new(), String::new());
+                for (name, e) in cell.names[2].iter().zip(&line.e) {
+                    match name.strip_prefix("G2") {
+                        None => rail += &format!(",\n\t{name}= {e:.5}  mm"),
+                        Some(axis) => group += &format!(",\n\t{axis}= {e:.5} deg"),
+                    }
+                }
+                let group = match group.strip_prefix(",\n\t") {
+                    None => String::new(),
+                    Some(axes) => format!("\n   GP2:\n\tUF : 1, UT : 1,\t\n\t{axes}"),
+                };
+                let q: Vec<String> = (1..)
+                    .zip(line.q_deg)
+                    .map(|(i, q)| format!("J{i}= {q:.9} deg"))
+                    .collect();
+                let n = &line.numbers;
+                points += &format!(
+                    "P[{first}]{{\n   GP1:\n\tUF : 1, UT : 1,\t\n\t{}{rail}{group}\n}};\n",
+                    q.join(",\t")
+                );
+                points += &format!(
+                    "P[{second}]{{\n   GP1:\n\tUF : 1, UT : 1,\t\t\n\tX = {:.5}  mm,\tY = {:.5}  mm,\tZ = {:.5}  mm,\n\tW = {:.5} deg,\tP = {:.5} deg,\tR = {:.5} deg{rail}{group}\n}};\n",
+                    n[0], n[1], n[2], n[3], n[4], n[5]
+                );
+            }
+            (
+                "t.ls",
+                format!("/PROG  TEST\n/ATTR\nLINE_COUNT = 1;\n/MN\n{moves}/POS\n{points}/END\n"),
+            )
+        }
+        Said::Inform => {
+            let (mut moves, mut points) = (String::new(), String::new());
+            let stations = if tables { "EC" } else { "BC" };
+            for (k, line) in lines.iter().enumerate() {
+                let (first, second) = (2 * k, 2 * k + 1);
+                points += &format!(
+                    "///TOOL 1\n///POSTYPE ANGLE\n///ANGLE\nC{first:05}={}\n{stations}{first:05}={}\n",
+                    list(&line.q_deg),
+                    list(&line.e)
+                );
+                points += &format!(
+                    "///TOOL 1\n///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC{second:05}={}\n{stations}{second:05}={}\n",
+                    line.numbers
+                        .iter()
+                        .map(|x| format!("{x:.5}"))
+                        .collect::<Vec<_>>()
+                        .join(","),
+                    list(&line.e)
+                );
+                moves += &format!(
+                    "MOVJ C{first:05} {stations}{first:05} VJ=5.00\nMOVL C{second:05} {stations}{second:05} V=30.0\n"
+                );
+            }
+            (
+                "t.JBI",
+                format!(
+                    "/JOB\n//NAME T\n//POS\n{points}//INST\n///DATE 2024/01/01 10:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\n{moves}END\n"
+                ),
+            )
+        }
+    }
+}
+
+/// The numbers behind these marks of a text, as many as there are of each.
+fn behind(text: &str, mark: &str, count: usize) -> Vec<Vec<f64>> {
+    let parts = text.split(mark).skip(1);
+    let numbers = parts.map(|part| {
+        let fields = part.split(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)));
+        let found = fields.filter_map(|field| field.parse::<f64>().ok());
+        found.take(count).collect()
+    });
+    numbers.collect()
+}
+
+fn written_numbers(said: Said, text: &str) -> Vec<Vec<f64>> {
+    match said {
+        Said::Rapid => behind(text, "MoveJ [[", 7),
+        Said::Krl => behind(text, "PTP {X", 6),
+        Said::Fanuc => behind(text, "\tX =", 6),
+        Said::Inform => {
+            let rows = text.split("///RCONF 0,0,0,0,0,0,0,0").skip(1);
+            rows.map(|row| behind(row, "=", 6)[0].clone()).collect()
+        }
+    }
+}
+
+// ---- where the real tool lands
+
+fn missing(is: &M4, wanted: &M4) -> Vector6<f64> {
+    let at = |m: &M4, i: usize, j: usize| m[i][j];
+    // wanted · isᵀ
+    let r = |i: usize, j: usize| (0..3).map(|k| at(wanted, i, k) * at(is, j, k)).sum::<f64>();
+    Vector6::new(
+        wanted[0][3] - is[0][3],
+        wanted[1][3] - is[1][3],
+        wanted[2][3] - is[2][3],
+        0.5 * (r(2, 1) - r(1, 2)),
+        0.5 * (r(0, 2) - r(2, 0)),
+        0.5 * (r(1, 0) - r(0, 1)),
+    )
+}
+
+/// The joints with which the controller's arm brings its tool to a pose: Newton with central differences.
+fn joints(robot: &Robot, wanted: &M4, near: &[f64; 6]) -> [f64; 6] {
+    let of = |q: &[f64; 6]| missing(&tool_pose(robot, &[], q, &Moment::default()), wanted);
+    let mut q = *near;
+    for _ in 0..12 {
+        let error = of(&q);
+        if error.norm() < 1e-12 {
+            break;
+        }
+        let step = 1e-6;
+        let mut jacobian = Matrix6::zeros();
+        for j in 0..6 {
+            let moved = |by: f64| {
+                let mut q = q;
+                q[j] += by;
+                of(&q)
+            };
+            jacobian.set_column(j, &((moved(-step) - moved(step)) / (2.0 * step)));
+        }
+        let change = jacobian
+            .lu()
+            .solve(&error)
+            .expect("away from singularities");
+        q = std::array::from_fn(|i| q[i] + change[i]);
+    }
+    assert!(of(&q).norm() < 1e-10, "{near:?} {q:?} {wanted:?}");
+    q
+}
+
+fn lands(said: Said, cell: &Cell) {
+    let (arm_effects, arm_faults) = arm();
+    let names = cell.names[said as usize];
+    let (unit, follows) = match said {
+        Said::Rapid => ("STN1", "frame"),
+        Said::Krl => ("\"2\"", "frame"),
+        Said::Fanuc | Said::Inform => ("group2", "always"),
+    };
+    let mut external = cell
+        .external
+        .replace("UNIT", unit)
+        .replace("FOLLOWS", follows);
+    for (n, name) in names.iter().enumerate() {
+        external = external.replace(&format!("AXIS{}", n + 1), name);
+    }
+    let effects: Vec<&str> = arm_effects
+        .iter()
+        .chain(&cell.effects)
+        .map(String::as_str)
+        .collect();
+    let profile = profile(&external, &effects);
+    let robot = robot_of(&profile, &tool());
+    let (nominal_rails, nominal_tables) = cell.nominal();
+    let offset = match said {
+        Said::Rapid | Said::Krl if !cell.tables.is_empty() => [0.015, -0.025, 0.035, 0.0, 0.0, 0.0],
+        _ => [0.0; 6],
+    };
+    // what is said of the part, in the world
+    let part = |tables: &[Table], fault: &[f64; 6], e: &[f64]| match cell.tables.len() {
+        0 => frame(&offset),
+        _ => times(&cell.part(tables, fault, e), &frame(&offset)),
+    };
+    let standing = |rails: &[Rail], e: &[f64], direction: f64| Robot {
+        base: Cell::base(rails, &robot.base, e, direction),
+        ..robot.clone()
+    };
+    let mut random = StdRng::seed_from_u64(18);
+    let mut lines = Vec::new();
+    let mut known = Vec::new();
+    for _ in 0..TARGETS {
+        let q_deg = [
+            random.random_range(-150.0..150.0),
+            // the wrist stays before axis 1
+            random.random_range(-10.0..60.0),
+            random.random_range(-40.0..30.0),
+            random.random_range(-140.0..140.0),
+            random.random_range(25.0..100.0),
+            random.random_range(-170.0..170.0),
+        ]
+        .map(|x: f64| (x * 1e6).round() / 1e6);
+        let mut e: Vec<f64> = cell
+            .rails
+            .iter()
+            .map(|_| random.random_range(0.0..3000.0))
+            .collect();
+        e.extend(
+            cell.tables
+                .iter()
+                .map(|_| random.random_range(-170.0..170.0)),
+        );
+        let e: Vec<f64> = e
+            .iter()
+            .map(|x: &f64| (x * 100.0).round() / 100.0)
+            .collect();
+        let si: Vec<f64> = e
+            .iter()
+            .enumerate()
+            .map(|(n, e)| {
+                if n < cell.rails.len() {
+                    e * 1e-3
+                } else {
+                    e.to_radians()
+                }
+            })
+            .collect();
+        let q = q_deg.map(f64::to_radians);
+        let world = tool_pose(
+            &standing(&nominal_rails, &si, 0.0),
+            &[],
+            &q,
+            &Moment::default(),
+        );
+        let on_part = times(&inverse(&part(&nominal_tables, &[0.0; 6], &si)), &world);
+        let mut numbers = numbers_of(said, &on_part);
+        round(said, &mut numbers);
+        // nobody knows from where the first comes
+        let before = known
+            .last()
+            .map_or(si[0], |(_, before, _): &(_, Vec<f64>, f64)| before[0]);
+        let direction = if si[0] == before {
+            0.0
+        } else {
+            (si[0] - before).signum()
+        };
+        known.push((q, si, direction));
+        lines.push(Line { q_deg, numbers, e });
+    }
+    let (name, text) = program(said, cell, &lines);
+    let out = written(&profile, &[(name, &text)]);
+    let fakes = written_numbers(said, &out);
+    assert_eq!(fakes.len(), TARGETS, "{said:?}");
+    let (mut before, mut after) = (0.0_f64, 0.0_f64);
+    for ((line, (q, e, direction)), fake) in lines.iter().zip(&known).zip(&fakes) {
+        let wanted = times(
+            &part(&cell.tables, &cell.plate_fault, e),
+            &pose_of(said, &line.numbers),
+        );
+        let controller = standing(&nominal_rails, e, 0.0);
+        let real = standing(&cell.rails, e, *direction);
+        let land = |numbers: &[f64]| {
+            let told = times(
+                &part(&nominal_tables, &[0.0; 6], e),
+                &pose_of(said, numbers),
+            );
+            let q = joints(&controller, &told, q);
+            let is = tool_pose(&real, &arm_faults, &q, &Moment::default());
+            let by = missing(&is, &wanted);
+            1e3 * by.fixed_rows::<3>(0).norm()
+        };
+        before = before.max(land(&line.numbers));
+        after = after.max(land(fake));
+    }
+    assert!(before > 2.0, "{said:?}: {before} mm before");
+    assert!(
+        after < LANDS_MM,
+        "{said:?}: {after} mm after, {before} before"
+    );
+    // nothing but the six numbers of a pose is another
+    for line in &lines {
+        for e in &line.e {
+            assert!(out.contains(&e.to_string()), "{said:?}: {e} is gone");
+        }
+    }
+}
+
+#[test]
+fn three_hundred_targets_on_a_rail_land_in_rapid() {
+    lands(Said::Rapid, &rail_cell());
+}
+
+#[test]
+fn three_hundred_targets_on_a_rail_land_in_krl() {
+    lands(Said::Krl, &rail_cell());
+}
+
+#[test]
+fn three_hundred_targets_on_a_rail_land_in_fanuc() {
+    lands(Said::Fanuc, &rail_cell());
+}
+
+#[test]
+fn three_hundred_targets_on_a_rail_land_in_inform() {
+    lands(Said::Inform, &rail_cell());
+}
+
+#[test]
+fn three_hundred_targets_on_one_rotary_axis_land_in_rapid_and_krl() {
+    for said in [Said::Rapid, Said::Krl] {
+        lands(said, &table_cell(1));
+    }
+}
+
+#[test]
+fn three_hundred_targets_on_two_rotary_axes_land_in_rapid_and_krl() {
+    for said in [Said::Rapid, Said::Krl] {
+        lands(said, &table_cell(2));
+    }
+}
+
+#[test]
+fn three_hundred_targets_on_two_rotary_axes_land_in_fanuc_and_inform() {
+    for said in [Said::Fanuc, Said::Inform] {
+        lands(said, &table_cell(2));
+    }
+}
