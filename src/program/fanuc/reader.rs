@@ -208,7 +208,13 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
         if let Some(trouble) = trouble {
             refuse(script, target, trouble);
         }
-        for (name, value) in &point.external {
+        // of a point that stays nothing else is said
+        let external = if trouble.is_none() {
+            &point.external[..]
+        } else {
+            &[]
+        };
+        for (name, value) in external {
             match names.meaning(name) {
                 ExternalUse::Listed(axis) => {
                     let value = *value;

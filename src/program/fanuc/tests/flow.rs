@@ -198,7 +198,10 @@ fn moves_that_cannot_be_compensated_are_errors() {
     for (line, id) in [
         ("L P[1] 9mm/sec FINE INC ;", "relative-move"),
         ("L P[1] 9mm/sec FINE RTCP ;", "stationary-tool"),
-        ("L P[1] 9mm/sec CNT100 COORD PTH ;", "moving-frame"),
+        (
+            "L P[1] 9mm/sec CNT100 COORD PTH ;",
+            "group-without-geometry",
+        ),
         ("L P[9] 9mm/sec FINE ;", "target-not-in-files"),
         ("GOTO_P P[1],5 ;", "target-passed-to-routine"),
     ] {
