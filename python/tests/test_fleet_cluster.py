@@ -16,7 +16,10 @@ from test_fleet import fleet_of, run, shipped, tables
 
 import poseshift as ps
 
-pytestmark = pytest.mark.filterwarnings("ignore")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore"),
+    pytest.mark.skipif(os.environ.get("POSESHIFT_CLUSTER") != "1", reason="kills nodes for minutes: POSESHIFT_CLUSTER=1 runs it"),
+]
 ray = pytest.importorskip("ray")
 
 ROBOTS = 16
