@@ -472,6 +472,7 @@ pub(crate) fn measurements_of_arrays(
             tool: tool.as_ref().map(|all| all[i].clone()),
             point: point.as_ref().map(|all| all[i].clone()),
             sigma_m: sigma.as_ref().map(|all| all[i]),
+            sigma_rad: None,
             line: (i + 2).into(),
             id: (i + 1).to_string(),
             q: found.rows()[i],
