@@ -23,6 +23,8 @@ PORTION_S = 2.0
 GUESS_S = {"programs": 0.3, "diagnose": 0.3}
 # batches that wait for a worker
 IN_FLIGHT = 4
+# how often a unit may end its process, with nobody else in it, before it is to blame
+ALONE = 2
 # how often a file that cannot be read is tried
 TRIES = 3
 
@@ -73,8 +75,11 @@ def run_local(units: Sequence[Unit], store: Store, workers: int | None = None, h
         suspects += broken
     for unit in suspects:
         # whatever ends its process ends nobody else's
-        _, broken = _through_pool([[unit]], store, 1, ran)
-        if broken:
+        for _ in range(ALONE):
+            _, broken = _through_pool([[unit]], store, 1, ran)
+            if not broken:
+                break
+        else:
             ran.keep_crash(unit)
     return ran.end()
 
