@@ -134,6 +134,9 @@ impl<'a> Element<'a> {
         }
         let names = if kind == Kind::Joint { JOINTS } else { POSE };
         if tag.name != b"cpValue" {
+            if self.is_given {
+                return Err(twice(tag));
+            }
             let key = of("key").or(of("index"));
             let mut behind = key.map_or(tag.behind_name(), |key| key.end);
             for (number, name) in self.numbers.iter_mut().zip(names) {
@@ -148,6 +151,9 @@ impl<'a> Element<'a> {
         }
         for (at, (name, words)) in SIDES.iter().enumerate() {
             let Some(side) = of(name) else { continue };
+            if self.sides[at].is_some() || self.free[at] {
+                return Err(twice(tag));
+            }
             let told = words.iter().position(|word| word.as_bytes() == side.value);
             self.sides[at] = told.map(|told| Number {
                 start: short(side.start),
@@ -161,6 +167,11 @@ impl<'a> Element<'a> {
         }
         Ok(())
     }
+}
+
+/// A value whose numbers stand in two tags: which of them the controller takes, nobody knows.
+fn twice(tag: &Tag) -> Fault {
+    Fault::unexpected(tag.at..tag.end, "one tag with the numbers of a value")
 }
 
 /// Speed and corner of a motion descriptor: the tool's speed where it is limited, and where the path is left.

@@ -1,5 +1,6 @@
 //! Broken text.
 
+use super::super::data::read as data_of;
 use super::*;
 
 /// What mutations cut, and put in its place.
@@ -27,6 +28,22 @@ const MUTATIONS: [(usize, &str); 22] = [
     (0, "endIf\n"),
     (0, "pA=pB\n"),
 ];
+
+#[test]
+fn numbers_of_one_value_in_two_tags_are_refused() {
+    // the second tag has no y: that of the first would be written where the second ends
+    let values =
+        "<valuePoint index=\"0\"><tpValue x=\"1\" y=\"2\" /><tpValue x=\"3\" /></valuePoint>";
+    let sides = "<valuePoint index=\"0\"><tpValue x=\"1\" /><cpValue wrist=\"wpositive\" /><cpValue wrist=\"wfree\" /></valuePoint>";
+    for text in [values, sides] {
+        let text = dtx(&format!("<point name=\"pA\">{text}</point>"));
+        let error = data_of(text.as_bytes(), 0).expect_err("two tags");
+        assert!(
+            format!("{error:?}").contains("one tag with the numbers"),
+            "{error:?}"
+        );
+    }
+}
 
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(256))]
