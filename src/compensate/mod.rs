@@ -72,9 +72,10 @@ use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
 use crate::motion::{doubt, external, setting};
 pub use crate::program::meaning;
-use crate::program::{Edits, Language, ReadError, Source};
+use crate::program::{Edits, Language, ReadError, Source, sha256};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::thread;
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
@@ -215,7 +216,14 @@ pub fn compensate(
     options: &Options,
 ) -> Result<Compensation, CompensateError> {
     let settings = external::settings_of(profile, options.accept_absolutely_accurate);
-    let mut program = crate::motion::read(language, sources, &settings)?;
+    // the files are hashed while they are read
+    let (read, source_sha256) = thread::scope(|scope| {
+        let hash = || sources.iter().map(|source| sha256(&source.bytes)).collect();
+        let hashes = scope.spawn(hash);
+        let read = crate::motion::read(language, sources, &settings);
+        (read, hashes.join().expect("hashing cannot fail"))
+    });
+    let mut program = read?;
     program.shrink_to_fit();
     let mut findings = std::mem::take(&mut program.findings);
     if program.targets.is_empty()
@@ -305,6 +313,7 @@ pub fn compensate(
     let mut compensation = Compensation {
         program,
         settings,
+        source_sha256,
         targets,
         findings,
         edits,

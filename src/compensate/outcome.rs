@@ -13,8 +13,10 @@ use std::collections::BTreeMap;
 pub struct Compensation {
     /// The program as it was read.
     pub program: Program,
-    /// What its language had to know beside the files.
+    /// What its language had to know besides the files.
     pub settings: Settings,
+    /// SHA-256 of each source, for the marker.
+    pub source_sha256: Vec<String>,
     /// What became of each of its targets; none with [`super::Options::summary_only`].
     pub targets: Vec<TargetReport>,
     /// What a person should look at, by file and place.

@@ -2,7 +2,7 @@
 
 use super::Compensation;
 use crate::program::script::Script;
-use crate::program::{Edits, Language, Marker, Number, Role, Source, Target, number, sha256};
+use crate::program::{Edits, Language, Marker, Number, Role, Source, Target, number};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -59,7 +59,7 @@ impl Compensation {
                 let marker = Marker {
                     version: env!("CARGO_PKG_VERSION").into(),
                     profile_sha256: profile_sha256.into(),
-                    source_sha256: sha256(&source.bytes),
+                    source_sha256: std::mem::take(&mut self.source_sha256[file]),
                     decided: self.decided.clone(),
                 };
                 let (at, text) = language.mark(source, &marker);

@@ -2,6 +2,7 @@
 
 use crate::finding::kind;
 use sha2::{Digest, Sha256};
+use std::io::{self, Read};
 
 /// The word that a marker starts with; no program that was not compensated holds it.
 const WORD: &str = "poseshift compensated this file";
@@ -204,10 +205,21 @@ fn decided(text: &[u8]) -> bool {
 /// The SHA-256 of bytes, 64 hexadecimal digits.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes)
-        .iter()
-        .map(|b| format!("{b:02x}"))
-        .collect()
+    digits(&Sha256::digest(bytes))
+}
+
+/// The same of all that a stream gives.
+///
+/// # Errors
+/// Those of the stream.
+pub fn sha256_of(stream: &mut impl Read) -> io::Result<String> {
+    let mut hasher = Sha256::new();
+    io::copy(stream, &mut hasher)?;
+    Ok(digits(&hasher.finalize()))
+}
+
+fn digits(hash: &[u8]) -> String {
+    hash.iter().map(|b| format!("{b:02x}")).collect()
 }
 
 #[cfg(test)]

@@ -47,7 +47,7 @@ pub use error::ReadError;
 pub use insert::{Between, Inserted, Insertion, Replacements};
 pub(crate) use kit::check_bytes;
 pub use language::{About, Language};
-pub use marker::{Found, Marker, sha256};
+pub use marker::{Found, Marker, sha256, sha256_of};
 pub use script::{Instruction, Place, Script};
 pub use source::Source;
 

@@ -3,6 +3,7 @@
 //! Names are case-insensitive. Data of a routine hide those of its module, those of a module hide those of others; LOCAL data
 //! are seen in their own module only.
 
+use crate::program::Source;
 use crate::program::script::short;
 use foldhash::HashMap;
 use foldhash::fast::RandomState;
@@ -19,9 +20,16 @@ pub(super) struct Symbol(pub u32);
 #[derive(Debug, Default)]
 pub(super) struct Symbols {
     /// By the hash of the folded name.
-    ids: HashTable<u32>,
+    known: HashTable<Known>,
     spellings: Spellings,
     hasher: RandomState,
+}
+
+/// A name in the table: the text is looked at where the hash agrees, and not where the table grows.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    hash: u64,
+    id: u32,
 }
 
 /// Texts, one after the other.
@@ -57,22 +65,19 @@ fn hash_of(hasher: &RandomState, name: &str) -> u64 {
 impl Symbols {
     /// The symbol of a name.
     pub(super) fn intern(&mut self, name: &[u8]) -> Symbol {
-        let name = crate::program::Source::text(name);
+        let name = Source::text(name);
+        let hash = hash_of(&self.hasher, &name);
         let Self {
-            ids,
-            spellings,
-            hasher,
+            known, spellings, ..
         } = self;
-        let found = ids.entry(
-            hash_of(hasher, &name),
-            |&id| spellings.of(id).eq_ignore_ascii_case(&name),
-            |&id| hash_of(hasher, spellings.of(id)),
-        );
-        match found {
-            Found::Occupied(known) => Symbol(*known.get()),
+        let is_same = |other: &Known| {
+            other.hash == hash && spellings.of(other.id).eq_ignore_ascii_case(&name)
+        };
+        match known.entry(hash, is_same, |other| other.hash) {
+            Found::Occupied(known) => Symbol(known.get().id),
             Found::Vacant(free) => {
                 let id = short(spellings.ends.len());
-                free.insert(id);
+                free.insert(Known { hash, id });
                 spellings.text.push_str(&name);
                 spellings.ends.push(short(spellings.text.len()));
                 Symbol(id)
@@ -82,10 +87,13 @@ impl Symbols {
 
     /// The symbol of a name that was read.
     pub(super) fn find(&self, name: &[u8]) -> Option<Symbol> {
-        let name = crate::program::Source::text(name);
-        let is_same = |&id: &u32| self.spellings.of(id).eq_ignore_ascii_case(&name);
-        let found = self.ids.find(hash_of(&self.hasher, &name), is_same);
-        found.copied().map(Symbol)
+        let name = Source::text(name);
+        let hash = hash_of(&self.hasher, &name);
+        let is_same = |other: &Known| {
+            other.hash == hash && self.spellings.of(other.id).eq_ignore_ascii_case(&name)
+        };
+        let found = self.known.find(hash, is_same);
+        found.map(|known| Symbol(known.id))
     }
 
     /// How it was spelled first.

@@ -13,6 +13,7 @@ use crate::program::{Language, Source, Value};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
+use std::thread;
 
 /// The smallest path error that can be asked for, mm.
 const LEAST_PATH_ERROR_MM: f64 = 0.001;
@@ -67,14 +68,20 @@ pub fn prepare<'a>(request: &'a Request<'a>) -> Result<Prepared<'a>, Failure> {
         Some(language) => language,
         None => common_language(sources, &profile.profile)?,
     };
-    if !request.force {
-        refuse_marked(sources)?;
-    }
     let mut options = request.options.clone();
     options.accept_absolutely_accurate = request.force;
     options.each_for_itself = request.despite_errors == DespiteErrors::Good;
-    let mut compensation = compensate(language, sources, &profile.profile, &options)
-        .map_err(|error| explain(&error, sources))?;
+    // markers are looked for while the programs are compensated
+    let (marked, compensation) = thread::scope(|scope| {
+        let marked = scope.spawn(|| match request.force {
+            true => Ok(()),
+            false => refuse_marked(sources),
+        });
+        let compensation = compensate(language, sources, &profile.profile, &options);
+        (marked.join(), compensation)
+    });
+    marked.expect("looking for markers cannot fail")?;
+    let mut compensation = compensation.map_err(|error| explain(&error, sources))?;
     if let Some(limit) = request.max_path_error_mm {
         keep_path(request, language, limit, &mut compensation)?;
         compensation.judge(sources, &options.accepted);

@@ -6,13 +6,12 @@
 use super::disk::Disk;
 use super::journal::{Entry, Held, Journal, Stage};
 use super::recovery::recover;
-use super::work::{Stop, Work, exists};
+use super::work::{Stop, Work, exists, hash_of};
 use crate::printable::name_of;
 use crate::program::sha256;
 use crate::task::Failure;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::hash::{BuildHasher, RandomState};
 use std::path::{Path, PathBuf};
 
@@ -257,8 +256,7 @@ fn entries<'a>(
     let mut contents = Vec::with_capacity(trees.len());
     for (target, below) in trees {
         let old = if exists(target) {
-            let bytes = fs::read(target).map_err(|error| Failure::file(target, "read", &error))?;
-            Some(sha256(&bytes))
+            Some(hash_of(target).map_err(|error| Failure::file(target, "read", &error))?)
         } else {
             None
         };

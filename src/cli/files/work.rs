@@ -2,7 +2,7 @@
 
 use super::disk::Disk;
 use super::journal::{self, Entry, Held, Journal, PREFIX, Stage};
-use crate::program::sha256;
+use crate::program::sha256_of;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
@@ -38,10 +38,15 @@ pub(super) fn exists(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-fn hash_of(path: &Path) -> Option<String> {
-    let found = fs::symlink_metadata(path).ok()?;
-    let bytes = found.is_file().then(|| fs::read(path))?;
-    bytes.ok().map(|bytes| sha256(&bytes))
+/// The hash of what a file holds.
+pub(super) fn hash_of(path: &Path) -> io::Result<String> {
+    sha256_of(&mut fs::File::open(path)?)
+}
+
+/// Whether a file, and no link, holds what has this hash.
+fn holds(path: &Path, hash: &str) -> bool {
+    let is_file = fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
+    is_file && hash_of(path).is_ok_and(|found| found == hash)
 }
 
 /// Whether a journal is of this run.
@@ -76,7 +81,7 @@ impl Work<'_> {
     /// Whether the place is as it was before the run.
     fn is_old(entry: &Entry) -> bool {
         match &entry.old {
-            Some(hash) => hash_of(&entry.target).as_ref() == Some(hash),
+            Some(hash) => holds(&entry.target, hash),
             None => !exists(&entry.target),
         }
     }
@@ -89,7 +94,7 @@ impl Work<'_> {
             } else {
                 entry.target.join(path)
             };
-            hash_of(&path).as_ref() == Some(hash)
+            holds(&path, hash)
         };
         let files = walkdir::WalkDir::new(&entry.target).into_iter();
         let files = files.filter(|found| !found.as_ref().is_ok_and(|f| f.file_type().is_dir()));

@@ -204,19 +204,16 @@ impl<'a> Reader<'a> {
         shape: Shape,
         numbers: [Number; 6],
     ) -> TargetId {
-        let script = &mut self.builder.script;
-        let first = short(script.numbers.len());
-        script.numbers.extend(numbers);
-        script.targets.push(Target {
+        let target = Target {
             name: name.map(Into::into),
             file: place.file,
             offset: place.offset,
             end,
             layout: Layout { shape, variant: 0 },
-            numbers: first..short(script.numbers.len()),
+            numbers: 0..0,
             blocked: false,
-        });
-        script.targets.len() - 1
+        };
+        self.builder.script.target(target, numbers)
     }
 
     fn add_variable(&mut self, name: &Name, place: Place, declared: Expr) -> VariableId {

@@ -573,6 +573,21 @@ impl Script {
         short(self.values.len() - 1)
     }
 
+    /// Adds a target with its numbers.
+    pub fn target(
+        &mut self,
+        target: Target,
+        numbers: impl IntoIterator<Item = Number>,
+    ) -> TargetId {
+        let first = short(self.numbers.len());
+        self.numbers.extend(numbers);
+        self.targets.push(Target {
+            numbers: first..short(self.numbers.len()),
+            ..target
+        });
+        self.targets.len() - 1
+    }
+
     /// Adds a variable.
     pub fn variable(&mut self, variable: Variable) -> VariableId {
         self.variables.push(variable);

@@ -1,6 +1,8 @@
 //! The words of one statement: names with what hangs on them, and lists in brackets.
 
 use super::tokens::{self, Token};
+use crate::program::script::short;
+use crate::program::{Number, number};
 use std::ops::Range;
 
 /// A name as the code uses it: `alias:name[index].field`.
@@ -43,6 +45,22 @@ impl<'a> Line<'a, '_> {
     pub(super) fn is_name(&self, at: usize) -> bool {
         let token = self.tokens.get(at);
         token.is_some_and(|token| token.kind == tokens::Kind::Name)
+    }
+
+    /// The number that it is, with its sign.
+    pub(super) fn number(&self) -> Option<Number> {
+        let (first, last) = (self.tokens.first()?, self.tokens.last()?);
+        let has_sign = matches!(first.kind, tokens::Kind::Sign(b'-' | b'+'));
+        let is_one = self.tokens.len() == 1 + usize::from(has_sign);
+        if !is_one || last.kind != tokens::Kind::Number {
+            return None;
+        }
+        let text = &self.bytes[first.start..last.end];
+        Some(Number {
+            start: short(first.start),
+            length: u16::try_from(text.len()).ok()?,
+            value: number::parse(text)?,
+        })
     }
 
     /// Its words of this range.

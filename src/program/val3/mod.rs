@@ -13,10 +13,11 @@
 //!
 //! # Limits
 //!
-//! A frame that the running program changes anywhere is unknown everywhere. Fields of structures of the user's own
-//! and joints written out in a move are not followed. Arrays handed over with all values are followed in their first.
+//! A frame that the running program changes anywhere is unknown everywhere. Fields of structures of the user's own are not
+//! followed. Arrays handed over with all values are followed in their first.
 
 mod data;
+mod drive;
 mod frames;
 mod insert;
 mod line;
@@ -28,6 +29,7 @@ mod targets;
 mod tokens;
 mod xml;
 
+use super::drive::Step;
 use super::kit::{line_behind, not_this_language};
 use super::notation;
 use super::script::Script;
@@ -51,7 +53,7 @@ static ABOUT: About = About {
         "points of the .dtx that movej, movel and movec go to: single, in arrays and collections, of libraries that are given",
         "numbers that a point leaves out: put in, in the order of the format, and reported one by one",
         "shoulder, elbow and wrist, where a joint crosses zero or the arm changes sides",
-        "joints (jointRx)",
+        "joints (jointRx), also written out in a program: movej({0,-20,110,0,90,0},tool,mdesc)",
     ],
     leaves: &[
         "programs, unless moves are put between theirs; project files",
@@ -170,6 +172,10 @@ impl Language for Val3 {
         insertions: &[Insertion],
     ) -> Inserted {
         insert::insert(sources, program, file, insertions)
+    }
+
+    fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
+        Some(drive::drive(steps))
     }
 
     /// A comment inside the data, or behind `begin` of the first program.

@@ -98,7 +98,14 @@ impl<'a> Reader<'a> {
     }
 
     fn go(&mut self, mut instruction: Instruction, modal: Modal, target: &Line<'a, '_>) {
-        let (value, roots) = self.position(target);
+        let joints = match instruction.motion {
+            Motion::Joint => self.joints(target),
+            _ => None,
+        };
+        let (value, roots) = match joints {
+            Some(joints) => (joints, Vec::new()),
+            None => self.position(target),
+        };
         instruction.target = value;
         if let (Some(first), Some(last)) = (target.tokens.first(), target.tokens.last()) {
             instruction.target_span = Span {

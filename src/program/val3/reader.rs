@@ -330,6 +330,10 @@ impl<'a> Reader<'a> {
         }
         let (value, of) = match kind {
             Kind::Tool => self.tool(&value),
+            Kind::Joint => match self.joints(&value) {
+                Some(joints) => (joints, Vec::new()),
+                None => self.position(&value),
+            },
             _ => self.position(&value),
         };
         for variable in self.variables_of(&target) {

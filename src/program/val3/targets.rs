@@ -5,15 +5,12 @@ use super::line::{Index, Line, Reference};
 use super::project::World;
 use super::reader::Reader;
 use super::remarks::{computed, frame_chosen, not_in_files, not_taught, other_arm};
-use super::tokens;
 use crate::geometry::Pose;
 use crate::program::script::{
     Builder, Expr, Held, Place as At, Remark, RoutineId, Table, TableId, ValueId, Variable,
     VariableId, short,
 };
-use crate::program::{
-    Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId, number,
-};
+use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::HashMap;
 
 /// What a name is.
@@ -179,31 +176,29 @@ fn target_of(builder: &mut Builder, datum: &Datum, at: usize) -> Option<TargetId
     if !datum.kind.is_place() || !element.is_given {
         return None;
     }
-    let script = &mut builder.script;
-    let first = short(script.numbers.len());
-    script.numbers.extend(element.numbers);
+    let mut numbers = element.numbers.to_vec();
+    let mut variant = 0;
     let shape = match datum.kind {
         Kind::Joint => Shape::Joints,
         _ => Shape::Pose,
     };
-    let mut variant = 0;
     if shape == Shape::Pose {
-        for (side, told) in element.sides.iter().enumerate() {
-            script.numbers.extend(told);
+        for (side, given) in element.sides.iter().enumerate() {
+            numbers.extend(given);
             variant |=
-                u8::from(told.is_some()) << side | u8::from(element.free[side]) << (3 + side);
+                u8::from(given.is_some()) << side | u8::from(element.free[side]) << (3 + side);
         }
     }
-    script.targets.push(Target {
+    let target = Target {
         name: Some(datum.name_of(at).into()),
         file: datum.file,
         offset: element.at,
         end: element.end,
         layout: Layout { shape, variant },
-        numbers: first..short(script.numbers.len()),
+        numbers: 0..0,
         blocked: false,
-    });
-    Some(script.targets.len() - 1)
+    };
+    Some(builder.script.target(target, numbers))
 }
 
 impl<'a> Reader<'a> {
@@ -415,6 +410,27 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Joints that are written out: `{0,-20,110,0,90,0}`.
+    pub(super) fn joints(&mut self, text: &Line<'a, '_>) -> Option<Expr> {
+        let (parts, close) = text.list(0);
+        let is_whole = text.is(0, b'{') && close + 1 == text.tokens.len();
+        let numbers: Option<Vec<Number>> = parts.iter().map(Line::number).collect();
+        let numbers: [Number; 6] = numbers.filter(|_| is_whole)?.try_into().ok()?;
+        let target = Target {
+            name: None,
+            file: self.here.file,
+            offset: short(text.tokens[0].start),
+            end: short(text.tokens[close].end),
+            layout: Layout {
+                shape: Shape::Joints,
+                variant: 0,
+            },
+            numbers: 0..0,
+            blocked: false,
+        };
+        Some(Expr::Target(self.builder.script.target(target, numbers)))
+    }
+
     fn displaced(&mut self, base: Expr, by: Option<Shift>) -> Expr {
         let script = &mut self.builder.script;
         let by = by.map_or(Displacement::Unknown, |by| Displacement::By(Box::new(by)));
@@ -426,18 +442,7 @@ impl<'a> Reader<'a> {
     fn transformation(&self, text: &Line<'a, '_>) -> Option<Pose> {
         if text.is(0, b'{') {
             let (parts, _) = text.list(0);
-            let number = |part: &Line| match part.tokens {
-                [one] if one.kind == tokens::Kind::Number => number::parse(part.text(0)),
-                [sign, one] if one.kind == tokens::Kind::Number => {
-                    let value = number::parse(part.text(1))?;
-                    match sign.kind {
-                        tokens::Kind::Sign(b'-') => Some(-value),
-                        tokens::Kind::Sign(b'+') => Some(value),
-                        _ => None,
-                    }
-                }
-                _ => None,
-            };
+            let number = |part: &Line| part.number().map(|number| number.value);
             let numbers: Option<Vec<f64>> = parts.iter().map(number).collect();
             let numbers: [f64; 6] = numbers?.try_into().ok()?;
             return Some(super::pose_of(numbers));

@@ -218,6 +218,31 @@ fn moves_are_found_in_statements_and_not_in_comments_or_texts() {
 }
 
 #[test]
+fn joints_written_out_are_targets_of_joint_moves() {
+    let joints = data("jA", "jointRx", &["key=\"0\" j3=\"90\""]);
+    let program = project(
+        &joints,
+        "movej({0,-20.5,+110, 0 ,90,-0},tA,m)\njA={1,2,3,4,5,6}\nmovej(jA,tA,m)\nmovej({0,1,2,3,4,nA},tA,m)\nmovel({0,1,2,3,4,5},tA,m)",
+    );
+    let values: Vec<Option<Vec<f64>>> = (program.moves.iter())
+        .map(|motion| {
+            let target = program.target_of(motion)?;
+            Some(program.numbers_of(target).iter().map(|n| n.value).collect())
+        })
+        .collect();
+    let known = |values: [f64; 6]| Some(values.to_vec());
+    assert_eq!(
+        values,
+        [
+            known([0.0, -20.5, 110.0, 0.0, 90.0, 0.0]),
+            known([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+            None,
+            None
+        ]
+    );
+}
+
+#[test]
 fn points_are_followed_through_parameters_and_copies() {
     let points = data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fA[0]\""])
         + &data("pB", "pointRx", &["key=\"0\" x=\"2\" fatherId=\"fA[0]\""])
