@@ -67,7 +67,7 @@ use deviation::PathError;
 use judge::Job;
 use limits::Limits;
 use rayon::prelude::*;
-use walk::{Stop, Walk};
+use walk::{Stop, Stops, Walk};
 
 /// Moves judged by one thread at a time.
 const CHUNK: usize = 16;
@@ -173,8 +173,8 @@ pub struct MoveReport {
     pub path: Option<PathError>,
     /// The least room of the real arm; `None` where no bodies were compared.
     pub clearance: Option<Box<Clearance>>,
-    /// The least room of the arm as the controller, or the simulation, believes it.
-    pub nominal_clearance: Option<Box<Clearance>>,
+    /// The least room of the arm as the controller, or the simulation, believes it, metres: along the whole move, and of samples.
+    pub nominal_clearance_m: Option<[f64; 2]>,
     /// What it asks of the joints.
     pub limits: Option<Limits>,
 }
@@ -220,14 +220,14 @@ pub struct Summary {
 
 impl Check {
     fn stop(&self, report: &MoveReport) -> &Stop {
-        let stop = self.stops[report.stop as usize].as_ref();
+        let stop = self.stops.all[report.stop as usize].as_ref();
         stop.expect("a move that was followed ends somewhere")
     }
 
     /// Where the controller believes the tool to be at the end of a move, in the world.
     #[must_use]
     pub fn commanded(&self, report: &MoveReport) -> &Pose {
-        &self.stop(report).commanded
+        self.stops.commanded(self.stop(report))
     }
 
     /// The controller's joints at the end of a move, radians.
@@ -245,7 +245,7 @@ pub struct Check {
     /// Each move that could be followed.
     pub moves: Vec<MoveReport>,
     /// Where the robot stands at the end of moves.
-    stops: Vec<Option<Stop>>,
+    stops: Stops,
     /// What a person should look at, by file and place.
     pub findings: Vec<Finding>,
     /// Numbers of the whole.
@@ -299,7 +299,7 @@ pub fn check_telling(
         parts: parts.as_deref(),
     };
     let is_own = |stop: &usize| !subject.sources[walk.motion(*stop).file as usize].is_context;
-    let indices: Vec<usize> = (0..walk.stops.len()).filter(is_own).collect();
+    let indices: Vec<usize> = (0..walk.stops.all.len()).filter(is_own).collect();
     let mut findings = walk.findings.clone();
     findings.extend(subject.scene.findings.iter().cloned());
     if let Some(original) = &original {
@@ -325,7 +325,9 @@ pub fn check_telling(
     let contexts = subject.sources.iter().filter(|source| source.is_context);
     let contexts: Vec<&str> = contexts.map(|source| source.name.as_str()).collect();
     findings.retain(|finding| !contexts.contains(&finding.file.as_str()));
-    let unknown = indices.iter().filter(|stop| walk.stops[**stop].is_none());
+    let unknown = indices
+        .iter()
+        .filter(|stop| walk.stops.all[**stop].is_none());
     let unknown = unknown.count();
     let summary = sum_up(&walk.program, &moves, unknown, subject.scene.is_empty());
     Ok(Check {
@@ -375,8 +377,9 @@ fn sum_up(program: &Program, moves: &[MoveReport], unknown: usize, no_bodies: bo
             summary.collisions += usize::from(c.sampled_m <= 0.0);
             summary.too_near += usize::from(c.pair.is_some() && c.clearance_m < c.required_m);
         }
-        let nominal = report.nominal_clearance.as_ref();
-        summary.nominal_collisions += usize::from(nominal.is_some_and(|c| c.sampled_m <= 0.0));
+        let nominal = report.nominal_clearance_m;
+        summary.nominal_collisions +=
+            usize::from(nominal.is_some_and(|[_, sampled]| sampled <= 0.0));
     }
     summary
 }

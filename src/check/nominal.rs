@@ -7,7 +7,6 @@ use super::walk::Walk;
 use super::{CheckError, Options, Subject};
 use crate::geometry::units::MM;
 use crate::geometry::{Pose, norm, sub};
-use crate::model::Conditions;
 use crate::motion::course::Course;
 use crate::program::Motion;
 
@@ -30,12 +29,12 @@ pub(crate) struct Part {
 impl Part {
     /// Where the tool is wanted at its end.
     pub(super) fn end_pose(&self, original: &Walk, options: &Options) -> Pose {
-        let stop = original.stops[self.stop].expect("a part's move ends at a stop");
+        let stop = original.stops.all[self.stop].expect("a part's move ends at a stop");
         if self.to >= 1.0 {
-            return stop.wanted;
+            return *original.stops.wanted(&stop);
         }
         let leg = original.leg(self.stop, options.turning);
-        leg.map_or(stop.wanted, |leg| {
+        leg.map_or(*original.stops.wanted(&stop), |leg| {
             let joints = leg.joints(self.to, &leg.start);
             let pose = leg.controller_pose(self.to, &joints, &leg.equipped.controller);
             leg.real_from_nominal(self.to, pose)
@@ -57,7 +56,7 @@ pub(crate) fn align(
         let same = alike(walk, original, stop, theirs, &of_moves)?;
         Some(Part { stop: same, ..part })
     };
-    Ok((0..walk.stops.len()).map(part).collect())
+    Ok((0..walk.stops.all.len()).map(part).collect())
 }
 
 /// The stop of the original's move that the robot comes to as to a stop of ours: from the same move, else in the nearest
@@ -69,20 +68,20 @@ fn alike(
     theirs: usize,
     of_moves: &[Option<Part>],
 ) -> Option<usize> {
-    let ours = walk.stops[stop]?;
-    let before = ours
-        .before
+    let ours = walk.stops.all[stop]?;
+    let before = (walk.stops.before(stop))
         .and_then(|before| of_moves[walk.index(before)])
         .map(|part| original.index(part.stop));
     let gap = |at: &usize| {
-        let other = original.stops[*at].expect("those that are known");
-        let is_other_way = other.before.map(|before| original.index(before)) != before;
+        let other = original.stops.all[*at].expect("those that are known");
+        let began = original.stops.before(*at).map(|at| original.index(at));
+        let is_other_way = began != before;
         let joints = (0..6).map(|k| (ours.q[k] - other.q[k]).abs());
         (is_other_way, joints.fold(0.0, f64::max))
     };
     let known = original
         .stops_of(theirs)
-        .filter(|at| original.stops[*at].is_some());
+        .filter(|at| original.stops.all[*at].is_some());
     known.min_by(|a, b| {
         gap(a)
             .partial_cmp(&gap(b))
@@ -112,7 +111,7 @@ fn align_moves(
     };
     let known_stop = |walk: &Walk, motion: usize| {
         let mut stops = walk.stops_of(motion);
-        stops.find(|stop| walk.stops[*stop].is_some())
+        stops.find(|stop| walk.stops.all[*stop].is_some())
     };
     if ours.len() == theirs.len() {
         let whole = |stop: usize| Part {
@@ -137,7 +136,8 @@ fn align_moves(
             continue;
         }
         let their_stop = known_stop(original, next);
-        let Some((their_stop, stop)) = their_stop.and_then(|at| Some((at, original.stops[at]?)))
+        let Some((their_stop, stop)) =
+            their_stop.and_then(|at| Some((at, original.stops.all[at]?)))
         else {
             if mine >= ours.len() {
                 return Err(counterpart(next));
@@ -147,19 +147,16 @@ fn align_moves(
             continue;
         };
         let first = mine;
+        let wanted = original.stops.wanted(&stop);
         let lands = |at: usize| {
-            let ours = walk.stops[known_stop(walk, at)?]?;
+            let ours = walk.stops.all[known_stop(walk, at)?]?;
             // a joint target that was kept does not land where the original wanted it
             let kept = (0..6).all(|k| (ours.q[k] - stop.q[k]).abs() < KEPT_RAD);
-            let conditions = Conditions {
-                direction: ours.direction.map(f64::from),
-                gravity_m_s2: ours.gravity_m_s2,
-                ..Conditions::default()
-            };
+            let conditions = walk.conditions(&ours);
             let landed = walk.arms(&ours).plain.real.forward(&ours.q, &conditions);
             Some((
                 landed,
-                kept || landed.separation(&stop.wanted).distance_m <= LANDED_M,
+                kept || landed.separation(wanted).distance_m <= LANDED_M,
             ))
         };
         let end = (first..ours.len())

@@ -57,7 +57,7 @@ pub fn refine(
         decimals: decimals.unwrap_or(0).max(DECIMALS),
         settings: external::settings_of(subject.profile, false),
     };
-    let changes: Vec<Change> = (0..walk.stops.len())
+    let changes: Vec<Change> = (0..walk.stops.all.len())
         .into_par_iter()
         .filter_map(|index| job.refine_move(index))
         .collect();
@@ -124,7 +124,7 @@ struct Job<'a> {
 impl Job<'_> {
     /// The joints at a stop when the compensated program runs.
     fn joints_at(&self, index: usize) -> Option<[f64; 6]> {
-        let stop = self.walk.stops[index]?;
+        let stop = self.walk.stops.all[index]?;
         if let Some(q) = self.compensation.own_joints.get(&self.walk.index(index)) {
             return Some(*q);
         }
@@ -137,7 +137,7 @@ impl Job<'_> {
         let program = &self.walk.program;
         let motion = self.walk.motion(index);
         let leg = self.walk.leg(index, self.options.turning)?;
-        let stop = self.walk.stops[index]?;
+        let stop = self.walk.stops.all[index]?;
         let is_pose = program.goes_to_pose(motion);
         let via = self.walk.via(index);
         let start = self.joints_at(self.walk.start(index)?)?;
@@ -229,7 +229,7 @@ impl Job<'_> {
             .compensation
             .shift_limits
             .get(self.walk.motion(index).tool)?)?;
-        let arms = self.walk.arms(&self.walk.stops[index]?);
+        let arms = self.walk.arms(&self.walk.stops.all[index]?);
         points.iter().find_map(|point| {
             let nominal = leg.joints(point.s, &leg.start);
             let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
@@ -268,7 +268,7 @@ impl Job<'_> {
 
     /// The real inverse of the wanted pose at `s`.
     fn point(&self, leg: &Leg, index: usize, s: f64, near: &[f64; 6]) -> Option<Point> {
-        let stop = self.walk.stops[index]?;
+        let stop = self.walk.stops.all[index]?;
         let arms = self.walk.arms(&stop);
         let nominal = leg.joints(s, near);
         let wanted = leg.controller_pose(s, &nominal, &arms.plain.controller);
@@ -314,7 +314,7 @@ impl Job<'_> {
 
     /// The bound of the error of a part, metres.
     fn error(&self, leg: &Leg, index: usize, a: &Point, b: &Point, through: Option<&Pose>) -> f64 {
-        let stop = self.walk.stops[index].expect("a leg ends at a stop");
+        let stop = self.walk.stops.all[index].expect("a leg ends at a stop");
         let arms = self.walk.arms(&stop);
         let part = self.part(leg, a, b, through);
         let wanted = Wanted {
@@ -419,7 +419,7 @@ impl Job<'_> {
                 behind_lower_arm: branch.behind_lower_arm,
             }
         };
-        let stop = self.walk.stops[index].expect("a leg ends at a stop");
+        let stop = self.walk.stops.all[index].expect("a leg ends at a stop");
         let (before, after) = (posture(&stop.q), posture(&point.q));
         language.encode(
             target.layout,

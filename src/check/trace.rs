@@ -58,7 +58,7 @@ pub fn trace(
         .as_ref()
         .map(|original| nominal::align(&walk, original, subject, options))
         .transpose()?;
-    let count = walk.stops.len();
+    let count = walk.stops.all.len();
     let samples = (total / count.max(1)).clamp(1, MOST);
     let tracer = Tracer {
         subject,
@@ -95,7 +95,7 @@ impl Tracer<'_> {
         if motion.motion == Motion::ArcVia || is_context {
             return None;
         }
-        let stop = self.walk.stops[index]?;
+        let stop = self.walk.stops.all[index]?;
         let part = match self.parts {
             Some(parts) => Some(parts[index]?),
             None => None,
@@ -111,7 +111,7 @@ impl Tracer<'_> {
             target: motion.target?,
             file: motion.file as usize,
             line: source.line_column(motion.offset as usize).0,
-            commanded: stop.commanded,
+            commanded: *self.walk.stops.commanded(&stop),
             joints: stop.q,
             continues: leg.is_some(),
             places: Vec::new(),
@@ -121,7 +121,7 @@ impl Tracer<'_> {
             let conditions = self.walk.conditions(&stop);
             let wanted = match (self.original, part) {
                 (Some(original), Some(part)) => part.end_pose(original, self.options),
-                _ => stop.wanted,
+                _ => *self.walk.stops.wanted(&stop),
             };
             traced.places.push(PathPoint {
                 wanted_m: wanted.translation,
@@ -138,7 +138,7 @@ impl Tracer<'_> {
         };
         let wanted = match &of_original {
             Some((leg, original, part)) => {
-                let stop = original.stops[part.stop]?;
+                let stop = original.stops.all[part.stop]?;
                 let arms = original.arms(&stop);
                 Wanted {
                     leg,

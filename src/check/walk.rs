@@ -19,6 +19,7 @@ use crate::motion::ground::Ground;
 use crate::motion::ride::Ride;
 use crate::motion::setting::Setting;
 use crate::motion::walk::{self, Arrival, WalkOptions};
+use crate::program::script::short;
 use crate::program::{Displacement, Language, Motion, Move, Program, Shape, Source, Value};
 use std::sync::Arc;
 
@@ -78,33 +79,71 @@ pub(super) enum Which {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stop {
     /// Index of the tool in the program.
-    pub tool: usize,
+    tool: u32,
+    /// Index in [`Stops::carried`]; beyond its end where no external axis counts.
+    carried: u32,
     /// Where the controller believes the tool to be, in the world of an arm at home.
     pub pose: Pose,
-    /// The same in the world.
-    pub commanded: Pose,
-    /// Where the real arm wants its tool for that, in the same world of its own.
-    pub wanted: Pose,
-    /// Gravity where the base leans.
-    pub gravity_m_s2: Option<Vector>,
     /// The branch of the inverse that the program means.
     pub branch: Branch,
     /// The controller's joint angles, radians.
     pub q: [f64; 6],
     /// Direction in which each joint last moved.
     pub direction: [i8; 6],
-    /// The stop where the move begins; `None` where that is not known.
-    pub before: Option<usize>,
+    /// The stop where the move begins; beyond all of them where that is not known.
+    before: u32,
+}
+
+/// What external axes do at a stop.
+#[derive(Clone, Copy, Debug)]
+struct Carried {
+    /// Where the controller believes the tool to be, in the world.
+    commanded: Pose,
+    /// Where the real arm wants its tool for that, in the world of its own at home.
+    wanted: Pose,
+    /// Gravity where the base leans.
+    gravity_m_s2: Option<Vector>,
+}
+
+/// The ends of all moves.
+#[derive(Debug, Default)]
+pub(super) struct Stops {
+    /// In the order of the text, one for each stop that a move begins at; `None` where it is unknown where the robot is then.
+    pub all: Vec<Option<Stop>>,
+    carried: Vec<Carried>,
+}
+
+impl Stops {
+    fn carried(&self, stop: &Stop) -> Option<&Carried> {
+        self.carried.get(stop.carried as usize)
+    }
+
+    /// Where the controller believes the tool to be, in the world.
+    pub(super) fn commanded<'a>(&'a self, stop: &'a Stop) -> &'a Pose {
+        self.carried(stop)
+            .map_or(&stop.pose, |carried| &carried.commanded)
+    }
+
+    /// Where the real arm wants its tool, in the world of its own at home.
+    pub(super) fn wanted<'a>(&'a self, stop: &'a Stop) -> &'a Pose {
+        self.carried(stop)
+            .map_or(&stop.pose, |carried| &carried.wanted)
+    }
+
+    /// The stop where the move to a stop begins.
+    pub(super) fn before(&self, stop: usize) -> Option<usize> {
+        let before = self.all[stop]?.before as usize;
+        (before < self.all.len()).then_some(before)
+    }
 }
 
 /// A program that can be walked: its moves as legs.
 pub(super) struct Walk {
     pub program: Program,
     pub findings: Vec<Finding>,
-    /// In the order of the text, one for each stop that a move begins at; `None` where it is unknown where the robot is then.
-    pub stops: Vec<Option<Stop>>,
+    pub stops: Stops,
     /// The move of each stop.
-    motions: Vec<usize>,
+    motions: Vec<u32>,
     /// By index of the program's work frames, as far as anybody knows them.
     pub frames: Vec<Option<Placed>>,
     profile: Profile,
@@ -152,36 +191,40 @@ impl Walk {
         order.sort_by_key(|&at| key(at));
         let mut places = vec![0; order.len()];
         for (place, &at) in order.iter().enumerate() {
-            places[at] = place;
+            places[at] = short(place);
         }
-        let stop = |arrival: &Arrival| {
+        let mut carried = Vec::new();
+        let mut stop = |arrival: &Arrival| {
             let pose = stop_pose(&ground, arrival)?;
             let motion = &program.moves[arrival.motion as usize];
-            let placed = ground.setting.frames[ground.frame_of(motion)].as_ref();
-            let ride = ground.ride(None, motion);
+            let here = ground.ride(None, motion).map(|ride| Carried {
+                commanded: ride.world_from_nominal_home(1.0) * pose,
+                wanted: ride.real_from_nominal(1.0) * pose,
+                gravity_m_s2: ground.setting.frames[ground.frame_of(motion)]
+                    .as_ref()
+                    .and_then(|placed| placed.gravity_m_s2),
+            });
+            let index = here.map_or(u32::MAX, |_| short(carried.len()));
+            carried.extend(here);
             Some(Stop {
-                tool: motion.tool,
+                tool: short(motion.tool),
+                carried: index,
                 pose,
-                commanded: match &ride {
-                    None => pose,
-                    Some(ride) => ride.world_from_nominal_home(1.0) * pose,
-                },
-                wanted: match &ride {
-                    None => pose,
-                    Some(ride) => ride.real_from_nominal(1.0) * pose,
-                },
-                gravity_m_s2: placed.and_then(|placed| placed.gravity_m_s2),
                 branch: arrival.branch,
                 q: arrival.q,
                 direction: arrival.direction,
-                before: places.get(arrival.from as usize).copied(),
+                before: places
+                    .get(arrival.from as usize)
+                    .copied()
+                    .unwrap_or(u32::MAX),
             })
         };
         let stops = order.iter().map(|&at| stop(&arrivals.all[at])).collect();
-        let motions = order
-            .iter()
-            .map(|&at| arrivals.all[at].motion as usize)
-            .collect();
+        let stops = Stops {
+            all: stops,
+            carried,
+        };
+        let motions = order.iter().map(|&at| arrivals.all[at].motion).collect();
         let Ground {
             arms: equipped,
             setting: Setting { tools, frames },
@@ -206,18 +249,19 @@ impl Walk {
 
     /// The stops at which a move ends.
     pub(super) fn stops_of(&self, motion: usize) -> std::ops::Range<usize> {
+        let motion = short(motion);
         let first = self.motions.partition_point(|of| *of < motion);
         first..first + self.motions[first..].partition_point(|of| *of == motion)
     }
 
     /// Index of the move of a stop.
     pub(super) fn index(&self, stop: usize) -> usize {
-        self.motions[stop]
+        self.motions[stop] as usize
     }
 
     /// The move of a stop.
     pub(super) fn motion(&self, stop: usize) -> &Move {
-        &self.program.moves[self.motions[stop]]
+        &self.program.moves[self.index(stop)]
     }
 
     /// Whether its move ends at this stop only.
@@ -229,13 +273,13 @@ impl Walk {
     }
 
     pub(super) fn arms(&self, stop: &Stop) -> &Arms {
-        self.arms[stop.tool]
+        self.arms[stop.tool as usize]
             .as_ref()
             .expect("a stop's tool has an arm")
     }
 
     pub(super) fn equipped(&self, stop: &Stop) -> &Equipped {
-        self.equipped[stop.tool]
+        self.equipped[stop.tool as usize]
             .as_ref()
             .expect("a stop's tool has an arm")
     }
@@ -243,7 +287,10 @@ impl Walk {
     pub(super) fn conditions(&self, stop: &Stop) -> Conditions {
         Conditions {
             direction: stop.direction.map(f64::from),
-            gravity_m_s2: stop.gravity_m_s2,
+            gravity_m_s2: self
+                .stops
+                .carried(stop)
+                .and_then(|carried| carried.gravity_m_s2),
             ..Conditions::default()
         }
     }
@@ -279,27 +326,27 @@ impl Walk {
         if self.motion(stop).motion != Motion::ArcEnd {
             return None;
         }
-        let before = self.stops[stop]?.before?;
+        let before = self.stops.before(stop)?;
         (self.motion(before).motion == Motion::ArcVia).then_some(before)
     }
 
     /// The stop where the move to a stop begins; of an arc that before the point on its way.
     pub(super) fn start(&self, stop: usize) -> Option<usize> {
         let last = self.via(stop).unwrap_or(stop);
-        self.stops[last]?.before
+        self.stops.before(last)
     }
 
     /// The move from the stop before, where both are known; arcs are one leg at their end.
     pub(super) fn leg(&self, index: usize, turning: Turning) -> Option<Leg<'_>> {
-        let (motion, stop) = (self.motion(index), self.stops[index]?);
+        let (motion, stop) = (self.motion(index), self.stops.all[index]?);
         if motion.motion == Motion::ArcVia {
             return None;
         }
         let via = match self.via(index) {
-            Some(via) => Some(self.stops[via]?),
+            Some(via) => Some(self.stops.all[via]?),
             None => None,
         };
-        let start = self.stops[self.start(index)?]?;
+        let start = self.stops.all[self.start(index)?]?;
         let equipped = self.equipped(&stop);
         // another tool on the same joints
         let from = if start.tool == stop.tool {

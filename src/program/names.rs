@@ -28,8 +28,15 @@ pub(super) struct Symbols {
 /// A name in the table: the text is looked at where the hash agrees, and not where the table grows.
 #[derive(Clone, Copy, Debug)]
 struct Known {
-    hash: u64,
+    hash: u32,
     id: u32,
+}
+
+impl Known {
+    /// The hash, spread over all bits that the table looks at.
+    fn spread(hash: u32) -> u64 {
+        u64::from(hash).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+    }
 }
 
 /// Texts, one after the other.
@@ -52,14 +59,16 @@ impl Spellings {
 const SHORT: usize = 64;
 
 /// The hash of a name, whatever its case.
-fn hash_of(hasher: &RandomState, name: &str) -> u64 {
+fn hash_of(hasher: &RandomState, name: &str) -> u32 {
     let mut short = [0; SHORT];
-    let Some(copy) = short.get_mut(..name.len()) else {
-        return hasher.hash_one(name.to_ascii_lowercase().as_bytes());
+    let hash = if let Some(copy) = short.get_mut(..name.len()) {
+        copy.copy_from_slice(name.as_bytes());
+        copy.make_ascii_lowercase();
+        hasher.hash_one(&*copy)
+    } else {
+        hasher.hash_one(name.to_ascii_lowercase().as_bytes())
     };
-    copy.copy_from_slice(name.as_bytes());
-    copy.make_ascii_lowercase();
-    hasher.hash_one(&*copy)
+    (hash >> 32) as u32
 }
 
 impl Symbols {
@@ -73,7 +82,9 @@ impl Symbols {
         let is_same = |other: &Known| {
             other.hash == hash && spellings.of(other.id).eq_ignore_ascii_case(&name)
         };
-        match known.entry(hash, is_same, |other| other.hash) {
+        match known.entry(Known::spread(hash), is_same, |other| {
+            Known::spread(other.hash)
+        }) {
             Found::Occupied(known) => Symbol(known.get().id),
             Found::Vacant(free) => {
                 let id = short(spellings.ends.len());
@@ -92,7 +103,7 @@ impl Symbols {
         let is_same = |other: &Known| {
             other.hash == hash && self.spellings.of(other.id).eq_ignore_ascii_case(&name)
         };
-        let found = self.known.find(hash, is_same);
+        let found = self.known.find(Known::spread(hash), is_same);
         found.map(|known| Symbol(known.id))
     }
 

@@ -323,9 +323,8 @@ impl Moves<'_> {
                 .and_then(|c| tidy_mm(c.clearance_m)),
             clearance: report.clearance.as_ref().map(|c| self.clearance(c)),
             nominal_clearance_mm: report
-                .nominal_clearance
-                .as_ref()
-                .and_then(|c| tidy_mm(c.clearance_m)),
+                .nominal_clearance_m
+                .and_then(|[along, _]| tidy_mm(along)),
             joint_margin_deg: limits.and_then(|l| tidy_deg(l.margin_rad)),
             joint_margin_joint: limits.map(|l| l.joint + 1),
             wrist_deg: limits.and_then(|l| tidy_deg(l.margins.wrist_rad)),

@@ -67,7 +67,7 @@ impl Job<'_> {
         } else {
             self.nominal_clearance(index, leg, pieces, arms)
         };
-        report.nominal_clearance = nominal.map(Box::new);
+        report.nominal_clearance_m = nominal.map(|near| [near.clearance_m, near.sampled_m]);
         findings.extend(self.encounter(index, &REAL, Some(found), nominal, first));
         if !alike {
             findings.extend(self.encounter(index, &NOMINAL, nominal, Some(found), first));
@@ -133,7 +133,7 @@ impl Job<'_> {
         let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
         let part = self.parts.and_then(|parts| parts[index]);
         if let (Some(original), Some(part)) = (self.original, part) {
-            let stop = original.stops[part.stop]?;
+            let stop = original.stops.all[part.stop]?;
             let arriving = original.leg(part.stop, self.options.turning);
             let leg = arriving.unwrap_or_else(|| original.standing(part.stop, &stop));
             let mover = original.arms(&stop).mover(Which::Controller);

@@ -28,7 +28,7 @@ impl Job<'_> {
     pub(super) fn judge(&self, index: usize) -> (Option<MoveReport>, Vec<Finding>) {
         let mut findings = Vec::new();
         let motion = self.walk.motion(index);
-        let Some(stop) = self.walk.stops[index] else {
+        let Some(stop) = self.walk.stops.all[index] else {
             return (None, findings);
         };
         if motion.motion == Motion::ArcVia {
@@ -39,7 +39,7 @@ impl Job<'_> {
         let part = self.parts.and_then(|parts| parts[index]);
         let wanted_end = match (self.original, part) {
             (Some(original), Some(part)) => part.end_pose(original, self.options),
-            _ => stop.wanted,
+            _ => *self.walk.stops.wanted(&stop),
         };
         let conditions = self.walk.conditions(&stop);
         let landed = arms.plain.real.forward(&stop.q, &conditions);
@@ -56,7 +56,7 @@ impl Job<'_> {
             }),
             path: None,
             clearance: None,
-            nominal_clearance: None,
+            nominal_clearance_m: None,
             limits: None,
         };
         let arriving = self.walk.leg(index, self.options.turning);
@@ -89,7 +89,7 @@ impl Job<'_> {
         if let (Some(original), Some(part)) = (self.original, part)
             && let Some(wanted) = original.leg(part.stop, self.options.turning)
         {
-            let stop = original.stops[part.stop].expect("a leg ends at a stop");
+            let stop = original.stops.all[part.stop].expect("a leg ends at a stop");
             let of_original = original.arms(&stop);
             let wanted = Wanted {
                 leg: &wanted,

@@ -72,7 +72,9 @@ mod tests {
         };
         assert_eq!(
             languages(&settings),
-            ["rapid", "krl", "fanuc", "urscript", "inform", "kawasaki"]
+            [
+                "rapid", "krl", "fanuc", "urscript", "inform", "val3", "kawasaki"
+            ]
         );
         for language in languages(&settings) {
             let text =

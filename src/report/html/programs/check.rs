@@ -263,12 +263,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
     let nominal = add(Column::numbers(
         "nominal clearance",
         "mm",
-        some(&|r| {
-            moves[r]
-                .nominal_clearance
-                .as_ref()
-                .map(|c| mm(c.clearance_m))
-        }),
+        some(&|r| moves[r].nominal_clearance_m.map(|[along, _]| mm(along))),
     )
     .to(3)
     .in_detail());
