@@ -1,6 +1,6 @@
 //! Every effect that the columns allow, at every joint, order and time constant it may have.
 
-use super::table::{Column, table};
+use super::table::{Numbers, Stored, table_into};
 use super::waves;
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
 use crate::identify::parameters::{Parameter, Subject, minimal};
@@ -78,7 +78,7 @@ pub struct Candidates {
     /// The candidates.
     pub list: Vec<Candidate>,
     /// Their columns.
-    pub columns: Vec<Column>,
+    pub columns: Vec<Stored>,
     /// Effects that cannot be tested.
     pub cannot_test: Vec<CannotTest>,
 }
@@ -348,12 +348,12 @@ fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
 ///
 /// Effects that only deflect are added to the model at zero, all at once; others change the geometry and are added one by
 /// one, or found in the model.
-pub(super) fn columns_of(
+pub(super) fn columns_of<C: Numbers>(
     problem: &Problem,
     estimate: &Estimate,
     wanted: &[(Effect, Vec<usize>)],
-) -> Vec<Vec<Column>> {
-    let mut out: Vec<Vec<Column>> = vec![Vec::new(); wanted.len()];
+) -> Vec<Vec<C>> {
+    let mut out: Vec<Vec<C>> = wanted.iter().map(|_| Vec::new()).collect();
     for deflecting in [true, false] {
         let mut with = estimate.clone();
         let mut parameters = Vec::new();
@@ -377,7 +377,7 @@ pub(super) fn columns_of(
         if parameters.is_empty() {
             continue;
         }
-        let (_, columns) = table(problem, &with, &parameters);
+        let (_, columns) = table_into(problem, &with, &parameters);
         for (owner, column) in owners.into_iter().zip(columns) {
             out[owner].push(column);
         }

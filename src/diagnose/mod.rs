@@ -47,6 +47,7 @@ pub mod chances;
 mod conclusion;
 pub mod diagnosis;
 pub mod fit;
+mod functions;
 mod improved;
 mod judgement;
 pub mod noise;

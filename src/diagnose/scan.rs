@@ -72,8 +72,8 @@ impl Side {
 /// A candidate's column seen from a fit. It holds a number for each measured one: where there are many, it is cheaper to make
 /// again than to keep.
 fn projection(world: &World, base: &Weighted, products: &[Products], column: usize) -> Projection {
-    let (own, products) = (&world.candidates.columns[column], &products[column]);
-    world.plain.projection(base, own, products)
+    let own = world.candidates.columns[column].column();
+    (world.plain).projection(base, &own, &products[column])
 }
 
 impl Seen {
@@ -89,7 +89,7 @@ impl Seen {
         let begins = |candidate: &Candidate| {
             candidate.row.map(|_| {
                 let own = candidate.columns.iter();
-                let own: Vec<&Column> = own.map(|i| &world.candidates.columns[*i]).collect();
+                let own: Vec<Column> = own.map(|i| world.candidates.columns[*i].column()).collect();
                 Steps::of(&base.fit, world.layout, &own, ROWS_BESIDE)
             })
         };
@@ -107,7 +107,8 @@ impl View {
     #[must_use]
     pub(super) fn of(world: &World) -> Self {
         let columns = world.candidates.columns.par_iter();
-        let products: Vec<Products> = columns.map(|c| world.plain.products(c)).collect();
+        let products = columns.map(|c| world.plain.products(&c.column()));
+        let products: Vec<Products> = products.collect();
         let (base, full) = world.fits(&[]);
         let seen = Seen::of(world, &products, base);
         Self {

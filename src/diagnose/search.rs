@@ -167,7 +167,7 @@ impl World<'_> {
         let all = candidate
             .columns
             .iter()
-            .map(|i| self.candidates.columns[*i].clone());
+            .map(|i| self.candidates.columns[*i].column());
         let mut columns: Vec<Column> = all.collect();
         if let Some(row) = candidate.row {
             let start = self.layout.row(row as usize - 1).start;

@@ -28,9 +28,9 @@ fn firsts(fit: &Fit, layout: &Layout, margin: usize) -> Vec<usize> {
 impl Steps {
     /// Of columns, seen from a fit without effects.
     #[must_use]
-    pub(super) fn of(fit: &Fit, layout: &Layout, columns: &[&Column], margin: usize) -> Self {
+    pub(super) fn of(fit: &Fit, layout: &Layout, columns: &[Column], margin: usize) -> Self {
         let count = columns.len();
-        let weighted = |c: &&Column| c.iter().zip(&fit.roots).map(|(c, w)| c * w).collect();
+        let weighted = |c: &Column| c.iter().zip(&fit.roots).map(|(c, w)| c * w).collect();
         let columns: Vec<Column> = columns.iter().map(weighted).collect();
         let rows = firsts(fit, layout, margin);
         let mut slopes = vec![0.0; count];

@@ -19,6 +19,47 @@ static ARCH: LazyLock<Arch> = LazyLock::new(Arch::new);
 /// One number for each measured number.
 pub type Column = Vec<f64>;
 
+/// A column that is kept while others are tried: seven digits, of which no measurement has more.
+#[derive(Clone, Debug)]
+pub struct Stored(Vec<f32>);
+
+/// What a column is written into.
+pub trait Numbers {
+    /// Without a number, with room for so many.
+    fn with_room(count: usize) -> Self;
+    /// Adds a number.
+    fn add(&mut self, number: f64);
+}
+
+impl Numbers for Column {
+    fn with_room(count: usize) -> Self {
+        Self::with_capacity(count)
+    }
+
+    fn add(&mut self, number: f64) {
+        self.push(number);
+    }
+}
+
+impl Numbers for Stored {
+    fn with_room(count: usize) -> Self {
+        Self(Vec::with_capacity(count))
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "this is what it is for")]
+    fn add(&mut self, number: f64) {
+        self.0.push(number as f32);
+    }
+}
+
+impl Stored {
+    /// The column.
+    #[must_use]
+    pub fn column(&self) -> Column {
+        self.0.iter().map(|number| f64::from(*number)).collect()
+    }
+}
+
 /// Where the numbers of each row stand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
@@ -74,10 +115,20 @@ pub fn table(
     estimate: &Estimate,
     parameters: &[Parameter],
 ) -> (Column, Vec<Column>) {
+    table_into(problem, estimate, parameters)
+}
+
+/// The same, into columns of any sort.
+pub(super) fn table_into<C: Numbers>(
+    problem: &Problem,
+    estimate: &Estimate,
+    parameters: &[Parameter],
+) -> (Column, Vec<C>) {
     let models = problem.models(estimate, parameters);
     let numbers = problem.numbers();
     let mut residual = Vec::with_capacity(numbers);
-    let mut columns = vec![Vec::with_capacity(numbers); parameters.len()];
+    let columns = parameters.iter().map(|_| C::with_room(numbers));
+    let mut columns: Vec<C> = columns.collect();
     let effects = parameters
         .iter()
         .filter(|p| matches!(p.subject, Subject::Effect(_)));
@@ -94,7 +145,9 @@ pub fn table(
                 Subject::Point { point, axis } => seen.slope_of_point(point, axis),
                 Subject::Feature { feature, value } => seen.slope_of_feature(feature, value),
             };
-            column.extend((0..count).map(|k| slope[k] * weights[k] * parameter.scale));
+            for k in 0..count {
+                column.add(slope[k] * weights[k] * parameter.scale);
+            }
         }
     }
     (residual, columns)

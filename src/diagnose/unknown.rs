@@ -5,41 +5,51 @@ use super::beside::{Beside, Group, Kept};
 use super::candidates::columns_of;
 use super::chances::{chi_squared_tail, normal_tail};
 use super::fit::{Fit, Gain};
+use super::functions::{Facts, Function, Registered, facts, functions};
 use super::table::{Column, Layout, dot};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// A function must be better than nothing by this beyond the logarithm of how many there are, in twice a log likelihood.
 const MARGIN: f64 = 10.0;
 
-/// What effects of the registry do already.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Registered {
-    /// At this joint.
-    Of(usize),
-    /// At every joint.
-    OfAll,
+/// Rows whose products are in memory at a time.
+const BLOCK: usize = 2048;
+
+/// A function that differs from row to row.
+#[derive(Clone, Copy, Debug)]
+struct Feature {
+    function: Function,
+    /// The root of its mean square.
+    size: f64,
 }
 
-/// A function of the rows.
-#[derive(Clone, Debug)]
-struct Feature {
-    name: String,
-    /// One value a row, mean square about one.
-    values: Vec<f64>,
-    /// Only for this joint; all where none.
-    joint: Option<usize>,
-    /// Moves the base and the tool as well.
-    moves_frames: bool,
-    /// An effect does this.
-    registered: Option<Registered>,
+impl Feature {
+    /// `None` of one that is the same at all rows.
+    fn of(function: Function, rows: &[Facts]) -> Option<Self> {
+        let values: Vec<f64> = rows.iter().map(|row| function.at(row)).collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let spread = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
+        let size = (values.iter().map(|v| v * v).sum::<f64>() / count).sqrt();
+        let differs = spread > 1e-9 * size.max(1e-12) && size.is_finite();
+        differs.then_some(Self { function, size })
+    }
+
+    /// Its values, of mean square one over all rows.
+    fn values(&self, rows: &[Facts]) -> Column {
+        let values = rows.iter().map(|row| self.function.at(row) / self.size);
+        values.collect()
+    }
 }
 
 /// The functions, and the motions that each may cause.
 #[derive(Clone, Debug)]
 pub struct Library {
+    rows: Vec<Facts>,
     features: Vec<Feature>,
     /// A turn of each joint, then a motion of the base, then of the tool: name and columns.
     motions: Vec<(String, Vec<Column>)>,
@@ -64,261 +74,12 @@ impl Unknown {
     }
 }
 
-/// Which functions are a joint's scale, coupling, harmonic, compliance or backlash.
-fn registered(name: &str) -> Option<Registered> {
-    let joint = |digits: &str| digits.parse::<usize>().ok().map(|n| Registered::Of(n - 1));
-    let words: Vec<&str> = name.split(' ').collect();
-    match words.as_slice() {
-        [q] if q.ends_with("^1") && q.starts_with('q') => Some(Registered::OfAll),
-        ["cos" | "sin", order, q] if q.starts_with('q') => {
-            let is_whole = order.parse::<u32>().is_ok();
-            is_whole.then(|| joint(&q[1..])).flatten()
-        }
-        ["torque", n] => joint(n),
-        [d] | [d, "|torque", _] if d.starts_with("dir") => joint(&d[3..]),
-        _ => None,
-    }
-}
-
-fn features(problem: &Problem, estimate: &Estimate) -> Vec<Feature> {
-    let rows = &problem.rows;
-    let mut all: Vec<Feature> = Vec::new();
-    let mut push = |name: String, joint: Option<usize>, moves_frames: bool, values: Vec<f64>| {
-        let registered = registered(&name);
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let spread = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
-        let size = (values.iter().map(|v| v * v).sum::<f64>() / count).sqrt();
-        if spread > 1e-9 * size.max(1e-12) && size.is_finite() {
-            let values = values.iter().map(|v| v / size).collect();
-            all.push(Feature {
-                name,
-                values,
-                joint,
-                moves_frames,
-                registered,
-            });
-        }
-    };
-    let mechanism = problem.mechanism();
-    let angles: Vec<[f64; 6]> = rows.iter().map(|r| mechanism.commanded(&r.q)).collect();
-    let models = problem.models(estimate, &[]);
-    let torques: Vec<[f64; 6]> = rows
-        .iter()
-        .map(|r| models[r.rig].model().torques(&r.q, &r.conditions))
-        .collect();
-    let each = |of: &dyn Fn(usize) -> f64| (0..rows.len()).map(of).collect::<Vec<f64>>();
-    for i in 0..JOINTS {
-        let q = format!("q{}", i + 1);
-        for power in 1..=4 {
-            push(
-                format!("{q}^{power}"),
-                None,
-                power < 3,
-                each(&|r| angles[r][i].powi(power)),
-            );
-        }
-        for order in 1..=4 {
-            let n = f64::from(order);
-            push(
-                format!("cos {order} {q}"),
-                None,
-                order < 3,
-                each(&|r| (n * angles[r][i]).cos()),
-            );
-            push(
-                format!("sin {order} {q}"),
-                None,
-                order < 3,
-                each(&|r| (n * angles[r][i]).sin()),
-            );
-        }
-        for half in [0.5, 1.5, 2.5] {
-            push(
-                format!("cos {half} {q}"),
-                Some(i),
-                false,
-                each(&|r| (half * angles[r][i]).cos()),
-            );
-            push(
-                format!("sin {half} {q}"),
-                Some(i),
-                false,
-                each(&|r| (half * angles[r][i]).sin()),
-            );
-        }
-        let mut sorted: Vec<f64> = angles.iter().map(|a| a[i]).collect();
-        sorted.sort_by(f64::total_cmp);
-        for tenth in 1..10 {
-            let at = sorted[sorted.len() * tenth / 10];
-            push(
-                format!("{q} beyond {:.0} deg", at.to_degrees()),
-                Some(i),
-                false,
-                each(&|r| f64::from(u8::from(angles[r][i] > at))),
-            );
-            push(
-                format!("{q} bent at {:.0} deg", at.to_degrees()),
-                Some(i),
-                false,
-                each(&|r| (angles[r][i] - at).max(0.0)),
-            );
-        }
-        for k in i + 1..JOINTS {
-            let p = format!("q{}", k + 1);
-            push(
-                format!("{q} {p}"),
-                None,
-                false,
-                each(&|r| angles[r][i] * angles[r][k]),
-            );
-            push(
-                format!("cos ({q}+{p})"),
-                None,
-                false,
-                each(&|r| (angles[r][i] + angles[r][k]).cos()),
-            );
-            push(
-                format!("sin ({q}+{p})"),
-                None,
-                false,
-                each(&|r| (angles[r][i] + angles[r][k]).sin()),
-            );
-            push(
-                format!("cos ({q}-{p})"),
-                None,
-                false,
-                each(&|r| (angles[r][i] - angles[r][k]).cos()),
-            );
-            push(
-                format!("sin ({q}-{p})"),
-                None,
-                false,
-                each(&|r| (angles[r][i] - angles[r][k]).sin()),
-            );
-        }
-        let t = format!("torque {}", i + 1);
-        push(t.clone(), None, true, each(&|r| torques[r][i]));
-        push(
-            format!("{t}^2"),
-            None,
-            true,
-            each(&|r| torques[r][i].powi(2)),
-        );
-        push(
-            format!("{t}^3"),
-            None,
-            false,
-            each(&|r| torques[r][i].powi(3)),
-        );
-        push(
-            format!("sign of {t}"),
-            None,
-            false,
-            each(&|r| torques[r][i].signum()),
-        );
-        let d = format!("dir{}", i + 1);
-        let direction = |r: usize| rows[r].conditions.direction;
-        push(d.clone(), None, true, each(&|r| direction(r)[i]));
-        push(
-            format!("{d} |{t}|"),
-            Some(i),
-            false,
-            each(&|r| direction(r)[i] * torques[r][i].abs()),
-        );
-        push(
-            format!("{d} {t}"),
-            Some(i),
-            false,
-            each(&|r| direction(r)[i] * torques[r][i]),
-        );
-        push(
-            format!("{d} cos {q}"),
-            Some(i),
-            false,
-            each(&|r| direction(r)[i] * angles[r][i].cos()),
-        );
-        push(
-            format!("{d} sin {q}"),
-            Some(i),
-            false,
-            each(&|r| direction(r)[i] * angles[r][i].sin()),
-        );
-        for k in i + 1..JOINTS {
-            push(
-                format!("{d} dir{}", k + 1),
-                None,
-                false,
-                each(&|r| direction(r)[i] * direction(r)[k]),
-            );
-        }
-    }
-    let temperatures = each(&|r| rows[r].conditions.temperature_c.unwrap_or(0.0));
-    let mean = temperatures.iter().sum::<f64>() / rows.len().max(1) as f64;
-    push(
-        "temperature".into(),
-        None,
-        true,
-        temperatures.iter().map(|t| t - mean).collect(),
-    );
-    push(
-        "temperature^2".into(),
-        None,
-        true,
-        temperatures.iter().map(|t| (t - mean).powi(2)).collect(),
-    );
-    let last = (rows.len() as f64 - 1.0).max(1.0);
-    let order = each(&|r| 2.0 * (r as f64) / last - 1.0);
-    let times: Vec<f64> = rows.iter().filter_map(|r| r.conditions.time_s).collect();
-    let mut clocks = vec![("row", order)];
-    if times.len() == rows.len() {
-        let (low, high) = times
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(l, h), t| (l.min(*t), h.max(*t)));
-        if high > low {
-            clocks.push((
-                "time",
-                times
-                    .iter()
-                    .map(|t| 2.0 * (t - low) / (high - low) - 1.0)
-                    .collect(),
-            ));
-        }
-    }
-    for (name, clock) in &clocks {
-        for power in 1..=3 {
-            push(
-                format!("{name}^{power}"),
-                None,
-                true,
-                clock.iter().map(|t| t.powi(power)).collect(),
-            );
-        }
-        for half in 1..=12 {
-            let n = f64::from(half) * std::f64::consts::FRAC_PI_2;
-            push(
-                format!("cos {half}/2 {name}"),
-                None,
-                true,
-                clock.iter().map(|t| (n * (t + 1.0)).cos()).collect(),
-            );
-            push(
-                format!("sin {half}/2 {name}"),
-                None,
-                true,
-                clock.iter().map(|t| (n * (t + 1.0)).sin()).collect(),
-            );
-        }
-    }
-    all
-}
-
-/// A motion's columns multiplied with everything that they may be multiplied with, summed over the numbers of each row: a function
-/// of the rows is then a factor of each sum.
+/// A motion's columns multiplied with everything that they may be multiplied with, summed over the numbers of each row of a block: a
+/// function of the rows is then a factor of each sum.
 struct Summed {
     /// For each column, products with the basis.
     along: Vec<Vec<Column>>,
-    /// With what is left.
+    /// With the residual.
     left: Vec<Column>,
     /// With the effects.
     effects: Vec<Vec<Column>>,
@@ -327,43 +88,91 @@ struct Summed {
 }
 
 impl Summed {
-    fn of(columns: &[Column], layout: &Layout, fit: &Fit, beside: &Beside) -> Self {
-        let weighted =
-            |c: &Column| -> Column { c.iter().zip(&fit.roots).map(|(c, w)| c * w).collect() };
-        let columns: Vec<Column> = columns.iter().map(weighted).collect();
-        let with = |column: &Column, other: &Column| -> Column {
-            let rows = (0..layout.rows()).map(|row| layout.row(row));
-            rows.map(|row| dot(&column[row.clone()], &other[row]))
-                .collect()
+    fn of(
+        columns: &[Column],
+        (layout, rows): (&Layout, &Range<usize>),
+        fit: &Fit,
+        beside: &Beside,
+    ) -> Self {
+        let numbers = layout.row(rows.start).start..layout.row(rows.end - 1).end;
+        let weighted = |c: &Column| -> Column {
+            let both = c[numbers.clone()].iter().zip(&fit.roots[numbers.clone()]);
+            both.map(|(c, w)| c * w).collect()
         };
-        let all = |others: &[Column]| -> Vec<Vec<Column>> {
-            let each = |c: &Column| others.iter().map(|o| with(c, o)).collect();
+        let columns: Vec<Column> = columns.iter().map(weighted).collect();
+        // `other` has the numbers of all rows from the one that begins at `first`
+        let with = |column: &Column, other: &[f64], first: usize| -> Column {
+            let row = |row: usize| {
+                let (start, end) = (layout.row(row).start, layout.row(row).end);
+                let own = &column[start - numbers.start..end - numbers.start];
+                dot(own, &other[start - first..end - first])
+            };
+            rows.clone().map(row).collect()
+        };
+        let all = |others: &[Column], first: usize| -> Vec<Vec<Column>> {
+            let each = |c: &Column| others.iter().map(|o| with(c, o, first)).collect();
             columns.iter().map(each).collect()
         };
         Self {
-            along: all(&fit.basis),
-            left: columns.iter().map(|c| with(c, &fit.left)).collect(),
-            effects: all(beside.turned()),
-            own: all(&columns),
+            along: all(&fit.basis, 0),
+            left: columns.iter().map(|c| with(c, &fit.left, 0)).collect(),
+            effects: all(beside.turned(), 0),
+            own: all(&columns, numbers.start),
+        }
+    }
+}
+
+/// Products of a motion's columns times a function of the rows.
+struct Products {
+    along: Vec<Vec<f64>>,
+    left: Vec<f64>,
+    effects: Vec<Vec<f64>>,
+    own: Vec<Vec<f64>>,
+}
+
+impl Products {
+    /// None yet, of so many columns.
+    fn none(columns: usize, fit: &Fit, beside: &Beside) -> Self {
+        let zeros = |count: usize| vec![vec![0.0; count]; columns];
+        Self {
+            along: zeros(fit.basis.len()),
+            left: vec![0.0; columns],
+            effects: zeros(beside.turned().len()),
+            own: zeros(columns),
         }
     }
 
-    /// The columns times a function of the rows: their products, and those with the effects.
-    fn times(&self, values: &[f64], shares: &[f64]) -> (Group, Vec<Vec<f64>>) {
-        let with = |sums: &Vec<Column>| sums.iter().map(|s| dot(s, values)).collect::<Vec<f64>>();
-        let squared: Column = values.iter().map(|v| v * v).collect();
-        let along: Vec<Vec<f64>> = self.along.iter().map(with).collect();
-        let projected = |i: usize, j: usize| {
-            let parts = along[i].iter().zip(&along[j]).zip(shares);
-            dot(&self.own[i][j], &squared) - parts.map(|((x, y), s)| x * y * s).sum::<f64>()
+    /// Adds a block of rows.
+    fn add(&mut self, summed: &Summed, values: &[f64]) {
+        let add = |to: &mut [f64], sums: &[Column], values: &[f64]| {
+            for (to, sum) in to.iter_mut().zip(sums) {
+                *to += dot(sum, values);
+            }
         };
-        let columns = 0..along.len();
+        let add_all = |to: &mut [Vec<f64>], sums: &[Vec<Column>], values: &[f64]| {
+            for (to, sums) in to.iter_mut().zip(sums) {
+                add(to, sums, values);
+            }
+        };
+        let squared: Column = values.iter().map(|v| v * v).collect();
+        add_all(&mut self.along, &summed.along, values);
+        add(&mut self.left, &summed.left, values);
+        add_all(&mut self.effects, &summed.effects, values);
+        add_all(&mut self.own, &summed.own, &squared);
+    }
+
+    /// The columns as a group beside a fit.
+    fn group(&self, shares: &[f64]) -> Group {
+        let projected = |i: usize, j: usize| {
+            let parts = self.along[i].iter().zip(&self.along[j]).zip(shares);
+            self.own[i][j] - parts.map(|((x, y), s)| x * y * s).sum::<f64>()
+        };
+        let columns = 0..self.own.len();
         let gram = columns
             .clone()
             .map(|i| columns.clone().map(|j| projected(i, j)).collect());
-        let squares = columns.clone().map(|i| dot(&self.own[i][i], &squared));
-        let group = Group::known(gram.collect(), with(&self.left), squares.collect());
-        (group, self.effects.iter().map(with).collect())
+        let squares = columns.clone().map(|i| self.own[i][i]);
+        Group::known(gram.collect(), self.left.clone(), squares.collect())
     }
 }
 
@@ -389,8 +198,12 @@ impl Library {
         let names = (0..JOINTS)
             .map(|i| format!("joint {}", i + 1))
             .chain(["base".into(), "tool".into()]);
+        let rows = facts(problem, estimate);
+        let features = functions(problem, &rows).into_par_iter();
+        let features = features.filter_map(|function| Feature::of(function, &rows));
         Self {
-            features: features(problem, estimate),
+            features: features.collect(),
+            rows,
             motions: names.zip(columns).collect(),
         }
     }
@@ -399,12 +212,14 @@ impl Library {
         let mut all = Vec::new();
         for (m, _) in self.motions.iter().enumerate() {
             for (f, feature) in self.features.iter().enumerate() {
+                let function = &feature.function;
+                let registered = function.registered();
                 let fits = if m < JOINTS {
-                    feature.joint.is_none_or(|j| j == m)
-                        && feature.registered != Some(Registered::Of(m))
-                        && feature.registered != Some(Registered::OfAll)
+                    function.joint().is_none_or(|j| j == m)
+                        && registered != Some(Registered::Of(m))
+                        && registered != Some(Registered::OfAll)
                 } else {
-                    feature.moves_frames
+                    function.moves_frames()
                 };
                 if fits {
                     all.push((m, f));
@@ -430,15 +245,25 @@ impl Library {
         kept: &[Kept],
     ) -> Vec<Vec<Unknown>> {
         let pairs = self.pairs();
-        let motions = self.motions.iter();
-        let motions: Vec<Summed> = motions
-            .map(|(_, columns)| Summed::of(columns, layout, fit, beside))
+        let count = |motion: usize| self.motions[motion].1.len();
+        let mut products: Vec<Products> = (pairs.iter())
+            .map(|(m, _)| Products::none(count(*m), fit, beside))
             .collect();
-        let each: Vec<Vec<Option<Gain>>> = pairs
-            .par_iter()
-            .map(|(m, f)| {
-                let (group, cross) = motions[*m].times(&self.features[*f].values, &fit.shares);
-                let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
+        for start in (0..layout.rows()).step_by(BLOCK) {
+            let rows = start..layout.rows().min(start + BLOCK);
+            let summed = self.motions.par_iter();
+            let summed = summed.map(|(_, own)| Summed::of(own, (layout, &rows), fit, beside));
+            let summed: Vec<Summed> = summed.collect();
+            let values = self.features.par_iter();
+            let values = values.map(|feature| feature.values(&self.rows[rows.clone()]));
+            let values: Vec<Column> = values.collect();
+            let both = products.par_iter_mut().zip(&pairs);
+            both.for_each(|(products, (m, f))| products.add(&summed[*m], &values[*f]));
+        }
+        let each: Vec<Vec<Option<Gain>>> = (products.par_iter())
+            .map(|products| {
+                let group = products.group(&fit.shares);
+                let cross: Vec<&[f64]> = products.effects.iter().map(Vec::as_slice).collect();
                 let free = vec![None; cross.len()];
                 let gain = |kept: &Kept| beside.gain(&group, &cross, kept, &free);
                 kept.iter().map(gain).collect()
@@ -455,7 +280,7 @@ impl Library {
                 let named = |(i, gain): (usize, &Gain)| Unknown {
                     name: format!(
                         "{} by {}",
-                        self.motions[pairs[i].0].0, self.features[pairs[i].1].name
+                        self.motions[pairs[i].0].0, self.features[pairs[i].1].function
                     ),
                     gain: gain.gain,
                     count: gain.count,

@@ -19,8 +19,16 @@ pub struct Plain {
     fit: Fit,
     used: Vec<bool>,
     floor: f64,
-    /// The basis, number by number.
-    across: Vec<Vec<f64>>,
+}
+
+/// A number that counts less.
+#[derive(Clone, Debug)]
+struct Less {
+    number: usize,
+    /// By how much: one less the weight.
+    by: f64,
+    /// The basis there.
+    across: Vec<f64>,
 }
 
 /// The same fit at some weights.
@@ -28,8 +36,7 @@ pub struct Plain {
 pub struct Weighted {
     /// The fit.
     pub fit: Fit,
-    /// Numbers that count less, and by how much: one less the weight.
-    less: Vec<(usize, f64)>,
+    less: Vec<Less>,
     /// L.
     lower: Vec<Vec<f64>>,
 }
@@ -75,14 +82,10 @@ impl Plain {
             roots[layout.row(row)].fill(1.0);
         }
         let fit = Fit::weighted(residual, held, roots);
-        let across = (0..layout.numbers())
-            .map(|n| fit.basis.iter().map(|q| q[n]).collect())
-            .collect();
         Self {
             fit,
             used: used.to_vec(),
             floor,
-            across,
         }
     }
 
@@ -93,7 +96,7 @@ impl Plain {
     }
 
     /// L. Where the weights take a column away it is infinite on the diagonal.
-    fn lower(&self, less: &[(usize, f64)]) -> Vec<Vec<f64>> {
+    fn lower(&self, less: &[Less]) -> Vec<Vec<f64>> {
         let count = self.fit.basis.len();
         let mut lower: Vec<Vec<f64>> = (0..count)
             .map(|j| {
@@ -102,8 +105,7 @@ impl Plain {
                 row
             })
             .collect();
-        for (n, by) in less {
-            let across = &self.across[*n];
+        for Less { by, across, .. } in less {
             for (row, q) in lower.iter_mut().zip(across) {
                 add_scaled(row, -by * q, across);
             }
@@ -124,24 +126,22 @@ impl Plain {
         lower
     }
 
-    fn less(roots: &[f64], plain: &[f64]) -> Vec<(usize, f64)> {
-        let both = roots.iter().zip(plain).enumerate();
+    fn less(&self, roots: &[f64]) -> Vec<Less> {
+        let both = roots.iter().zip(&self.fit.roots).enumerate();
         both.filter(|(_, (root, plain))| root != plain)
-            .map(|(n, (root, _))| (n, 1.0 - root * root))
+            .map(|(number, (root, _))| Less {
+                number,
+                by: 1.0 - root * root,
+                across: self.fit.basis.iter().map(|q| q[number]).collect(),
+            })
             .collect()
     }
 
     /// `L⁻¹ Qᵀ W² x` from `Qᵀ x`.
-    fn parts(
-        &self,
-        lower: &[Vec<f64>],
-        less: &[(usize, f64)],
-        column: &[f64],
-        plain: &[f64],
-    ) -> Vec<f64> {
+    fn parts(&self, lower: &[Vec<f64>], less: &[Less], column: &[f64], plain: &[f64]) -> Vec<f64> {
         let mut parts = plain.to_vec();
-        for (n, by) in less {
-            add_scaled(&mut parts, -by * column[*n], &self.across[*n]);
+        for one in less {
+            add_scaled(&mut parts, -one.by * column[one.number], &one.across);
         }
         forward(lower, &mut parts);
         parts
@@ -150,15 +150,15 @@ impl Plain {
     /// The fit at other weights.
     #[must_use]
     pub fn at(&self, residual: &[f64], roots: Column) -> Weighted {
-        let less = Self::less(&roots, &self.fit.roots);
+        let less = self.less(&roots);
         let lower = self.lower(&less);
         let mut fit = self.fit.clone();
         if !less.is_empty() {
             for j in 0..fit.basis.len() {
                 let (before, rest) = fit.basis.split_at_mut(j);
                 let column = &mut rest[0];
-                for (n, _) in &less {
-                    column[*n] *= roots[*n];
+                for Less { number, .. } in &less {
+                    column[*number] *= roots[*number];
                 }
                 for (part, other) in lower[j].iter().zip(before.iter()) {
                     add_scaled(column, -part, other);
@@ -204,7 +204,8 @@ impl Plain {
     #[must_use]
     pub fn projection(&self, seen: &Weighted, column: &[f64], products: &Products) -> Projection {
         let parts = self.parts(&seen.lower, &seen.less, column, &products.parts);
-        let lacks = seen.less.iter().map(|(n, by)| by * column[*n].powi(2));
+        let lacks = seen.less.iter();
+        let lacks = lacks.map(|one| one.by * column[one.number].powi(2));
         let square = (products.square - lacks.sum::<f64>()).max(0.0);
         let column: Column = (column.iter().zip(&seen.fit.roots))
             .map(|(c, w)| c * w)
@@ -218,11 +219,13 @@ impl Plain {
     }
 
     /// Residuals on the rows in use with everything fitted at some weights, and how many parameters are free.
-    fn rest(&self, residual: &[f64], sought: &Sought, less: &[(usize, f64)]) -> (Column, f64) {
+    fn rest(&self, residual: &[f64], sought: &Sought, less: &[Less]) -> (Column, f64) {
         let shares = &self.fit.shares;
         let lower = self.lower(less);
-        let lacks =
-            |a: &[f64], b: &[f64]| -> f64 { less.iter().map(|(n, by)| by * a[*n] * b[*n]).sum() };
+        let lacks = |a: &[f64], b: &[f64]| -> f64 {
+            let each = less.iter();
+            each.map(|one| one.by * a[one.number] * b[one.number]).sum()
+        };
         let own = self.parts(&lower, less, residual, &self.fit.parts);
         let shared = |a: &[f64], b: &[f64]| -> f64 {
             let all = a.iter().zip(b).zip(shares);
@@ -298,7 +301,7 @@ impl Plain {
         let mut roots = self.fit.roots.clone();
         let mut last = f64::INFINITY;
         for _ in 0..TURNS {
-            let less = Self::less(&roots, &self.fit.roots);
+            let less = self.less(&roots);
             let (rest, free) = self.rest(residual, &sought, &less);
             let freedom = numbers as f64 - free;
             let scale = scale_of(layout, &self.used, &rest, freedom).max(self.floor);
