@@ -3,7 +3,7 @@
 use super::Job;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
-use crate::inverse::Branch;
+use crate::inverse::{Branch, Outcome};
 use crate::model::Conditions;
 use crate::motion::walk::{Arrivals, NOWHERE};
 use crate::program::script::short;
@@ -43,11 +43,7 @@ impl Approach {
         job.ground.placed(self.frame as usize).meant * self.in_frame(job)
     }
 
-    /// Where the target's numbers say that the controller's tool is.
-    pub(super) fn programmed(&self, job: &Job) -> Pose {
-        job.ground.placed(self.frame as usize).nominal * self.in_frame(job)
-    }
-
+    /// Where the target's numbers say that the tool is, in the work frame.
     fn in_frame(&self, job: &Job) -> Pose {
         let ground = &job.ground;
         let target = self.target as usize;
@@ -66,6 +62,39 @@ impl Approach {
             gravity_m_s2: job.ground.placed(self.frame as usize).gravity_m_s2,
             ..job.ground.arm_with(self.tool as usize).inverse.conditions
         }
+    }
+}
+
+/// An approach with the joints found for it, and what its target's numbers mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Solved<'a> {
+    pub approach: &'a Approach,
+    pub outcome: &'a Outcome,
+    in_frame: Pose,
+}
+
+impl<'a> Solved<'a> {
+    pub(super) fn of(job: &Job, approach: &'a Approach, outcome: &'a Outcome) -> Self {
+        Self {
+            approach,
+            outcome,
+            in_frame: approach.in_frame(job),
+        }
+    }
+
+    /// As [`Approach::wanted`].
+    pub(super) fn wanted(&self, job: &Job) -> Pose {
+        job.ground.placed(self.approach.frame as usize).real * self.in_frame
+    }
+
+    /// As [`Approach::meant`].
+    pub(super) fn meant(&self, job: &Job) -> Pose {
+        job.ground.placed(self.approach.frame as usize).meant * self.in_frame
+    }
+
+    /// Where the target's numbers say that the controller's tool is.
+    pub(super) fn programmed(&self, job: &Job) -> Pose {
+        job.ground.placed(self.approach.frame as usize).nominal * self.in_frame
     }
 }
 

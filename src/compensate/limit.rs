@@ -1,11 +1,10 @@
 //! How far a correction may shift a target: what the profile's effects usually do, with room.
 
 use super::Job;
-use super::approach::Approach;
+use super::approach::{Approach, Solved};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
-use crate::inverse::Outcome;
 use crate::model::Conditions;
 use crate::motion::arms::Equipped;
 use crate::motion::external;
@@ -154,9 +153,11 @@ pub(super) fn are_finite(numbers: &[f64]) -> bool {
 }
 
 /// What is not finite in the search for a target's joints.
-pub(super) fn not_finite(job: &Job, approach: &Approach, outcome: &Outcome) -> Option<Finding> {
-    let wanted = approach.wanted(job);
-    let what = if !wanted.is_finite() {
+pub(super) fn not_finite(job: &Job, solved: &Solved) -> Option<Finding> {
+    let Solved {
+        approach, outcome, ..
+    } = solved;
+    let what = if !solved.wanted(job).is_finite() {
         "the wanted pose"
     } else if !are_finite(&approach.nominal_q) {
         "a joint of the nominal arm"

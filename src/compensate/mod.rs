@@ -54,7 +54,7 @@ mod singular;
 mod solve;
 mod written;
 
-use approach::Approach;
+use approach::{Approach, Solved};
 use limit::Limits;
 use outcome::Tally;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
@@ -499,7 +499,8 @@ fn rewrite_all(
         let mut group = Vec::with_capacity(1);
         for range in groups {
             group.clear();
-            group.extend(range.clone().map(|at| (approaches[at], outcomes[at])));
+            let solved = |at: usize| Solved::of(job, &approaches[at], &outcomes[at]);
+            group.extend(range.clone().map(solved));
             portion.add(job, &group, &fractions);
         }
         portion

@@ -1,10 +1,10 @@
 //! What compensating a program gave.
 
 use super::Job;
-use super::approach::Approach;
+use super::approach::Solved;
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Separation};
-use crate::inverse::{Branch, Method, Outcome, Status};
+use crate::inverse::{Branch, Method, Status};
 use crate::program::{Edits, Insertion, Program, Replacements, Settings, Shape, Source, Target};
 use std::collections::BTreeMap;
 
@@ -137,23 +137,24 @@ pub struct TargetReport {
 }
 
 impl TargetReport {
-    pub(super) fn new(solved: Option<(&Approach, &Outcome)>) -> Self {
+    pub(super) fn new(solved: Option<&Solved>) -> Self {
         let none = Separation::default();
+        let outcome = solved.map(|solved| solved.outcome);
         Self {
             tool: None,
             frame: None,
             fake: None,
-            q: solved.map(|(_, outcome)| outcome.q),
+            q: outcome.map(|outcome| outcome.q),
             shift: none,
             before: none,
-            residual: solved.map_or(none, |(_, outcome)| outcome.residual),
+            residual: outcome.map_or(none, |outcome| outcome.residual),
             rounding: none,
-            iterations: solved.map_or(0, |(_, outcome)| outcome.iterations),
-            shift_evaluations: solved.map_or(0, |(_, outcome)| outcome.shift_evaluations),
-            newton_evaluations: solved.map_or(0, |(_, outcome)| outcome.newton_evaluations),
-            method: solved.map(|(_, outcome)| outcome.method),
-            branch: solved.map(|(approach, _)| approach.branch),
-            status: solved.map(|(_, outcome)| outcome.status),
+            iterations: outcome.map_or(0, |outcome| outcome.iterations),
+            shift_evaluations: outcome.map_or(0, |outcome| outcome.shift_evaluations),
+            newton_evaluations: outcome.map_or(0, |outcome| outcome.newton_evaluations),
+            method: outcome.map(|outcome| outcome.method),
+            branch: solved.map(|solved| solved.approach.branch),
+            status: outcome.map(|outcome| outcome.status),
             changed: false,
         }
     }

@@ -1,7 +1,7 @@
 //! New numbers in the place of the old ones, read back to tell what rounding costs.
 
 use super::Job;
-use super::approach::Approach;
+use super::approach::{Approach, Solved};
 use super::limit;
 use super::outcome::{TargetReport, small};
 use super::remarks;
@@ -9,7 +9,7 @@ use super::shared::{self, Fake};
 use crate::finding::{Acceptance, Finding};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM};
-use crate::inverse::{Arm, Outcome, Status};
+use crate::inverse::{Arm, Status};
 use crate::motion::walk::NOWHERE;
 use crate::program::number::{self, Fraction, Style};
 use crate::program::{Edits, Insertion, Number, Posture, Role, Shape, Target, Value};
@@ -83,12 +83,12 @@ impl<'a> Portion<'a> {
     }
 
     /// Writes the new text of one target, where it converged from wherever the robot comes, and reports on it.
-    pub(super) fn add(&mut self, job: &Job, group: &[(Approach, Outcome)], fractions: &[Fraction]) {
-        let (approach, outcome) = &group[0];
-        let mut report = TargetReport::new(Some((approach, outcome)));
+    pub(super) fn add(&mut self, job: &Job, group: &[Solved], fractions: &[Fraction]) {
+        let approach = group[0].approach;
+        let mut report = TargetReport::new(Some(&group[0]));
         let strange = group
             .iter()
-            .find_map(|(approach, outcome)| limit::not_finite(job, approach, outcome));
+            .find_map(|solved| limit::not_finite(job, solved));
         if let Some(finding) = strange {
             report.status = None;
             self.findings.push(finding);
@@ -97,10 +97,11 @@ impl<'a> Portion<'a> {
         }
         let lost = group
             .iter()
-            .find(|(_, outcome)| outcome.status != Status::Converged);
-        if let Some((approach, outcome)) = lost {
-            report = TargetReport::new(Some((approach, outcome)));
-            self.findings.push(remarks::failure(job, approach, outcome));
+            .find(|solved| solved.outcome.status != Status::Converged);
+        if let Some(lost) = lost {
+            report = TargetReport::new(Some(lost));
+            let finding = remarks::failure(job, lost.approach, lost.outcome);
+            self.findings.push(finding);
         } else {
             match shared::common(job, group) {
                 Ok(fake) => self.add_converged(job, group, &fake, fractions, &mut report),
@@ -126,21 +127,21 @@ impl<'a> Portion<'a> {
     fn split(
         &mut self,
         job: &Job,
-        group: &[(Approach, Outcome)],
+        group: &[Solved],
         fractions: &[Fraction],
         refusal: &Finding,
         report: &mut TargetReport,
     ) -> bool {
-        let target = group[0].0.target as usize;
+        let target = group[0].approach.target as usize;
         let moves = &job.ground.program.moves;
-        let is_bare = |(approach, _): &(Approach, Outcome)| approach.motion != NOWHERE;
+        let is_bare = |solved: &Solved| solved.approach.motion != NOWHERE;
         if !job.options.split_targets || self.bases.contains(&target) || !group.iter().all(is_bare)
         {
             return false;
         }
-        let mut each: BTreeMap<u32, Vec<(Approach, Outcome)>> = BTreeMap::new();
+        let mut each: BTreeMap<u32, Vec<Solved>> = BTreeMap::new();
         for one in group {
-            let instruction = moves[one.0.motion as usize].instruction;
+            let instruction = moves[one.approach.motion as usize].instruction;
             each.entry(instruction).or_default().push(*one);
         }
         let numbers = job
@@ -152,9 +153,9 @@ impl<'a> Portion<'a> {
             let Ok(fake) = shared::common(job, alone) else {
                 return false;
             };
-            let approach = &alone[0].0;
+            let approach = alone[0].approach;
             let frame = job.ground.placed(approach.frame as usize).nominal;
-            let meant = approach.meant(job);
+            let meant = alone[0].meant(job);
             let shift = meant.separation(&(frame * fake.frame_from_tool));
             if let Some(finding) = job.limits.judge(job, approach, &shift) {
                 self.findings.push(finding);
@@ -168,14 +169,14 @@ impl<'a> Portion<'a> {
             let landed = worst(
                 alone
                     .iter()
-                    .map(|(a, o)| shared::landing(job, a, o, &meant)),
+                    .map(|solved| shared::landing(job, solved, &meant)),
             );
             if landed.distance_m > ROUNDING_LIMIT.distance_m
                 || landed.angle_rad > ROUNDING_LIMIT.angle_rad
             {
                 return false;
             }
-            let before = worst(alone.iter().map(|(approach, _)| uncorrected(job, approach)));
+            let before = worst(alone.iter().map(|solved| uncorrected(job, solved)));
             report.before = largest(report.before, before);
             report.rounding = largest(report.rounding, landed);
             let target = &job.ground.program.targets[target];
@@ -207,14 +208,16 @@ impl<'a> Portion<'a> {
     fn add_converged(
         &mut self,
         job: &Job,
-        group: &[(Approach, Outcome)],
+        group: &[Solved],
         fake: &Fake,
         fractions: &[Fraction],
         report: &mut TargetReport,
     ) {
-        let (approach, outcome) = &group[0];
+        let Solved {
+            approach, outcome, ..
+        } = group[0];
         let given = job.ground.placed(approach.frame as usize).nominal * fake.frame_from_tool;
-        let shift = approach.meant(job).separation(&given);
+        let shift = group[0].meant(job).separation(&given);
         if !given.is_finite() || !limit::are_finite(&[shift.distance_m, shift.angle_rad]) {
             report.status = None;
             let finding = limit::not_finite_finding(job, approach, "the fake target");
@@ -227,12 +230,12 @@ impl<'a> Portion<'a> {
             return;
         }
         (report.fake, report.shift) = (Some(fake.frame_from_tool), shift);
-        report.before = worst(group.iter().map(|(approach, _)| uncorrected(job, approach)));
+        report.before = worst(group.iter().map(|solved| uncorrected(job, solved)));
         self.findings
             .extend(remarks::singularity(job, approach, outcome));
         self.findings
             .extend(remarks::other_posture(job, approach, outcome));
-        let moved = approach.programmed(job).separation(&given);
+        let moved = group[0].programmed(job).separation(&given);
         if moved.distance_m < NO_SHIFT.distance_m && moved.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
@@ -243,7 +246,7 @@ impl<'a> Portion<'a> {
         let numbers = Fake::meant(job, approach, &written.numbers);
         let landed = group
             .iter()
-            .map(|(approach, outcome)| shared::landing(job, approach, outcome, &numbers));
+            .map(|solved| shared::landing(job, solved, &numbers));
         report.rounding = worst(landed);
         let (left, before) = (report.rounding, report.before);
         let no_better = left.distance_m >= before.distance_m && left.angle_rad >= before.angle_rad;
@@ -404,18 +407,19 @@ fn largest(a: Separation, b: Separation) -> Separation {
 }
 
 /// How far from the wanted pose the real tool lands with the target as it is.
-fn uncorrected(job: &Job, approach: &Approach) -> Separation {
+fn uncorrected(job: &Job, solved: &Solved) -> Separation {
+    let approach = solved.approach;
     let equipped = job.ground.arm_with(approach.tool as usize);
     let is_joints = job.ground.is_joints(approach.target as usize);
     let q = match &equipped.calibrated_controller {
         Some(_) if !is_joints => {
-            let as_programmed = approach.programmed(job);
+            let as_programmed = solved.programmed(job);
             equipped
                 .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
                 .0
         }
         _ if job.ground.part_moved => {
-            let as_programmed = approach.programmed(job);
+            let as_programmed = solved.programmed(job);
             equipped
                 .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
                 .0
@@ -424,7 +428,7 @@ fn uncorrected(job: &Job, approach: &Approach) -> Separation {
     };
     let real = &equipped.inverse.real;
     real.forward(&q, &approach.conditions(job))
-        .separation(&approach.wanted(job))
+        .separation(&solved.wanted(job))
 }
 
 /// The style of each role's numbers in one target.

@@ -1,11 +1,10 @@
 //! One set of numbers for all the ways in which the robot comes to a target.
 
 use super::Job;
-use super::approach::Approach;
+use super::approach::{Approach, Solved};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Rotation, Separation, add, scale};
-use crate::inverse::Outcome;
 use crate::model::Conditions;
 use crate::motion::walk::NOWHERE;
 use crate::program::{Shape, Value};
@@ -28,8 +27,11 @@ pub(super) struct Fake {
 }
 
 impl Fake {
-    pub(super) fn of(job: &Job, approach: &Approach, outcome: &Outcome) -> Self {
+    pub(super) fn of(job: &Job, solved: &Solved) -> Self {
         let ground = &job.ground;
+        let Solved {
+            approach, outcome, ..
+        } = solved;
         let equipped = ground.arm_with(approach.tool as usize);
         let world_from_tool = equipped
             .controller
@@ -68,13 +70,13 @@ impl Fake {
 ///
 /// # Errors
 /// Where no numbers serve all: what each approach would miss with the mean, and the mean.
-pub(super) fn common(job: &Job, group: &[(Approach, Outcome)]) -> Result<Fake, (Finding, Fake)> {
-    let fakes: Vec<Fake> = group.iter().map(|(a, o)| Fake::of(job, a, o)).collect();
+pub(super) fn common(job: &Job, group: &[Solved]) -> Result<Fake, (Finding, Fake)> {
+    let fakes: Vec<Fake> = group.iter().map(|solved| Fake::of(job, solved)).collect();
     let first = fakes[0];
     if fakes.len() == 1 {
         return Ok(first);
     }
-    let is_joints = job.ground.is_joints(group[0].0.target as usize);
+    let is_joints = job.ground.is_joints(group[0].approach.target as usize);
     let alike = |a: &Fake, b: &Fake| {
         if is_joints {
             return (0..6).all(|i| (a.q[i] - b.q[i]).abs() < SAME.angle_rad);
@@ -114,13 +116,14 @@ fn mean(fakes: &[Fake]) -> Fake {
 }
 
 /// What each approach misses with numbers that are meant for all.
-fn refused(job: &Job, group: &[(Approach, Outcome)], mean: &Fake) -> Finding {
+fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
     let ground = &job.ground;
-    let target = group[0].0.target as usize;
+    let target = group[0].approach.target as usize;
     let mut each: Vec<String> = group
         .iter()
-        .map(|(approach, outcome)| {
-            let miss = landing(job, approach, outcome, mean);
+        .map(|solved| {
+            let miss = landing(job, solved, mean);
+            let approach = solved.approach;
             let by = format!(
                 "{:.3} mm, {:.3} deg",
                 mm_from_m(miss.distance_m),
@@ -173,13 +176,11 @@ fn refused(job: &Job, group: &[(Approach, Outcome)], mean: &Fake) -> Finding {
 }
 
 /// How far from its wanted pose the real tool lands at the end of an approach, with given numbers.
-pub(super) fn landing(
-    job: &Job,
-    approach: &Approach,
-    outcome: &Outcome,
-    given: &Fake,
-) -> Separation {
+pub(super) fn landing(job: &Job, solved: &Solved, given: &Fake) -> Separation {
     let ground = &job.ground;
+    let Solved {
+        approach, outcome, ..
+    } = solved;
     let target = &ground.program.targets[approach.target as usize];
     let equipped = ground.arm_with(approach.tool as usize);
     let q = match target.layout.shape {
@@ -194,5 +195,5 @@ pub(super) fn landing(
     };
     let real = &equipped.inverse.real;
     real.forward(&q, &approach.conditions(job))
-        .separation(&approach.wanted(job))
+        .separation(&solved.wanted(job))
 }

@@ -5,6 +5,7 @@ use super::table::{Column, Layout, add_scaled, dot};
 use super::weights::Plain;
 use crate::identify::robust::median_of_squares;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// A column is redundant where less than this part of its square is left when earlier ones have explained the rest.
 pub(super) const REDUNDANT: f64 = 1e-7;
@@ -36,7 +37,7 @@ pub struct Fit {
     /// Roots of the weights of all numbers; zero for rows not used.
     pub roots: Column,
     /// Columns of Q, then of U, weighted.
-    pub(super) basis: Vec<Column>,
+    pub(super) basis: Vec<Arc<Column>>,
     /// One for each of the basis: those of S, then ones.
     pub(super) shares: Vec<f64>,
     /// Which of the columns stands behind each of the basis.
@@ -154,7 +155,7 @@ impl Fit {
             let share = held[index].share;
             add_scaled(&mut fit.left, -share * part, &column);
             fit.deviance += (1.0 - share) * part * part;
-            fit.basis.push(column);
+            fit.basis.push(Arc::new(column));
             fit.shares.push(share);
             fit.kept.push(index);
             fit.triangle.push(along);
@@ -193,7 +194,7 @@ impl Fit {
         add_scaled(&mut self.left, -part, &turned);
         self.deviance -= part * part;
         along.push(length);
-        self.basis.push(turned);
+        self.basis.push(Arc::new(turned));
         self.shares.push(1.0);
         self.kept.push(index);
         self.triangle.push(along);

@@ -87,6 +87,10 @@ struct Summed {
     own: Vec<Vec<Column>>,
 }
 
+fn slices(all: &[Column]) -> Vec<&[f64]> {
+    all.iter().map(Vec::as_slice).collect()
+}
+
 impl Summed {
     fn of(
         columns: &[Column],
@@ -109,15 +113,16 @@ impl Summed {
             };
             rows.clone().map(row).collect()
         };
-        let all = |others: &[Column], first: usize| -> Vec<Vec<Column>> {
+        let all = |others: &[&[f64]], first: usize| -> Vec<Vec<Column>> {
             let each = |c: &Column| others.iter().map(|o| with(c, o, first)).collect();
             columns.iter().map(each).collect()
         };
+        let basis: Vec<&[f64]> = fit.basis.iter().map(|q| q.as_slice()).collect();
         Self {
-            along: all(&fit.basis, 0),
+            along: all(&basis, 0),
             left: columns.iter().map(|c| with(c, &fit.left, 0)).collect(),
-            effects: all(beside.turned(), 0),
-            own: all(&columns, numbers.start),
+            effects: all(&slices(beside.turned()), 0),
+            own: all(&slices(&columns), numbers.start),
         }
     }
 }

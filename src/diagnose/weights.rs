@@ -9,6 +9,7 @@
 use super::fit::{Fit, Held, INVISIBLE, Projection, REDUNDANT, TURNS, scale_of};
 use super::table::{Column, Layout, add_scaled, dot};
 use crate::identify::robust::limit;
+use std::sync::Arc;
 
 /// Below this square a column has vanished by the weights.
 const VANISHED: f64 = 1e-10;
@@ -156,7 +157,7 @@ impl Plain {
         if !less.is_empty() {
             for j in 0..fit.basis.len() {
                 let (before, rest) = fit.basis.split_at_mut(j);
-                let column = &mut rest[0];
+                let column = Arc::make_mut(&mut rest[0]);
                 for Less { number, .. } in &less {
                     column[*number] *= roots[*number];
                 }

@@ -572,6 +572,21 @@ pub fn meaning(
     target: TargetId,
 ) -> Option<Decoded> {
     let target = &program.targets[target];
-    let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
-    (!numbers.is_empty()).then(|| language.decode(target.layout, &numbers, settings))
+    let numbers = program.numbers_of(target);
+    // a target has few, and this is asked often
+    let mut few = [0.0; FEW_NUMBERS];
+    let many: Vec<f64>;
+    let values = if let Some(values) = few.get_mut(..numbers.len()) {
+        for (value, number) in values.iter_mut().zip(numbers) {
+            *value = number.value;
+        }
+        &*values
+    } else {
+        many = numbers.iter().map(|number| number.value).collect();
+        &many
+    };
+    (!values.is_empty()).then(|| language.decode(target.layout, values, settings))
 }
+
+/// As many numbers as a target mostly has.
+const FEW_NUMBERS: usize = 24;
