@@ -94,7 +94,7 @@ fn register(criterion: &mut Criterion) {
     group.bench_function("100 000 points on 100 000, normals and search", |b| {
         b.iter(|| {
             let found = icp(&from, &to, None, &options).expect("clouds");
-            assert!(found.doubts.is_empty());
+            assert!(found.concerns.is_empty());
         });
     });
     group.finish();

@@ -1,7 +1,7 @@
 //! `axes`: base and tool from sweeps of single joints.
 
+use super::ending::{Ending, Pendant, ReportFile, Shown, finish};
 use super::files::Files;
-use super::telling::{Ending, Pendant, ReportFile, Told, finish};
 use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::axes::axes;
@@ -40,7 +40,7 @@ impl Axes {
         let ending = Ending {
             report: Some(&self.report),
             pendant: self.pendant,
-            told: Told::All,
+            shown: Shown::All,
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

@@ -1,9 +1,9 @@
 //! `calibrate`: measurements to a profile.
 
+use super::ending::{Ending, Pendant, ReportFile, Shown, finish};
 use super::files::Files;
 use super::measurements::{MeasurementFiles, level, picks};
 use super::progress::Progress;
-use super::telling::{Ending, Pendant, ReportFile, Told, finish};
 use super::{Answer, Output};
 use crate::identify::calibration::{BasePolicy, Options};
 use crate::identify::parameters::Selection;
@@ -63,7 +63,7 @@ pub(super) struct Calibrate {
     /// 0 frames alone; 1 and joint offsets and scales; 2 and link geometry; 3 and joint compliance
     #[arg(long, value_name = "0..3", value_parser = clap::value_parser!(u8).range(0..=3))]
     level: Option<u8>,
-    /// Identify these effects, with --level as well as that, else beside base and tool alone:
+    /// Identify these effects, with --level as well as that, else with base and tool alone:
     /// `joint_compliance:2-6,joint_harmonic:6:1`
     #[arg(long, value_name = "LIST")]
     identify: Option<String>,
@@ -134,7 +134,7 @@ impl Calibrate {
         let ending = Ending {
             written,
             report: Some(&self.report),
-            told: Told::All,
+            shown: Shown::All,
             also: &also,
             answer: Answer::Yes,
             pendant: self.pendant,

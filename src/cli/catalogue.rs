@@ -1,7 +1,7 @@
 //! `robots`, `effects`, `languages`: what is built in.
 
+use super::ending::{Ending, finish};
 use super::files::Files;
-use super::telling::{Ending, finish};
 use super::{Answer, Output};
 use crate::report::Report;
 use crate::task::{Failure, catalogue};

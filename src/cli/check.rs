@@ -1,10 +1,10 @@
 //! `check`: where the real robot goes with programs as they are, and what it comes near.
 
+use super::ending::{ReportFile, Said, deliver};
 use super::files::Files;
 use super::layout;
 use super::programs::{Ignored, gather, read_context};
 use super::progress::Progress;
-use super::telling::{ReportFile, Said, deliver};
 use super::{Answer, Output, values};
 use crate::check::{Options, Turning, baseline};
 use crate::finding::Acceptance;
@@ -41,7 +41,7 @@ pub(super) struct Check {
     /// A path error above this is an error, mm
     #[arg(long, value_name = "MM")]
     max_path_error: Option<f64>,
-    /// How the controller turns the tool on straight and circular moves
+    /// How the controller rotates the tool on straight and circular moves
     #[arg(long, value_enum, default_value = "slerp")]
     orientation: Orientation,
     /// Bodies farther apart than this beyond what is required are not measured, mm
@@ -89,7 +89,7 @@ pub(super) struct Check {
     report: ReportFile,
 }
 
-/// How the controller turns the tool
+/// How the controller rotates the tool
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Orientation {
     /// About one axis at a constant rate
@@ -264,7 +264,7 @@ impl Check {
             text += &format!("stored as {}\n", name_of(path));
         }
         if !output.quiet {
-            text += &self.report.told();
+            text += &self.report.written();
         }
         text
     }

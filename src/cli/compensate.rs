@@ -1,10 +1,10 @@
 //! `compensate`: program files in, program files with fake targets out.
 
+use super::ending::{ReportFile, Said, deliver};
 use super::files::{Files, is_standard_output, is_stream};
 use super::layout;
 use super::programs::{Gathered, Ignored, ProgramFile, gather, meant, read_context};
 use super::progress::Progress;
-use super::telling::{ReportFile, Said, deliver};
 use super::{Answer, Output, values};
 use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
 use crate::geometry::units::m_from_mm;
@@ -223,13 +223,13 @@ impl Compensate {
         outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
         drop(progress);
         if !output.quiet {
-            said.text += &self.report.told();
+            said.text += &self.report.written();
         }
         if output.json {
             said.text.clear();
         } else if self.is_to_stream() {
             // whether or not there is a program, nothing else is taken for it
-            said.beside = std::mem::take(&mut said.text);
+            said.errors = std::mem::take(&mut said.text);
         }
         let answer = if refused { Answer::No } else { Answer::Yes };
         deliver(&files, &outputs, said, answer)

@@ -1,9 +1,9 @@
 //! `diagnose`: where model and measurement disagree, and which effect is missing.
 
+use super::ending::{Ending, ReportFile, Shown, finish};
 use super::files::Files;
 use super::measurements::{MeasurementFiles, picks};
 use super::progress::Progress;
-use super::telling::{Ending, ReportFile, Told, finish};
 use super::{Answer, Output};
 use crate::diagnose::Options;
 use crate::printable::name_of;
@@ -86,7 +86,7 @@ impl Diagnose {
         let ending = Ending {
             written,
             report: Some(&self.report),
-            told: Told::All,
+            shown: Shown::All,
             also: &also,
             answer: if is_sure { Answer::Yes } else { Answer::No },
             ..Ending::default()

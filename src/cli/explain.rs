@@ -1,7 +1,7 @@
 //! `explain`: what a finding means and what to do.
 
+use super::ending::{Ending, finish};
 use super::files::Files;
-use super::telling::{Ending, finish};
 use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::explain::explain;

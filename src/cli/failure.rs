@@ -1,4 +1,4 @@
-//! What is told on standard error when a command could not do its work.
+//! What is said on standard error when a command could not do its work.
 
 use super::layout;
 use crate::printable::printable_lines;

@@ -1,7 +1,7 @@
 //! `handeye`: where a camera is.
 
+use super::ending::{Ending, Pendant, ReportFile, finish};
 use super::files::Files;
-use super::telling::{Ending, Pendant, ReportFile, finish};
 use super::{Answer, Output};
 use crate::register::handeye::Setup;
 use crate::task::Failure;

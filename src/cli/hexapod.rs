@@ -1,7 +1,7 @@
 //! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot can measure.
 
+use super::ending::{Ending, ReportFile, Said, deliver, finish};
 use super::files::{Files, is_standard_output};
-use super::telling::{Ending, ReportFile, Said, deliver, finish};
 use super::{Answer, Output, values};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
@@ -123,9 +123,9 @@ impl Hexapod {
         // the frame file is what is printed: it stays one that can be read
         let said = match (output.quiet, to_stream) {
             (true, _) => Said::default(),
-            (false, true) => Said::text(self.report.told()),
+            (false, true) => Said::text(self.report.written()),
             (false, false) => Said {
-                beside: self.report.told(),
+                errors: self.report.written(),
                 ..Said::data(text)
             },
         };

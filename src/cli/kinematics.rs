@@ -1,7 +1,7 @@
 //! `fk` and `ik`: the models themselves, over tables.
 
+use super::ending::print_table;
 use super::files::Files;
-use super::telling::print_table;
 use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::fk::{self, Options, fk};

@@ -4,8 +4,8 @@ use crate::finding::Finding;
 use crate::report;
 use crate::report::layout::wrapped_lines;
 
-/// Columns where nobody tells: of a pipe or a file, so that the same text is written everywhere.
-const UNTOLD: usize = 80;
+/// Columns where nothing gives them: of a pipe or a file, so that the same text is written everywhere.
+const UNKNOWN: usize = 80;
 /// Fewer columns than the first are not laid out for; more than the last are hard to read.
 const LEAST_AND_MOST: (usize, usize) = (40, 100);
 
@@ -13,19 +13,19 @@ fn bounded(columns: usize) -> usize {
     columns.clamp(LEAST_AND_MOST.0, LEAST_AND_MOST.1)
 }
 
-fn told() -> Option<usize> {
+fn given() -> Option<usize> {
     std::env::var("COLUMNS").ok().and_then(|n| n.parse().ok())
 }
 
 /// Columns of standard output.
 pub(super) fn width() -> usize {
-    seen().unwrap_or(UNTOLD)
+    seen().unwrap_or(UNKNOWN)
 }
 
 /// Columns of standard output where somebody sees it.
 fn seen() -> Option<usize> {
     let terminal = || terminal_size::terminal_size_of(std::io::stdout());
-    told()
+    given()
         .or_else(|| terminal().map(|(width, _)| usize::from(width.0)))
         .map(bounded)
 }
@@ -33,7 +33,7 @@ fn seen() -> Option<usize> {
 /// Columns of standard error where somebody sees it.
 pub(super) fn seen_of_errors() -> Option<usize> {
     let terminal = || terminal_size::terminal_size_of(std::io::stderr());
-    told()
+    given()
         .or_else(|| terminal().map(|(width, _)| usize::from(width.0)))
         .map(bounded)
 }
@@ -49,7 +49,7 @@ pub(super) fn findings(findings: &[Finding], every: bool) -> String {
 }
 
 /// Findings for standard error, as [`findings`] has them.
-pub(super) fn findings_beside(findings: &[Finding], every: bool) -> String {
+pub(super) fn findings_of_errors(findings: &[Finding], every: bool) -> String {
     of_findings(findings, every, seen_of_errors())
 }
 

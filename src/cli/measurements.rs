@@ -29,7 +29,7 @@ pub(super) struct MeasurementFiles {
     /// Units of these columns: `m,rad` (mm m cm um in ft; deg rad)
     #[arg(long, value_name = "UNITS")]
     units: Option<String>,
-    /// How angles rx, ry, rz turn the tool: xyz, zyx (kuka, fanuc, yaskawa), zyz (kawasaki), rotation-vector (ur)
+    /// How angles rx, ry, rz rotate the tool: xyz, zyx (kuka, fanuc, yaskawa), zyz (kawasaki), rotation-vector (ur)
     #[arg(long, value_name = "NAME")]
     euler: Option<String>,
     /// The rows (of --joints) are in the order in which the robot drove to them: directions follow, dir1 to dir6

@@ -6,6 +6,7 @@ mod catalogue;
 mod check;
 mod compensate;
 mod diagnose;
+mod ending;
 mod explain;
 mod failure;
 mod files;
@@ -23,7 +24,6 @@ mod schema;
 mod screen;
 mod shell;
 mod simulate;
-mod telling;
 mod validate;
 mod values;
 
@@ -50,7 +50,7 @@ pub(crate) struct CommandLine {
     output: Output,
 }
 
-/// How results are told.
+/// How results are printed.
 #[derive(Args, Clone, Copy)]
 pub(crate) struct Output {
     /// Print a machine-readable report (JSON) and nothing else
@@ -115,7 +115,7 @@ where
     A: Into<OsString> + Clone,
 {
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
-    telling::remember(&arguments);
+    ending::remember(&arguments);
     match CommandLine::try_parse_from(arguments) {
         Ok(CommandLine { command, output }) => guarded(|| command.run(output)),
         Err(error) => screen::print_usage(&error),
@@ -192,11 +192,11 @@ mod tests {
 
     #[test]
     fn a_fault_of_the_program_says_how_to_report_it() {
-        let told = failure::render(&Failure::internal("impossible"));
-        let words: Vec<&str> = told.split_whitespace().collect();
-        let told = words.join(" ");
-        assert!(told.contains("internal error"), "{told}");
-        assert!(told.contains("please report it"), "{told}");
+        let said = failure::render(&Failure::internal("impossible"));
+        let words: Vec<&str> = said.split_whitespace().collect();
+        let said = words.join(" ");
+        assert!(said.contains("internal error"), "{said}");
+        assert!(said.contains("please report it"), "{said}");
         assert!(!failure::render(&Failure::new("no such file")).contains("report it"));
     }
 }

@@ -1,9 +1,9 @@
 //! `plan`: which configurations to measure.
 
+use super::ending::{Ending, ReportFile, finish, finish_with_data};
 use super::files::Files;
 use super::measurements::{level, picks};
 use super::progress::Progress;
-use super::telling::{Ending, ReportFile, finish, finish_beside};
 use super::{Answer, Output, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::parameters::Selection;
@@ -174,7 +174,7 @@ impl PlanCommand {
         if self.output.is_some() || output.json {
             return finish(&files, &found, ending, output);
         }
-        // the table is the answer; what it is worth stands beside it
-        finish_beside(&files, &found, found.csv(), ending, output)
+        // the table is the answer; what it is worth stands next to it
+        finish_with_data(&files, &found, found.csv(), ending, output)
     }
 }

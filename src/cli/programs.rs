@@ -57,7 +57,7 @@ pub(super) struct ProgramFile {
     pub source: Source,
 }
 
-/// The programs that are meant, and what lies beside them.
+/// The programs that are meant, and what lies next to them.
 pub(super) struct Gathered {
     /// In the order of the arguments; folders give theirs by name.
     pub programs: Vec<ProgramFile>,
@@ -184,7 +184,7 @@ impl Reading<'_> {
                 }
             };
             let is_folder = entry.file_type().is_dir();
-            // what a run that is at work has beside its places is none of the folder's
+            // what a run that is at work has next to its places is none of the folder's
             let is_own = entry.file_name().to_string_lossy().starts_with(PREFIX);
             let below = entry.path().strip_prefix(folder);
             let below = below.expect("a walk stays below its top").to_owned();
@@ -306,7 +306,7 @@ pub(super) fn gather(
     }
     if paths.len() > 1 && paths.iter().any(|path| is_stream(path)) {
         return Err(Failure::with_hint(
-            "`-` is one program, without others beside it",
+            "`-` is one program, without others next to it",
             "give files, or one program on standard input",
         ));
     }

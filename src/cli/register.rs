@@ -1,7 +1,7 @@
 //! `register`: the rigid motion between two sets of points, or a frame from probe touches.
 
+use super::ending::{Ending, Pendant, ReportFile, finish};
 use super::files::Files;
-use super::telling::{Ending, Pendant, ReportFile, finish};
 use super::{Answer, Output, values};
 use crate::geometry::units::m_from_mm;
 use crate::printable::name_of;

@@ -1,6 +1,6 @@
 //! `schema`: the JSON Schema of a file or a report.
 
-use super::telling::print_schema;
+use super::ending::print_schema;
 use super::{Answer, screen};
 use crate::nearest;
 use crate::task::{Failure, SCHEMAS};

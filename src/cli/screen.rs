@@ -69,21 +69,21 @@ pub(super) fn print_data(data: &mut dyn Read) -> std::result::Result<(), Stop> {
 }
 
 /// Prints a text for people to standard error.
-pub(super) fn print_beside(text: &str) -> std::result::Result<(), Stop> {
+pub(super) fn print_errors(text: &str) -> std::result::Result<(), Stop> {
     let mut out = anstream::stderr().lock();
     arrived("standard error", out.write_all(for_people(text).as_bytes()))
 }
 
 /// Says on standard error what concerns no result.
 pub(super) fn warn(line: &str) {
-    // where nobody can be told, nobody is
-    let _ = print_beside(&format!("warning: {line}\n"));
+    // where nobody can hear it, nobody does
+    let _ = print_errors(&format!("warning: {line}\n"));
 }
 
 /// Says on standard error why the program ends.
 pub(super) fn complain(failure: &Failure) {
     let mut out = anstream::stderr().lock();
-    // where nobody can be told, the exit status says it
+    // where nobody can hear it, the exit status says it
     let _ = writeln!(out, "{}", super::failure::render(failure));
 }
 

@@ -1,7 +1,7 @@
 //! `simulate`: measurements of the robot that a profile describes.
 
+use super::ending::{Ending, Shown, finish, print_table};
 use super::files::Files;
-use super::telling::{Ending, Told, finish, print_table};
 use super::{Answer, Output, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::simulate::{Device, Session};
@@ -110,7 +110,7 @@ impl Simulate {
         found.output = Some(name_of(path));
         let ending = Ending {
             written: vec![(path.clone(), csv.into_bytes())],
-            told: Told::All,
+            shown: Shown::All,
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

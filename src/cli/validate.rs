@@ -1,9 +1,9 @@
 //! `validate`: what a profile is worth on measurements it has not seen.
 
+use super::ending::{Ending, ReportFile, Shown, finish};
 use super::files::Files;
 use super::measurements::{MeasurementFiles, level};
 use super::progress::Progress;
-use super::telling::{Ending, ReportFile, Told, finish};
 use super::{Answer, Output};
 use crate::identify::validation::Folds;
 use crate::task::Failure;
@@ -62,7 +62,7 @@ impl Validate {
         drop(progress);
         let ending = Ending {
             report: Some(&self.report),
-            told: Told::All,
+            shown: Shown::All,
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

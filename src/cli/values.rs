@@ -6,7 +6,7 @@ use crate::model::profile::{Mounted, Profile};
 use crate::nearest;
 use crate::task::Failure;
 
-/// No tool or frame is turned by more, degrees.
+/// No tool or frame is rotated by more, degrees.
 const MOST_ANGLE_DEG: f64 = 720.0;
 
 /// `30mm,3deg`, or the numbers alone.

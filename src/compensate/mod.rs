@@ -209,6 +209,9 @@ struct Job<'a> {
 /// # Errors
 /// If the program cannot be read, a tool or frame is unknown, the arm has no inverse, or the profile corrects nothing. A target
 /// that cannot be compensated is a [`Finding`] of severity error instead.
+///
+/// # Panics
+/// By a fault of poseshift alone: hashing fails on no bytes.
 pub fn compensate(
     language: &dyn Language,
     sources: &[Source],

@@ -29,7 +29,7 @@ pub(crate) fn text(found: &Checked) -> String {
     if unknown > 0 {
         lines.push(format!("  {unknown} moves could not be followed"));
     }
-    let told = |size_mm: Option<f64>, of: &Move| {
+    let shown = |size_mm: Option<f64>, of: &Move| {
         let sigma = of.uncertainty_mm;
         let sigma = sigma.map_or(String::new(), |s| format!(" \u{b1} {s:.3}"));
         format!("{}{sigma} mm (line {})", fixed(size_mm, 3), of.line)
@@ -53,20 +53,20 @@ pub(crate) fn text(found: &Checked) -> String {
         });
     }
     if let Some(worst) = at_poses {
-        let worst = told(worst.target_error_mm, &worst);
+        let worst = shown(worst.target_error_mm, &worst);
         lines.push(format!("  at targets     the real tool is up to {worst}"));
     }
     if let Some(worst) = at_joints {
         lines.push(format!(
             "  joint targets  up to {}; compensate leaves them as they are",
-            told(worst.target_error_mm, &worst)
+            shown(worst.target_error_mm, &worst)
         ));
     }
     if let Some(worst) = along {
         let size = worst.max_path_error_mm.or(Some(0.0));
         lines.push(format!(
             "  along the path never more than {}, {} deg",
-            told(size, &worst),
+            shown(size, &worst),
             fixed(max_path_error_deg, 3)
         ));
     }

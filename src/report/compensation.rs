@@ -43,7 +43,7 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
             "  shift     mean {mean_shift_mm:.3} mm, largest {max_shift_mm:.3} mm"
         ));
         lines.push(format!(
-            "  residual  largest {max_residual_mm:.1e} mm (what the search left)"
+            "  residual  largest {max_residual_mm:.1e} mm (of the search)"
         ));
         lines.push(format!(
             "  rounding  largest {max_rounding_mm:.4} mm, {max_rounding_deg:.4} deg (what the file's decimals cost)"

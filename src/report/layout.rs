@@ -44,7 +44,7 @@ fn indent_of_rest(line: &str, width: usize) -> usize {
     value.filter(|at| *at <= width / 2).unwrap_or(indent + 2)
 }
 
-/// A line broken at spaces where it is wider than `width`. A space that does not break (U+00A0) is told as a space.
+/// A line broken at spaces where it is wider than `width`. A space that does not break (U+00A0) is written as a space.
 pub(crate) fn wrapped(line: &str, width: usize) -> String {
     broken(line, width, indent_of_rest(line, width)) + "\n"
 }

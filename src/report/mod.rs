@@ -1,4 +1,4 @@
-//! What commands tell people: texts and pages, made of the structures of [`task`](crate::task) whose JSON is for programs.
+//! What people read of results: texts and pages, made of the structures of [`task`](crate::task) whose JSON is for programs.
 
 pub(crate) mod check;
 pub(crate) mod compensation;
@@ -67,12 +67,12 @@ pub fn check_junit(of: &Checked) -> String {
     check::junit(of, of.baseline)
 }
 
-/// How a text is told.
+/// How a text is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Style {
     /// Columns that a line may have.
     pub width: usize,
-    /// Tell everything, not only the first of many.
+    /// Everything, not only the first of many.
     pub every: bool,
 }
 
@@ -96,6 +96,9 @@ pub(crate) trait Report: Document {
         &[]
     }
 }
+
+/// Probabilities below this are said to be so: a number may be too small to be held.
+pub(crate) const LEAST_PROBABILITY: f64 = 1e-300;
 
 /// Text between the tags of HTML and XML, or in the quotes of an attribute; signs that neither has are left out.
 fn escaped(text: &str) -> String {

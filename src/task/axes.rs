@@ -74,7 +74,7 @@ pub struct Joint {
     pub max_axial_mm: f64,
     /// Each row.
     pub rows: Rows,
-    /// Standard deviation of a coordinate; `null` where three rows leave nothing to tell it by.
+    /// Standard deviation of a coordinate; `null` where three rows leave nothing to estimate it from.
     pub noise_mm: Option<f64>,
 }
 
@@ -127,8 +127,8 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
         }
         let (kept, outliers) = without_outliers(&sweep, profile).map_err(fail)?;
         sweeps.push(kept);
-        let told = |outlier: &Outlier| left_out(outlier, sweep.joint, lines[outlier.row], name);
-        findings.extend(outliers.iter().map(told));
+        let reported = |outlier: &Outlier| left_out(outlier, sweep.joint, lines[outlier.row], name);
+        findings.extend(outliers.iter().map(reported));
     }
     let found = sweeps
         .iter()
@@ -144,7 +144,7 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     let placed_tool = placed_tool.transpose().map_err(fail)?;
     let pose = |placed: &Option<Placed>| placed.as_ref().map(|placed| placed.pose);
     let (base_pose, tool_pose) = (pose(&placed_base), pose(&placed_tool));
-    let doubts = doubt(
+    let checked = doubt(
         profile,
         &sweeps,
         &found,
@@ -152,7 +152,7 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
         tool_pose.as_ref(),
     )
     .map_err(|error| identify_failure(name, &error))?;
-    findings.extend(remarks(&doubts, name));
+    findings.extend(remarks(&checked, name));
     let mounted = only_tool(profile);
     let world_from_base = base_pose.unwrap_or(profile.world_from_base);
     let arm = Arm {

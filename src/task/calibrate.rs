@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
-use super::parts::{File, Observability, Pose, Quality, Sigma, findings};
+use super::parts::{File, Observability, Pose, Quality, Sigma, WorstRow, findings};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
 use crate::finding::Finding;
@@ -11,6 +11,7 @@ use crate::geometry::units::mm_from_m;
 use crate::identify::calibration::{
     Calibration as Found, Options as Identification, STRONG_CORRELATION, calibrate as identify,
 };
+use crate::identify::statistics::misses;
 use crate::model::profile::Tables;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -31,9 +32,9 @@ pub struct Parameter {
     pub sigma: Option<f64>,
     /// Whether these data determine it.
     pub identifiable: bool,
-    /// Parameters that these data cannot tell it from.
+    /// Parameters that these data cannot separate it from.
     pub confounded_with: Vec<String>,
-    /// Whether the data tell hardly more of it than its prior.
+    /// Whether the data say hardly more of it than its prior.
     pub is_prior: bool,
 }
 
@@ -147,6 +148,8 @@ pub struct Calibration {
     /// Errors of rows for `validate`, which were not used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held_out: Option<HeldOut>,
+    /// The row with the largest error with everything.
+    pub worst_row: Option<WorstRow>,
     /// SHA-256 of the profile.
     pub profile_sha256: String,
     /// SHA-256 of each file of measurements.
@@ -182,12 +185,12 @@ pub fn calibrate(
         all,
         name,
         sha256,
-        findings: mut told,
+        findings: mut reported,
         tables,
     } = measurements;
     let found = identify(&profile.profile, &all, options)
         .map_err(|error| identify_failure(&name, &error))?;
-    told.extend(findings(&found.remarks, &name));
+    reported.extend(findings(&found.remarks, &name));
     let device = found.device.filter(|_| !found.base_replaced);
     let u = &found.uncertainty;
     Ok(Calibration {
@@ -211,12 +214,13 @@ pub fn calibrate(
         world_from_device_sigma: device.and_then(|device| device.sigma).map(Into::into),
         passes: found.solution.passes,
         stopped: found.stop().describe(),
-        findings: told,
+        findings: reported,
         features: features(&found),
         held_out: found.held_out.as_ref().map(|(frames, full)| HeldOut {
             frames_only: frames.into(),
             after: full.into(),
         }),
+        worst_row: worst_row(&found),
         profile_sha256: profile.sha256.clone(),
         measurements_sha256: sha256,
         output: None,
@@ -226,11 +230,17 @@ pub fn calibrate(
     })
 }
 
+fn worst_row(found: &Found) -> Option<WorstRow> {
+    let after = misses(&found.problem, &found.solution.estimate);
+    let lengths = after.iter().map(|miss| miss.length_m);
+    WorstRow::of(&found.problem.rows, &found.fit, lengths)
+}
+
 impl Calibration {
     /// The profile with what was found, its statistics and where it comes from; `date` as the user writes it.
     ///
     /// # Errors
-    /// The profile's text is laid out so that the place of the calibration cannot be told.
+    /// The profile's text is laid out so that the place of the calibration cannot be found.
     pub fn profile_text(
         &self,
         profile: &ProfileFile,

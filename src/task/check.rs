@@ -63,14 +63,14 @@ pub struct Checking<'a> {
     nominal: Vec<String>,
 }
 
-/// Follows programs through the real robot; `tell` hears how many of how many moves are done.
+/// Follows programs through the real robot; `hear` is called with how many of how many moves are done.
 ///
 /// # Errors
 /// Programs that are not understood, of several languages, or made from another original; an arm, a tool or a frame that is
 /// not known; a mesh or a cell that cannot be read.
 pub fn check<'a>(
     request: &'a Request<'a>,
-    tell: &mut dyn FnMut(usize, usize),
+    hear: &mut dyn FnMut(usize, usize),
 ) -> Result<Checking<'a>, Failure> {
     let (sources, file) = (request.sources, request.profile);
     let mut profile = file.profile.clone();
@@ -94,7 +94,7 @@ pub fn check<'a>(
         profile: &profile,
         scene: &scene,
     };
-    let found = engine::check_telling(&subject, &request.options, tell);
+    let found = engine::check_telling(&subject, &request.options, hear);
     let mut check = found.map_err(|error| match error {
         CheckError::Program(error) => explain(&error, sources),
         CheckError::Nominal(error) => explain(&error, request.nominal.unwrap_or(&[])),
@@ -123,7 +123,7 @@ pub fn check<'a>(
 }
 
 impl Checking<'_> {
-    /// What the report says beside the check itself.
+    /// What the report says besides the check itself.
     #[must_use]
     pub fn header<'h>(&'h self, left_out: &'h LeftOut) -> Header<'h> {
         Header {
@@ -149,7 +149,7 @@ impl Checking<'_> {
     }
 }
 
-/// What the report says beside the check itself.
+/// What the report says besides the check itself.
 pub struct Header<'a> {
     /// Program files, as the user named them.
     pub inputs: &'a [String],
@@ -202,7 +202,7 @@ pub struct Clearance {
     /// The nearest point of the other.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub point_mm: Option<[Option<f64>; 3]>,
-    /// Whether nothing between the samples is nearer than told.
+    /// Whether nothing between the samples is nearer than reported.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub certified: Option<bool>,
     /// Nothing is nearer than this.

@@ -61,6 +61,9 @@ pub struct Prepared<'a> {
 ///
 /// # Errors
 /// Programs that are not understood, of several languages, or compensated already; an arm, a tool or a frame that is not known.
+///
+/// # Panics
+/// By a fault of poseshift alone: the search for markers fails on no bytes.
 pub fn prepare<'a>(request: &'a Request<'a>) -> Result<Prepared<'a>, Failure> {
     let (sources, profile) = (request.sources, request.profile);
     refuse_doubtful(profile)?;
@@ -73,9 +76,11 @@ pub fn prepare<'a>(request: &'a Request<'a>) -> Result<Prepared<'a>, Failure> {
     options.each_for_itself = request.despite_errors == DespiteErrors::Good;
     // markers are looked for while the programs are compensated
     let (marked, compensation) = thread::scope(|scope| {
-        let marked = scope.spawn(|| match request.force {
-            true => Ok(()),
-            false => refuse_marked(sources),
+        let marked = scope.spawn(|| {
+            if request.force {
+                return Ok(());
+            }
+            refuse_marked(sources)
         });
         let compensation = compensate(language, sources, &profile.profile, &options);
         (marked.join(), compensation)
@@ -166,7 +171,7 @@ impl Prepared<'_> {
     }
 }
 
-/// What the report says beside the compensation itself.
+/// What the report says besides the compensation itself.
 pub struct Header<'a> {
     /// Program files, as the user named them, in the order of the sources.
     pub inputs: Vec<String>,

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
-use super::parts::{File, SpreadMm, findings, finite};
+use super::parts::{File, SpreadMm, WorstRow, findings, finite};
 use super::profile_file::ProfileFile;
 use super::sentences::sentence;
 use super::{Document, PROGRAM};
@@ -197,7 +197,7 @@ pub struct Unregistered {
     pub chi_squared_fall: Option<f64>,
 }
 
-/// A configuration that would tell alternatives apart.
+/// A configuration that would separate alternatives.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct TellingPose {
     /// The controller's joint angles.
@@ -222,7 +222,7 @@ pub struct Untested {
 pub struct HeldOut {
     /// The present model.
     pub before: Option<SpreadMm>,
-    /// With what was fitted along the way.
+    /// With what was fitted along with it.
     pub absorbed: Option<SpreadMm>,
     /// With everything found.
     pub after: Option<SpreadMm>,
@@ -295,11 +295,11 @@ pub struct Diagnosis {
     pub alternative_groups: Vec<Group>,
     /// Functions outside the registry that explain more.
     pub unregistered: Vec<Unregistered>,
-    /// Configurations that would tell alternatives apart.
+    /// Configurations that would separate alternatives.
     pub telling_poses: Vec<TellingPose>,
     /// Effects that cannot be tested.
     pub cannot_test: Vec<Untested>,
-    /// What was fitted along the way and is no finding.
+    /// What was fitted along with them and is no finding.
     pub absorbed: Vec<&'static str>,
     /// Errors on rows not used.
     pub held_out: HeldOut,
@@ -313,6 +313,8 @@ pub struct Diagnosis {
     pub noise_source: &'static str,
     /// The residual of a coordinate.
     pub left_mm: Option<f64>,
+    /// The row with the largest residual.
+    pub worst_row: Option<WorstRow>,
     /// Rows that fit no model.
     pub outliers: Vec<OutlierRow>,
     /// Rows that decide parameters alone.
@@ -344,7 +346,7 @@ impl Document for Diagnosis {
     const KIND: &'static str = "diagnosis/1";
 }
 
-/// Searches for the effects that a profile lacks; `tell` hears what is being done.
+/// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
 /// Measurements that contradict the robot or themselves, or are too few.
@@ -352,7 +354,7 @@ pub fn diagnose(
     file: &ProfileFile,
     measurements: Rows,
     options: &Options,
-    tell: &mut dyn FnMut(&str),
+    hear: &mut dyn FnMut(&str),
 ) -> Result<Diagnosis, Failure> {
     let Rows {
         all,
@@ -361,7 +363,7 @@ pub fn diagnose(
         findings: read,
         ..
     } = measurements;
-    let d = search(&file.profile, &all, options, tell)
+    let d = search(&file.profile, &all, options, hear)
         .map_err(|error| identify_failure(&name, &error))?;
     let label = |i: usize| d.found[i].effect.label();
     let labels = |which: &[usize]| which.iter().map(|i| label(*i)).collect::<Vec<_>>();
@@ -453,6 +455,7 @@ pub fn diagnose(
             NoiseSource::Residuals => "residuals",
         },
         left_mm: finite(mm_from_m(d.left_m)),
+        worst_row: WorstRow::of(&d.problem.rows, &all, d.lengths.1.iter().copied()),
         outliers: d
             .outliers
             .iter()
@@ -518,7 +521,7 @@ impl Diagnosis {
     /// The profile with the effects found, and where they come from.
     ///
     /// # Errors
-    /// The profile's text is laid out so that the place of the calibration cannot be told.
+    /// The profile's text is laid out so that the place of the calibration cannot be found.
     pub fn profile_text(&self, profile: &ProfileFile) -> Result<String, Failure> {
         let found = self.found.found.iter();
         let labels = found.clone().map(|f| f.effect.label());
@@ -598,7 +601,7 @@ impl From<&engine::whereabouts::Spot> for Spot {
     }
 }
 
-/// What was fitted along the way and is no finding.
+/// What was fitted along with them and is no finding.
 fn absorbed(d: &Found) -> Vec<&'static str> {
     let mut all = Vec::new();
     if d.elsewhere || d.absorbed {

@@ -75,8 +75,14 @@ pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<P
         if forces {
             conditions.force_n = row.numbers(FORCE_COLUMNS)?;
         }
+        let pose = model.forward(&row.joints()?, &conditions);
+        if !pose.translation.iter().all(|x| x.is_finite()) {
+            let message =
+                "the tool has no finite pose here: a value of the profile is beyond any arm";
+            return Err(row.failure(message.into()));
+        }
         Ok(ToolPose {
-            pose: (&model.forward(&row.joints()?, &conditions)).into(),
+            pose: (&pose).into(),
             id: row.id(number + 1),
         })
     };

@@ -242,7 +242,7 @@ fn weak_rotation(problem: &Problem, name: &str) -> Option<Finding> {
             WEAK_RAD / DEG
         );
         Finding::of_file("weak-rotation", Severity::Warning, name, message)
-            .hint("add poses that tilt the flange the other way")
+            .hint("add poses that tilt the flange in another direction")
     })
 }
 

@@ -7,7 +7,7 @@ use super::profile_file::ProfileFile;
 use super::register::points::Points;
 use super::table::{JOINTS, POSE, Row, Table, cell, text_cell};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::geometry::{Pose as Motion, Quaternion, Vector};
+use crate::geometry::{Pose as Motion, Quaternion, Vector, norm};
 use crate::model::profile::{Mounted, Profile};
 use crate::program::Source;
 use crate::register::frame_file::{Frame, Sigma as Six};
@@ -211,6 +211,8 @@ pub struct Base {
     pub rmsd_mm: f64,
     /// Their residuals.
     pub residuals_mm: [[f64; 3]; 3],
+    /// The length of the largest of them.
+    pub max_residual_mm: f64,
     /// B1, B2, B3 as the robot was taught them.
     pub taught_mm: [[f64; 3]; 3],
     /// How the file is named.
@@ -250,10 +252,12 @@ pub fn base(taught: &Source, base_m: [f64; 3]) -> Result<Base, Failure> {
             ("to".into(), name.clone()),
         ]),
     };
+    let residuals_mm = found.left_m.map(|v| v.map(mm_from_m));
     Ok(Base {
         base: (&found.robot_from_base).into(),
         rmsd_mm: mm_from_m(found.rms_m),
-        residuals_mm: found.left_m.map(|v| v.map(mm_from_m)),
+        residuals_mm,
+        max_residual_mm: residuals_mm.iter().map(|r| norm(*r)).fold(0.0, f64::max),
         taught_mm: taught.map(|v| v.map(mm_from_m)),
         name: name.clone(),
         frame_text: frame.to_yaml(),

@@ -127,7 +127,7 @@ fn grid(source: &Source) -> Result<Grid, Failure> {
 }
 
 impl Rows {
-    /// Reads the files; rows of several are told apart by their names and lines.
+    /// Reads the files; rows of several are distinguished by their names and lines.
     ///
     /// # Errors
     /// A row that is no measurement, with line and column; no file; columns that are not known.

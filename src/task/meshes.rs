@@ -34,7 +34,7 @@ impl<'a> Loader<'a> {
         }
     }
 
-    /// Reads the mesh of a shape, if it is one, from beside the file that names it; its name becomes the key of the mesh.
+    /// Reads the mesh of a shape, if it is one, from next to the file that names it; its name becomes the key of the mesh.
     ///
     /// # Errors
     /// A file that cannot be read or is no mesh.
@@ -52,7 +52,7 @@ impl<'a> Loader<'a> {
                         "{named_in}: cannot read the mesh {}: {error}",
                         path.display()
                     ),
-                    "mesh files are looked for beside the file that names them",
+                    "mesh files are looked for next to the file that names them",
                 )
             })?;
             let neighbour = |uri: &str| {

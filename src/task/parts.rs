@@ -6,6 +6,8 @@ use crate::geometry::{Pose as Motion, Quaternion, Vector};
 use crate::identify::Line;
 use crate::identify::doubt::Remark;
 use crate::identify::identifiability::Observability as Indices;
+use crate::identify::measurements::Measurements;
+use crate::identify::problem;
 use crate::identify::statistics as of;
 use crate::register::frame_file::Sigma as Six;
 use crate::register::uncertainty::PoseCovariance;
@@ -197,7 +199,7 @@ impl Ellipsoid {
 
 /// Statistics of the size of an error.
 ///
-/// A trait, so that the unit stands in the names of the keys and what tells them need not care.
+/// A trait, so that the unit stands in the names of the keys and what prints them need not care.
 pub trait Statistics {
     /// The numbers, in the unit of the keys.
     fn numbers(&self) -> of::Spread;
@@ -313,10 +315,41 @@ impl From<&of::Quality> for Quality {
 }
 
 impl Quality {
-    /// The one that tells most: position where it was measured, else distances.
+    /// The one that says most: position where it was measured, else distances.
     #[must_use]
     pub fn main(&self) -> Option<SpreadMm> {
         self.position.or(self.range)
+    }
+}
+
+/// The row that a model misses by most.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct WorstRow {
+    /// Line, from 1.
+    pub line: usize,
+    /// Measured minus expected.
+    pub residual_mm: f64,
+    /// Its file.
+    #[serde(flatten)]
+    pub file: File,
+}
+
+impl WorstRow {
+    /// Of a problem's rows and the lengths of their residuals, metres; `None` of no rows.
+    #[must_use]
+    pub fn of(
+        rows: &[problem::Row],
+        measurements: &Measurements,
+        lengths_m: impl IntoIterator<Item = f64>,
+    ) -> Option<Self> {
+        let each = rows.iter().zip(lengths_m).filter(|(_, m)| m.is_finite());
+        let (row, length_m) = each.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let line = &measurements.rows[row.measurement].line;
+        Some(Self {
+            line: line.number,
+            residual_mm: mm_from_m(length_m),
+            file: line.into(),
+        })
     }
 }
 

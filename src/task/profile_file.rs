@@ -40,7 +40,7 @@ impl ProfileFile {
     /// The text with another calibration, comments and order kept.
     ///
     /// # Errors
-    /// The text is laid out so that the place of the calibration cannot be told.
+    /// The text is laid out so that the place of the calibration cannot be found.
     pub fn rewritten(&self, profile: &Profile) -> Result<String, Failure> {
         rewritten(&self.text, profile)
             .map_err(|error| Failure::new(format!("{}: {error}", self.name)))

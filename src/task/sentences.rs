@@ -25,7 +25,7 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
     let length = |x: &[f64]| x.iter().map(|v| v * v).sum::<f64>().sqrt();
     let text = match effect.kind {
         Kind::BaseFrame => format!(
-            "The base stands {} mm from where the profile has it and is turned by {}°",
+            "The base stands {} mm from where the profile has it and rotated by {}°",
             mm(length(&p[..3])),
             deg(length(&p[3..]))
         ),
@@ -34,12 +34,12 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
             mm(length(&p[..3]))
         ),
         Kind::LinkGeometry => format!("Link {} differs from the profile", site.index + 1),
-        Kind::JointScale => format!("{joint} turns {}° too far in 90°", deg(p[0] * 90.0 * DEG)),
+        Kind::JointScale => format!("{joint} rotates {}° too far in 90°", deg(p[0] * 90.0 * DEG)),
         Kind::JointCompliance => {
-            format!("{joint} gives way by {}° under 100 N m", deg(100.0 * p[0]))
+            format!("{joint} yields by {}° under 100 N m", deg(100.0 * p[0]))
         }
         Kind::JointHarmonic => format!(
-            "{joint} runs fast and slow by {}°, {} times a turn (eccentric gear or encoder)",
+            "{joint} runs fast and slow by {}°, {} times a revolution (eccentric gear or encoder)",
             deg(length(&p[..2])),
             site.periods()
         ),
@@ -49,12 +49,9 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
             deg(p[0] * 90.0 * DEG)
         ),
         Kind::Backlash if p[0] < 0.0 => {
-            format!("{joint} loses {}° when it turns the other way", deg(-p[0]))
+            format!("{joint} loses {}° when it reverses", deg(-p[0]))
         }
-        Kind::Backlash => format!(
-            "{joint} runs {}° ahead when it turns the other way",
-            deg(p[0])
-        ),
+        Kind::Backlash => format!("{joint} runs {}° ahead when it reverses", deg(p[0])),
         Kind::PayloadError => format!(
             "The load on the flange is {} kg heavier than the profile says, its centre of gravity {} mm elsewhere",
             digits(p[0]),
@@ -128,7 +125,7 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
         Kind::FrameShift => format!(
             "The measuring device or the base moved before row {} by {} mm where the robot stands",
             site.order,
-            // a turn about the device far away moves it by the lever
+            // a rotation about the device far away moves it by the lever
             mm(norm(sub(
                 Pose::from_xyz_rxryrz(*p).transform(base_m),
                 base_m
@@ -141,7 +138,7 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
         ),
         Kind::TrackScale => format!("{axis} goes {} mm too far in a metre", mm(p[0])),
         Kind::TrackDirection => format!(
-            "{axis} runs {}° beside the direction of the profile",
+            "{axis} runs {}° off the direction of the profile",
             deg(length(&p[..2]))
         ),
         Kind::TrackStraightness => format!("{axis} is bent by {} mm at its ends", mm(p[0])),
@@ -154,21 +151,23 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
             "The carriage of {axis} rotates by {}° to its ends",
             deg(p[0])
         ),
-        Kind::TrackBacklash => format!("{axis} loses {} mm when it goes the other way", mm(p[0])),
+        Kind::TrackBacklash => format!("{axis} loses {} mm when it reverses", mm(p[0])),
         Kind::PositionerAxis => format!(
             "{axis} is {} mm and {}° from where the profile has it",
             mm(length(&p[..2])),
             deg(length(&p[2..4]))
         ),
         Kind::PositionerZero => format!("{axis} has its zero {}° elsewhere", deg(p[0])),
-        Kind::PositionerScale => format!("{axis} turns {}° too far in 90°", deg(p[0] * 90.0 * DEG)),
+        Kind::PositionerScale => {
+            format!("{axis} rotates {}° too far in 90°", deg(p[0] * 90.0 * DEG))
+        }
         Kind::PositionerRipple => format!(
-            "{axis} runs fast and slow by {}°, {} times a turn",
+            "{axis} runs fast and slow by {}°, {} times a revolution",
             deg(length(&p[..2])),
             site.order
         ),
         Kind::PositionerRunout => format!(
-            "{axis} wobbles by {} mm, {} times a turn",
+            "{axis} wobbles by {} mm, {} times a revolution",
             mm(length(&p[..2])),
             site.order
         ),

@@ -92,6 +92,7 @@ pub fn simulate_at(
         columns: Vec::new(),
     };
     let rows = seen.moved(&profile.world_from_device().inverse()).rows;
+    refuse_no_place(&rows)?;
     let named_tool = profile.tools.contains_key(&tool.name);
     let csv = measurements_csv(&rows, true, forces, named_tool);
     Ok(Simulation {
@@ -107,16 +108,34 @@ fn sigma_rad(row: &Measurement) -> Option<f64> {
     row.sigma_rad.filter(|_| is_pose)
 }
 
+/// Rows that the model puts nowhere: a value of the profile is beyond any arm.
+fn refuse_no_place(rows: &[Measurement]) -> Result<(), Failure> {
+    let is_somewhere = |row: &Measurement| {
+        let place = row.observed.point_m();
+        place.is_none_or(|p| p.iter().all(|x| x.is_finite()))
+    };
+    match rows.iter().position(|row| !is_somewhere(row)) {
+        Some(row) => Err(Failure::with_hint(
+            format!("measurement {} has no finite position", row + 1),
+            "a value of the profile is beyond any arm: `poseshift profile show` lists them",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// The largest error that is simulated, mm.
+const MOST_MM: f64 = 1e6;
+
 /// Noise and outliers within what they can be.
 fn refuse_nonsense(session: &Session) -> Result<(), Failure> {
     let sizes = [
-        ("--noise-mm", mm_from_m(session.noise_m), f64::INFINITY),
+        ("--noise-mm", mm_from_m(session.noise_m), MOST_MM),
         ("--noise-deg", session.noise_rad / DEG, 180.0),
         ("--outliers", session.outliers, 1.0),
-        ("--outlier-mm", mm_from_m(session.outlier_m), f64::INFINITY),
+        ("--outlier-mm", mm_from_m(session.outlier_m), MOST_MM),
     ];
     for (option, value, most) in sizes {
-        if !(0.0..=most).contains(&value) || !value.is_finite() {
+        if !(0.0..=most).contains(&value) {
             return Err(Failure::new(format!(
                 "{option} is {value}; it must be from 0 to {most}"
             )));

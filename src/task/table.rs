@@ -132,6 +132,9 @@ impl<'a> Table<'a> {
     }
 }
 
+/// A larger number is no length, angle or weight: sums of its squares and sines of it mean nothing.
+const LARGEST: f64 = 1e12;
+
 impl Row<'_> {
     /// A cell's text; `None` where there is no such column.
     pub(super) fn text(&self, column: &str) -> Option<&str> {
@@ -139,20 +142,19 @@ impl Row<'_> {
         self.cells.get(index)
     }
 
-    /// A finite number in a required column.
+    /// A number in a required column, not larger than [`LARGEST`].
     ///
     /// # Errors
     /// The cell is none.
     pub(super) fn number(&self, column: &str) -> Result<f64, Failure> {
         let text = self.text(column).unwrap_or_default();
         let number = text.parse().ok().filter(|n: &f64| n.is_finite());
-        number.ok_or_else(|| {
-            let found = if text.is_empty() {
-                "an empty cell".to_owned()
-            } else {
-                format!("`{text}`")
+        number.filter(|n| n.abs() <= LARGEST).ok_or_else(|| {
+            let message = match (text, number) {
+                ("", _) => format!("column {column}: an empty cell is not a finite number"),
+                (_, None) => format!("column {column}: `{text}` is not a finite number"),
+                _ => format!("column {column}: `{text}` is beyond \u{b1}{LARGEST:e}"),
             };
-            let message = format!("column {column}: {found} is not a finite number");
             Failure::at(
                 self.table.source,
                 self.line,

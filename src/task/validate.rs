@@ -3,7 +3,7 @@
 use super::Document;
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
-use super::parts::{File, Pairs, Quality, SpreadDeg, SpreadMm, findings};
+use super::parts::{File, Pairs, Quality, SpreadDeg, SpreadMm, WorstRow, findings};
 use super::profile_file::ProfileFile;
 use crate::finding::{Finding, Severity};
 use crate::identify::IdentifyError;
@@ -156,6 +156,8 @@ pub struct Validation {
     /// Errors by models identified without the rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub folds: Option<Folds>,
+    /// The row with the largest error of the real model.
+    pub worst_row: Option<WorstRow>,
     /// SHA-256 of the profile.
     pub profile_sha256: String,
     /// SHA-256 of each file of measurements.
@@ -177,7 +179,7 @@ impl Document for Validation {
     const KIND: &'static str = "validation/1";
 }
 
-/// Judges a profile's models by measurements; `tell` hears how many of how many folds are done.
+/// Judges a profile's models by measurements; `hear` is called with how many of how many folds are done.
 ///
 /// # Errors
 /// Too few rows, or rows that contradict the robot or themselves.
@@ -185,7 +187,7 @@ pub fn validate(
     file: &ProfileFile,
     measurements: Rows,
     options: &Options,
-    tell: &mut dyn FnMut(usize, usize),
+    hear: &mut dyn FnMut(usize, usize),
 ) -> Result<Validation, Failure> {
     let Rows {
         mut all,
@@ -204,13 +206,13 @@ pub fn validate(
     if some && refit != Refit::Others {
         all = all.filtered(|_, row| is_for(row));
     }
-    let found = validate_telling(&file.profile, &all, refit, options.folds, tell)
+    let found = validate_telling(&file.profile, &all, refit, options.folds, hear)
         .map_err(|error| too_few(&name, &error))?;
-    let mut told: Vec<Finding> = seen_before(file, &found, &sha256, &name)
+    let mut reported: Vec<Finding> = seen_before(file, &found, &sha256, &name)
         .into_iter()
         .collect();
-    told.extend(read);
-    told.extend(findings(&found.remarks, &name));
+    reported.extend(read);
+    reported.extend(findings(&found.remarks, &name));
     Ok(Validation {
         rows: found.problem.rows.len(),
         frames_refitted: found.refit != Refit::No,
@@ -239,9 +241,14 @@ pub fn validate(
             real: full.into(),
             frames_only: alone.into(),
         }),
+        worst_row: WorstRow::of(
+            &found.problem.rows,
+            &found.measurements,
+            found.real.misses.iter().map(|miss| miss.length_m),
+        ),
         profile_sha256: file.sha256.clone(),
         measurements_sha256: sha256,
-        findings: told,
+        findings: reported,
         found,
         profile: file.profile.clone(),
         name,
@@ -262,7 +269,7 @@ fn too_few(name: &str, error: &IdentifyError) -> Failure {
             "{name}: {rows} rows give {numbers} numbers; base and tool, which the comparison fits, have {parameters} \
              unknowns: more numbers are needed"
         ),
-        "validate on more configurations: 20 and more tell something of the workspace",
+        "validate on more configurations: 20 and more say something of the workspace",
     )
 }
 

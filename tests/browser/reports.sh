@@ -15,6 +15,9 @@ say compensate programs/rapid/olp/in/Deburr.mod --profile $profile -o "$out/Debu
   --report "$out/compensate.html" --json > "$out/compensate.json"
 say check programs/rapid/olp/in/Deburr.mod --profile $profile --cell tests/browser/cell.yaml \
   --report "$out/check.html" --json > "$out/check.json"
+sed '/name: table/s/z_mm: -60/z_mm: 230/' tests/browser/cell.yaml > "$out/crowded.yaml"
+say check programs/rapid/olp/in/Deburr.mod --profile $profile --cell "$out/crowded.yaml" \
+  --report "$out/collision.html" --json > "$out/collision.json"
 say compensate programs/krl/cam/in/pocket.src --profile programs/krl/profile.yaml -o "$out/pocket.src" \
   --report "$out/krl.html" --json > "$out/krl.json"
 

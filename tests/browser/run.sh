@@ -12,10 +12,10 @@ command -v node > /dev/null && command -v npm > /dev/null || skip "node and npm 
 if [ -z "${CHROMIUM:-}" ] && ! command -v chromium chromium-browser google-chrome > /dev/null; then
   skip "no chromium (apt-get install chromium, or CHROMIUM=path)"
 fi
-[ -d node_modules/playwright-core ] || npm ci --no-audit --no-fund --silent || skip "npm cannot install playwright-core"
+[ -d node_modules/axe-core ] || npm ci --no-audit --no-fund --silent || skip "npm cannot install playwright-core and axe-core"
 # for the test that rebuilds the script; it skips itself without
 [ -d ../../web/node_modules/esbuild ] || npm --prefix ../../web ci --no-audit --no-fund --silent || true
 reports=$(mktemp -d)
 trap 'rm -rf "$reports"' EXIT
 ./reports.sh "$program" "$reports" > /dev/null
-REPORTS="$reports" node --test --test-reporter=spec reports.test.mjs
+REPORTS="$reports" node --test --test-reporter=spec reports.test.mjs layout.test.mjs

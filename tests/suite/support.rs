@@ -1,7 +1,17 @@
 //! Reading test data, and comparing poses without the code under test.
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+
+/// Says that a test was not made, and why: past the harness, which keeps what a test prints and shows it of failures only.
+pub fn skipped(why: &str) {
+    let thread = std::thread::current();
+    let test = thread.name().unwrap_or("a test");
+    let line = format!("\nSKIPPED {test}: {why}\n");
+    // nobody to hear it is no failure
+    let _ = std::io::stderr().write_all(line.as_bytes());
+}
 
 /// A path below the repository's top.
 pub fn repository(path: &str) -> PathBuf {

@@ -65,17 +65,17 @@ function controls(view, cell) {
   const graded = cell.paths.some((path) => path.by) || (cell.ellipsoids ?? []).length > 0;
   let apply = () => {};
   if (graded) {
-    const told = element("output", {});
+    const shown = element("output", {});
     const slider = element("input", { type: "range", min: "0", max: String(TIMES.length - 1), step: "1", className: "magnify", "aria-label": "Magnify deviations" });
     slider.value = String(startTimes(cell));
     apply = (event) => {
       const times = TIMES[Number(slider.value)];
-      told.textContent = `\u00d7${times}`;
+      shown.textContent = `\u00d7${times}`;
       slider.setAttribute("aria-valuetext", `times ${times}`);
       view?.magnify(times, event != null);
     };
     slider.addEventListener("input", apply);
-    bar.append(element("label", {}, "Deviations ", slider, told));
+    bar.append(element("label", {}, "Deviations ", slider, shown));
   }
   if (view) {
     for (const shown of view.layers.paths) {
@@ -105,11 +105,19 @@ function controls(view, cell) {
   return { bar, apply };
 }
 
-function scaleBar(view, unit) {
+/** What the colours of something say: from 0 to the worst. */
+function scaleBar(what, worst) {
   const stops = Array.from({ length: 11 }, (_, k) => ramp(k / 10)).join(", ");
-  const worst = view.worst;
   const digits = worst >= 1 ? 2 : Math.min(6, 1 - Math.floor(Math.log10(worst)));
-  return element("div", { className: "scale" }, element("span", {}, "0"), element("i", { style: `background: linear-gradient(to right, ${stops})` }), element("span", {}, `${worst.toFixed(digits)} ${unit}`));
+  return element("div", { className: "scale" }, element("b", {}, what), element("span", {}, "0"), element("i", { style: `background: linear-gradient(to right, ${stops})` }), element("span", {}, `${worst.toFixed(digits)} mm`));
+}
+
+/** The scales of what is coloured by size: of the points, where a word says what their colour is, and of the paths. */
+function scales(view, cell) {
+  const bars = [];
+  if (cell.points.by && view.most > 0) bars.push(scaleBar(`${cell.points.name}: ${cell.points.by}`, view.most));
+  if (cell.paths.some((path) => path.graded && path.worst > 0)) bars.push(scaleBar("paths: error", view.worst));
+  return bars;
 }
 
 /** What is known of an item: its line of the program, its numbers, its findings. */
@@ -120,7 +128,7 @@ function detailOf(box, cell, table, findings) {
       if (column.code || column.hidden) continue;
       const value = valueOf(column, row);
       if (value == null || value === "") continue;
-      list.append(element("dt", {}, heading(column)), element("dd", {}, text(value, column.decimals)));
+      list.append(element("dt", {}, heading(column)), element("dd", {}, text(value, column)));
     }
     const code = table.columns.find((column) => column.code);
     const line = table.columns.find((column) => column.label === "line");
@@ -135,8 +143,8 @@ function detailOf(box, cell, table, findings) {
       list.append(element("dt", {}, "joints, deg"), element("dd", {}, joints.slice(6 * row, 6 * row + 6).map((q) => text(q)).join("  ")));
     }
     const own = findings(row);
-    const told = own.map((finding) => element("li", { className: "severity " + finding.severity }, `${finding.severity} ${finding.id}: ${finding.message}`));
-    box.replaceChildren(...shown, list, told.length ? element("ul", { className: "found" }, ...told) : "");
+    const said = own.map((finding) => element("li", { className: "severity " + finding.severity }, `${finding.severity} ${finding.id}: ${finding.message}`));
+    box.replaceChildren(...shown, list, said.length ? element("ul", { className: "found" }, ...said) : "");
   };
 }
 
@@ -176,22 +184,28 @@ function along(cell, onselect) {
   }
   const items = paths[0].items;
   const chart = { title: "Error along the path", note: cell.along, wide: true, x: { label: "path length", unit: "mm" }, y: { label: "error", unit: "mm" }, series };
-  return showChart(chart, { columns }, (sample) => onselect(items[sample]));
+  // one stop for each item: the sample where it begins
+  const stops = () => Array.from(new Map(items.map((item, sample) => [item, sample]).reverse()).values()).sort((a, b) => a - b);
+  return showChart(chart, { columns }, (sample) => onselect(items[sample]), stops);
 }
 
 /** Shows a cell with its list. */
-export function showCell(cell, table, findings) {
+export function showCell(cell, table, findings, onselect) {
   complete(cell);
   const stage = element("div", { className: "stage" });
-  const detail = element("div", { className: "detail", "aria-live": "polite" });
+  const detail = element("div", { className: "detail", tabIndex: 0, role: "region", "aria-label": "What is chosen", "aria-live": "polite" });
   const show = detailOf(detail, cell, table, findings);
   let view = null;
   let list = null;
+  const items = cell.paths.find((path) => path.by && path.items)?.items ?? [];
+  const chart = along(cell, (row) => select(row));
   const select = (row, fromList = false) => {
     if (row == null || row < 0 || row >= rowsOf(table)) return;
     show(row);
     view?.select(row);
     if (!fromList) list?.select(row);
+    chart?.mark(items.indexOf(row));
+    onselect(row);
   };
   try {
     view = new View(stage, cell, (row) => select(row));
@@ -202,10 +216,8 @@ export function showCell(cell, table, findings) {
   const { bar, apply } = controls(view, cell);
   const parts = [element("h2", {}, cell.title)];
   if (cell.note) parts.push(element("p", {}, cell.note));
-  const scaled = view && cell.paths.some((path) => path.graded && path.worst > 0) ? scaleBar(view, "mm") : null;
-  parts.push(bar, element("div", { className: "cell" }, element("div", { className: "space" }, stage, scaled), detail), element("h3", {}, cell.points.title), list.node);
+  parts.push(bar, element("div", { className: "cell" }, element("div", { className: "space" }, stage, ...(view ? scales(view, cell) : [])), detail), element("h3", {}, cell.points.title), list.node);
   const node = element("section", {}, ...parts);
-  const chart = along(cell, (row) => select(row));
   if (chart) node.append(chart);
   const worst = cell.points.first ?? 0;
   const start = () => {

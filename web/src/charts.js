@@ -1,7 +1,7 @@
 // Charts as SVG: colours come from the page, so that they are right in light, dark and print.
 import * as Plot from "@observablehq/plot";
-import { cell, element, heading, rowsOf } from "./data.js";
-import { behind } from "./table.js";
+import { cell, element, heading, rowsOf, text } from "./data.js";
+import { behind, shownColumns } from "./table.js";
 
 /** Points drawn of one series; more are thinned, never in the table. */
 const MOST = 3000;
@@ -36,8 +36,15 @@ function rowsWith(columns) {
   return rows;
 }
 
+/** A picture with a name; its parts, which have no role, have none. */
+function named(plot, title) {
+  plot.querySelectorAll("[aria-label], [aria-description]").forEach((part) => ["aria-label", "aria-description"].forEach((name) => part.removeAttribute(name)));
+  plot.setAttribute("role", "img");
+  plot.setAttribute("aria-label", title);
+}
+
 /** The marks of one series of a chart: what is drawn, from which columns of the table. */
-function marksOf(series, columns) {
+function marksOf(series, columns, alone) {
   const of = (index) => columns[index];
   const colour = tone(series.tone);
   const at = (index) => (row) => cell(of(index), row);
@@ -48,7 +55,8 @@ function marksOf(series, columns) {
     case "line":
       return [Plot.line(thinned(rows, y), { x, y, stroke: colour, strokeWidth: 1.5 })];
     case "histogram":
-      return [Plot.rectY(rows, { x1: x, x2: at(series.x2), y, fill: colour, inset: 0.4 })];
+      // several on one axis are seen through one another
+      return [Plot.rectY(rows.filter((row) => y(row) > 0), { x1: x, x2: at(series.x2), y, fill: colour, fillOpacity: alone ? 1 : 0.35, stroke: alone ? "none" : colour, inset: alone ? 0.4 : 0 })];
     case "bars":
       return [Plot.barY(rows, { x, y, fill: colour, fillOpacity: 0.85 })];
     case "rows":
@@ -126,15 +134,49 @@ function fitted(names, size, most) {
   return { shown: (index) => shown[index], widest: Math.max(20, ...shown.map(wide)) };
 }
 
-/** A chart of columns of a table, with its table behind it. `onselect(row)` is told when a point is clicked. */
-export function showChart(chart, table, onselect) {
+/** Rows that one press of a key steps over. */
+const LEAP = 10;
+
+/**
+ * Makes a chart's points choosable by keys: a slider along `stops`, rows in the order of x. `words(row)` says a row in words. The
+ * result has `at(row)`, to say which is chosen.
+ */
+function walked(box, stops, words, onselect) {
+  let at = 0;
+  const say = () => {
+    box.setAttribute("aria-valuenow", String(at));
+    box.setAttribute("aria-valuetext", words(stops[at]));
+  };
+  const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: LEAP, PageDown: -LEAP, Home: -Infinity, End: Infinity };
+  box.setAttribute("aria-valuemin", "0");
+  box.setAttribute("aria-valuemax", String(stops.length - 1));
+  box.addEventListener("keydown", (event) => {
+    if (!(event.key in steps)) return;
+    event.preventDefault();
+    at = Math.max(0, Math.min(stops.length - 1, at + steps[event.key]));
+    onselect(stops[at]);
+    say();
+  });
+  say();
+  return { at: (row) => {
+    const found = stops.indexOf(row);
+    if (found >= 0) at = found;
+    say();
+  } };
+}
+
+/**
+ * A chart of columns of a table, with its table behind it. `onselect(row)` is called when a point is chosen, by a click or by keys
+ * that walk along `stops`; the result has `mark(row)`, which rings the chosen one.
+ */
+export function showChart(chart, table, onselect, stops) {
   const columns = table.columns;
   const rows = chart.series.some((series) => series.kind === "rows");
   const label = (axis) => (axis?.unit ? `${axis.label}, ${axis.unit}` : axis?.label);
   const picked = chart.series.find((series) => series.kind === "line" || series.kind === "dots");
   const draw = (width) => {
     const marks = [Plot.ruleY(rows ? [] : [0], { strokeOpacity: 0.3 })];
-    for (const series of chart.series) marks.push(...marksOf(series, columns));
+    for (const series of chart.series) marks.push(...marksOf(series, columns, chart.series.length === 1));
     if (picked) {
       const all = thinned(rowsWith([columns[picked.x], columns[picked.y]]), (row) => cell(columns[picked.y], row));
       const channels = { x: (row) => cell(columns[picked.x], row), y: (row) => cell(columns[picked.y], row) };
@@ -144,8 +186,8 @@ export function showChart(chart, table, onselect) {
       })));
     }
     const count = rowsOf(table);
-    const counted = chart.series.find((series) => series.kind === "histogram");
-    const highest = counted ? Math.max(...Array.from({ length: count }, (_, row) => cell(columns[counted.y], row))) : Infinity;
+    const counted = chart.series.filter((series) => series.kind === "histogram");
+    const highest = counted.length ? Math.max(...counted.flatMap((series) => Array.from({ length: count }, (_, row) => cell(columns[series.y], row)))) : Infinity;
     const names = rows || chart.bands ? Array.from({ length: count }, (_, row) => String(cell(columns[chart.series[0].x], row))) : [];
     const labels = rows ? fitted(names, 12, width * 0.6) : null;
     const plot = Plot.plot({
@@ -155,28 +197,68 @@ export function showChart(chart, table, onselect) {
       marginTop: 30,
       marginBottom: 46,
       style: { background: "transparent", fontSize: "12px", overflow: "visible" },
-      x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : undefined, domain: chart.bands ? names : undefined },
+      x: rows ? { label: label(chart.y), grid: true } : { label: label(chart.x), type: chart.bands ? "band" : chart.x.log ? "log" : undefined, tickFormat: chart.x.log ? "~g" : undefined, domain: chart.bands ? names : undefined },
       y: rows ? { label: null, type: "band", domain: names, tickFormat: (_, index) => labels.shown(index) } : { label: label(chart.y), grid: true, zero: true, nice: true, ticks: Math.min(highest, 5) },
       marks,
     });
-    plot.setAttribute("role", "img");
-    plot.setAttribute("aria-label", chart.title);
+    named(plot, chart.title);
     if (onselect) {
       plot.addEventListener("click", () => {
         if (plot.value != null) onselect(plot.value);
       });
       plot.style.cursor = "pointer";
     }
+    scales = { x: plot.scale("x"), y: plot.scale("y") };
+    current = plot;
+    ring();
     return plot;
   };
-  return element(
+  let [scales, current, chosen] = [null, null, -1];
+  /** Rings round the chosen row's points. */
+  const ring = () => {
+    if (!current) return;
+    current.querySelectorAll(".chosen").forEach((one) => one.remove());
+    for (const series of chosen >= 0 ? chart.series : []) {
+      if (series.kind !== "dots" && series.kind !== "line") continue;
+      const [x, y] = [cell(columns[series.x], chosen), cell(columns[series.y], chosen)];
+      if (x == null || y == null) continue;
+      const circle = document.createElementNS("http://www.w3.org/2000/svg", "circle");
+      for (const [name, value] of Object.entries({ class: "chosen", cx: scales.x.apply(x), cy: scales.y.apply(y), r: 6 })) circle.setAttribute(name, value);
+      current.append(circle);
+    }
+  };
+  const box = responsive(draw, rows ? 60 + 20 * rowsOf(table) : 260);
+  let walk = null;
+  if (onselect && picked) {
+    let known = null;
+    const words = (row) => (known ??= shownColumns(table)).filter((column) => ![null, undefined, ""].includes(cell(column, row))).slice(0, 6).map((column) => `${heading(column)} ${text(cell(column, row), column)}`).join(", ");
+    const across = columns[picked.x];
+    // every row that any of the series draws
+    const byX = () => [...new Set(chart.series.flatMap((series) => rowsWith([across, columns[series.y]])))].sort((a, b) => cell(across, a) - cell(across, b));
+    // made when the chart is reached: a long program's numbers are not worked out before
+    box.tabIndex = 0;
+    box.setAttribute("role", "slider");
+    box.setAttribute("aria-label", `${chart.title}: arrow keys choose a point`);
+    box.setAttribute("aria-valuenow", "0");
+    box.addEventListener("focus", () => {
+      walk ??= walked(box, stops?.() ?? byX(), words, onselect);
+      walk.at(chosen);
+    });
+  }
+  const figure = element(
     "figure",
     { className: chart.wide ? "chart wide" : "chart" },
     element("figcaption", {}, element("h3", {}, chart.title), chart.note ? element("p", {}, chart.note) : null),
     legend(chart.series),
-    responsive(draw, rows ? 60 + 20 * rowsOf(table) : 260),
+    box,
     behind(() => table, chart.title),
   );
+  figure.mark = (row) => {
+    chosen = row;
+    ring();
+    walk?.at(row);
+  };
+  return figure;
 }
 
 /** A square of correlations, each cell from -1 to 1. */
@@ -210,8 +292,7 @@ export function showHeat(heat) {
         Plot.tip(cells, Plot.pointer({ x: "j", y: "i", title: (c) => `${names[c.i]}\n${names[c.j]}\n${c.value}` })),
       ],
     });
-    plot.setAttribute("role", "img");
-    plot.setAttribute("aria-label", heat.title);
+    named(plot, heat.title);
     return plot;
   };
   const table = () => {

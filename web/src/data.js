@@ -30,9 +30,10 @@ export function heading(column) {
   return column.unit ? `${column.label}, ${column.unit}` : column.label;
 }
 
-/** A number as text, with a column's decimals where it has some: a value that is none is a dash. */
-export function text(value, decimals) {
+/** A number as text, with a column's decimals where it has some: a value that is none is a dash, one below what it can say is said to be so. */
+export function text(value, { decimals, least } = {}) {
   if (value == null) return "\u2013";
+  if (least != null && value < least) return `< ${least}`;
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (typeof value !== "number") return String(value);
   if (decimals != null && Math.abs(value) < 1e7) return value.toFixed(decimals).replace(/^-(?=0\.?0*$)/, "").replace("-", "\u2212");

@@ -25,6 +25,8 @@ async function main() {
   const found = findingsAt(tables.findings);
   const starts = [];
   let choose = null;
+  // charts whose points are items of the view
+  const linked = [];
   let charts = null;
   for (const section of page.sections) {
     if (section.type !== "chart") charts = null;
@@ -32,7 +34,7 @@ async function main() {
       case "cell": {
         const table = tables[section.table];
         const [file, line] = ["file", "line"].map((label) => table.columns.find((column) => column.label === label));
-        const shown = showCell(section, table, (row) => (line ? found(file ? valueOf(file, row) : "", valueOf(line, row)) : []));
+        const shown = showCell(section, table, (row) => (line ? found(file ? valueOf(file, row) : "", valueOf(line, row)) : []), (row) => linked.forEach((chart) => chart.mark(row)));
         choose = shown.select;
         starts.push(shown.start);
         place.append(shown.node);
@@ -45,7 +47,9 @@ async function main() {
         }
         const table = tables[section.table];
         const pick = section.picks ? (row) => choose?.(row) : null;
-        charts.append(showChart(section, table, pick));
+        const chart = showChart(section, table, pick);
+        if (pick) linked.push(chart);
+        charts.append(chart);
         break;
       }
       case "heat":
@@ -69,7 +73,7 @@ async function main() {
 }
 
 main().catch((error) => {
-  const told = "This browser cannot show the views, charts and long tables of this report; the numbers above are complete.";
-  document.getElementById("page").append(element("p", { className: "missing" }, told));
+  const words = "This browser cannot show the views, charts and long tables of this report; the numbers above are complete.";
+  document.getElementById("page").append(element("p", { className: "missing" }, words));
   throw error;
 });

@@ -69,8 +69,8 @@ const WIDE = `
     float size = length(along);
     along = size > 1e-6 ? along / size : vec2(1.0, 0.0);
     vec4 here = side.x < 0.5 ? a : b;
-    vec2 beside = vec2(-along.y, along.x) * side.y + along * (side.x - 0.5) * 0.7;
-    here.xy += beside * width / screen * here.w;
+    vec2 across = vec2(-along.y, along.x) * side.y + along * (side.x - 0.5) * 0.7;
+    here.xy += across * width / screen * here.w;
     gl_Position = here;
   }`;
 /** Corners of a line on the screen, each with a copy of its sample. */

@@ -68,7 +68,7 @@ export class View {
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
-    this.canvas.setAttribute("aria-label", `${cell.title}: arrow keys turn, plus and minus come nearer and go away`);
+    this.canvas.setAttribute("aria-label", `${cell.title}: arrow keys rotate, plus and minus come nearer and go away`);
     box.append(this.canvas);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(38, 1, 1, 1e5);
@@ -88,7 +88,7 @@ export class View {
     this.listen(onpick);
     new ResizeObserver(() => this.resize(box)).observe(box);
     this.resize(box);
-    // shaders are compiled beside, while the rest of the page is made
+    // shaders are compiled while the rest of the page is made
     this.drawn = new Promise((done) => { this.tellDrawn = done; });
     const isBeside = this.renderer.getContext().getExtension("KHR_parallel_shader_compile");
     (isBeside ? this.renderer.compileAsync(this.scene, this.camera) : Promise.resolve()).then(() => {
@@ -161,7 +161,8 @@ export class View {
     const [places, colours] = [new Float32Array(3 * this.rows.length), new Float32Array(3 * this.rows.length)];
     const plain = css("wanted").toArray();
     const { error } = this.cell.points;
-    const most = (error ?? []).reduce((top, x) => Math.max(top, x ?? 0), 1e-12);
+    this.most = (error ?? []).reduce((top, x) => Math.max(top, x ?? 0), 0);
+    const most = Math.max(this.most, 1e-12);
     this.rows.forEach((row, n) => {
       places.set(at.slice(3 * row, 3 * row + 3), 3 * n);
       colours.set(error?.[row] == null ? plain : shade(error[row] / most), 3 * n);

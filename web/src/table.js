@@ -2,11 +2,13 @@
 import { cell, csvButton, element, heading, rowsOf, slug, text } from "./data.js";
 
 const PAGE = 50;
+/** Rows on paper; of more it is said how many are missing. */
+const PAPER = 500;
 /** Texts longer than this are broken into lines. */
 const LONG = 44;
 
-/** Columns that tell something: not those that are empty, nor the file where there is one. */
-function shownColumns(table) {
+/** Columns that say something: not those that are empty, nor the file where there is one. */
+export function shownColumns(table) {
   const count = rowsOf(table);
   return table.columns.filter((column) => {
     if (column.hidden || column.detail) return false;
@@ -16,15 +18,36 @@ function shownColumns(table) {
   });
 }
 
+/** What stands behind the point of a number, the point too. */
+const behindPoint = (shown) => shown.match(/^[^.]*(\..*)$/)?.[1] ?? "";
+
+/** For each row of numbers what has to follow it, unseen, so that the points stand below one another. */
+function padded(shown) {
+  const long = shown.reduce((most, one) => (behindPoint(one).length > most.length ? behindPoint(one) : most), "");
+  return shown.map((one) => {
+    const own = behindPoint(one).length;
+    return long.slice(own).replace(/[^.]/g, "0");
+  });
+}
+
+/** Tables that are shown, to hear of paper. */
+const shownTables = new Set();
+const onPaper = (paper) => shownTables.forEach((hear) => hear(paper));
+addEventListener("beforeprint", () => onPaper(true));
+addEventListener("afterprint", () => onPaper(false));
+matchMedia("print").addEventListener("change", (event) => onPaper(event.matches));
+
 /**
- * Shows a table. `onselect(row)` makes its rows selectable; the result has `select(row)` to select from outside.
+ * Shows a table, its worst row first where a column says what is worst. `onselect(row)` makes its rows selectable; the result
+ * has `select(row)` to select from outside.
  */
-export function showTable(table, { title, onselect, page = PAGE } = {}) {
+export function showTable(table, { title, onselect, page: rowsOfPage = PAGE } = {}) {
+  let page = rowsOfPage;
   const count = rowsOf(table);
   const columns = shownColumns(table);
   let order = Array.from({ length: count }, (_, row) => row);
-  let sorted = null;
-  let descending = false;
+  let sorted = onselect ? null : columns.find((column) => column.worst) ?? null;
+  let descending = sorted != null;
   let first = 0;
   let chosen = -1;
   const body = element("tbody");
@@ -75,10 +98,10 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
     fill();
   }
 
-  function line(row) {
+  function line(row, pads) {
     const cells = columns.map((column) => {
       const value = cell(column, row);
-      const td = element("td", { className: numeric.get(column) ? "number" : "" }, text(value, column.decimals));
+      const td = element("td", { className: numeric.get(column) ? "number" : "", "data-pad": pads.get(column)?.get(row) || null }, text(value, column));
       if (typeof value === "string" && value.length > LONG) td.classList.add("long");
       if (column.label === "severity" && value) td.classList.add("severity", String(value));
       return td;
@@ -96,16 +119,21 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
     // the last page is a full one, too
     first = Math.max(0, Math.min(first, order.length - page));
     const shown = order.slice(first, first + page);
-    body.replaceChildren(...shown.map(line));
+    const pads = new Map(columns.filter((column) => numeric.get(column)).map((column) => {
+      const pad = padded(shown.map((row) => text(cell(column, row), column)));
+      return [column, new Map(shown.map((row, k) => [row, pad[k]]))];
+    }));
+    body.replaceChildren(...shown.map((row) => line(row, pads)));
     if (onselect && shown.length && !body.querySelector('tr[tabindex="0"]')) body.firstElementChild.tabIndex = 0;
     const last = first + shown.length;
     where.textContent = order.length ? `${first + 1}\u2013${last} of ${order.length}` : "no rows";
+    missing.textContent = shown.length < count ? `${count - shown.length} of ${count} rows are not on paper; "Save CSV" has all.` : "";
     back.disabled = first === 0;
     next.disabled = last >= order.length;
   }
 
   /** Selects a row: turns to its page, and moves the focus where a key asked for it. */
-  function choose(row, tell, focus = false) {
+  function choose(row, report, focus = false) {
     chosen = row;
     let at = order.indexOf(row);
     if (at < 0) {
@@ -124,7 +152,7 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
       if (top < box.scrollTop + tr.offsetHeight) box.scrollTop = top - tr.offsetHeight;
       else if (top + tr.offsetHeight > box.scrollTop + box.clientHeight) box.scrollTop = top + tr.offsetHeight - box.clientHeight;
     }
-    if (tell) onselect?.(row);
+    if (report) onselect?.(row);
   }
 
   function walk(event) {
@@ -148,14 +176,19 @@ export function showTable(table, { title, onselect, page = PAGE } = {}) {
     body,
   );
   const many = count > page;
+  const missing = element("p", { className: "missing-rows" });
+  shownTables.add((paper) => {
+    page = paper ? Math.max(PAPER, rowsOfPage) : rowsOfPage;
+    fill();
+  });
   const bar = element("div", { className: "bar" });
   if (count > 10) bar.append(search);
   if (many) bar.append(back, next);
   if (many || count > 10) bar.append(where);
   bar.append(csvButton(table, slug(title ?? "table")));
-  fill();
+  arrange();
   const none = count ? null : element("p", { className: "where" }, "Nothing to list.");
-  const node = element("div", { className: "table" }, element("div", { className: "rows" }, grid), none, bar);
+  const node = element("div", { className: "table" }, element("div", { className: "rows" }, grid), none, missing, bar);
   return { node, select: (row) => choose(row, false) };
 }
 

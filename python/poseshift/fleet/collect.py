@@ -196,9 +196,14 @@ def _place(by_robot: Mapping[str, Sequence[tuple[Unit, dict[str, Any] | None]]],
 
 
 _STYLE = (
-    "body{font:15px system-ui;margin:2em auto;max-width:90em;color:#222}table{border-collapse:collapse}"
-    "td,th{padding:.25em .7em;text-align:left;border-bottom:1px solid #ddd}td.number{text-align:right}"
-    ".none,.crashed,.error{color:#a00}.refused{color:#a50}.done{color:#060}"
+    ":root{color-scheme:light dark;--ink:#222;--ground:#fff;--rule:#ddd;--link:#0b62a8;--bad:#a00;--no:#a04000;--good:#060}"
+    "@media(prefers-color-scheme:dark){"
+    ":root{--ink:#e7ebf0;--ground:#14181e;--rule:#38424e;--link:#6cb6f5;--bad:#ff8a80;--no:#f0c05a;--good:#3fd0b4}}"
+    "body{font:15px system-ui;margin:2em auto;padding:0 1em;max-width:90em;color:var(--ink);background:var(--ground)}"
+    "table{border-collapse:collapse}.rows{overflow-x:auto}a{color:var(--link)}"
+    "td,th{padding:.25em .7em;text-align:left;border-bottom:1px solid var(--rule)}"
+    "td{overflow-wrap:break-word;max-width:40ch}td.number{text-align:right;font-variant-numeric:tabular-nums}"
+    ".none,.crashed,.error{color:var(--bad)}.refused{color:var(--no)}.done{color:var(--good)}"
 )
 
 
@@ -218,14 +223,16 @@ def _page(robots: Sequence[dict[str, Any]], run_id: str, by_robot: Mapping[str, 
             f'<a href="pages/{html.escape(robot)}/{html.escape(n[6:])}">{html.escape(n[6:-5])}</a>' for n in sorted(pages)
         )
         cells = "".join(_cell(name, row.get(name)) for name in columns)
-        lines.append(f"<tr><th>{html.escape(robot)}</th>{cells}<td>{links}</td></tr>")
+        lines.append(f'<tr><th scope="row">{html.escape(robot)}</th>{cells}<td>{links}</td></tr>')
     counts = ", ".join(f"{n} {s}" for s in ORDER if (n := sum(row["status"] == s for row in robots)))
-    heads = "".join(f"<th>{name.replace('_', ' ')}</th>" for name in ("robot", *columns, "pages"))
+    heads = "".join(f'<th scope="col">{name}</th>' for name in (n.replace("_", " ") for n in ("robot", *columns, "pages")))
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Fleet</title>'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">"
-        f"<style>{_STYLE}</style></head><body><h1>{len(robots)} robots</h1><p>{counts}; run {run_id}</p>"
-        f"<table><thead><tr>{heads}</tr></thead><tbody>\n" + "\n".join(lines) + "\n</tbody></table></body></html>\n"
+        f"<style>{_STYLE}</style></head><body><main><h1>{len(robots)} robots</h1><p>{counts}; run {run_id}</p>"
+        '<div class="rows" tabindex="0" role="region" aria-label="Robots">'
+        f"<table><thead><tr>{heads}</tr></thead><tbody>\n" + "\n".join(lines) + "\n</tbody></table></div></main></body></html>\n"
     )
 
 

@@ -33,7 +33,7 @@ pub(super) fn of(folder: &Path) -> PathBuf {
 /// How far a run came.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stage {
-    /// New files are made beside their places; no other file is touched.
+    /// New files are made next to their places; no other file is touched.
     Staging,
     /// All are made, and are put into their places.
     Commit,
@@ -84,7 +84,7 @@ impl From<Name> for PathBuf {
 /// A file, or a folder with all that is in it, that is to come to a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Entry {
-    /// Its number in the journal: what is beside its place is called by it.
+    /// Its number in the journal: what is next to its place is called by it.
     pub number: usize,
     /// Where it is to be.
     pub target: PathBuf,
@@ -308,7 +308,7 @@ pub(super) fn foreign(path: &Path, why: &str) -> Failure {
         format!("{}: {why}", name_of(path)),
         format!(
             "nothing is read or written in a folder with a run that was stopped and cannot be finished; to keep its files as they \
-             are, remove this one and those beside it that begin with {PREFIX}"
+             are, remove this one and those next to it that begin with {PREFIX}"
         ),
     )
 }

@@ -1,4 +1,4 @@
-//! Everything that a run writes, put in place as a whole: made and synced beside its places, then renamed.
+//! Everything that a run writes, put in place as a whole: made and synced next to its places, then renamed.
 //!
 //! At any moment the journal says what is to be done with what is there, so that a run that is killed is finished or undone by
 //! the next: before the journal says `commit` nothing but new names was made; from then on every new file is on disk.
@@ -25,7 +25,7 @@ pub(super) struct New<'a> {
     pub bytes: &'a [u8],
 }
 
-/// All that a run writes, on disk beside its places; put back where it is dropped.
+/// All that a run writes, on disk next to its places; put back where it is dropped.
 pub(super) struct Transaction<'a> {
     work: Work<'a>,
     /// As whom the user knows the places.
@@ -34,7 +34,7 @@ pub(super) struct Transaction<'a> {
 }
 
 impl<'a> Transaction<'a> {
-    /// Makes all files beside their places. `said` takes what is to be told of runs before.
+    /// Makes all files next to their places. `said` takes what is to be said of runs before.
     ///
     /// # Errors
     /// One cannot be made: nothing is changed.
@@ -109,7 +109,7 @@ impl<'a> Transaction<'a> {
         Ok(transaction)
     }
 
-    /// Makes one entry beside its place.
+    /// Makes one entry next to its place.
     fn make(&self, number: usize, files: &[(PathBuf, &[u8])]) -> Result<(), Stop> {
         let (work, entry) = (&self.work, &self.work.entries[number]);
         let (disk, staged, target) = (work.disk, work.staged(entry), &entry.target);

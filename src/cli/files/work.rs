@@ -59,19 +59,19 @@ pub(super) fn is_of_run(path: &Path, id: &str) -> bool {
 }
 
 impl Work<'_> {
-    fn beside(&self, entry: &Entry, ending: &str) -> PathBuf {
+    fn next_to(&self, entry: &Entry, ending: &str) -> PathBuf {
         let name = format!("{PREFIX}{}-{}.{ending}", self.id, entry.number);
         entry.folder().join(name)
     }
 
     /// Where a new file or folder is made.
     pub(super) fn staged(&self, entry: &Entry) -> PathBuf {
-        self.beside(entry, "new")
+        self.next_to(entry, "new")
     }
 
     /// Where what is replaced is kept.
     pub(super) fn backup(&self, entry: &Entry) -> PathBuf {
-        self.beside(entry, "old")
+        self.next_to(entry, "old")
     }
 
     fn folders(&self) -> BTreeSet<&Path> {
@@ -148,7 +148,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Removes what is beside the places, the journal last.
+    /// Removes what is next to the places, the journal last.
     pub(super) fn clean(&self) -> Result<(), Stop> {
         for entry in &self.entries {
             for path in [self.staged(entry), self.backup(entry)] {
@@ -163,7 +163,7 @@ impl Work<'_> {
         self.disk.remove(own).map_err(Stop::at(own))
     }
 
-    /// Puts all back and removes what is beside it.
+    /// Puts all back and removes what is next to it.
     pub(super) fn undo(&self) -> Result<(), Stop> {
         // a stage that cannot be written stays `commit`: then this is tried again by the next run
         let _ = self.held.set(self.disk, Stage::Undo);

@@ -1,7 +1,7 @@
 //! `profile set`, `profile add-tool`.
 
+use super::super::ending::{Ending, finish};
 use super::super::files::{Files, refuse_existing};
-use super::super::telling::{Ending, finish};
 use super::super::{Answer, Output};
 use crate::printable::name_of;
 use crate::task::profile::{Changed, add_tool, set, tool};

@@ -1,7 +1,7 @@
 //! `profile export`.
 
+use super::super::ending::{Ending, finish, print_table};
 use super::super::files::Files;
-use super::super::telling::{Ending, finish, print_table};
 use super::super::{Answer, Output};
 use super::make;
 use crate::printable::name_of;

@@ -1,7 +1,7 @@
 //! `profile from-urdf`.
 
+use super::super::ending::print_table;
 use super::super::files::Files;
-use super::super::telling::print_table;
 use super::super::{Answer, Output};
 use super::make;
 use crate::printable::name_of;
@@ -41,7 +41,7 @@ pub(super) struct FromUrdf {
         allow_hyphen_values = true
     )]
     tools: Vec<String>,
-    /// Take angles beside a multiple of 45 degrees as they are written: files with three decimals write 1.571
+    /// Take angles near a multiple of 45 degrees as they are written: files with three decimals write 1.571
     #[arg(long)]
     exact_angles: bool,
     /// What xacro is given with a xacro file
@@ -105,12 +105,12 @@ impl FromUrdf {
             Err(error) => return Err(Failure::new(format!("cannot start xacro: {error}"))),
         };
         if !run.status.success() {
-            let told = String::from_utf8_lossy(&run.stderr);
-            let told: Vec<&str> = told
+            let said = String::from_utf8_lossy(&run.stderr);
+            let said: Vec<&str> = said
                 .lines()
                 .filter(|line| !line.trim().is_empty())
                 .collect();
-            let last = &told[told.len().saturating_sub(4)..];
+            let last = &said[said.len().saturating_sub(4)..];
             return Err(Failure::with_hint(
                 format!("xacro cannot expand {}: {}", file.name, last.join("; ")),
                 "--xacro-arg NAME:=VALUE gives what the file asks for; packages are found where ROS_PACKAGE_PATH or a sourced ROS has them",
@@ -129,7 +129,7 @@ impl FromUrdf {
                 Some(_) => None,
                 None => Some(Path::new(given).join(rest)),
             };
-            // the package that the file itself is in, and those beside it
+            // the package that the file itself is in, and those next to it
             let whole = std::fs::canonicalize(&self.file).ok()?;
             let own = whole.ancestors().skip(1).map(|above| above.join(rest));
             let given = self.package_path.iter().filter_map(place);

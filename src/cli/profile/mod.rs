@@ -4,8 +4,8 @@ mod change;
 mod export;
 mod from_urdf;
 
+use super::ending::{Ending, finish, print_schema, print_table};
 use super::files::{Files, refuse_existing};
-use super::telling::{Ending, finish, print_schema, print_table};
 use super::{Answer, Output};
 use crate::model::profile::Profile;
 use crate::printable::name_of;

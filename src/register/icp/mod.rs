@@ -74,7 +74,7 @@ pub struct Step {
 
 /// Why a result is not called success.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Doubt {
+pub enum Concern {
     /// Still moving.
     #[error("not converged: after {steps} steps points still move by {moved_mm:.2e} mm")]
     Moving {
@@ -147,7 +147,7 @@ pub struct Found {
     /// Covariance for independent noise of the points.
     pub covariance: Option<PoseCovariance>,
     /// Why it is no success; empty if it is.
-    pub doubts: Vec<Doubt>,
+    pub concerns: Vec<Concern>,
     /// What is left at some points of FROM, evenly spread.
     pub left: Vec<PointResidual>,
 }
@@ -171,7 +171,7 @@ pub struct PointResidual {
 ///
 /// # Errors
 /// If a set is too small, not finite, coincident, or of other units than the other. A result that is found but doubtful
-/// is returned with its doubts.
+/// is returned with its concerns.
 pub fn icp(
     from: &[Vector],
     to: &[Vector],
@@ -189,7 +189,7 @@ pub fn icp(
     let surface = Surface::of(&sorted(to, &order), normals.as_deref());
     let extent = from_extent(from);
     let coarse = sample(from, COARSE);
-    let (start, starts, rival) = match options.start {
+    let (start, starts, alternative) = match options.start {
         Some(start) => (start, 1, None),
         None => coarse_search(from, &coarse, &surface, options, extent.1),
     };
@@ -234,13 +234,13 @@ pub fn icp(
     found.starts = starts;
     found.left = left(from, &order_of_from, &surface, &pose, options);
     if !settled {
-        found.doubts.push(Doubt::Moving {
+        found.concerns.push(Concern::Moving {
             steps: steps.len(),
             moved_mm: steps.last().map_or(f64::MAX, |s| mm_from_m(s.moved_m)),
         });
     }
     found.steps = steps;
-    if let Some(other) = rival {
+    if let Some(other) = alternative {
         doubt_rival(from, &surface, other, options, &extent, &mut found);
     }
     Ok(found)

@@ -71,11 +71,11 @@ pub(super) fn coarse_search(
     let mut ends: Vec<(f64, Pose)> = last.par_iter().map(on).collect();
     ends.sort_by(|a, b| a.0.total_cmp(&b.0));
     let best = ends[0].1;
-    let rival = ends[1..]
+    let alternative = ends[1..]
         .iter()
         .find(|end| apart(&best, &end.1))
         .map(|end| end.1);
-    (best, starts.len(), rival)
+    (best, starts.len(), alternative)
 }
 
 fn main_axes(points: &[Vector]) -> (Vector, Rotation) {

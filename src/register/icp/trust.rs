@@ -2,7 +2,7 @@
 
 use super::pairs::{Pairing, information, line, pairings, rms, step, trimmed};
 use super::surface::{Surface, sample_block};
-use super::{Doubt, Found, MIDDLE, Metric, Options, motion, sample};
+use super::{Concern, Found, MIDDLE, Metric, Options, motion, sample};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Vector, norm, scale, sub};
 use crate::register::linear;
@@ -45,21 +45,21 @@ pub(super) fn judge(
     let overlap = on_it.count() as f64 / from.len() as f64;
     let kept = trimmed(all, surface, options.kept);
     let plane_rms = rms(&kept);
-    let mut doubts = Vec::new();
+    let mut concerns = Vec::new();
     // partners that are no nearer than the points are apart draw points along the surface, too
     let drawn_m = match options.metric {
         Metric::PointToPlane => 0.0,
         Metric::PointToPoint => DRAWN * surface.spacing_m,
     };
     if plane_rms > RESIDUAL * expected_m.hypot(drawn_m) {
-        doubts.push(Doubt::Residual {
+        concerns.push(Concern::Residual {
             rms_mm: mm_from_m(plane_rms),
             expected_mm: mm_from_m(expected_m),
             limit: RESIDUAL,
         });
     }
     if overlap < options.min_overlap {
-        doubts.push(Doubt::Overlap {
+        concerns.push(Concern::Overlap {
             found: overlap,
             limit: options.min_overlap,
         });
@@ -77,7 +77,7 @@ pub(super) fn judge(
         } else {
             ("sliding along", scale(1.0 / norm(shift), shift))
         };
-        doubts.push(Doubt::Free {
+        concerns.push(Concern::Free {
             motion: format!("{what} ({:.2}, {:.2}, {:.2})", v[0], v[1], v[2]),
             ratio,
             limit,
@@ -106,7 +106,7 @@ pub(super) fn judge(
         expected_m,
         overlap,
         covariance,
-        doubts,
+        concerns,
         left: Vec::new(),
     }
 }
@@ -205,7 +205,7 @@ pub(super) fn doubt_rival(
     let gap = other.separation(&found.to_from_from);
     let apart = motion(&other, &found.to_from_from, extent) > 0.05 * extent.1;
     if apart && others < ALIKE * mine.max(found.expected_m) {
-        found.doubts.push(Doubt::Ambiguous {
+        found.concerns.push(Concern::Ambiguous {
             rms_mm: mm_from_m(mine),
             other_mm: mm_from_m(others),
             turn_deg: gap.angle_rad.to_degrees(),

@@ -1,7 +1,7 @@
 //! The page of `axes`: how round each joint's sweep is.
 
 use super::frames::pose_text;
-use super::numbers::{Column, Number, Table, significant};
+use super::numbers::{Column, DIGITS, Number, Table, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::report::text::{axes_world, frames};
 use crate::task::axes::{Axes, Joint};
@@ -11,6 +11,21 @@ use crate::task::axes::{Axes, Joint};
 pub(crate) fn page(found: &Axes) -> Page {
     let list = &found.joints;
     let mut answer = format!("{} joints were swept", list.len());
+    for (what, pose, sigma) in [
+        ("the base", &found.base, &found.base_sigma),
+        ("the tool", &found.tool, &found.tool_sigma),
+    ] {
+        answer += &match (pose, sigma) {
+            (Some(_), Some(sigma)) => {
+                let along = sigma.xyz_mm().into_iter().zip(["x", "y", "z"]);
+                let most = along.reduce(|a, b| if b.0 > a.0 { b } else { a });
+                let (mm, axis) = most.unwrap_or_default();
+                format!("; {what} is known to {mm:.4} mm (sigma along {axis}, the largest)")
+            }
+            (Some(_), None) => format!("; {what} is found"),
+            (None, _) => format!("; {what} is not determined"),
+        };
+    }
     let worst = |of: &dyn Fn(&Joint) -> f64| {
         let each = list.iter().map(|joint| (of(joint), joint.joint));
         let each = each.filter(|(size, _)| size.is_finite());
@@ -24,37 +39,43 @@ pub(crate) fn page(found: &Axes) -> Page {
     }
     let mut page = Page::new("Axes".into(), Level::of(&found.findings), answer);
     page.lead.push(found.name.clone());
-    page.fact("world", axes_world(found).to_owned());
+    page.lead.push(axes_world(found).to_owned());
     for (frame, name) in frames(found)
         .iter()
-        .zip(["world from base", "flange from tool"])
+        .zip(["base in the world", "tool in the flange"])
     {
         let Some(pose) = frame.pose else {
             page.fact(name, format!("needs the sweeps of joints {}", frame.joints));
             continue;
         };
         page.fact(name, pose_text(pose));
-        page.fact(&format!("{name}, sigma"), frame.sigma.clone());
+        let sigma = "sigma along x, y, z and about them";
+        page.fact(&format!("{name}, {sigma}"), frame.sigma.clone());
         if let Some((_, sag)) = &frame.sag {
-            page.fact(&format!("{name}, of it sag"), sag.clone());
+            page.fact(&format!("{name}, {sigma}: of it sag"), sag.clone());
         }
     }
     let numbers = |of: &dyn Fn(&Joint) -> f64| -> Vec<Number> {
-        list.iter().map(|joint| significant(of(joint), 4)).collect()
+        list.iter()
+            .map(|joint| significant(of(joint), DIGITS))
+            .collect()
     };
     let table = Table {
         columns: vec![
             Column::counts("joint", list.iter().map(|s| s.joint)),
-            Column::numbers("radius", "mm", numbers(&|s| s.radius_mm)),
-            Column::numbers("tangential, rms", "deg", numbers(&|s| s.tangential_deg)),
-            Column::numbers("radial, rms", "mm", numbers(&|s| s.radial_mm)),
-            Column::numbers("axial, rms", "mm", numbers(&|s| s.axial_mm)),
+            Column::numbers("radius", "mm", numbers(&|s| s.radius_mm)).to(3),
+            Column::numbers("tangential, rms", "deg", numbers(&|s| s.tangential_deg))
+                .to(5)
+                .worst_first(),
+            Column::numbers("radial, rms", "mm", numbers(&|s| s.radial_mm)).to(4),
+            Column::numbers("axial, rms", "mm", numbers(&|s| s.axial_mm)).to(4),
             Column::numbers(
                 "backlash",
                 "deg",
                 list.iter()
-                    .map(|s| s.backlash_deg.map(|b| significant(b, 4))),
-            ),
+                    .map(|s| s.backlash_deg.map(|b| significant(b, DIGITS))),
+            )
+            .to(5),
         ],
     };
     page.show("joints", "Joints", "", table);

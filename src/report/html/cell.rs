@@ -34,7 +34,7 @@ pub(crate) struct Cell {
     /// Ellipsoids of uncertainty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ellipsoids: Vec<Ellipsoid>,
-    /// What the chart of the error along the paths tells; `None` where there is no way along them.
+    /// What the chart of the error along the paths says.
     pub along: Along,
 }
 
@@ -42,9 +42,9 @@ pub(crate) struct Cell {
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Along {
-    /// They are, and this is what that tells.
+    /// They are, and this is what that says.
     Note(String),
-    /// No way along them: `false`.
+    /// They are not: `false`.
     No(bool),
 }
 
@@ -66,6 +66,9 @@ pub(crate) struct Points {
     /// The size that colours it; empty where they are alike.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub error: Vec<Number>,
+    /// What that size is, mm; empty where it is no length.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub by: &'static str,
     /// The item that is chosen first.
     pub first: usize,
 }

@@ -1,13 +1,13 @@
 //! The pages of `register`, `handeye` and `hexapod`: frames with residuals and uncertainties.
 
 use super::cell::{Along, Cell, Ellipsoid as Drawn, Path, Points};
-use super::numbers::{Column, Number, Table, fixed, significant};
+use super::numbers::{Column, DIGITS, Number, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::finding::Finding;
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, norm, scale};
 use crate::report::text::{noise, search};
-use crate::task::handeye::HandEye;
+use crate::task::handeye::{HandEye, Row};
 use crate::task::hexapod;
 use crate::task::parts::{Ellipsoid, Pose, Sigma};
 use crate::task::register::{Ellipsoid as PointEllipsoid, Registration, Residual};
@@ -40,13 +40,13 @@ pub(crate) fn pose_text(pose: &Pose) -> String {
     let [x, y, z] = pose.xyz_mm();
     // a zero has no sign
     let [rx, ry, rz] = pose.rxryrz_deg().map(|r| (r * 1e4).round() / 1e4 + 0.0);
-    format!("{x:.3} {y:.3} {z:.3} mm, {rx:.4} {ry:.4} {rz:.4} deg (Rx·Ry·Rz)")
+    format!("x {x:.3}  y {y:.3}  z {z:.3} mm, Rx {rx:.4}  Ry {ry:.4}  Rz {rz:.4} deg (Rx·Ry·Rz)")
 }
 
 /// Standard deviations of a pose.
 pub(crate) fn sigma_text(sigma: &Sigma) -> String {
     let ([x, y, z], [rx, ry, rz]) = (sigma.xyz_mm(), sigma.rxryrz_deg());
-    format!("{x:.3} {y:.3} {z:.3} mm, {rx:.5} {ry:.5} {rz:.5} deg")
+    format!("x {x:.3}  y {y:.3}  z {z:.3} mm, about x {rx:.5}  y {ry:.5}  z {rz:.5} deg")
 }
 
 /// A page of points, residuals and ellipsoids.
@@ -80,7 +80,7 @@ fn show_points(page: &mut Page, frame: &Frame) {
         .map(|(_, one)| one)
         .collect();
     let axis = |k: usize| {
-        let of = move |one: &&Residual| significant(one.residual_mm[k], 4);
+        let of = move |one: &&Residual| significant(one.residual_mm[k], DIGITS);
         shown.iter().map(of)
     };
     let place = |k: usize| {
@@ -89,24 +89,25 @@ fn show_points(page: &mut Page, frame: &Frame) {
     };
     let mut columns = vec![
         Column::texts("point", shown.iter().map(|one| one.id.clone())),
-        Column::numbers("x", "mm", place(0)),
-        Column::numbers("y", "mm", place(1)),
-        Column::numbers("z", "mm", place(2)),
+        Column::numbers("x", "mm", place(0)).to(3),
+        Column::numbers("y", "mm", place(1)).to(3),
+        Column::numbers("z", "mm", place(2)).to(3),
     ];
     let mut points = Points {
         name: "points",
         title: "Points".into(),
+        by: "residual",
         ..Points::default()
     };
     let mut paths = Vec::new();
     // points without residuals by construction have none to show
     if worst > 0.0 {
-        let sizes = shown.iter().map(|l| significant(size(l), 5));
+        let sizes = shown.iter().map(|l| significant(size(l), DIGITS));
         columns.extend([
-            Column::numbers("dx", "mm", axis(0)),
-            Column::numbers("dy", "mm", axis(1)),
-            Column::numbers("dz", "mm", axis(2)),
-            Column::numbers("residual", "mm", sizes),
+            Column::numbers("residual", "mm", sizes).to(4),
+            Column::numbers("dx", "mm", axis(0)).to(4),
+            Column::numbers("dy", "mm", axis(1)).to(4),
+            Column::numbers("dz", "mm", axis(2)).to(4),
             Column::texts("left out", shown.iter().map(|one| one.rejected.clone())),
         ]);
         let sizes = shown.iter().map(|l| fixed(size(l), 6));
@@ -153,8 +154,7 @@ fn show_points(page: &mut Page, frame: &Frame) {
             "residuals",
             "Residuals",
             ("residual", "mm"),
-            &sizes,
-            Tone::One,
+            &[("", Tone::One, &sizes)],
         );
     }
 }
@@ -181,7 +181,11 @@ fn show_ellipsoids(page: &mut Page, list: &[Ellipsoid]) {
     if list.is_empty() {
         return;
     }
-    let half = |k: usize| list.iter().map(move |e| significant(e.half_axes_mm[k], 4));
+    let half = |k: usize| {
+        list.iter()
+            .map(move |e| significant(e.half_axes_mm[k], DIGITS))
+    };
+    let place = |k: usize| list.iter().map(move |e| fixed(e.place_mm[k], 3));
     let longest = |e: &Ellipsoid| {
         let [x, y, z] = e.axes[0];
         format!("{x:.2} {y:.2} {z:.2}")
@@ -189,12 +193,14 @@ fn show_ellipsoids(page: &mut Page, list: &[Ellipsoid]) {
     let table = Table {
         columns: vec![
             Column::texts("of", list.iter().map(|e| e.of.clone())),
-            Column::numbers("x", "mm", list.iter().map(|e| fixed(e.place_mm[0], 3))),
-            Column::numbers("y", "mm", list.iter().map(|e| fixed(e.place_mm[1], 3))),
-            Column::numbers("z", "mm", list.iter().map(|e| fixed(e.place_mm[2], 3))),
-            Column::numbers("longest half axis", "mm", half(0)),
-            Column::numbers("middle", "mm", half(1)),
-            Column::numbers("shortest", "mm", half(2)),
+            Column::numbers("x", "mm", place(0)).to(3),
+            Column::numbers("y", "mm", place(1)).to(3),
+            Column::numbers("z", "mm", place(2)).to(3),
+            Column::numbers("longest half axis", "mm", half(0))
+                .to(5)
+                .worst_first(),
+            Column::numbers("middle", "mm", half(1)).to(5),
+            Column::numbers("shortest", "mm", half(2)).to(5),
             Column::texts("longest along", list.iter().map(longest)),
         ],
     };
@@ -206,11 +212,19 @@ fn show_ellipsoids(page: &mut Page, list: &[Ellipsoid]) {
     );
 }
 
+/// The largest residual and whose it is; nothing of points that have none.
+fn worst_fact<'a>(points: impl Iterator<Item = &'a Residual>) -> Option<(String, String)> {
+    let worst = points.max_by(|a, b| a.distance_mm.total_cmp(&b.distance_mm))?;
+    let label = format!("largest residual, {}", worst.id);
+    (worst.distance_mm > 0.0).then(|| (label, format!("{:.4} mm", worst.distance_mm)))
+}
+
 /// The page of `register`: residuals where points are known, ellipsoids where they were asked for and at FROM's origin.
 #[must_use]
 pub(crate) fn registration_page(found: &Registration) -> Page {
-    let pose = pose_text(&found.pose);
-    let mut facts = vec![("TO from FROM".to_owned(), pose)];
+    let mut facts = Vec::new();
+    facts.extend(worst_fact(found.points.iter()));
+    facts.push(("TO from FROM".to_owned(), pose_text(&found.pose)));
     if let Some(rmsd) = found.rmsd_mm {
         facts.push(("rmsd".into(), format!("{rmsd:.4} mm")));
     }
@@ -263,8 +277,12 @@ pub(crate) fn hexapod_page(found: &hexapod::Poses) -> Page {
         .iter()
         .flat_map(|pose| pose.ellipsoids.iter().cloned())
         .collect();
-    let half = ellipsoids.iter().map(|e| e.half_axes_mm[0]);
-    let largest = half.fold(0.0, f64::max);
+    let poses = found.poses.iter();
+    let worst = poses.max_by(|a, b| a.largest_sigma_mm.total_cmp(&b.largest_sigma_mm));
+    let worst = worst.map_or_else(String::new, |pose| {
+        let (id, mode, sigma) = (&pose.id, pose.mode, pose.largest_sigma_mm);
+        format!("; the worst known ball to {sigma:.5} mm (pose {id}, mode {mode})")
+    });
     let points = ellipsoids
         .iter()
         .map(|e| Residual::still(&e.of, e.place_mm));
@@ -274,17 +292,11 @@ pub(crate) fn hexapod_page(found: &hexapod::Poses) -> Page {
             "{}, in the frame of the base balls; {} mm a length",
             found.name, found.sigma_mm
         )],
-        answer: format!("{} poses of {} rows", found.poses.len(), found.rows),
-        facts: vec![
-            (
-                "largest uncertainty of a ball".into(),
-                format!("{largest:.5} mm"),
-            ),
-            (
-                "rows with more than one mode".into(),
-                found.undecided.to_string(),
-            ),
-        ],
+        answer: format!("{} poses of {} rows{worst}", found.poses.len(), found.rows),
+        facts: vec![(
+            "rows with more than one mode".into(),
+            found.undecided.to_string(),
+        )],
         points: points.collect(),
         ellipsoids,
         findings: Vec::new(),
@@ -296,29 +308,59 @@ pub(crate) fn hexapod_page(found: &hexapod::Poses) -> Page {
 pub(crate) fn base_page(found: &hexapod::Base) -> Page {
     let points = found.taught_mm.iter().zip(found.residuals_mm);
     let points = points.zip(["B1", "B2", "B3"]);
+    let points: Vec<Residual> = points
+        .map(|((place_mm, residual_mm), id)| Residual {
+            residual_mm,
+            distance_mm: norm(residual_mm),
+            ..Residual::still(id, *place_mm)
+        })
+        .collect();
+    let mut facts = Vec::new();
+    facts.extend(worst_fact(points.iter()));
+    facts.push((
+        "base balls' frame in the robot's".into(),
+        pose_text(&found.base),
+    ));
     frame_page(&Frame {
         title: "Base of the ballbar hexapod".into(),
         lead: vec![format!(
-            "{}: the base balls as the robot was taught them",
+            "{}: the base balls as they were taught",
             found.name
         )],
         answer: format!(
             "The taught points agree with the exact distances to {:.4} mm (rmsd)",
             found.rmsd_mm
         ),
-        facts: vec![(
-            "base balls' frame in the robot's".into(),
-            pose_text(&found.base),
-        )],
-        points: points
-            .map(|((place_mm, residual_mm), id)| Residual {
-                residual_mm,
-                distance_mm: norm(residual_mm),
-                ..Residual::still(id, *place_mm)
-            })
-            .collect(),
+        facts,
+        points,
         ..Frame::default()
     })
+}
+
+/// The worst rows, camera and board.
+fn hand_eye_facts(found: &HandEye) -> Vec<(String, String)> {
+    let worst = |of: &dyn Fn(&Row) -> f64| {
+        let rows = found.poses.iter().enumerate();
+        let each = rows.map(|(k, row)| (of(row), k + 1));
+        each.filter(|(size, _)| size.is_finite())
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let mut facts = Vec::new();
+    let fact = |(size, row): (f64, usize)| {
+        let label = format!("largest residual of a position, row {row}");
+        (label, format!("{size:.4} mm"))
+    };
+    facts.extend(worst(&|row| row.residual_mm).map(fact));
+    let fact = |(size, row): (f64, usize)| {
+        let label = format!("largest residual of an orientation, row {row}");
+        (label, format!("{size:.5} deg"))
+    };
+    facts.extend(worst(&|row| row.residual_deg).map(fact));
+    facts.push(("camera".into(), pose_text(&found.camera)));
+    facts.push(("camera, sigma".into(), sigma_text(&found.sigma)));
+    facts.push(("board".into(), pose_text(&found.board)));
+    facts.push(("board, sigma".into(), sigma_text(&found.board_sigma)));
+    facts
 }
 
 /// The page of `handeye`.
@@ -345,10 +387,7 @@ pub(crate) fn hand_eye_page(found: &HandEye) -> Page {
             found.left_out_mm,
             found.left_out_deg
         ),
-        facts: vec![
-            ("camera".into(), pose_text(&found.camera)),
-            ("board".into(), pose_text(&found.board)),
-        ],
+        facts: hand_eye_facts(found),
         points: Vec::new(),
         ellipsoids: found.ellipsoids.to_vec(),
         findings: found.findings.clone(),
@@ -364,35 +403,40 @@ fn show_hand_eye(page: &mut Page, found: &HandEye, in_base: &Ellipsoid) {
     let table = Table {
         columns: vec![
             Column::counts("row", 1..=rows.len()),
-            Column::numbers("x", "mm", place(0)),
-            Column::numbers("y", "mm", place(1)),
-            Column::numbers("z", "mm", place(2)),
+            Column::numbers("x", "mm", place(0)).to(2),
+            Column::numbers("y", "mm", place(1)).to(2),
+            Column::numbers("z", "mm", place(2)).to(2),
             Column::numbers(
                 "residual",
                 "mm",
-                rows.iter().map(|r| significant(r.residual_mm, 4)),
-            ),
+                rows.iter().map(|r| significant(r.residual_mm, DIGITS)),
+            )
+            .to(4),
             Column::numbers(
                 "residual",
                 "deg",
-                rows.iter().map(|r| significant(r.residual_deg, 4)),
-            ),
+                rows.iter().map(|r| significant(r.residual_deg, DIGITS)),
+            )
+            .to(5),
             Column::numbers(
                 "left out",
                 "mm",
-                rows.iter().map(|r| significant(r.left_out_mm, 4)),
-            ),
+                rows.iter().map(|r| significant(r.left_out_mm, DIGITS)),
+            )
+            .to(4),
             Column::numbers(
                 "left out",
                 "deg",
-                rows.iter().map(|r| significant(r.left_out_deg, 4)),
-            ),
+                rows.iter().map(|r| significant(r.left_out_deg, DIGITS)),
+            )
+            .to(5),
         ],
     };
     page.tables.insert("rows".into(), table);
     let mut points = Points {
         name: "poses",
         title: "Poses".into(),
+        by: "residual",
         ..Points::default()
     };
     for row in rows {
@@ -440,16 +484,25 @@ fn show_hand_eye(page: &mut Page, found: &HandEye, in_base: &Ellipsoid) {
         page.sections.push(Section::Chart(chart));
     }
     let methods = found.by_method.named();
+    let place = |k: usize| {
+        let of = methods.iter();
+        of.map(move |(_, pose)| pose.map(|pose| fixed(pose.xyz_mm()[k], 3)))
+    };
+    let angle = |k: usize| {
+        let of = methods.iter();
+        of.map(move |(_, pose)| pose.map(|pose| fixed(pose.rxryrz_deg()[k], 4)))
+    };
     let table = Table {
         columns: vec![
             Column::texts("method", methods.iter().map(|(name, _)| (*name).to_owned())),
-            Column::texts(
-                "camera",
-                methods
-                    .iter()
-                    .map(|(_, pose)| pose.map_or("no solution".to_owned(), pose_text)),
-            ),
+            Column::numbers("x", "mm", place(0)).to(3),
+            Column::numbers("y", "mm", place(1)).to(3),
+            Column::numbers("z", "mm", place(2)).to(3),
+            Column::numbers("Rx", "deg", angle(0)).to(4),
+            Column::numbers("Ry", "deg", angle(1)).to(4),
+            Column::numbers("Rz", "deg", angle(2)).to(4),
         ],
     };
-    page.show("methods", "What each method finds", "", table);
+    let note = "The camera, Rx·Ry·Rz; a method without a solution has dashes.";
+    page.show("methods", "What each method finds", note, table);
 }

@@ -1,5 +1,6 @@
 //! Numbers and columns of a page: rounded, short, and never anything but a number.
 
+use crate::report::LEAST_PROBABILITY;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -31,6 +32,9 @@ pub(crate) fn fixed(value: f64, decimals: i32) -> Number {
     Number((value * scale).round() / scale)
 }
 
+/// Significant digits of a number whose column has decimals of its own: none that is shown is made up.
+pub(crate) const DIGITS: usize = 7;
+
 /// Rounded to so many significant digits.
 #[must_use]
 pub(crate) fn significant(value: f64, digits: usize) -> Number {
@@ -60,9 +64,15 @@ pub(crate) struct Column {
     /// For what is said of one row only.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub detail: bool,
-    /// Decimals that are shown, so that points stand below one another; all that there are where it is none.
+    /// Decimals that are shown; all that there are where it is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub decimals: Option<u8>,
+    /// A table opens with the largest of these numbers.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub worst: bool,
+    /// A smaller number is said to be below this one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least: Option<f64>,
 }
 
 /// The values of a column.
@@ -104,6 +114,8 @@ impl Column {
             hidden: false,
             detail: false,
             decimals: None,
+            worst: false,
+            least: None,
         }
     }
 
@@ -117,6 +129,20 @@ impl Column {
         let values = values.into_iter().map(Into::into);
         let finite = |number: Option<Number>| number.filter(|n| n.0.is_finite());
         Self::new(label, unit, Values::Numbers(values.map(finite).collect()))
+    }
+
+    /// A column of probabilities: one that no number can hold is said to be below the least that can.
+    #[must_use]
+    pub(crate) fn probabilities(
+        label: &str,
+        values: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        let values = values.into_iter().map(|p| p.map(|p| significant(p, 2)));
+        let column = Self::numbers(label, "", values);
+        Self {
+            least: Some(LEAST_PROBABILITY),
+            ..column
+        }
     }
 
     /// A column of counts.
@@ -178,6 +204,13 @@ impl Column {
         self
     }
 
+    /// The table opens with its largest number.
+    #[must_use]
+    pub(crate) fn worst_first(mut self) -> Self {
+        self.worst = true;
+        self
+    }
+
     /// It holds lines of a program.
     #[must_use]
     pub(crate) fn of_code(mut self) -> Self {
@@ -202,61 +235,101 @@ impl Table {
     }
 }
 
-/// Edges of bars and how many values are between them: about the square root of their number of bars, at most 60.
+/// Medians of several that are so many times apart are counted on an axis of powers of ten.
+const FAR_APART: f64 = 10.0;
+
+/// Bars on one axis and how many values of each series are in them, and whether the axis is one of powers of ten: about the
+/// square root of their number of bars, at most 60.
 #[must_use]
-pub(crate) fn histogram(label: &str, unit: &'static str, values: &[f64]) -> Table {
-    let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
-    let (mut from, mut to, mut counts) = (Vec::new(), Vec::new(), Vec::new());
-    if let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) {
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "at most 60"
-        )]
-        let wished = (sorted.len() as f64).sqrt().ceil().clamp(8.0, 60.0);
-        // a round width: 1, 2 or 5 times a power of ten
-        let rough = ((high - low) / wished).max(high.abs().max(low.abs()) * 1e-6);
-        let rough = if rough > 0.0 { rough } else { 1.0 };
-        let power = 10.0_f64.powf(rough.log10().floor());
-        let width = [1.0, 2.0, 5.0, 10.0]
-            .into_iter()
-            .map(|step| step * power)
-            .find(|step| *step >= rough * 0.999)
-            .unwrap_or(10.0 * power);
-        let start = (low / width).floor();
-        let mut at = 0;
-        let mut bar = 0.0;
-        while at < sorted.len() {
-            let edges = ((start + bar) * width, (start + bar + 1.0) * width);
-            let first = at;
-            while at < sorted.len() && (sorted[at] < edges.1) {
-                at += 1;
+pub(crate) fn histogram(
+    label: &str,
+    unit: &'static str,
+    series: &[(&str, &[f64])],
+) -> (Table, bool) {
+    let sorted = |values: &[f64]| {
+        let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted
+    };
+    let each: Vec<Vec<f64>> = series.iter().map(|(_, values)| sorted(values)).collect();
+    let all = sorted(&each.concat());
+    let (mut from, mut to) = (Vec::new(), Vec::new());
+    let mut counts: Vec<Vec<usize>> = vec![Vec::new(); each.len()];
+    let medians = each
+        .iter()
+        .filter_map(|values| values.get(values.len() / 2));
+    let medians: Vec<f64> = medians.copied().collect();
+    let (least, most) = medians
+        .iter()
+        .fold((f64::INFINITY, 0.0_f64), |(a, b), m| (a.min(*m), b.max(*m)));
+    let mut log = false;
+    if let (Some(&low), Some(&high)) = (all.first(), all.last()) {
+        let longest = each.iter().map(Vec::len).max().unwrap_or(0);
+        let wished = (longest as f64).sqrt().ceil().clamp(8.0, 60.0);
+        log = low > 0.0 && most > FAR_APART * least;
+        let (start, width) = if log {
+            // so many bars for each power of ten
+            let bars = (wished / (high / low).log10()).ceil().clamp(2.0, 20.0);
+            ((low.log10() * bars).floor(), 1.0 / bars)
+        } else {
+            let width = round_width((high - low) / wished, high.abs().max(low.abs()));
+            ((low / width).floor(), width)
+        };
+        let edge = |bar: usize| {
+            let at = (start + bar as f64) * width;
+            if log { 10.0_f64.powf(at) } else { at }
+        };
+        let mut at = vec![0; each.len()];
+        let mut bar = 0;
+        while at.iter().zip(&each).any(|(at, values)| *at < values.len()) {
+            let end = edge(bar + 1);
+            for ((at, values), counts) in at.iter_mut().zip(&each).zip(&mut counts) {
+                let inside = values[*at..].iter().take_while(|v| **v < end).count();
+                *at += inside;
+                counts.push(inside);
             }
-            from.push(significant(edges.0, 8));
-            to.push(significant(edges.1, 8));
-            counts.push(at - first);
-            bar += 1.0;
+            let digits = if log { 4 } else { 8 };
+            from.push(significant(edge(bar), digits));
+            to.push(significant(end, digits));
+            bar += 1;
         }
     }
-    Table {
-        columns: vec![
-            Column::numbers(&format!("{label} from"), unit, from),
-            Column::numbers(&format!("{label} to"), unit, to),
-            Column::counts("count", counts),
-        ],
+    let mut columns = vec![
+        Column::numbers(&format!("{label} from"), unit, from),
+        Column::numbers(&format!("{label} to"), unit, to),
+    ];
+    for ((name, _), counts) in series.iter().zip(counts) {
+        let name = if name.is_empty() { "count" } else { name };
+        columns.push(Column::counts(name, counts));
     }
+    (Table { columns }, log)
+}
+
+/// A width of bars that is 1, 2 or 5 times a power of ten, not below `rough` nor below what differs at this size.
+fn round_width(rough: f64, size: f64) -> f64 {
+    let rough = rough.max(size * 1e-6);
+    let rough = if rough > 0.0 { rough } else { 1.0 };
+    let power = 10.0_f64.powf(rough.log10().floor());
+    [1.0, 2.0, 5.0]
+        .into_iter()
+        .map(|step| step * power)
+        .find(|step| *step >= rough * 0.999)
+        .unwrap_or(10.0 * power)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn counts(table: &Table) -> Vec<f64> {
-        match &table.columns[2].values {
+    fn numbers(column: &Column) -> Vec<f64> {
+        match &column.values {
             Values::Numbers(values) => values.iter().map(|n| n.map_or(f64::NAN, |n| n.0)).collect(),
             _ => Vec::new(),
         }
+    }
+
+    fn counts(table: &Table) -> Vec<f64> {
+        numbers(&table.columns[2])
     }
 
     #[test]
@@ -277,18 +350,46 @@ mod tests {
     fn a_histogram_counts_every_finite_value_once() {
         let values: Vec<f64> = (0..1000).map(|k| f64::from(k).sin() * 3.0 + 5.0).collect();
         let with_holes: Vec<f64> = values.iter().copied().chain([f64::NAN]).collect();
-        let table = histogram("x", "mm", &with_holes);
+        let (table, log) = histogram("x", "mm", &[("", &with_holes)]);
+        assert!(!log);
         assert_eq!(counts(&table).iter().sum::<f64>(), 1000.0);
         assert!((8..=61).contains(&table.rows()), "{}", table.rows());
     }
 
     #[test]
     fn histograms_of_nothing_and_of_one_value_end() {
-        assert_eq!(histogram("x", "mm", &[]).rows(), 0);
+        assert_eq!(histogram("x", "mm", &[("", &[])]).0.rows(), 0);
         for value in [0.0, 1e-12, 5.0, -3e8] {
-            let table = histogram("x", "mm", &[value; 7]);
+            let (table, _) = histogram("x", "mm", &[("", &[value; 7])]);
             assert_eq!(counts(&table).iter().sum::<f64>(), 7.0, "{value}");
             assert!(table.rows() < 5, "{value}: {}", table.rows());
+        }
+    }
+
+    #[test]
+    fn several_share_their_bars_and_those_far_apart_powers_of_ten() {
+        let near: Vec<f64> = (1..200).map(|k| f64::from(k) * 0.01).collect();
+        for (times, far_apart) in [(3.0, false), (500.0, true)] {
+            let far: Vec<f64> = near.iter().map(|v| v * times).collect();
+            let (table, log) = histogram("x", "mm", &[("before", &far), ("after", &near)]);
+            assert_eq!(log, far_apart);
+            let (from, to) = (numbers(&table.columns[0]), numbers(&table.columns[1]));
+            for (column, values) in [(2, &far), (3, &near)] {
+                for (bar, count) in numbers(&table.columns[column]).iter().enumerate() {
+                    // values at an edge to the digits shown may be on either side
+                    let slack = 1e-3 * to[bar];
+                    let within = |slack: f64| {
+                        let inside = |v: &&f64| (from[bar] - slack..to[bar] + slack).contains(*v);
+                        values.iter().filter(inside).count() as f64
+                    };
+                    assert!(
+                        (within(-slack)..=within(slack)).contains(count),
+                        "bar {bar}"
+                    );
+                }
+                assert_eq!(numbers(&table.columns[column]).iter().sum::<f64>(), 199.0);
+            }
+            assert!(table.rows() < 90, "{}", table.rows());
         }
     }
 

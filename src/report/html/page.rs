@@ -18,7 +18,7 @@ use std::io::Write as _;
 const SCRIPT: &str = include_str!("assets/report.js");
 const STYLE: &str = include_str!("assets/report.css");
 
-/// Findings that a page holds; of more it tells how many there are.
+/// Findings that a page holds; of more it says how many there are.
 pub(crate) const MOST_FINDINGS: usize = 5000;
 
 /// Bytes of data that stand in a page as they are; more are packed.
@@ -155,6 +155,9 @@ pub(crate) struct Axis {
     pub label: String,
     /// Its unit; empty where it has none.
     pub unit: &'static str,
+    /// Powers of ten are as far apart as one another.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub log: bool,
 }
 
 impl Axis {
@@ -164,6 +167,7 @@ impl Axis {
         Self {
             label: label.into(),
             unit,
+            log: false,
         }
     }
 }
@@ -173,7 +177,7 @@ impl Axis {
 pub(crate) struct Chart {
     /// Its title.
     pub title: String,
-    /// What it tells.
+    /// What it says.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub note: String,
     /// The table's name.
@@ -215,7 +219,7 @@ impl Chart {
 pub(crate) struct Heat {
     /// Its title.
     pub title: String,
-    /// What it tells.
+    /// What it says.
     pub note: String,
     /// Of what.
     pub names: Vec<String>,
@@ -228,7 +232,7 @@ pub(crate) struct Heat {
 pub(crate) struct Shown {
     /// Its title.
     pub title: String,
-    /// What it tells.
+    /// What it says.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub note: String,
     /// The table's name.
@@ -319,24 +323,28 @@ impl Page {
         }));
     }
 
-    /// A histogram of values, with its table; none of no values.
+    /// A histogram of the values of one series, or of several on one axis, with its table; none of no values.
     pub(crate) fn histogram(
         &mut self,
         name: &str,
         title: &str,
         (label, unit): (&str, &'static str),
-        values: &[f64],
-        tone: Tone,
+        series: &[(&str, Tone, &[f64])],
     ) {
-        let table = super::numbers::histogram(label, unit, values);
+        let values: Vec<(&str, &[f64])> = series.iter().map(|(name, _, v)| (*name, *v)).collect();
+        let (table, log) = super::numbers::histogram(label, unit, &values);
         if table.rows() == 0 {
             return;
         }
         self.tables.insert(name.into(), table);
         let mut chart = Chart::new(title, name, Axis::new(label, unit), Axis::new("count", ""));
-        let mut series = Series::new(Kind::Histogram, 0, 2, "", tone);
-        series.x2 = Some(1);
-        chart.series.push(series);
+        chart.x.log = log;
+        chart.wide = series.len() > 1;
+        for (k, (name, tone, _)) in series.iter().enumerate() {
+            let mut series = Series::new(Kind::Histogram, 0, 2 + k, name, *tone);
+            series.x2 = Some(1);
+            chart.series.push(series);
+        }
         self.sections.push(Section::Chart(chart));
     }
 
@@ -470,7 +478,7 @@ impl Page {
             };
             let rows = summary.rows.iter().map(|row| cells("td", row));
             out += &format!(
-                "<div class=\"summary\"><table aria-label=\"Summary\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
+                "<div class=\"summary\" tabindex=\"0\" role=\"region\" aria-label=\"Summary\"><table aria-label=\"Summary\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
                 cells("th", &summary.heads),
                 rows.map(|row| format!("<tr>{row}</tr>\n"))
                     .collect::<String>()

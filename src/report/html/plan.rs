@@ -1,4 +1,4 @@
-//! The page of `plan`: the configurations chosen, and what they will tell.
+//! The page of `plan`: the configurations chosen, and what they will determine.
 
 use super::cell::{Along, Cell, Points, Robot};
 use super::numbers::{Column, Table, fixed, significant};
@@ -6,7 +6,17 @@ use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::check::Meshes;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::report::text::{fixed as decimals, scientific};
-use crate::task::plan::Plan;
+use crate::task::plan::{NotDetermined, Plan};
+
+/// Parameters that a headline names.
+const NAMED: usize = 3;
+
+/// The first of parameters by name.
+fn named(list: &[NotDetermined]) -> String {
+    let names: Vec<&str> = list.iter().take(NAMED).map(|p| p.key.as_str()).collect();
+    let more = if list.len() > NAMED { ", \u{2026}" } else { "" };
+    names.join(", ") + more
+}
 
 /// The page of `plan`.
 #[must_use]
@@ -22,7 +32,10 @@ pub(crate) fn plan_page(found: &Plan) -> Page {
     } else {
         (
             Level::Warning,
-            format!("{count} configurations; {dropped} of {all} parameters stay undetermined"),
+            format!(
+                "{count} configurations; {dropped} of {all} parameters stay undetermined: {}",
+                named(&found.not_determined)
+            ),
         )
     };
     let mut page = Page::new("Measurement plan".into(), level, answer);
@@ -40,18 +53,24 @@ pub(crate) fn plan_page(found: &Plan) -> Page {
     );
     let mut columns = vec![Column::counts("configuration", 1..=count)];
     for joint in 0..6 {
-        columns.push(Column::numbers(
-            &format!("joint {}", joint + 1),
-            "deg",
-            found.joints_deg.iter().map(|q| fixed(q[joint], 3)),
-        ));
+        columns.push(
+            Column::numbers(
+                &format!("joint {}", joint + 1),
+                "deg",
+                found.joints_deg.iter().map(|q| fixed(q[joint], 3)),
+            )
+            .to(3),
+        );
     }
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        columns.push(Column::numbers(
-            name,
-            "mm",
-            found.places_mm.iter().map(|p| fixed(p[axis], 2)),
-        ));
+        columns.push(
+            Column::numbers(
+                name,
+                "mm",
+                found.places_mm.iter().map(|p| fixed(p[axis], 2)),
+            )
+            .to(2),
+        );
     }
     page.tables
         .insert("configurations".into(), Table { columns });

@@ -46,7 +46,8 @@ pub(crate) fn page(found: &Reach) -> Page {
             "largest error of a leg",
             "mm",
             all.iter().map(|r| r.leg_error_mm.map(|e| fixed(e, 6))),
-        ),
+        )
+        .to(4),
         Column::numbers("range", "mm", range).for_charts(),
     ];
     columns.extend((0..6).map(joint));

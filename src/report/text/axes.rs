@@ -6,7 +6,7 @@ use crate::task::axes::{Axes, Joint};
 use crate::task::parts::{Pose, Sigma};
 
 /// What is said of the noise where it is not known.
-const NO_NOISE: &str = "not known: three rows a sweep leave nothing to tell the noise by";
+const NO_NOISE: &str = "not known: three rows a sweep leave nothing to estimate the noise from";
 
 pub(super) fn text(found: &Axes, style: Style) -> String {
     let mut rows = vec![
@@ -95,7 +95,7 @@ fn joint(of: &Joint) -> Vec<String> {
     ]
 }
 
-/// A frame that sweeps give, told.
+/// A frame that sweeps give, in words.
 pub(in crate::report) struct Frame<'a> {
     /// Its name and that of the transform.
     pub key: &'static str,

@@ -105,7 +105,7 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
         .collect();
     if !as_prior.is_empty() {
         out += &format!(
-            "\nthe data tell hardly more than the prior of {} of these: {}\n",
+            "\nthe data say hardly more than the prior of {} of these: {}\n",
             as_prior.len(),
             as_prior.join(", ")
         );
@@ -116,7 +116,7 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
         .filter(|p| !p.identifiable)
         .peekable();
     if dropped.peek().is_some() {
-        out += "\nnot determined by these data, left as they were\n";
+        out += "\nnot determined by these data, kept as they were\n";
     }
     for p in dropped {
         let weak = p.sigma_if_identified.map_or_else(String::new, |w| {

@@ -2,12 +2,12 @@
 
 use super::fixed;
 use crate::diagnose::{NoiseSource, Verdict};
-use crate::report::Style;
 use crate::report::layout::{SPREAD_HEADER, aligned, spread_row};
+use crate::report::{LEAST_PROBABILITY, Style};
 use crate::task::diagnose::{Diagnosis, Effect, FoundEffect, Group, ImpossibleGroup};
 use crate::task::parts::Statistics;
 
-/// The answer: the verdict in one line, each effect with its standing, what is left.
+/// The answer: the verdict in one line, each effect with its standing, the residual.
 fn summary(d: &Diagnosis) -> String {
     let mut out = verdict(d) + "\n";
     for (effect, sentence) in d.effects.iter().map(|f| (f, &f.sentence)) {
@@ -17,10 +17,10 @@ fn summary(d: &Diagnosis) -> String {
         }
         out.push('\n');
     }
-    out += &left(d);
+    out += &residual(d);
     if !d.reasons.is_empty() {
         out += match d.found.verdict {
-            Verdict::Undetermined => "\nwhy it cannot be told\n",
+            Verdict::Undetermined => "\nwhy it cannot be decided\n",
             _ => "\nwhy that is not all\n",
         };
         for reason in &d.reasons {
@@ -34,14 +34,16 @@ fn summary(d: &Diagnosis) -> String {
 pub(in crate::report) fn verdict(d: &Diagnosis) -> String {
     let words = match d.found.verdict {
         Verdict::Explained => "Explained: the effects found account for the disagreement.",
-        Verdict::Improved => "Improved: rows left out are predicted better; something is left.",
+        Verdict::Improved => {
+            "Improved: rows left out are predicted better; something is still missing."
+        }
         Verdict::NothingMissing if d.found.noise_source == NoiseSource::Residuals => {
             "Nothing is missing that these measurements can show."
         }
         Verdict::NothingMissing => {
             "Nothing is missing: the model agrees with the measurements within the noise."
         }
-        Verdict::Undetermined => "It cannot be told what is missing.",
+        Verdict::Undetermined => "What is missing cannot be determined.",
     };
     let Some(compared) = (d.held_out.compared.as_ref())
         .filter(|_| !d.effects.is_empty() && d.found.verdict != Verdict::Undetermined)
@@ -73,8 +75,8 @@ pub(in crate::report) fn odds(odds: f64) -> String {
 }
 
 /// The residual that remains, and what it depends on most.
-pub(in crate::report) fn left(d: &Diagnosis) -> String {
-    let mut out = format!("{:<9} {} mm a coordinate", "left", fixed(d.left_mm, 4));
+pub(in crate::report) fn residual(d: &Diagnosis) -> String {
+    let mut out = format!("{:<9} {} mm a coordinate", "residual", fixed(d.left_mm, 4));
     if let Some(function) = &d.unexplained.function {
         out += &format!(", mostly of {function}");
     } else if let Some(spot) = d.unexplained.spots.first() {
@@ -86,8 +88,8 @@ pub(in crate::report) fn left(d: &Diagnosis) -> String {
 /// A probability in few characters; what is too small for a number is said to be below one.
 fn probability(p: Option<f64>) -> String {
     let p = p.unwrap_or(f64::NAN);
-    if p < 1e-300 {
-        "< 1e-300".into()
+    if p < LEAST_PROBABILITY {
+        format!("< {LEAST_PROBABILITY:e}")
     } else {
         format!("{p:.0e}")
     }
@@ -123,7 +125,7 @@ pub(in crate::report) fn labelled<'a>(
 /// A group of effects, those that compete with it, and the residual with either, in one sentence.
 fn competes(s: &Group, d: &Diagnosis) -> String {
     format!(
-        "{} instead of {}: {} % as much, {} mm left instead of {} mm (behind by {})",
+        "{} instead of {}: {} % as much, a residual of {} mm instead of {} mm (behind by {})",
         together(&s.effects),
         together(labelled(d, &s.instead_of)),
         fixed(s.part.map(|part| 100.0 * part), 0),
@@ -155,7 +157,7 @@ fn impossibly(i: &ImpossibleGroup, d: &Diagnosis) -> String {
 fn values(f: &FoundEffect) -> String {
     let e = &f.evidence;
     let mut out = format!(
-        "\n{}: chi-squared -{}, p {}",
+        "\n{}: fall of chi-squared {}, p {}",
         f.effect.label,
         fixed(e.chi_squared_fall, 0),
         probability(e.p_value)
@@ -191,7 +193,7 @@ pub(super) fn text(found: &Diagnosis, style: Style) -> String {
         NoiseSource::Residuals => "what no model explains",
     };
     out += &format!(
-        "\nnoise {} mm a coordinate by {source}; left {} mm\n",
+        "\nnoise {} mm a coordinate by {source}; residual {} mm\n",
         fixed(found.noise_mm, 4),
         fixed(found.left_mm, 4)
     );
@@ -239,7 +241,7 @@ pub(super) fn text(found: &Diagnosis, style: Style) -> String {
     let apart = found.telling_poses.iter().map(|t| t.apart_mm);
     if let Some(most) = apart.reduce(f64::max) {
         out += &format!(
-            "\n{} poses tell alternatives apart, by up to {most:.3} mm: --poses FILE writes them\n",
+            "\n{} poses separate alternatives, by up to {most:.3} mm: --poses FILE writes them\n",
             found.telling_poses.len()
         );
     }

@@ -32,7 +32,7 @@ pub(super) fn poses(found: &Poses, style: Style) -> String {
     text
 }
 
-/// The frame file is what is told: it stays one that can be read.
+/// The frame file is what is printed: it stays one that can be read.
 pub(super) fn base(found: &Base, _: Style) -> String {
     found.frame_text.clone()
 }
@@ -40,7 +40,7 @@ pub(super) fn base(found: &Base, _: Style) -> String {
 pub(super) fn reach(found: &Reach, style: Style) -> String {
     let mut rows = vec![row(["id", "design", "mode", "postures", "leg error mm"])];
     for r in &found.reach {
-        let told = match r.leg_error_mm {
+        let leg = match r.leg_error_mm {
             None => "out of reach".to_owned(),
             Some(e) if r.measurable => format!("{e:.4}"),
             Some(e) => format!("beyond the ballbar: {e:.4}"),
@@ -50,7 +50,7 @@ pub(super) fn reach(found: &Reach, style: Style) -> String {
             r.design.clone(),
             r.mode.to_string(),
             r.postures.len().to_string(),
-            told,
+            leg,
         ]);
     }
     aligned(&rows, style.width)

@@ -13,7 +13,7 @@ mod tables;
 mod validate;
 
 pub(super) use axes::{frames, world as axes_world};
-pub(super) use diagnose::{labelled, left, together};
+pub(super) use diagnose::{labelled, residual, together};
 pub(super) use register::{noise, search};
 
 use super::html::{

@@ -2,7 +2,7 @@
 
 use crate::report::Style;
 use crate::task::profile::{
-    Changed, Diff, Difference, Exported, Facts, FromUrdf, Imported, NewProfile,
+    Changed, Deviation, Diff, Difference, Exported, Facts, FromUrdf, Imported, NewProfile,
 };
 use std::collections::BTreeMap;
 
@@ -10,30 +10,41 @@ pub(super) fn new(found: &NewProfile, _: Style) -> String {
     let Some(path) = &found.output else {
         return found.profile.clone().unwrap_or_default();
     };
-    let mut told: String = found.notes.iter().map(|note| format!("{note}\n")).collect();
-    told += &format!("written to {path}; set the serial number, the base and the tools\n");
-    told
+    let mut text: String = found.notes.iter().map(|note| format!("{note}\n")).collect();
+    text += &format!("written to {path}; set the serial number, the base and the tools\n");
+    text
 }
 
 pub(super) fn from_urdf(found: &FromUrdf, _: Style) -> String {
     let Some(path) = &found.output else {
         return found.profile.clone();
     };
-    let mut told = format!(
+    let mut text = format!(
         "{}: {} to {}, the same as the URDF at 1000 postures\ninverse: {}\n",
         found.robot, found.base, found.tip, found.inverse
     );
-    told.extend(found.notes.iter().map(|note| format!("note: {note}\n")));
-    told + &format!("written to {path}\n")
+    text.extend(found.notes.iter().map(|note| format!("note: {note}\n")));
+    text + &format!("written to {path}\n")
 }
 
 pub(super) fn imported(found: &Imported, _: Style) -> String {
     let d = &found.deviation;
     format!(
-        "written to {}: the controller's chain is {:.3} mm (mean), at most {:.3} mm, from the nominal one over {} random \
-         postures\n",
-        found.output, d.mean_mm, d.max_mm, d.postures
+        "written to {}: the controller's chain is {} the nominal one over {} random postures\n",
+        found.output,
+        apart(d, 3),
+        d.postures
     )
+}
+
+/// How far two tools are from one another, in words that go on with the other.
+fn apart(d: &Deviation, decimals: usize) -> String {
+    let [mean, most] = [d.mean_mm, d.max_mm];
+    if mean.is_finite() && most.is_finite() {
+        format!("{mean:.decimals$} mm (mean), at most {most:.decimals$} mm, from")
+    } else {
+        "at no finite distance (a value of the profile is beyond any arm) from".into()
+    }
 }
 
 pub(super) fn facts(found: &Facts, _: Style) -> String {
@@ -83,8 +94,9 @@ pub(super) fn facts(found: &Facts, _: Style) -> String {
     if found.is_calibrated {
         let d = &found.deviation;
         text += &format!(
-            "\nthe real tool is {:.3} mm (mean), at most {:.3} mm, from the controller's over {} random postures\n",
-            d.mean_mm, d.max_mm, d.postures
+            "\nthe real tool is {} the controller's over {} random postures\n",
+            apart(d, 3),
+            d.postures
         );
     } else {
         text += "\nno calibration: compensation changes nothing\n";
@@ -93,31 +105,32 @@ pub(super) fn facts(found: &Facts, _: Style) -> String {
 }
 
 pub(super) fn changed(found: &Changed, _: Style) -> String {
-    let mut told = differences(&found.differences);
-    told.extend(found.notes.iter().map(|note| format!("note: {note}\n")));
-    told + &format!("written to {}\n", found.output)
+    let mut text = differences(&found.differences);
+    text.extend(found.notes.iter().map(|note| format!("note: {note}\n")));
+    text + &format!("written to {}\n", found.output)
 }
 
 pub(super) fn exported(found: &Exported, _: Style) -> String {
     if let Some(text) = &found.text {
         return text.clone();
     }
-    let mut told = String::new();
-    told.extend(
+    let mut text = String::new();
+    text.extend(
         found
             .not_carried
             .iter()
             .map(|what| format!("not in it: {what}\n")),
     );
     let d = &found.deviation;
-    told += &format!(
-        "the real tool is {:.4} mm (mean), at most {:.4} mm, from where it has it, over {} postures\n",
-        d.mean_mm, d.max_mm, d.postures
+    text += &format!(
+        "the real tool is {} where it has it, over {} postures\n",
+        apart(d, 4),
+        d.postures
     );
     if let Some(path) = &found.output {
-        told += &format!("written to {path}\n");
+        text += &format!("written to {path}\n");
     }
-    told
+    text
 }
 
 pub(super) fn diff(found: &Diff, _: Style) -> String {
@@ -136,13 +149,13 @@ fn differences(found: &[Difference]) -> String {
     text
 }
 
-/// Values of an effect with their standard deviations where they are told: `a_mm 0.134 ± 0.003`.
+/// Values of an effect with their standard deviations where these are known: `a_mm 0.134 ± 0.003`.
 fn with_sigmas(effect: &str, values: &str, sigmas: &BTreeMap<String, f64>) -> String {
     let words: Vec<&str> = values.split(' ').collect();
     let pairs = words.chunks(2).map(|pair| {
-        let told = sigmas.get(&format!("{effect} {}", pair[0]));
-        let told = told.map_or_else(String::new, |sigma| format!(" ± {sigma:.2e}"));
-        pair.join(" ") + &told
+        let sigma = sigmas.get(&format!("{effect} {}", pair[0]));
+        let sigma = sigma.map_or_else(String::new, |sigma| format!(" ± {sigma:.2e}"));
+        pair.join(" ") + &sigma
     });
     pairs.collect::<Vec<_>>().join("  ")
 }
@@ -161,7 +174,7 @@ fn with_short_hashes(line: &str) -> String {
     words.join(" ")
 }
 
-/// A fact that is names and numbers in turn, so that a line breaks before a name only.
+/// A fact that is names and numbers in alternation, so that a line breaks before a name only.
 fn glued(name: &str, value: &str) -> String {
     if !(name.starts_with("joint ") || name.contains("effect ")) {
         return value.to_owned();

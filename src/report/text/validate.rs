@@ -5,7 +5,7 @@ use crate::report::layout::{SPREAD_HEADER, aligned, spread_row};
 use crate::task::parts::Statistics;
 use crate::task::validate::{Models, Validation};
 
-/// What is told of a model by this name.
+/// What is known of a model by this name.
 fn of<'a, T>(models: Option<&'a Models<T>>, name: &str) -> Option<&'a T> {
     let mut named = models.into_iter().flat_map(Models::named);
     named.find(|(other, _)| *other == name).map(|(_, one)| one)
@@ -13,8 +13,8 @@ fn of<'a, T>(models: Option<&'a Models<T>>, name: &str) -> Option<&'a T> {
 
 pub(super) fn text(found: &Validation, style: Style) -> String {
     let mut out = format!("{} rows\n", found.rows);
-    if let Some(told) = found.found.refit.told() {
-        out += &format!("{told}\n");
+    if let Some(note) = found.found.refit.told() {
+        out += &format!("{note}\n");
     }
     out.push('\n');
     let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];

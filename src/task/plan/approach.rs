@@ -81,7 +81,7 @@ mod tests {
                 program(language, &stops, 5.0 * DEG, &settings).expect("a language of the list");
             let [over, first, at, last] = match language {
                 "fanuc" => ["28.648", "-5.000", "0.000", "22.918"],
-                // joint 2 counts the other way: 0.1 rad
+                // joint 2 counts in the other direction: 0.1 rad
                 "inform" => ["28648,-28648", "-5000,-730,", "0,-5730,", "22918"],
                 _ => ["28.6479", "-5.0000", "0.0000", "22.9183"],
             };

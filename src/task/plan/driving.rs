@@ -1,4 +1,4 @@
-//! The way of a measuring program: which configurations the arm may stand in, in which order, and what its moves meet.
+//! The path of a measuring program: which configurations the arm may stand in, in which order, and what its moves meet.
 
 use super::approach::Stop;
 use crate::check::passage::Passage;
@@ -70,7 +70,7 @@ impl<'a> Driving<'a> {
         touching(&self.scene, &self.arm, q).is_none()
     }
 
-    /// Whether the arm comes to this configuration from where it is approached from, and touches nothing on that way.
+    /// Whether the arm comes to this configuration from where it is approached from, and touches nothing on that path.
     pub(super) fn admits(&self, q: &[f64; 6]) -> bool {
         self.stands(q) && self.is_free(&self.constraints.approach(q), q)
     }
@@ -98,7 +98,7 @@ impl<'a> Driving<'a> {
         })
     }
 
-    /// Whether a move meets nothing: everywhere on its way, not only at samples, where the arm's programs can be followed.
+    /// Whether a move meets nothing: everywhere on its path, not only at samples, where the arm's programs can be followed.
     fn is_free(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
         self.guard.keeps(from, to)
             && match &self.passage {
@@ -115,8 +115,8 @@ impl<'a> Driving<'a> {
         })
     }
 
-    /// Poses that the arm goes over before it comes to where each configuration is approached from: none where the straight way of
-    /// the joints is free, or where no way was found.
+    /// Poses that the arm goes over before it comes to where each configuration is approached from: none where the straight path of
+    /// the joints is free, or where no path was found.
     pub(super) fn over(&self, joints: &[[f64; 6]]) -> Vec<Vec<[f64; 6]>> {
         let zero = self
             .profile
@@ -183,7 +183,7 @@ impl<'a> Driving<'a> {
                 id,
                 file,
                 0,
-                format!("the way to configuration {} {what}", index + 1),
+                format!("the path to configuration {} {what}", index + 1),
             ));
         }
         findings
@@ -208,7 +208,7 @@ impl<'a> Driving<'a> {
                 "not-checked",
                 file,
                 0,
-                format!("whether the arm touches itself on its way was not looked at: {why}"),
+                format!("whether the arm touches itself on its path was not looked at: {why}"),
             )]
         };
         let Ok(language) = language_by_id(language) else {
@@ -247,7 +247,7 @@ impl<'a> Driving<'a> {
                 file,
                 motion.line as usize,
                 format!(
-                    "on the way to configuration {} the arm's {a} touches {b}, at {:.0} % of the move",
+                    "on the path to configuration {} the arm's {a} touches {b}, at {:.0} % of the move",
                     configurations.get(motion.motion).copied().unwrap_or(0),
                     100.0 * near.at
                 ),

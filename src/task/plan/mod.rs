@@ -47,7 +47,7 @@ pub struct Expected {
 pub struct NotDetermined {
     /// The parameter.
     pub key: String,
-    /// What it cannot be told from.
+    /// What it cannot be separated from.
     pub confounded_with: Vec<String>,
 }
 
@@ -107,7 +107,7 @@ pub fn given(source: &Source) -> Result<Vec<[f64; 6]>, Failure> {
     table.rows().map(|row| row.joints()).collect()
 }
 
-/// Chooses configurations by observability; `read` reads meshes, `tell` hears how many of how many starts are done.
+/// Chooses configurations by observability; `read` reads meshes, `hear` is called with how many of how many starts are done.
 ///
 /// # Errors
 /// Constraints that cannot be met, fewer numbers than parameters, a language that no program is written in.
@@ -118,14 +118,14 @@ pub fn plan(
     request: &Request,
     wanted: Option<&Wanted>,
     read: Reader,
-    tell: &mut dyn FnMut(usize, usize),
+    hear: &mut dyn FnMut(usize, usize),
 ) -> Result<Plan, Failure> {
     refuse_nonsense(request)?;
     let profile = &file.profile;
     let tool = file.tool(tool)?;
     let driving = Driving::new(file, &tool, &request.constraints, read)?;
     let admits = |q: &[f64; 6]| driving.admits(q);
-    let mut found = plan_telling(profile, &tool, selection, request, &admits, tell)
+    let mut found = plan_telling(profile, &tool, selection, request, &admits, hear)
         .map_err(|error| identify_failure(&file.name, &error))?;
     let given = request.given.len();
     let chosen = found.joints.split_off(given);

@@ -175,7 +175,7 @@ pub fn export(file: &ProfileFile, form: Option<Form>) -> Result<Exported, Failur
     if form.is_some() {
         not_carried.extend(coupled.iter().map(|c| {
             format!(
-                "the coupling: joint {0} here turns by the controller's J{0} {1:+} J{2}",
+                "the coupling: joint {0} here rotates by the controller's J{0} {1:+} J{2}",
                 c.joint, c.ratio, c.on
             )
         }));
@@ -325,7 +325,7 @@ fn urdf(profile: &Profile, flange: &Geometry, comments: &[String]) -> Result<Str
         let gap = forward.separation(&again.forward(&q));
         if gap.distance_m > 1e-9 || gap.angle_rad > 1e-9 {
             return Err(Failure::internal(format!(
-                "the URDF made is {} mm and {} deg beside the profile",
+                "the URDF made is {} mm and {} deg off the profile",
                 mm_from_m(gap.distance_m),
                 gap.angle_rad / DEG
             )));
@@ -335,7 +335,7 @@ fn urdf(profile: &Profile, flange: &Geometry, comments: &[String]) -> Result<Str
 }
 
 /// A pose in a comment.
-fn told(what: &str, pose: &Pose) -> String {
+fn stated(what: &str, pose: &Pose) -> String {
     let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
     let [x, y, z] = [x, y, z].map(|x| mm_from_m(x) + 0.0);
     let [rx, ry, rz] = [rx, ry, rz].map(|a| a / DEG + 0.0);
@@ -348,9 +348,9 @@ fn told(what: &str, pose: &Pose) -> String {
 fn head(profile: &Profile, comments: &[String], ends: [(&str, &Pose); 2], row: &str) -> String {
     let mut lines = comments.to_vec();
     lines.push(format!("row: {row}"));
-    lines.extend(ends.map(|(what, pose)| told(what, pose)));
+    lines.extend(ends.map(|(what, pose)| stated(what, pose)));
     lines.extend(
-        tools(profile).map(|(name, pose)| told(&format!("tool {name} on the flange"), &pose)),
+        tools(profile).map(|(name, pose)| stated(&format!("tool {name} on the flange"), &pose)),
     );
     lines
         .iter()
@@ -426,7 +426,7 @@ fn ur_kinematics(profile: &Profile, exported: &Geometry, comments: &[String]) ->
         ..exported.clone()
     };
     let Axes { mut steps, last } = Chain::of(&flange, &profile.mechanism).axes();
-    // a shift along axis 6, and nothing else, is left behind joint 6: it changes places with the joint's turn
+    // a shift along axis 6, and nothing else, is left behind joint 6: it changes places with the joint's rotation
     steps[5] = steps[5]
         * Pose {
             rotation: Rotation::identity(),

@@ -157,7 +157,10 @@ pub(super) fn deviation(
             let gap = a
                 .forward(&q, conditions)
                 .separation(&b.forward(&q, conditions));
-            mm_from_m(gap.distance_m)
+            // an effect that puts the tool nowhere puts it farther than any other
+            Some(mm_from_m(gap.distance_m))
+                .filter(|d| d.is_finite())
+                .unwrap_or(f64::INFINITY)
         })
         .collect();
     Deviation {

@@ -70,7 +70,7 @@ pub fn import_ur(
     let text = with_controller(&file.text, profile, &effects, &note).ok_or_else(|| {
         Failure::with_hint(
             format!(
-                "{}: cannot tell where `controller` starts and ends",
+                "{}: cannot find where `controller` starts and ends",
                 file.name
             ),
             "write it as a block of its own lines, as the built-in profiles have it",

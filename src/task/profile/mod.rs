@@ -62,7 +62,7 @@ pub fn new(robot: &str) -> Result<NewProfile, Failure> {
     let rows = catalogue();
     if let Some(arm) = rows.iter().find(|arm| arm.name == robot) {
         let text = arm.text();
-        // what is told is what stands in the file
+        // what is reported is what stands in the file
         let notes = text.lines().map_while(|line| line.strip_prefix("# "));
         return Ok(made(notes.map(str::to_owned).collect(), text.clone()));
     }
@@ -105,7 +105,7 @@ pub struct Facts {
     /// Whether there is a calibration.
     #[serde(skip)]
     pub is_calibrated: bool,
-    /// The robot's name, serial number and language, as the profile tells them.
+    /// The robot's name, serial number and language, as the profile gives them.
     #[serde(skip)]
     pub robot: [Option<String>; 3],
 }
@@ -230,7 +230,7 @@ fn worth(profile: &Profile) -> Vec<String> {
     lines
 }
 
-/// The standard deviations that a calibrated profile tells, by the keys of its parameters.
+/// The standard deviations that a calibrated profile gives, by the keys of its parameters.
 fn sigmas(profile: &Profile) -> BTreeMap<String, f64> {
     let list = profile
         .quality

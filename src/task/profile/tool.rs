@@ -5,7 +5,7 @@ use crate::geometry::{Pose, norm};
 use crate::model::profile::{ToolOfProfile, is_tiny};
 use crate::task::Failure;
 
-/// No tool is turned by more: two whole turns.
+/// No tool is rotated by more: two whole revolutions.
 const MOST_ANGLE_DEG: f64 = 720.0;
 /// A centre of gravity farther from the flange is in another unit.
 const MOST_M: f64 = 10.0;

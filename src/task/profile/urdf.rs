@@ -20,7 +20,7 @@ pub struct Inputs<'a> {
     pub choice: Choice,
     /// Where its meshes are.
     pub meshes: Meshes<'a>,
-    /// The maker, the controller's language and the serial number where they are told.
+    /// The maker, the controller's language and the serial number where they are given.
     pub about: [Option<&'a str>; 3],
     /// Tools by name.
     pub tools: BTreeMap<String, ToolOfProfile>,
@@ -52,15 +52,15 @@ impl Document for FromUrdf {
 /// Makes a profile of a URDF: its six axes, limits, masses and collision shapes.
 ///
 /// # Errors
-/// A URDF that is no arm of six turning joints, an unknown language.
+/// A URDF that is no arm of six rotary joints, an unknown language.
 pub fn from_urdf(inputs: &Inputs) -> Result<FromUrdf, Failure> {
     let name = &inputs.urdf.name;
-    let told = |error: UrdfError| Failure::with_hint(format!("{name}: {error}"), error.hint());
+    let failure = |error: UrdfError| Failure::with_hint(format!("{name}: {error}"), error.hint());
     let [maker, language, serial] = inputs.about;
     if let Some(language) = language {
         check_language(language)?;
     }
-    let arm = UrdfArm::read(&text(inputs.urdf)?, &inputs.choice).map_err(told)?;
+    let arm = UrdfArm::read(&text(inputs.urdf)?, &inputs.choice).map_err(failure)?;
     let about = About {
         maker,
         language,
@@ -68,7 +68,7 @@ pub fn from_urdf(inputs: &Inputs) -> Result<FromUrdf, Failure> {
         tools: inputs.tools.clone(),
         ..About::of(inputs.origin, inputs.meshes)
     };
-    let (yaml, mut notes) = profile_text(&arm, &about).map_err(told)?;
+    let (yaml, mut notes) = profile_text(&arm, &about).map_err(failure)?;
     notes.extend(maker.and_then(unknown_maker));
     let profile =
         Profile::from_yaml(&yaml).map_err(|error| Failure::profile(name, &yaml, &error))?;

@@ -4,10 +4,10 @@ use super::points::Points;
 use super::{Motion, Options, Registration, Residual, Search, Step};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::register::icp::{self, Doubt, Metric, PointResidual, icp};
+use crate::register::icp::{self, Concern, Metric, PointResidual, icp};
 use crate::task::Failure;
 
-/// Registers two clouds; a doubtful result is an error finding.
+/// Registers two clouds; a concernful result is an error finding.
 pub(super) fn register(
     from: &Points,
     to: &Points,
@@ -43,14 +43,18 @@ pub(super) fn register(
         moved_mm: mm_from_m(s.moved_m),
     });
     Ok(Registration {
-        findings: found.doubts.iter().map(|d| finding(d, &to.name)).collect(),
+        findings: found
+            .concerns
+            .iter()
+            .map(|d| finding(d, &to.name))
+            .collect(),
         icp: Some(Search {
             starts: found.starts,
             steps: steps.collect(),
             overlap: found.overlap,
             expected_mm: mm_from_m(found.expected_m),
             rms_mm: mm_from_m(found.rms_m),
-            success: found.doubts.is_empty(),
+            success: found.concerns.is_empty(),
         }),
         overlap: Some(found.overlap),
         rms_expected_mm: Some(mm_from_m(found.expected_m)),
@@ -63,21 +67,21 @@ pub(super) fn register(
     })
 }
 
-fn finding(doubt: &Doubt, name: &str) -> Finding {
-    let (id, hint) = match doubt {
-        Doubt::Moving { .. } => ("icp-not-converged", "give a better --start"),
-        Doubt::Residual { .. } => (
+fn finding(concern: &Concern, name: &str) -> Finding {
+    let (id, hint) = match concern {
+        Concern::Moving { .. } => ("icp-not-converged", "give a better --start"),
+        Concern::Residual { .. } => (
             "icp-local-minimum",
             "give a --start, or --sigma-mm if the noise is known to be larger",
         ),
-        Doubt::Overlap { .. } => (
+        Concern::Overlap { .. } => (
             "icp-overlap",
             "give a --start; where only a part was scanned, a smaller --keep and --min-overlap",
         ),
-        Doubt::Free { .. } => ("icp-free-motion", "scan more of the part"),
-        Doubt::Ambiguous { .. } => ("icp-ambiguous", "--start says which pose is meant"),
+        Concern::Free { .. } => ("icp-free-motion", "scan more of the part"),
+        Concern::Ambiguous { .. } => ("icp-ambiguous", "--start says which pose is meant"),
     };
-    Finding::of_file(id, Severity::Error, name, doubt.to_string()).hint(hint)
+    Finding::of_file(id, Severity::Error, name, concern.to_string()).hint(hint)
 }
 
 /// The residual of a point, for the page.

@@ -16,7 +16,7 @@ pub enum Construction {
     ThreeTwoOne,
 }
 
-/// The datum of each touch by order, where no column tells it.
+/// The datum of each touch by order, where no column says it.
 const BY_ORDER: [usize; 6] = [0, 0, 0, 1, 1, 2];
 
 pub(super) fn construct(

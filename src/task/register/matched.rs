@@ -183,7 +183,7 @@ fn by_points(
         },
         to_from_from: fit.to_from_from,
         covariance: Some(fit.covariance(&from, used, sigma)),
-        // told for a point of weight one, which is no length where the weights are 1/σ²
+        // reported for a point of weight one, which is no length where the weights are 1/σ²
         sigma_m: (!absolute).then_some(sigma),
         sigma_given: given.is_some(),
         rmsd_m: Some(fit.rmsd_m(&from, &to, used)),
@@ -204,7 +204,7 @@ fn other_scale(scale: &Scale, points: usize, name: &str) -> Option<Finding> {
     })
 }
 
-/// Without --robust: a point that the others contradict is told, not left out.
+/// Without --robust: a point that the others contradict is reported, not left out.
 fn suspect(
     touched: &[Touched],
     from: &[Vector],

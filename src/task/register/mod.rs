@@ -129,7 +129,7 @@ pub struct Feature {
     pub centre_mm: [f64; 3],
     /// Its radius.
     pub radius_mm: f64,
-    /// Standard deviation of a touch; `null` where too few tell it.
+    /// Standard deviation of a touch; `null` where too few show it.
     pub noise_mm: Option<f64>,
 }
 
@@ -229,7 +229,7 @@ impl Document for Registration {
     const KIND: &'static str = "registration/1";
 }
 
-/// A motion found, before it is told.
+/// A motion found, before it is reported.
 struct Motion {
     method: &'static str,
     to_from_from: Pose,

@@ -187,3 +187,100 @@ fn what_is_found_in_one_of_several_files_names_it() {
         "{told}"
     );
 }
+
+/// Numbers that no arm has, given to commands that compute without measurements: refused with the number, or said in words.
+#[test]
+fn what_is_no_finite_number_is_never_an_answer() {
+    let folder = scratch();
+    let text =
+        |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("scratch");
+    let truth = std::fs::read_to_string(repository(TRUTH)).expect("a profile");
+    let effect = "  effects:\n    - {effect: joint_scale, joint: 1, ratio: 1e300}\n";
+    text("wild.yaml", &truth.replacen("  effects:\n", effect, 1));
+    text("truth.yaml", &truth);
+    let header = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
+    text("q.csv", &format!("{header}10,-20,30,40,50,60\n"));
+    text("far.csv", &format!("{header}10,-20,30,40,1e300,60\n"));
+    let robot = std::fs::read_to_string(repository("docs/measuring/robot.csv")).expect("poses");
+    let mut rows: Vec<String> = robot.lines().map(str::to_owned).collect();
+    let (_, rest) = rows[3].split_once(',').expect("cells");
+    rows[3] = format!("1e160,{rest}");
+    text("robot.csv", &(rows.join("\n") + "\n"));
+    let board = repository("docs/measuring/board.csv");
+    let board = board.to_str().expect("a name");
+    let cases: [(&[&str], i32, &str); 8] = [
+        (
+            &["simulate", "--profile", "truth.yaml", "--joints", "far.csv"],
+            2,
+            "`1e300` is beyond \u{b1}1e12",
+        ),
+        (
+            &["fk", "--profile", "truth.yaml", "--joints", "far.csv"],
+            2,
+            "`1e300` is beyond \u{b1}1e12",
+        ),
+        (
+            &["simulate", "--profile", "wild.yaml", "--joints", "q.csv"],
+            2,
+            "has no finite position",
+        ),
+        (
+            &["fk", "--profile", "wild.yaml", "--joints", "q.csv"],
+            2,
+            "has no finite pose",
+        ),
+        (
+            &[
+                "simulate",
+                "--profile",
+                "truth.yaml",
+                "--joints",
+                "q.csv",
+                "--noise-mm",
+                "1e308",
+            ],
+            2,
+            "must be from 0 to 1000000",
+        ),
+        (
+            &[
+                "simulate",
+                "--profile",
+                "truth.yaml",
+                "--joints",
+                "q.csv",
+                "--outlier-mm",
+                "inf",
+            ],
+            2,
+            "must be from 0 to 1000000",
+        ),
+        (
+            &["profile", "show", "wild.yaml"],
+            0,
+            "at no finite distance",
+        ),
+        (
+            &["handeye", "robot.csv", board, "--setup", "eye-in-hand"],
+            2,
+            "`1e160` is beyond \u{b1}1e12",
+        ),
+    ];
+    for (arguments, status, said) in cases {
+        let output = poseshift()
+            .current_dir(folder.path())
+            .args(arguments)
+            .output()
+            .expect("the program starts");
+        let streams =
+            [&output.stdout, &output.stderr].map(|s| String::from_utf8_lossy(s).into_owned());
+        let words: Vec<&str> = streams.iter().flat_map(|s| s.split_whitespace()).collect();
+        let all = words.join(" ");
+        assert_eq!(output.status.code(), Some(status), "{arguments:?}: {all}");
+        assert!(all.contains(said), "{arguments:?}: {all}");
+        let is_none =
+            |word: &str| matches!(word, "NaN" | "nan" | "-inf") || word == "inf" && status == 0;
+        let mut pieces = all.split([' ', ',', '(', ')', ':']);
+        assert!(!pieces.any(is_none), "{arguments:?}: {all}");
+    }
+}

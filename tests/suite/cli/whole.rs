@@ -1,6 +1,6 @@
 //! What a run writes appears whole or not at all: whatever stops it, at the latest the next run in that folder sees to it.
 
-use crate::support::{files_below, poseshift, repository, scratch};
+use crate::support::{files_below, poseshift, repository, scratch, skipped};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use std::collections::BTreeMap;
@@ -83,11 +83,6 @@ fn wanted() -> Content {
     content(folder.path())
 }
 
-/// Says that a test cannot be made here.
-fn skip(why: &str) {
-    eprintln!("SKIPPED: {why}");
-}
-
 /// Runs a tool of the system; whether it could.
 fn tool(program: &str, arguments: &[&str], folder: &Path) -> bool {
     let done = Command::new(program)
@@ -104,7 +99,7 @@ fn a_file_that_cannot_be_changed_stops_all_others() {
     let folder = world();
     let second = "work/LeftModule.mod";
     if !tool("chattr", &["+i", second], folder.path()) {
-        return skip("chattr +i is not permitted here");
+        return skipped("chattr +i is not permitted here");
     }
     refused(
         folder.path(),
@@ -253,7 +248,7 @@ impl Drop for Mounted {
 fn a_disk_that_is_full_stops_all() {
     let place = scratch();
     let Some(disk) = Mounted::new(place.path(), "size=256k") else {
-        return skip("no file system can be mounted here");
+        return skipped("no file system can be mounted here");
     };
     reset(&disk.0);
     // room for some of the new files
@@ -271,7 +266,7 @@ fn a_quota_stops_all() {
     const NOBODY: u32 = 65534;
     let place = scratch();
     let Some(disk) = Mounted::new(place.path(), "size=4m,usrquota_block_hardlimit=100k") else {
-        return skip("no file system with a quota can be mounted here");
+        return skipped("no file system with a quota can be mounted here");
     };
     reset(&disk.0);
     let open = std::fs::Permissions::from_mode(0o755);
@@ -291,7 +286,7 @@ fn a_quota_stops_all() {
         mode & 0o001 != 0
     });
     if !may {
-        return skip("another user cannot run the program");
+        return skipped("another user cannot run the program");
     }
     let before = content(&disk.0.join("work"));
     let output = Command::new(program)

@@ -1,6 +1,6 @@
 //! A real robot, where the folder with its measurements is there.
 
-use crate::support::{poseshift, repository, scratch};
+use crate::support::{poseshift, repository, scratch, skipped};
 use serde_json::Value;
 
 /// The report on a robot whose geometry was calibrated first; `None` where its measurements are not there.
@@ -8,7 +8,7 @@ fn diagnosed(robot: &str) -> Option<Value> {
     let folder = repository("../shared/data/real").join(robot);
     let (profile, csv) = (folder.join("profile.yaml"), folder.join("fit.csv"));
     if !profile.is_file() {
-        println!("skipped: {} is not there", folder.display());
+        skipped(&format!("{} is not there", folder.display()));
         return None;
     }
     let scratch = scratch();
@@ -64,7 +64,7 @@ fn other_half(robot: &str) -> Option<Vec<Option<f64>>> {
     let folder = repository("../shared/data/real").join(robot);
     let (profile, csv) = (folder.join("profile.yaml"), folder.join("fit.csv"));
     if !profile.is_file() {
-        println!("skipped: {} is not there", folder.display());
+        skipped(&format!("{} is not there", folder.display()));
         return None;
     }
     let text = std::fs::read_to_string(csv).expect("measurements");

@@ -70,7 +70,7 @@ fn what_predicts_better_is_written_though_something_is_left() {
         "{out}"
     );
     assert!(
-        out.contains("\ncertain   J") && out.contains("\nleft      0.0"),
+        out.contains("\ncertain   J") && out.contains("\nresidual  0.0"),
         "{out}"
     );
     assert!(

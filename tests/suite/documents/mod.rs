@@ -3,6 +3,7 @@
 //! `POSESHIFT_BLESS=1 cargo test documents` writes the generated tables anew.
 
 mod commands;
+mod words;
 
 use crate::support::{files_below, is_tracked, poseshift, repository, text};
 use serde_json::Value;

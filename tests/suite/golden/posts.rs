@@ -1,10 +1,10 @@
 //! Programs written by independent post-processors from known joints: the command reads those joints back, and with a
 //! profile without effects writes every byte back.
 //!
-//! The files lie beside the repository (`../shared/data/programs`); without them the tests say that they are skipped.
+//! The files lie next to the repository (`../shared/data/programs`); without them the tests say that they are skipped.
 
 use super::unmarked;
-use crate::support::{poseshift, repository, scratch, text};
+use crate::support::{poseshift, repository, scratch, skipped, text};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -157,7 +157,7 @@ const POSTS: &[Post] = &[
 fn folder() -> Option<PathBuf> {
     let folder = repository("../shared/data/programs");
     if !folder.is_dir() {
-        eprintln!("skipped: no {}", folder.display());
+        skipped(&format!("{} is not there", folder.display()));
         return None;
     }
     Some(folder)

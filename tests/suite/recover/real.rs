@@ -1,6 +1,6 @@
 //! Real measurements, where the folder with them is there: held-out errors must meet the reference figures.
 
-use crate::support::repository;
+use crate::support::{repository, skipped};
 use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
 use poseshift::identify::measurements::{Measurements, Observed, Purpose};
 use poseshift::identify::parameters::{Level, Selection};
@@ -11,11 +11,11 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use statrs::statistics::Statistics;
 
-/// A set's profile and measurements; `None`, told, where the folder is not there.
+/// A set's profile and measurements; `None`, and said so, where the folder is not there.
 fn read(set: &str, file: &str) -> Option<(Profile, Measurements)> {
     let folder = repository("../shared/data/real").join(set);
     let Ok(text) = std::fs::read_to_string(folder.join("profile.yaml")) else {
-        println!("skipped: {} is not there", folder.display());
+        skipped(&format!("{} is not there", folder.display()));
         return None;
     };
     let bytes = std::fs::read(folder.join(file)).expect("measurements beside the profile");

@@ -11,7 +11,7 @@ use poseshift::register::handeye::{HandEye, Setup, refine_by_corners};
 use poseshift::register::hexapod::{
     Design, Device, Lengths, legs_at, measurable, modes, near, set_base_frame, solve, spread,
 };
-use poseshift::register::icp::{Doubt, Found, Metric, Options, icp};
+use poseshift::register::icp::{Concern, Found, Metric, Options, icp};
 use poseshift::register::kabsch::kabsch;
 use poseshift::register::robust::robust;
 use poseshift::register::uncertainty::PoseCovariance;
@@ -164,7 +164,11 @@ fn clouds_are_laid_on_each_other_from_any_turn() {
             let from = cloud(&mut random, 6000, &Pose::identity(), 5e-5);
             let to = cloud(&mut random, 8000, &truth, 5e-5);
             let found = icp(&from, &to, None, &Options { metric, ..SEARCH }).expect("clouds");
-            assert!(found.doubts.is_empty(), "{metric:?}: {:?}", found.doubts);
+            assert!(
+                found.concerns.is_empty(),
+                "{metric:?}: {:?}",
+                found.concerns
+            );
             let middle = [0.2, 0.12, 0.0];
             let error = norm(sub(
                 found.to_from_from.transform(middle),
@@ -244,7 +248,7 @@ fn errors_of_fine_and_of_coarse_clouds_are_as_large_as_reported() {
                 ..SEARCH
             };
             let found = icp(&from, &to, None, &options).expect("clouds");
-            assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+            assert!(found.concerns.is_empty(), "{:?}", found.concerns);
             let covariance = found.covariance.expect("no motion is free");
             all.push(chi_squared(&found.to_from_from, &truth, &covariance));
         }
@@ -266,8 +270,8 @@ fn a_local_minimum_is_not_called_success() {
         ..SEARCH
     };
     let found = icp(&from, &to, None, &options).expect("clouds");
-    let is_local = |d: &Doubt| matches!(d, Doubt::Residual { .. } | Doubt::Overlap { .. });
-    assert!(found.doubts.iter().any(is_local), "{:?}", found.doubts);
+    let is_local = |d: &Concern| matches!(d, Concern::Residual { .. } | Concern::Overlap { .. });
+    assert!(found.concerns.iter().any(is_local), "{:?}", found.concerns);
 }
 
 #[test]
@@ -281,8 +285,8 @@ fn parts_that_slide_or_look_alike_turned_are_doubted() {
             .collect()
     };
     let found = icp(&grid(0.0), &grid(0.003), None, &SEARCH).expect("clouds");
-    let slides = |d: &Doubt| matches!(d, Doubt::Free { .. });
-    assert!(found.doubts.iter().any(slides), "{:?}", found.doubts);
+    let slides = |d: &Concern| matches!(d, Concern::Free { .. });
+    assert!(found.concerns.iter().any(slides), "{:?}", found.concerns);
     let mut brick = |pose: &Pose| -> Vec<Vector> {
         (0..6000)
             .map(|k| {
@@ -300,8 +304,8 @@ fn parts_that_slide_or_look_alike_turned_are_doubted() {
     let truth = Pose::from_xyz_rxryrz([0.5, 0.1, 0.0, 0.1, 0.2, 0.3]);
     let (from, to) = (brick(&Pose::identity()), brick(&truth));
     let found = icp(&from, &to, None, &SEARCH).expect("clouds");
-    let alike = |d: &Doubt| matches!(d, Doubt::Ambiguous { .. });
-    assert!(found.doubts.iter().any(alike), "{:?}", found.doubts);
+    let alike = |d: &Concern| matches!(d, Concern::Ambiguous { .. });
+    assert!(found.concerns.iter().any(alike), "{:?}", found.concerns);
 }
 
 #[test]

@@ -502,7 +502,7 @@ fn pages_of_repeated_poses_and_of_sweeps_have_what_is_told() {
     assert_eq!(shown, each(&report["findings"], "message"));
     let html = std::fs::read_to_string(&page).expect("a page");
     let sigma = report["base_sigma"]["x_mm"].as_f64().expect("a sigma");
-    assert!(html.contains("world from base, sigma"), "no sigma");
+    assert!(html.contains("base in the world, sigma"), "no sigma");
     assert!(html.contains(&format!("{sigma:.4}")), "{sigma}");
     assert!(html.contains(r#"class="verdict warning""#));
 }

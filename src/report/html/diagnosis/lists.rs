@@ -1,12 +1,12 @@
-//! Tables of a diagnosis: where it misses, what else would explain it, which rows tell nothing.
+//! Tables of a diagnosis: where it misses, what else would explain it, which rows say nothing.
 
-use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
+use crate::report::html::numbers::{Column, DIGITS, Number, Table, fixed, significant};
 use crate::report::html::page::Page;
 use crate::report::text::{labelled, together};
 use crate::task::diagnose::{Diagnosis, Effect, FoundEffect, ImpossibleGroup};
 
 /// The least sure first.
-const STANDINGS: [&str; 3] = ["possible", "likely", "certain"];
+pub(super) const STANDINGS: [&str; 3] = ["possible", "likely", "certain"];
 
 /// Every list that is not empty.
 pub(super) fn show(page: &mut Page, found: &Diagnosis) {
@@ -24,7 +24,7 @@ pub(super) fn show(page: &mut Page, found: &Diagnosis) {
     }
 }
 
-/// How sure each effect is, the least sure first, and what is left in the last row.
+/// How sure each effect is, the least sure first, and the residual.
 pub(super) fn show_standing(page: &mut Page, found: &Diagnosis) {
     if found.effects.is_empty() {
         return;
@@ -32,20 +32,20 @@ pub(super) fn show_standing(page: &mut Page, found: &Diagnosis) {
     let mut list: Vec<&FoundEffect> = found.effects.iter().collect();
     list.sort_by_key(|f| STANDINGS.iter().position(|s| *s == f.standing));
     let first = |f: &FoundEffect| f.against.first().map(|a| (a.what.clone(), a.odds));
-    let rivals: Vec<Option<(String, f64)>> = list.iter().map(|f| first(f)).collect();
+    let others: Vec<Option<(String, f64)>> = list.iter().map(|f| first(f)).collect();
     let name = |r: &Option<(String, f64)>| r.as_ref().map_or(String::new(), |r| r.0.clone());
     let odds = |r: &Option<(String, f64)>| r.as_ref().map(|r| significant(r.1, 2));
     let table = Table {
         columns: vec![
             Column::texts("standing", list.iter().map(|f| f.standing.to_owned())),
             Column::texts("effect", list.iter().map(|f| f.effect.label.clone())),
-            Column::texts("may be instead", rivals.iter().map(name)),
-            Column::numbers("odds against that", "to 1", rivals.iter().map(odds)),
+            Column::texts("may be instead", others.iter().map(name)),
+            Column::numbers("odds against that", "to 1", others.iter().map(odds)),
         ],
     };
-    let left = crate::report::text::left(found);
-    let left = left.split_whitespace().collect::<Vec<_>>().join(" ");
-    page.show("standing", "How sure each effect is", &left, table);
+    let residual = crate::report::text::residual(found);
+    let residual = residual.split_whitespace().collect::<Vec<_>>().join(" ");
+    page.show("standing", "How sure each effect is", &residual, table);
 }
 
 fn labels(found: &Diagnosis, which: &[String]) -> String {
@@ -71,14 +71,20 @@ fn spots(page: &mut Page, found: &Diagnosis) {
         columns: vec![
             Column::texts("column", list.iter().map(|s| s.column.clone())),
             Column::texts("most at", list.iter().map(|s| s.values.clone())),
-            Column::numbers("rms", "mm", list.iter().map(|s| significant(s.size_mm, 4))),
+            Column::numbers(
+                "rms",
+                "mm",
+                list.iter().map(|s| significant(s.size_mm, DIGITS)),
+            )
+            .to(4),
             Column::numbers(
                 "largest",
                 "mm",
-                list.iter().map(|s| significant(s.largest_mm, 4)),
-            ),
+                list.iter().map(|s| significant(s.largest_mm, DIGITS)),
+            )
+            .to(4),
             Column::numbers("part", "%", list.iter().map(|s| percent(s.part))),
-            Column::numbers("p", "", list.iter().map(|s| rounded(s.p_value, 2))),
+            Column::probabilities("p", list.iter().map(|s| s.p_value)),
         ],
     };
     let title = "Where the present model misses";
@@ -95,7 +101,7 @@ fn alternatives(page: &mut Page, found: &Diagnosis) {
             Column::texts("effect", list.iter().map(|r| r.effect.label.clone())),
             Column::texts("instead of", list.iter().map(|r| r.instead_of.clone())),
             Column::numbers(
-                "fall of chi squared",
+                "fall of chi-squared",
                 "",
                 list.iter().map(|r| rounded(r.chi_squared_fall, 4)),
             ),
@@ -123,14 +129,15 @@ fn groups(page: &mut Page, found: &Diagnosis) {
                 "residual of a coordinate",
                 "mm",
                 list.iter().map(|s| rounded(s.left_mm, 4)),
-            ),
+            )
+            .to(4),
             Column::numbers("behind by", "", list.iter().map(|s| rounded(s.behind, 3))),
         ],
     };
     page.show(
         "groups",
         "What competes with several of the effects found",
-        "The part of the fall of chi squared that they have in common.",
+        "The part of the fall of chi-squared that they have in common.",
         table,
     );
 }
@@ -166,7 +173,7 @@ fn impossible(page: &mut Page, found: &Diagnosis) {
     page.show(
         "impossible",
         "What would explain it, but cannot be",
-        "The part of the fall of chi squared that all effects of the kind explain together, with these values: nothing springs against its load.",
+        "The part of the fall of chi-squared that all effects of the kind explain together, with these values: nothing springs against its load.",
         table,
     );
 }
@@ -197,13 +204,16 @@ fn outliers(page: &mut Page, found: &Diagnosis) {
             Column::numbers(
                 "residual",
                 "mm",
-                list.iter().map(|o| significant(o.residual_mm, 5)),
-            ),
+                list.iter().map(|o| significant(o.residual_mm, DIGITS)),
+            )
+            .to(4)
+            .worst_first(),
             Column::numbers(
                 "times the noise",
                 "",
                 list.iter().map(|o| rounded(o.times_noise, 3)),
-            ),
+            )
+            .to(1),
         ],
     };
     page.show("outliers", "Rows that fit no model", "", table);
@@ -218,7 +228,9 @@ fn followed(page: &mut Page, found: &Diagnosis) {
         columns: vec![
             Column::counts("line", list.iter().map(|f| f.line)),
             Column::texts("id", list.iter().map(|f| f.id.clone())),
-            Column::numbers("leverage", "", list.iter().map(|f| rounded(f.leverage, 3))),
+            Column::numbers("leverage", "", list.iter().map(|f| rounded(f.leverage, 3)))
+                .to(3)
+                .worst_first(),
         ],
     };
     page.show(

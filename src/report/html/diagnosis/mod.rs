@@ -3,7 +3,7 @@
 mod lists;
 
 use super::cell::{Along, Cell, Path, Points, Robot};
-use super::numbers::{Column, Number, Table, fixed, significant};
+use super::numbers::{Column, DIGITS, Number, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
 use crate::check::Meshes;
 use crate::diagnose::{Found, NoiseSource, Verdict};
@@ -16,9 +16,9 @@ use crate::report::text::fixed as decimals;
 use crate::task::diagnose::{Diagnosis, FoundEffect};
 use crate::task::parts::Statistics;
 
-/// A joint whose turn moves the measured point by less than this, metres a radian, shows nothing of its angle.
+/// A joint whose rotation moves the measured point by less than this, metres a radian, shows nothing of its angle.
 const ARM_M: f64 = 0.05;
-/// A turn by which the motion of a point is found, radians.
+/// A rotation by which the motion of a point is found, radians.
 const STEP_RAD: f64 = 1e-6;
 
 /// The page of `diagnose`.
@@ -32,7 +32,7 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
         ),
         Verdict::Improved => (
             Level::Good,
-            "Improved: rows left out are predicted better with what was found; something is left",
+            "Improved: rows left out are predicted better with what was found; something is still missing",
         ),
         Verdict::NothingMissing => (
             Level::Good,
@@ -40,13 +40,26 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
         ),
         Verdict::Undetermined => (
             Level::Warning,
-            "Undetermined: something is missing, and it cannot be told what",
+            "Undetermined: something is missing, and what it is cannot be determined",
         ),
     };
     let mut page = Page::new("Diagnosis".into(), level, answer.into());
     page.lead.push(of.name.clone());
     page.lead
         .push(super::programs::robot_name(&found.problem.profile));
+    let rank = |f: &&FoundEffect| lists::STANDINGS.iter().position(|s| *s == f.standing);
+    if let Some(one) = of.effects.iter().min_by_key(rank) {
+        page.fact(
+            "the least sure effect",
+            format!("{} ({})", one.effect.label, one.standing),
+        );
+    }
+    if let Some(row) = &of.worst_row {
+        page.fact(
+            &format!("largest residual, {}", row.file.words(row.line)),
+            format!("{:.4} mm", row.residual_mm),
+        );
+    }
     page.fact("rows", of.rows.to_string());
     page.fact("effects found", of.effects.len().to_string());
     let source = match found.noise_source {
@@ -238,11 +251,11 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
 
 /// How far each row's expected point moves with a joint, metres a radian.
 fn arms(problem: &Problem, estimate: &Estimate, joint: usize) -> Vec<Vector> {
-    let mut turned = problem.clone();
-    for row in &mut turned.rows {
+    let mut rotated = problem.clone();
+    for row in &mut rotated.rows {
         row.q[joint] += STEP_RAD;
     }
-    let (a, b) = (misses(problem, estimate), misses(&turned, estimate));
+    let (a, b) = (misses(problem, estimate), misses(&rotated, estimate));
     let by = |(a, b): (&Miss, &Miss)| scale(1.0 / STEP_RAD, sub(b.expected_m, a.expected_m));
     a.iter().zip(&b).map(by).collect()
 }
@@ -358,17 +371,12 @@ fn show_evidence(page: &mut Page, of: &Diagnosis) {
             Column::numbers("sigma", "", rows.iter().map(|r| significant(r.3, 2))),
             Column::texts("unit", rows.iter().map(|r| r.4.to_owned())),
             Column::numbers(
-                "fall of chi squared",
+                "fall of chi-squared",
                 "",
                 rows.iter()
                     .map(|r| evidence(r).chi_squared_fall.map(|x| significant(x, 4))),
             ),
-            Column::numbers(
-                "p",
-                "",
-                rows.iter()
-                    .map(|r| evidence(r).p_value.map(|x| significant(x, 2))),
-            ),
+            Column::probabilities("p", rows.iter().map(|r| evidence(r).p_value)),
             Column::texts(
                 "found again",
                 rows.iter().map(|r| {
@@ -383,7 +391,7 @@ fn show_evidence(page: &mut Page, of: &Diagnosis) {
             ),
         ],
     };
-    page.show("evidence", "Evidence", "The fall of chi squared and its probability by chance belong to the effect, not to the single parameter.", table);
+    page.show("evidence", "Evidence", "The fall of chi-squared and its probability by chance belong to the effect, not to the single parameter.", table);
 }
 
 fn show_residuals(page: &mut Page, of: &Diagnosis) {
@@ -393,7 +401,9 @@ fn show_residuals(page: &mut Page, of: &Diagnosis) {
     let line =
         |row: &crate::identify::problem::Row| lines.get(row.measurement).copied().unwrap_or(0);
     let lengths = |list: &[f64]| -> Vec<Number> {
-        list.iter().map(|l| significant(mm_from_m(*l), 5)).collect()
+        list.iter()
+            .map(|l| significant(mm_from_m(*l), DIGITS))
+            .collect()
     };
     let table = Table {
         columns: vec![
@@ -405,8 +415,8 @@ fn show_residuals(page: &mut Page, of: &Diagnosis) {
                     .iter()
                     .map(|row| problem.tools[row.tool].name.as_str()),
             ),
-            Column::numbers("residual, present model", "mm", lengths(&found.lengths.0)),
-            Column::numbers("residual left", "mm", lengths(&found.lengths.1)),
+            Column::numbers("residual, present model", "mm", lengths(&found.lengths.0)).to(4),
+            Column::numbers("residual", "mm", lengths(&found.lengths.1)).to(4),
         ],
     };
     if table.rows() != found.lengths.0.len() || table.rows() != found.lengths.1.len() {
@@ -416,6 +426,7 @@ fn show_residuals(page: &mut Page, of: &Diagnosis) {
     let mut points = Points {
         name: "points",
         title: "Measurements".into(),
+        by: "residual",
         ..Points::default()
     };
     let mut at = Vec::new();
@@ -452,14 +463,19 @@ fn show_residuals(page: &mut Page, of: &Diagnosis) {
                 &vectors(&misses(problem, bare)),
             ));
         }
-        paths.push(Path::vectors("left", Tone::After, &at, &vectors(&after)));
+        paths.push(Path::vectors(
+            "residual",
+            Tone::After,
+            &at,
+            &vectors(&after),
+        ));
     }
     let mut profile = problem.profile.clone();
     profile.world_from_base = found.estimate.world_from_base;
     let tools: Vec<_> = problem.tools.iter().map(|t| t.flange_from_tool).collect();
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "Residuals in space".into(),
-        note: "From each measured point to where the model expects it, magnified; the points' colour is what is left.".into(),
+        note: "From each measured point to where the model expects it, magnified; the points' colour is the residual.".into(),
         table: "rows".into(),
         robot: Some(Robot::of(&profile, &tools, None, &Meshes::default())),
         bodies: Vec::new(),

@@ -1,10 +1,10 @@
 //! The page of `calibrate`.
 
-use super::{Judged, Rows, robot_lead, show_rows, summary};
+use super::{Judged, Rows, robot_lead, show_improvement, show_rows, summary};
 use crate::identify::calibration::STRONG_CORRELATION;
 use crate::identify::statistics::misses;
 use crate::report::html::frames::{pose_text, sigma_text};
-use crate::report::html::numbers::{Column, Table, fixed, significant};
+use crate::report::html::numbers::{Column, DIGITS, Table, fixed, significant};
 use crate::report::html::page::{Axis, Chart, Heat, Kind, Level, Page, Section, Series, Tone};
 use crate::report::text::{fixed as decimals, scientific};
 use crate::task::calibrate::{Calibration, Parameter};
@@ -30,6 +30,9 @@ pub(crate) fn calibrate_page(of: &Calibration) -> Page {
     if let Some(written) = &of.output {
         page.lead.push(format!("\u{2192} {written}"));
     }
+    let what = "frames alone \u{2192} everything";
+    let both = (&of.frames_only, &of.after);
+    show_improvement(&mut page, what, both, of.worst_row.as_ref());
     page.fact("rows", of.rows.to_string());
     let determined = of.parameters.iter().filter(|p| p.identifiable).count();
     page.fact(
@@ -121,7 +124,7 @@ fn show_parameters(page: &mut Page, of: &Calibration) {
     page.show(
         "parameters",
         "Parameters",
-        "What these data do not determine is left as it was, and it is told what it is like.",
+        "What these data do not determine stays as it was; \"like\" names what it cannot be separated from.",
         table,
     );
     let determined: Vec<&Parameter> = list.iter().filter(|p| p.identifiable).collect();
@@ -168,7 +171,7 @@ fn show_correlations(page: &mut Page, of: &Calibration) {
         return;
     }
     let mut note = format!(
-        "Pairs beyond \u{b1}{STRONG_CORRELATION} move together: these data hardly tell one from the other."
+        "Pairs beyond \u{b1}{STRONG_CORRELATION} move together: these data hardly separate one from the other."
     );
     if parameters.len() > count {
         note += &format!(" The first {count} of {} parameters.", parameters.len());
@@ -199,14 +202,22 @@ fn show_outliers(page: &mut Page, of: &Calibration) {
             Column::numbers(
                 "residual",
                 "mm",
-                list.iter().map(|o| significant(o.residual_mm, 5)),
-            ),
+                list.iter().map(|o| significant(o.residual_mm, DIGITS)),
+            )
+            .to(4),
             Column::numbers(
                 "times typical",
                 "",
-                list.iter().map(|o| significant(o.times_typical, 3)),
-            ),
-            Column::numbers("weight", "", list.iter().map(|o| significant(o.weight, 3))),
+                list.iter().map(|o| significant(o.times_typical, DIGITS)),
+            )
+            .to(1)
+            .worst_first(),
+            Column::numbers(
+                "weight",
+                "",
+                list.iter().map(|o| significant(o.weight, DIGITS)),
+            )
+            .to(3),
         ],
     };
     page.show("outliers", "Rows that do not fit the others", "", table);

@@ -7,7 +7,7 @@ pub(crate) use calibrate::calibrate_page;
 pub(crate) use validate::validate_page;
 
 use super::cell::{Along, Cell, Path, Points, Robot};
-use super::numbers::{Column, Table, fixed, significant};
+use super::numbers::{Column, DIGITS, Table, fixed, significant};
 use super::page::{Axis, Chart, Kind, Page, Section, Series, Summary, Tone};
 use crate::check::Meshes;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -16,7 +16,7 @@ use crate::identify::measurements::Measurements;
 use crate::identify::problem::Problem;
 use crate::identify::statistics::Miss;
 use crate::model::profile::Profile;
-use crate::task::parts::{Quality, Statistics};
+use crate::task::parts::{Quality, Statistics, WorstRow};
 
 /// A model whose errors are so many times those of the best two is not shown before it is asked for: it would hide them.
 const FAR_OFF: f64 = 20.0;
@@ -89,16 +89,20 @@ fn row_table(rows: &Rows, places: &[Vector]) -> (Table, usize) {
             places
                 .iter()
                 .map(|p| fixed(mm_from_m(norm(sub(*p, middle))), 1)),
-        ),
+        )
+        .to(1),
     ];
     let first = columns.len();
     for model in &rows.models {
         let label = format!("error, {}", model.name);
-        columns.push(Column::numbers(
-            &label,
-            "mm",
-            sizes(model).into_iter().map(|e| significant(e, 5)),
-        ));
+        columns.push(
+            Column::numbers(
+                &label,
+                "mm",
+                sizes(model).into_iter().map(|e| significant(e, DIGITS)),
+            )
+            .to(4),
+        );
     }
     let angles = |model: &Judged| -> Vec<Option<f64>> {
         model
@@ -111,26 +115,34 @@ fn row_table(rows: &Rows, places: &[Vector]) -> (Table, usize) {
         let angles = angles(model);
         if angles.iter().any(Option::is_some) {
             let label = format!("rotation, {}", model.name);
-            columns.push(Column::numbers(
-                &label,
-                "deg",
-                angles.into_iter().map(|a| a.map(|a| significant(a, 4))),
-            ));
+            columns.push(
+                Column::numbers(
+                    &label,
+                    "deg",
+                    angles
+                        .into_iter()
+                        .map(|a| a.map(|a| significant(a, DIGITS))),
+                )
+                .to(5),
+            );
         }
     }
     for (axis, name) in ["dx", "dy", "dz"].into_iter().enumerate() {
         if let Some(best) = rows.models.last() {
             let label = format!("{name}, {}", best.name);
             let seen = all.iter().zip(best.misses);
-            columns.push(Column::numbers(
-                &label,
-                "mm",
-                seen.map(|(row, m)| {
-                    row.observed
-                        .point_m()
-                        .map(|_| significant(mm_from_m(m.gap[axis]), 4))
-                }),
-            ));
+            columns.push(
+                Column::numbers(
+                    &label,
+                    "mm",
+                    seen.map(|(row, m)| {
+                        row.observed
+                            .point_m()
+                            .map(|_| significant(mm_from_m(m.gap[axis]), DIGITS))
+                    }),
+                )
+                .to(4),
+            );
         }
     }
     (Table { columns }, first)
@@ -146,6 +158,7 @@ fn show_rows(page: &mut Page, rows: &Rows, robot: &Profile) {
     let mut points = Points {
         name: "points",
         title: "Measurements".into(),
+        by: "error of the best model",
         ..Points::default()
     };
     let best = rows.models.len().saturating_sub(1);
@@ -196,16 +209,10 @@ fn show_rows(page: &mut Page, rows: &Rows, robot: &Profile) {
         ellipsoids: Vec::new(),
         along: Along::No(false),
     })));
-    for (k, model) in rows.models.iter().enumerate() {
-        let title = format!("Errors, {}", model.name);
-        page.histogram(
-            &format!("histogram-{k}"),
-            &title,
-            ("error", "mm"),
-            &sizes(model),
-            model.tone,
-        );
-    }
+    let of_all = |of: &dyn Fn(&Judged) -> Vec<f64>| -> Vec<Vec<f64>> {
+        rows.models.iter().map(of).collect()
+    };
+    show_together(page, rows, "errors", ("Errors", "error"), &of_all(&sizes));
     let mut chart = Chart::new(
         "Error against the distance from the middle",
         "rows",
@@ -225,17 +232,53 @@ fn show_rows(page: &mut Page, rows: &Rows, robot: &Profile) {
         ));
     }
     page.sections.push(Section::Chart(chart));
-    for (k, model) in rows.models.iter().enumerate().skip(shown) {
-        let errors = distance_errors(&at, &seen, model);
-        let title = format!("Errors of distances between points, {}", model.name);
-        page.histogram(
-            &format!("distances-{k}"),
-            &title,
-            ("error of a distance", "mm"),
-            &errors,
-            model.tone,
-        );
-    }
+    let apart = of_all(&|model| distance_errors(&at, &seen, model));
+    let names = ("Errors of distances between points", "error of a distance");
+    show_together(page, rows, "distances-between", names, &apart);
+}
+
+/// The errors of every model on one axis.
+fn show_together(
+    page: &mut Page,
+    rows: &Rows,
+    table: &str,
+    (title, label): (&str, &str),
+    errors: &[Vec<f64>],
+) {
+    let each = rows.models.iter().zip(errors);
+    let series: Vec<(&str, Tone, &[f64])> = each
+        .map(|(model, errors)| (model.name, model.tone, errors.as_slice()))
+        .collect();
+    page.histogram(table, title, (label, "mm"), &series);
+}
+
+/// Two values with an arrow between them, mm.
+fn from_to(before: Option<f64>, after: Option<f64>) -> String {
+    let mm = |value| crate::report::text::fixed(value, 4);
+    format!("{} \u{2192} {} mm", mm(before), mm(after))
+}
+
+/// Mean and largest error of one model and of a better one, and where the largest is.
+fn show_improvement(
+    page: &mut Page,
+    what: &str,
+    (before, after): (&Quality, &Quality),
+    worst: Option<&WorstRow>,
+) {
+    let (Some(before), Some(after)) = (before.main(), after.main()) else {
+        return;
+    };
+    let place = worst.map_or_else(String::new, |row| {
+        format!(" ({})", row.file.words(row.line))
+    });
+    page.fact(
+        &format!("mean error, {what}"),
+        from_to(before.mean_mm, after.mean_mm),
+    );
+    page.fact(
+        &format!("largest error, {what}{place}"),
+        from_to(before.max_mm, after.max_mm),
+    );
 }
 
 /// Errors of distances between all pairs of the points, or of every so many of them, mm.

@@ -1,10 +1,10 @@
 //! The page of `validate`.
 
-use super::{Judged, Rows, robot_lead, show_rows, summary};
+use super::{Judged, Rows, robot_lead, show_improvement, show_rows, summary};
 use crate::geometry::units::m_from_mm;
 use crate::identify::statistics;
 use crate::identify::validation::Refit;
-use crate::report::html::numbers::{Column, Table, fixed, significant};
+use crate::report::html::numbers::{Column, DIGITS, Table, fixed, significant};
 use crate::report::html::page::{Level, Page, Tone};
 use crate::task::parts::{Quality, Statistics};
 use crate::task::validate::{Repeated, RepeatedDistance, Validation};
@@ -26,6 +26,14 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     let mut page = Page::new("Validation".into(), level, answer);
     robot_lead(&mut page, &of.name, profile);
     page.lead.extend(found.refit.told().map(Into::into));
+    let quality = |of: &statistics::Quality| Quality::from(of);
+    let (controller, real) = (
+        quality(&found.controller.quality),
+        quality(&found.real.quality),
+    );
+    let what = "controller's model \u{2192} real model";
+    let worst = of.worst_row.as_ref();
+    show_improvement(&mut page, what, (&controller, &real), worst);
     page.fact("rows", of.rows.to_string());
     if let Some(pairs) = of.distance.as_ref().and_then(|models| models.real) {
         page.fact("distances between points", pairs.pairs.to_string());
@@ -39,11 +47,10 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     if let Some(rms) = of.normalised_rms {
         page.fact("residuals in standard deviations", format!("{rms:.2}"));
     }
-    let quality = |of: &statistics::Quality| Quality::from(of);
     page.summary = Some(summary(&[
-        ("controller", &quality(&found.controller.quality)),
+        ("controller", &controller),
         ("frames only", &quality(&found.frames_only.quality)),
-        ("real", &quality(&found.real.quality)),
+        ("real", &real),
     ]));
     // of the frame that the device had then
     let known = profile
@@ -88,18 +95,22 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
                 Column::numbers(
                     "mean",
                     "mm",
-                    parts.iter().map(|p| significant(spread(p).mean, 5)),
-                ),
+                    parts.iter().map(|p| significant(spread(p).mean, DIGITS)),
+                )
+                .to(4),
                 Column::numbers(
                     "std",
                     "mm",
-                    parts.iter().map(|p| significant(spread(p).std, 5)),
-                ),
+                    parts.iter().map(|p| significant(spread(p).std, DIGITS)),
+                )
+                .to(4),
                 Column::numbers(
                     "largest",
                     "mm",
-                    parts.iter().map(|p| significant(spread(p).max, 5)),
-                ),
+                    parts.iter().map(|p| significant(spread(p).max, DIGITS)),
+                )
+                .to(4)
+                .worst_first(),
             ],
         };
         page.show("parts", "Real model by parts", "", table);
@@ -107,21 +118,26 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     if !of.iso_9283.is_empty() {
         let list = &of.iso_9283;
         let mm = |of: &dyn Fn(&Repeated) -> f64| -> Vec<_> {
-            list.iter().map(|r| significant(of(r), 4)).collect()
+            list.iter().map(|r| significant(of(r), DIGITS)).collect()
         };
         let table = Table {
             columns: vec![
                 Column::counts("line", list.iter().map(|r| r.line)),
                 Column::counts("count", list.iter().map(|r| r.count)),
-                Column::numbers("AP", "mm", mm(&|r| r.commanded_accuracy_mm)),
-                Column::numbers("AP, real model", "mm", mm(&|r| r.accuracy_mm)),
-                Column::numbers("RP", "mm", mm(&|r| r.repeatability_mm)),
+                Column::numbers("AP", "mm", mm(&|r| r.commanded_accuracy_mm)).to(4),
+                Column::numbers("AP, real model", "mm", mm(&|r| r.accuracy_mm))
+                    .to(4)
+                    .worst_first(),
+                Column::numbers("RP", "mm", mm(&|r| r.repeatability_mm)).to(4),
                 Column::numbers(
                     "vAP",
                     "mm",
-                    list.iter()
-                        .map(|r| r.multidirectional_variation_mm.map(|v| significant(v, 4))),
-                ),
+                    list.iter().map(|r| {
+                        r.multidirectional_variation_mm
+                            .map(|v| significant(v, DIGITS))
+                    }),
+                )
+                .to(4),
             ],
         };
         let note = "AP: the mean from the commanded pose, and from the real model's";
@@ -130,7 +146,7 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     if !of.iso_9283_distances.is_empty() {
         let list = &of.iso_9283_distances;
         let mm = |of: &dyn Fn(&RepeatedDistance) -> f64| -> Vec<_> {
-            list.iter().map(|r| significant(of(r), 4)).collect()
+            list.iter().map(|r| significant(of(r), DIGITS)).collect()
         };
         let table = Table {
             columns: vec![
@@ -141,10 +157,13 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
                     "distance",
                     "mm",
                     list.iter().map(|r| fixed(r.distance_mm, 3)),
-                ),
-                Column::numbers("AD", "mm", mm(&|r| r.commanded_accuracy_mm)),
-                Column::numbers("AD, real model", "mm", mm(&|r| r.accuracy_mm)),
-                Column::numbers("RD", "mm", mm(&|r| r.repeatability_mm)),
+                )
+                .to(3),
+                Column::numbers("AD", "mm", mm(&|r| r.commanded_accuracy_mm)).to(4),
+                Column::numbers("AD, real model", "mm", mm(&|r| r.accuracy_mm))
+                    .to(4)
+                    .worst_first(),
+                Column::numbers("RD", "mm", mm(&|r| r.repeatability_mm)).to(4),
             ],
         };
         let note = "AD: the mean from the commanded distance, and from the real model's";

@@ -109,6 +109,7 @@ fn page(of: &Checked) -> Page {
     let mut points = Points {
         name: "moves' ends",
         title: "Moves".into(),
+        by: "largest error of the move",
         ..Points::default()
     };
     let mut row_of = vec![None; found.program.moves.len()];
@@ -149,17 +150,18 @@ fn page(of: &Checked) -> Page {
         along: Along::Note("Distance of the real tool from where it is wanted, in samples; the bounds between samples are those of each move.".into()),
     })));
     charts(&mut page, &columns, s.min_clearance_m.is_some());
-    let errors: Vec<f64> = moves
-        .iter()
-        .map(|m| mm_from_m(m.target_error.distance_m))
-        .collect();
-    page.histogram(
-        "errors",
-        "Errors at targets",
-        ("error", "mm"),
-        &errors,
-        Tone::One,
-    );
+    let errors_at = |in_joints: bool| -> Vec<f64> {
+        let here = moves
+            .iter()
+            .filter(|m| m.in_joints(&found.program) == in_joints);
+        here.map(|m| mm_from_m(m.target_error.distance_m)).collect()
+    };
+    let (errors, in_joints) = (errors_at(false), errors_at(true));
+    let mut series: Vec<(&str, Tone, &[f64])> = vec![("targets", Tone::One, &errors)];
+    if !in_joints.is_empty() {
+        series.push(("joint targets, which stay", Tone::Wanted, &in_joints));
+    }
+    page.histogram("errors", "Errors at targets", ("error", "mm"), &series);
     if !findings_first {
         page.findings(&found.findings);
     }

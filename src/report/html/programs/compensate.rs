@@ -218,6 +218,7 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
     let mut points = Points {
         name: "targets",
         title: "Targets".into(),
+        by: "shift",
         ..Points::default()
     };
     for row in &rows {
@@ -269,8 +270,7 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         "shifts",
         "Shifts of targets",
         ("shift", "mm"),
-        &shifts,
-        Tone::One,
+        &[("", Tone::One, &shifts)],
     );
     let roundings: Vec<f64> = reports
         .iter()
@@ -281,8 +281,7 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         "roundings",
         "What the file's decimals cost",
         ("rounding", "\u{b5}m"),
-        &roundings,
-        Tone::One,
+        &[("", Tone::One, &roundings)],
     );
     if !findings_first {
         page.findings(&compensation.findings);

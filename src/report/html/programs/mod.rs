@@ -28,7 +28,7 @@ const SAMPLES: usize = 24_000;
 /// Letters of a program's line that are shown.
 const LETTERS: usize = 96;
 
-/// What a page of a program draws beside its numbers.
+/// What a page of a program draws besides its numbers.
 struct Scenery<'a> {
     /// The robot.
     pub profile: &'a Profile,
@@ -175,12 +175,12 @@ fn lead(page: &mut Page, inputs: &[String], outputs: &[String], profile: &Profil
 fn answer(findings: &[Finding], good: &str, bad: &str) -> (Level, String) {
     let count = |severity| findings.iter().filter(|f| f.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-    let told = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     match (errors, warnings) {
         (0, 0) => (Level::Good, good.to_owned()),
         (0, _) => (
             Level::Warning,
-            format!("{good}; {}", told(warnings, "warning")),
+            format!("{good}; {}", counted(warnings, "warning")),
         ),
         _ => {
             let mut names: BTreeMap<&str, usize> = BTreeMap::new();
@@ -190,7 +190,7 @@ fn answer(findings: &[Finding], good: &str, bad: &str) -> (Level, String) {
             let mut names: Vec<(usize, &str)> = names.into_iter().map(|(id, n)| (n, id)).collect();
             names.sort_by_key(|(n, _)| std::cmp::Reverse(*n));
             let named: Vec<String> = names.iter().map(|(n, id)| format!("{n} {id}")).collect();
-            let text = format!("{bad}{}: {}", told(errors, "error"), named.join(", "));
+            let text = format!("{bad}{}: {}", counted(errors, "error"), named.join(", "));
             (Level::Error, text)
         }
     }
@@ -209,12 +209,12 @@ fn title_of(inputs: &[String]) -> String {
 }
 
 fn join(sentences: &[&str]) -> String {
-    let told: Vec<&str> = sentences
+    let said: Vec<&str> = sentences
         .iter()
         .copied()
         .filter(|s| !s.is_empty())
         .collect();
-    told.join(" ")
+    said.join(" ")
 }
 
 /// The row with the largest size.

@@ -55,10 +55,10 @@ impl ReportFile {
         self.file.as_deref().map(name_of)
     }
 
-    /// What is told when it is written.
-    pub(super) fn told(&self) -> String {
-        let told = |name: String| format!("report written to {name}\n");
-        self.name().map_or(String::new(), told)
+    /// What is said when it is written.
+    pub(super) fn written(&self) -> String {
+        let line = |name: String| format!("report written to {name}\n");
+        self.name().map_or(String::new(), line)
     }
 }
 
@@ -133,9 +133,9 @@ impl Pendant {
     }
 }
 
-/// Which findings are told without `--verbose`.
+/// Which findings are shown without `--verbose`.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Told {
+pub(super) enum Shown {
     /// Every one.
     All,
     /// Errors and warnings, and of many alike the first.
@@ -148,9 +148,9 @@ pub(super) struct Ending<'a> {
     pub written: Vec<NewFile>,
     /// The page that is asked for.
     pub report: Option<&'a ReportFile>,
-    /// Which findings are told.
-    pub told: Told,
-    /// What is told behind the text.
+    /// Which findings are shown.
+    pub shown: Shown,
+    /// What is said behind the text.
     pub also: &'a str,
     /// How frames are shown besides.
     pub pendant: Pendant,
@@ -163,7 +163,7 @@ impl Default for Ending<'_> {
         Self {
             written: Vec::new(),
             report: None,
-            told: Told::Main,
+            shown: Shown::Main,
             also: "",
             pendant: Pendant::default(),
             answer: Answer::Yes,
@@ -179,7 +179,7 @@ pub(super) struct Said {
     /// For programs, to standard output.
     pub data: Option<Box<dyn Read>>,
     /// For people, to standard error.
-    pub beside: String,
+    pub errors: String,
 }
 
 impl Said {
@@ -222,10 +222,10 @@ impl Said {
     }
 
     fn print(self) -> Result<(), Stop> {
-        screen::print_beside(&self.beside)?;
+        screen::print_errors(&self.errors)?;
         match self.data {
             Some(mut data) => {
-                screen::print_beside(&self.text)?;
+                screen::print_errors(&self.text)?;
                 screen::print_data(&mut *data)
             }
             None => screen::print(&self.text),
@@ -264,12 +264,12 @@ pub(super) fn finish(
     ending: Ending,
     output: Output,
 ) -> Result<Answer, Failure> {
-    let told = ending.report.map_or_else(String::new, ReportFile::told);
+    let written = ending.report.map_or_else(String::new, ReportFile::written);
     let said = if output.json {
         Said::json(found)?
     } else if output.quiet {
         Said {
-            beside: findings(found, ending.told, output),
+            errors: findings(found, ending.shown, output),
             ..Said::default()
         }
     } else {
@@ -277,8 +277,8 @@ pub(super) fn finish(
             text: layout::fitted(&text(found, output))
                 + &ending.pendant.text(found)
                 + ending.also
-                + &told,
-            beside: findings(found, ending.told, output),
+                + &written,
+            errors: findings(found, ending.shown, output),
             data: None,
         }
     };
@@ -286,21 +286,21 @@ pub(super) fn finish(
 }
 
 /// As [`finish`] of a result whose answer is printed alone: everything else goes to standard error.
-pub(super) fn finish_beside(
+pub(super) fn finish_with_data(
     files: &Files,
     found: &impl Report,
     data: String,
     ending: Ending,
     output: Output,
 ) -> Result<Answer, Failure> {
-    let mut beside = findings(found, ending.told, output);
+    let mut errors = findings(found, ending.shown, output);
     if !output.quiet {
-        beside += &text(found, output);
-        beside += &ending.pendant.text(found);
-        beside += &ending.report.map_or_else(String::new, ReportFile::told);
+        errors += &text(found, output);
+        errors += &ending.pendant.text(found);
+        errors += &ending.report.map_or_else(String::new, ReportFile::written);
     }
     let said = Said {
-        beside,
+        errors,
         ..Said::data(data)
     };
     deliver_with_page(files, found, ending, said)
@@ -325,13 +325,13 @@ fn deliver_with_page(
     deliver(files, &written, said, ending.answer)
 }
 
-fn findings(found: &impl Report, told: Told, output: Output) -> String {
+fn findings(found: &impl Report, shown: Shown, output: Output) -> String {
     if output.quiet {
         let mut errors = found.findings().to_vec();
         errors.retain(|finding| finding.severity == Severity::Error);
-        layout::findings_beside(&errors, true)
+        layout::findings_of_errors(&errors, true)
     } else {
-        layout::findings_beside(found.findings(), output.verbose || told == Told::All)
+        layout::findings_of_errors(found.findings(), output.verbose || shown == Shown::All)
     }
 }
 
