@@ -15,12 +15,15 @@ use crate::model::effects::{Effect, Kind};
 use crate::model::external::{At, ExternalAxes, Follows, Listed};
 use crate::model::profile::Profile;
 use crate::program::{
-    Before, ExternalNames, Frame, FrameId, Language, Move, Program, Settings, Shape, Source, Stand,
+    Before, ExternalNames, ExternalState, Frame, FrameId, Language, Move, Program, Settings, Shape,
+    Source, Stand,
 };
 use std::collections::HashMap;
 
 /// How far beyond its limits a value may be: files round. Metres and radians.
 const BORDER: f64 = 1e-6;
+/// A rail's polynomial is believed beyond where it was measured by this part of that span.
+const EXTRAPOLATED: f64 = 0.02;
 /// A value that differs by less from the one before has not moved.
 const STILL: f64 = 1e-9;
 
@@ -47,6 +50,15 @@ pub(crate) fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -
                 })
                 .collect(),
             ignored: external.other.iter().cloned().chain(ignored).collect(),
+            units: (external.positioners.iter().enumerate())
+                .map(|(at, positioner)| {
+                    let first = external.first_of(at);
+                    let axes = first..first + positioner.axes.len();
+                    let axes = axes.fold(0, |bits, axis| bits | 1 << axis);
+                    let carries = positioner.follows != Follows::Never;
+                    (positioner.name.clone(), if carries { axes } else { 0 })
+                })
+                .collect(),
         },
     }
 }
@@ -95,6 +107,7 @@ pub(crate) fn settle(
             .map(|k| has_backlash(&profile.effects, Some(k)))
             .collect(),
         made: HashMap::new(),
+        measured: measured(profile),
     };
     for motion in 0..settler.program.moves.len() {
         let at = motion * axes.len();
@@ -128,10 +141,12 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
         for (_, external) in of_move {
             slots[usize::from(external.axis)] = Some(external.value);
         }
-        let offset = (motion.external_offset as usize).checked_sub(1);
-        let offset = offset.map(|at| program.external_offsets[at]);
-        for ((slot, axis), name) in slots.iter_mut().zip(axes).zip(&offset_of) {
-            let by = offset.zip(*name).map_or(0.0, |(offset, at)| offset[at]);
+        let state = state_of(program, motion);
+        for (k, ((slot, axis), name)) in slots.iter_mut().zip(axes).zip(&offset_of).enumerate() {
+            let by = name.map_or(0.0, |at| state.offset[at]);
+            if state.off & 1 << k != 0 {
+                *slot = Some(f64::NAN);
+            }
             *slot = slot.map(|value| {
                 if axis.is_linear() {
                     m_from_mm(value + by)
@@ -142,6 +157,12 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
         }
     }
     own
+}
+
+/// What the program does to external axes beside the target of a move.
+fn state_of(program: &Program, motion: &Move) -> ExternalState {
+    let at = (motion.external_state as usize).checked_sub(1);
+    at.map_or_else(ExternalState::default, |at| program.external_states[at])
 }
 
 /// The entries of a key in a list that is sorted by it.
@@ -234,6 +255,24 @@ struct Settler<'a> {
     /// Axes that stand elsewhere when they come from the other side.
     backlash: Vec<bool>,
     made: HashMap<Key, FrameId>,
+    /// Between which places each axis of the track stood when it was measured, where the profile says so and it was not said yet
+    /// that a move goes beyond.
+    measured: Vec<Option<[f64; 2]>>,
+}
+
+/// Between which places the axes of the track stood when it was measured, metres: of those with errors that are powers of the place.
+fn measured(profile: &Profile) -> Vec<Option<[f64; 2]>> {
+    let of = |k: usize| {
+        let mut powers = profile.effects.iter();
+        let is_bent = powers.any(|effect| {
+            let kinds = [Kind::TrackStraightness, Kind::TrackRotation];
+            kinds.contains(&effect.kind) && effect.site.index == k && !effect.is_zero()
+        });
+        let span = profile.quality.as_ref()?.get("track_mm")?.get(k)?;
+        let span = [span.get(0)?.as_f64()?, span.get(1)?.as_f64()?];
+        is_bent.then(|| span.map(m_from_mm))
+    };
+    (0..profile.external.track.len()).map(of).collect()
 }
 
 impl Settler<'_> {
@@ -273,12 +312,7 @@ impl Settler<'_> {
                 (value * 1e6).round() / 1e6
             };
             let Known::Is(value) = known else {
-                let why = format!(
-                    "nothing says where external axis {} stands at this move",
-                    axis.name()
-                );
-                let hint =
-                    "write its value into the target, or into one that is certainly before it";
+                let (why, hint) = self.unknown_value(at, k);
                 return self.block(at, "external-value-unknown", &why, hint);
             };
             let (low, high) = axis.limits();
@@ -295,6 +329,9 @@ impl Settler<'_> {
                 return self.block(at, "external-axis-limit", &why, hint);
             }
             stand[k] = *value;
+        }
+        for (k, value) in stand.iter().enumerate() {
+            self.tell_extrapolated(at, k, *value);
         }
         for (k, direction) in directions.iter().enumerate() {
             if self.backlash[k] && !matches!(direction, Known::Is(_)) {
@@ -332,6 +369,50 @@ impl Settler<'_> {
             frames.len() - 1
         });
         self.program.moves[at].frame = made;
+    }
+
+    /// A polynomial says nothing beyond the places that it was found from.
+    fn tell_extrapolated(&mut self, at: usize, axis: usize, value: f64) {
+        let Some([low, high]) = self.measured.get(axis).copied().flatten() else {
+            return;
+        };
+        let room = EXTRAPOLATED * (high - low);
+        // not of an axis that does not matter: it has no number
+        if !(value < low - room || value > high + room) {
+            return;
+        }
+        self.measured[axis] = None;
+        let [value, low, high] = [value, low, high].map(|m| (mm_from_m(m) * 1e3).round() / 1e3);
+        let message = format!(
+            "external axis {} goes to {value} mm; its rail was measured from {low} to {high} mm, and powers say nothing beyond",
+            self.axes[axis].name()
+        );
+        let hint = "measure the rail as far as programs use it";
+        let motion = &self.program.moves[at];
+        let source = &self.sources[motion.file as usize];
+        let (id, severity) = ("track-extrapolated", Severity::Warning);
+        let finding = source.finding(motion.offset as usize, id, severity, message, hint);
+        self.findings.push(finding);
+    }
+
+    /// Why nobody knows where an axis stands, and the way out.
+    fn unknown_value(&self, at: usize, axis: usize) -> (String, &'static str) {
+        let name = self.axes[axis].name();
+        let state = state_of(self.program, &self.program.moves[at]);
+        let since = state.since.filter(|_| state.off & 1 << axis != 0);
+        let Some((file, offset)) = since else {
+            let why = format!("nothing says where external axis {name} stands at this move");
+            let hint = "write its value into the target, or into one that is certainly before it";
+            return (why, hint);
+        };
+        let source = &self.sources[file as usize];
+        let (line, _) = source.line_column(offset as usize);
+        let why = format!(
+            "external axis {name} does not follow targets since line {line} of {}, and nothing says where it stands",
+            source.name
+        );
+        let hint = "activate its unit before the move; a unit that carries nothing a pose depends on stands in `other:` under `external_axes` of the profile";
+        (why, hint)
     }
 
     /// Nobody knows from which side an axis with backlash comes.

@@ -9,8 +9,8 @@ use crate::program::script::{
     Remark, RemarkId, Script, ValueId, short,
 };
 use crate::program::{
-    Before, Displacement, Frame, FrameId, Language, Load, Move, Program, ReadError, Settings,
-    Shape, Source, TargetId, Tool, ToolId, Value as Meaning,
+    Before, Displacement, ExternalState, Frame, FrameId, Language, Load, Move, Program, ReadError,
+    Settings, Shape, Source, TargetId, Tool, ToolId, Value as Meaning,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::rc::Rc;
@@ -153,14 +153,14 @@ impl Resolver<'_, '_> {
         let instruction = &script.instructions[at as usize];
         let reached = self.flow.reached[stop as usize].expect("stops that are reached are listed");
         let guard = self.flow.modes[reached.modes as usize].guard;
-        let (guards, external_offset) = self.guards(guard, instruction);
+        let (guards, external_state) = self.guards(guard, instruction);
         let mut listed = Listed {
             at,
             stop,
             instruction,
             choices: self.choices(reached.modes)?,
             guards,
-            external_offset,
+            external_state,
         };
         match reached.target {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
@@ -257,7 +257,7 @@ impl Resolver<'_, '_> {
     }
 
     /// What speaks against a move; what is only worth a word is said.
-    /// With that, what is added to external axes: an index in [`Program::external_offsets`].
+    /// With that, what is done to external axes: an index in [`Program::external_states`].
     fn guards(
         &mut self,
         guard: Holding,
@@ -265,6 +265,7 @@ impl Resolver<'_, '_> {
     ) -> (Vec<(RemarkId, Site)>, u32) {
         let mut refused = Vec::new();
         let mut offset: Option<[f64; 6]> = None;
+        let mut state = ExternalState::default();
         if guard == NOTHING {
             return (refused, 0);
         }
@@ -279,6 +280,12 @@ impl Resolver<'_, '_> {
                         }
                         self.report.remark(several_offsets())
                     }
+                    Held::AxesOff(axes) => {
+                        state.off |= axes;
+                        let place = self.flow.place_of(site);
+                        state.since = state.since.or(place.map(|p| (p.file, p.offset)));
+                        continue;
+                    }
                     _ => continue,
                 },
                 Atom::Unknown(remark) => remark,
@@ -292,16 +299,16 @@ impl Resolver<'_, '_> {
                     .say_once(&self.script.remarks[remark as usize], place);
             }
         }
-        let offsets = &mut self.report.program.external_offsets;
-        let index = match offset.filter(|by| *by != [0.0; 6]) {
-            None => 0,
-            Some(by) => {
-                let known = offsets.iter().position(|known| *known == by);
-                short(known.unwrap_or_else(|| {
-                    offsets.push(by);
-                    offsets.len() - 1
-                })) + 1
-            }
+        state.offset = offset.unwrap_or_default();
+        let states = &mut self.report.program.external_states;
+        let index = if state == ExternalState::default() {
+            0
+        } else {
+            let known = states.iter().position(|known| *known == state);
+            short(known.unwrap_or_else(|| {
+                states.push(state);
+                states.len() - 1
+            })) + 1
         };
         (refused, index)
     }
@@ -386,9 +393,11 @@ impl Resolver<'_, '_> {
                     ..nameless
                 }),
                 Held::Remark(remark) => Err(Refused::Said(remark)),
-                Held::Actual | Held::Load(_) | Held::Flag(_) | Held::ExternalOffset(_) => {
-                    Err(Refused::NoFrame)
-                }
+                Held::Actual
+                | Held::Load(_)
+                | Held::Flag(_)
+                | Held::ExternalOffset(_)
+                | Held::AxesOff(_) => Err(Refused::NoFrame),
             },
             Atom::Target {
                 target,
@@ -724,7 +733,7 @@ impl Resolver<'_, '_> {
             before: Before::Start,
             tool_written,
             frame_written,
-            external_offset: listed.external_offset,
+            external_state: listed.external_state,
         });
     }
 
@@ -941,7 +950,7 @@ impl Resolver<'_, '_> {
             let of = &self.script.variables[variable as usize];
             // a mode that is off is off when another routine starts
             let is_mode = matches!(of.declared, Expr::Value(value)
-                if matches!(self.flow.value(value), Held::Flag(_) | Held::ExternalOffset(_)));
+                if matches!(self.flow.value(value), Held::Flag(_) | Held::ExternalOffset(_) | Held::AxesOff(_)));
             let is_unknown = matches!(of.declared, Expr::Absent | Expr::Unknown(_));
             if of.shared || is_mode || is_unknown {
                 continue;
@@ -981,7 +990,7 @@ struct Listed<'a> {
     instruction: &'a Instruction,
     choices: Rc<Choices>,
     guards: Vec<(RemarkId, Site)>,
-    external_offset: u32,
+    external_state: u32,
 }
 
 /// External axes are shifted by one of several offsets.

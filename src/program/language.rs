@@ -217,7 +217,7 @@ pub trait Language: Sync {
         Inserted::none(insertions)
     }
 
-    /// The names of external axes in the order of their offsets, see [`Program::external_offsets`].
+    /// The names of external axes in the order of their offsets, see [`crate::program::ExternalState::offset`].
     fn external_names(&self) -> [&'static str; 6] {
         ["E1", "E2", "E3", "E4", "E5", "E6"]
     }

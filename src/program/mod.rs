@@ -132,8 +132,21 @@ pub struct ExternalNames {
     pub listed: Vec<String>,
     /// Encoder pulses of one millimetre or degree of each of these, for programs that count in pulses.
     pub pulses: Vec<Option<f64>>,
-    /// Those that carry nothing a pose depends on.
+    /// Those that carry nothing a pose depends on, and units of such.
     pub ignored: Vec<String>,
+    /// Units by their names, with their axes bit by bit by the index in [`ExternalNames::listed`].
+    pub units: Vec<(String, u16)>,
+}
+
+/// What a program does to external axes beside its targets, while a move runs.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct ExternalState {
+    /// What is added, in the units and the order of the language.
+    pub offset: [f64; 6],
+    /// Axes, bit by bit by their index in [`ExternalNames::listed`], that stand elsewhere than targets say.
+    pub off: u16,
+    /// Where the program says so: file and byte.
+    pub since: Option<(u32, u32)>,
 }
 
 /// What is known of an external axis.
@@ -158,6 +171,24 @@ impl ExternalNames {
             _ if self.ignored.iter().any(is) => ExternalUse::Ignored,
             _ => ExternalUse::Unknown,
         }
+    }
+
+    /// The axes of a unit, bit by bit: all where the profile does not know the name.
+    #[must_use]
+    pub fn axes_of_unit(&self, name: &str) -> u16 {
+        let is = |known: &str| known.eq_ignore_ascii_case(name);
+        let known = self.units.iter().find(|(unit, _)| is(unit));
+        match known {
+            Some((_, axes)) => *axes,
+            None if self.ignored.iter().any(|unit| is(unit)) => 0,
+            None => self.every_axis(),
+        }
+    }
+
+    /// All listed axes, bit by bit.
+    #[must_use]
+    pub fn every_axis(&self) -> u16 {
+        (0..self.listed.len()).fold(0, |axes, at| axes | 1 << at)
     }
 }
 
@@ -379,8 +410,8 @@ pub struct Move {
     pub tool_written: Option<Place>,
     /// Likewise its work frame.
     pub frame_written: Option<Place>,
-    /// What is added to external axes: from 1 an index in [`Program::external_offsets`], 0 is nothing.
-    pub external_offset: u32,
+    /// What is done to external axes beside the target: from 1 an index in [`Program::external_states`], 0 is nothing.
+    pub external_state: u32,
 }
 
 impl Default for Move {
@@ -400,7 +431,7 @@ impl Default for Move {
             before: Before::Start,
             tool_written: None,
             frame_written: None,
-            external_offset: 0,
+            external_state: 0,
         }
     }
 }
@@ -501,8 +532,8 @@ pub struct Program {
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by [`Move::instruction`]: they go before their targets.
     pub externals_of_moves: Vec<(u32, External)>,
-    /// What programs add to external axes, in the units and the order of the language.
-    pub external_offsets: Vec<[f64; 6]>,
+    /// What programs do to external axes beside their targets.
+    pub external_states: Vec<ExternalState>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }

@@ -171,6 +171,9 @@ impl<'a> Reader<'a> {
             let is_pose = header.coordinates() == Some(Coordinates::Rectangular);
             !is_pose || header.origin() == Origin::Robot
         });
+        if self.here.is_relative && !is_free {
+            reasons.push(self.variables.reason(&mut self.builder, Cause::Relative));
+        }
         for name in [base, station].into_iter().flatten() {
             let reason = self.external(name);
             reasons.extend(reason.filter(|_| !is_free));

@@ -68,6 +68,8 @@ pub(super) struct Here {
     pub arc: Arc,
     /// A move to a position of the files has been read.
     pub is_moving: bool,
+    /// Its user frame turns with a station.
+    pub is_relative: bool,
     /// It has been said that RCONF of the post is not used.
     pub said_rconf: bool,
     /// Reasons against moves with base and station axes that do not stand at zero.
@@ -109,6 +111,21 @@ pub(super) struct Reader<'a> {
     external_names: &'a ExternalNames,
 }
 
+/// Whether the head of a job says that its user frame turns with a station: `///ATTR SC,RW,RJ` with a group `ST1`.
+fn is_relative(job: &[u8]) -> bool {
+    let head = || {
+        job.split(|b| *b == b'\n')
+            .filter_map(|line| line.strip_prefix(b"///"))
+    };
+    let has = |line: &[u8], is: &dyn Fn(&[u8]) -> bool| {
+        let mut words = line.split(|b| b.is_ascii_whitespace() || *b == b',');
+        words.any(is)
+    };
+    let relative = |line: &[u8]| line.starts_with(b"ATTR") && has(line, &|word| word == b"RJ");
+    let station = |line: &[u8]| line.starts_with(b"GROUP") && has(line, &|w| w.starts_with(b"ST"));
+    head().any(relative) && head().any(station)
+}
+
 impl<'a> Reader<'a> {
     fn job(&mut self, job: usize) {
         let (sources, of) = (self.sources, &self.positions.jobs[job]);
@@ -117,6 +134,7 @@ impl<'a> Reader<'a> {
         self.here = Here {
             job,
             file: of.file,
+            is_relative: is_relative(&source.bytes[range.clone()]),
             ..Here::default()
         };
         self.builder.open(short(job));

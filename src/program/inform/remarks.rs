@@ -11,6 +11,7 @@ pub(super) enum Cause {
     FrameCopied,
     Shifted,
     Coordinated,
+    Relative,
     Incremental,
     Search,
     SecondRobot,
@@ -51,6 +52,11 @@ impl Cause {
                 "moving-frame",
                 "the path is relative to a station or another robot (SMOV)",
                 "coordinated moves are not compensated",
+            ),
+            Self::Relative => (
+                "moving-frame",
+                "the job is relative (RJ) to a station: its user frame turns with the station",
+                "relative jobs of stations are not compensated: write the positions in a fixed frame, and the station under `external_axes` with `follows: always`",
             ),
             Self::Incremental => (
                 "relative-move",

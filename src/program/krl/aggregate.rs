@@ -10,7 +10,7 @@ pub(super) const LARGEST: f64 = 1e6;
 /// From here on the value of an external axis says that there is none.
 const UNUSED: f64 = 8.9e9;
 /// External axes in their order.
-const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
+pub(super) const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
 /// S and T have fewer bits than this number needs.
 const MOST_STATUS: f64 = 65_535.0;
 

@@ -199,13 +199,22 @@ impl Reader {
                 self.declared.add(table, element, frame, self.file);
             }
             None if is_aggregate => {
-                let mut machine = None;
+                let (mut machine, mut controller) = (None, None);
                 aggregate::each(cursor, |key, _, field| {
-                    if let (b"MACH_DEF_INDEX", aggregate::Field::Number(number)) = (key, field) {
-                        machine = whole(Some(number.value)).filter(|number| *number > 0);
+                    let found = match field {
+                        aggregate::Field::Number(number) => whole(Some(number.value)),
+                        _ => None,
+                    };
+                    match key {
+                        b"MACH_DEF_INDEX" => machine = found.filter(|number| *number > 0),
+                        b"COOP_KRC_INDEX" => controller = found.filter(|number| *number > 1),
+                        _ => {}
                     }
                     Ok(())
                 })?;
+                if controller.is_some() {
+                    self.declared.of_others.insert(element);
+                }
                 if let Some(machine) = machine {
                     self.declared.moving.insert(element, machine);
                 }

@@ -2,7 +2,7 @@
 
 use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{angle, chosen, frame_assigned, moving};
+use super::remarks::{angle, chosen, frame_assigned, moving, of_another_robot};
 use super::targets::Owner;
 use crate::geometry::Pose;
 use crate::program::names::Symbol;
@@ -54,6 +54,8 @@ pub(super) struct Declared {
     pub loads: HashMap<u32, Load>,
     /// Bases that hang on another kinematic, and the number of that.
     pub moving: HashMap<u32, u32>,
+    /// Bases that hang on a kinematic of another controller.
+    pub of_others: std::collections::HashSet<u32>,
 }
 
 impl Declared {
@@ -157,6 +159,10 @@ pub(super) struct States {
     pub angle_guards: u32,
     fixed_guards: u32,
     chosen_guards: u32,
+    /// Of moves to axes.
+    pub joint_guards: u32,
+    /// External axes that go beside the program, and those that it does not move.
+    pub beside: [VariableId; 2],
 }
 
 /// A kinematic of the controller by its names.
@@ -237,8 +243,10 @@ impl States {
         ]
         .map(|declared| script.variable(Variable::new("the move", NOWHERE, declared)));
         let mode = states[State::Ipo as usize];
+        let beside = ["$ASYNC_AXIS", "$ACT_EX_AX"]
+            .map(|name| script.variable(Variable::new(name, NOWHERE, Expr::Value(on))));
         let mut guard = |of: &[VariableId]| {
-            script.guards.push(of.into());
+            script.guards.push([of, &beside].concat().into());
             short(script.guards.len() - 1)
         };
         Self {
@@ -246,6 +254,8 @@ impl States {
             angle_guards: guard(&[mode, angle]),
             fixed_guards: guard(&[fixed]),
             chosen_guards: guard(&[chosen]),
+            joint_guards: guard(&[]),
+            beside,
             states,
             tables,
             entries: HashMap::new(),
@@ -342,6 +352,9 @@ impl Reader {
         let declared = self.declared.entries.get(&(table, at)).copied();
         let declared = match declared.unwrap_or(Entry::Missing) {
             _ if table == Table::Load => self.load_value(self.declared.loads.get(&at).copied()),
+            _ if table == Table::Base && self.declared.of_others.contains(&at) => {
+                self.unknown(of_another_robot())
+            }
             Entry::Ambiguous => self.unknown(Remark::error(
                 "frame-name-ambiguous",
                 "the tool or base is declared more than once with different values",

@@ -130,7 +130,11 @@ impl Reader {
                 _ => Expr::Absent,
             },
             // axes are the same whoever holds the tool
-            guards: if is_joints { 0 } else { is_external },
+            guards: if is_joints {
+                self.states.joint_guards
+            } else {
+                is_external
+            },
             speed_zone: rest.speed_zone,
             ..Modal::default()
         }

@@ -108,6 +108,15 @@ pub(super) fn moving() -> Remark {
     )
 }
 
+/// Against a base of another controller's kinematic.
+pub(super) fn of_another_robot() -> Remark {
+    Remark::error(
+        "two-robots",
+        "the base is on a kinematic of another controller (COOP_KRC_INDEX): where it stands only that one knows",
+        "moves on another robot's part are not compensated",
+    )
+}
+
 pub(super) fn turned() -> Remark {
     Remark {
         id: "relative-joint-move",

@@ -1,5 +1,6 @@
 //! Statements of a routine, one a line.
 
+use super::aggregate::{self, EXTERNAL};
 use super::frames::{State, Table};
 use super::moves::{With, motion};
 use super::names::{DataKind, Index, whole};
@@ -8,8 +9,8 @@ use super::remarks::{assigned, computed};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
-use crate::program::script::{Expr, How, Write, Written};
-use crate::program::{SpeedZone, number};
+use crate::program::script::{Expr, Held, How, Write, Written};
+use crate::program::{ExternalUse, Source, SpeedZone, number};
 
 /// Whether a word in capitals starts a move.
 pub(super) fn is_motion(word: &[u8]) -> bool {
@@ -136,6 +137,10 @@ impl Reader {
                 self.spline = With::default();
                 return Ok(());
             }
+            b"ASYPTP" | b"ASYCONT" | b"ASYSTOP" if !cursor.peek().is(b'=') => {
+                self.beside(cursor);
+                return Ok(());
+            }
             b"BAS" if cursor.peek().is(b'(') => {
                 self.bas(first, cursor);
                 return Ok(());
@@ -158,6 +163,14 @@ impl Reader {
         }
         let next = cursor.next();
         match next.kind {
+            Kind::Sign(b'=') if word == b"$ASYNC_AXIS" || word == b"$EX_AX_IGNORE" => {
+                self.asynchronous(cursor);
+                Ok(())
+            }
+            Kind::Sign(b'=') if word == b"$ACT_EX_AX" => {
+                self.active(cursor);
+                Ok(())
+            }
             Kind::Sign(b'=') => self.assignment(first, word, at, part, cursor),
             Kind::Sign(b':') if cursor.peek().kind == Kind::End => {
                 let label = self.symbol(&cursor, first);
@@ -171,6 +184,63 @@ impl Reader {
             }
             _ => Ok(()),
         }
+    }
+
+    /// `ASYPTP {E1 100}`: from here on nothing says where listed axes stand.
+    fn beside(&mut self, mut cursor: Cursor) {
+        let named = aggregate::read(&mut cursor)
+            .ok()
+            .map(|found| found.external);
+        // a variable may name any
+        let is_listed = named.is_none_or(|values| {
+            let mut named = EXTERNAL.iter().zip(values);
+            named.any(|(name, value)| value.is_some() && self.bit_of(name) != 0)
+        });
+        if is_listed {
+            self.axes_off(0, self.external.every_axis());
+        }
+    }
+
+    /// `$ASYNC_AXIS='B0001'`
+    fn asynchronous(&mut self, cursor: Cursor) {
+        let rest = cursor.bytes[cursor.at..cursor.end].trim_ascii();
+        // none, by any of the ways to write a number
+        if !rest.iter().all(|b| b"0'BbHh".contains(b)) {
+            self.axes_off(0, self.external.every_axis());
+        }
+    }
+
+    /// `$ACT_EX_AX=1`: axes beyond this number are not moved.
+    fn active(&mut self, cursor: Cursor) {
+        let rest = cursor.bytes[cursor.at..cursor.end].trim_ascii();
+        let count = Source::text(rest).trim().parse().unwrap_or(0_usize);
+        let still = EXTERNAL.iter().skip(count);
+        let axes = still.fold(0, |axes, name| axes | self.bit_of(name));
+        self.axes_off(1, axes);
+    }
+
+    /// The bit of a listed axis.
+    fn bit_of(&self, name: &str) -> u16 {
+        match self.external.meaning(name) {
+            ExternalUse::Listed(at) => 1 << at,
+            _ => 0,
+        }
+    }
+
+    /// These axes stand elsewhere than targets say.
+    fn axes_off(&mut self, which: usize, axes: u16) {
+        if self.external.listed.is_empty() {
+            return;
+        }
+        let value = match axes {
+            0 => self.states.on,
+            axes => self.builder.script.value(Held::AxesOff(axes)),
+        };
+        self.builder.write(Write {
+            place: self.here,
+            variable: Written::One(self.states.beside[which]),
+            how: How::Whole(Expr::Value(value)),
+        });
     }
 
     /// Branches, loops and jumps; whether it is one.

@@ -32,10 +32,10 @@ const TOOL_WRITERS: &str = "\
 
 /// Instructions that move nothing and write no target, tool or frame.
 const HARMLESS: &str = "\
-    accset actevent actunit aliasio bookerrno break cambreak camflush camloadjob camreqimage camsetexposure \
+    accset actevent aliasio bookerrno break cambreak camflush camloadjob camreqimage camsetexposure \
     camsetparameter camsetprogrammode camsetrunmode camstartloadjob camwaitloadjob circpathmode cirpathmode \
     clearpath clearrawbytes clkreset clkstart clkstop close closedir collisiondetect copyfile copyrawbytes \
-    corrclear corrcon corrdiscon corrwrite deactunit dropsensor dropwobj egmactjoint egmactpose egmgetid egmreset \
+    corrclear corrcon corrdiscon corrwrite dropsensor dropwobj egmactjoint egmactpose egmgetid egmreset \
     egmsetupai egmsetupuc egmstop egmstreamstart egmstreamstop eoffsgoto erase errlog errwrite fricideval \
     fricidinit fricidsetfriclevels gettrapdata iactunit idelete idisable ienable ierror indamove indcmove inddmove \
     indreset indrmove invertdo iodisable ioenable ipathpos ipers isignalai isignalao isignaldi isignaldo isignalgi \

@@ -224,7 +224,7 @@ impl Translator<'_> {
             self.ambiguous = false;
             let target = self.position_from(all[at].expression, wanted);
             let guards = match (absolute, self.ambiguous) {
-                (true, false) if parts.unshifted => 0,
+                (true, false) if parts.unshifted => self.modes.unshifted_guards,
                 (true, false) => self.modes.absolute_guards,
                 (false, false) => self.modes.guards,
                 (_, true) => self.modes.ambiguous_guards,

@@ -442,6 +442,8 @@ pub(super) enum Mode {
     Wrist,
     ProgramDisplacement,
     ExternalOffset,
+    /// Whether a unit of external axes follows targets.
+    Unit,
 }
 
 /// How a mode is set.

@@ -5,7 +5,8 @@ use super::arguments::NOT_CONNECTED;
 use super::handlers::Handlers;
 use super::resolved::{Entity, Resolved};
 use super::syntax::{
-    Assigned, Component, Expression, Index, Mode, Part, Set, StatementKind, Storage, Type, indices,
+    Assigned, Component, Expression, Index, Mode, Part, Set, StatementKind, Storage, Type, Verb,
+    indices,
 };
 use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
@@ -13,7 +14,7 @@ use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, NamedFrame, Part as RecordPart, PartValue,
     Place, Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
 };
-use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId};
+use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, Source, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Names of options.
@@ -39,8 +40,11 @@ pub(super) struct Modes {
     /// The guards of moves that a displacement concerns, and of those whose target's name is ambiguous.
     pub guards: u32,
     pub ambiguous_guards: u32,
-    /// Those of moves to joints, which only an offset of external axes concerns.
+    /// Those of moves to joints, which only external axes concern, and of those without an offset.
     pub absolute_guards: u32,
+    pub unshifted_guards: u32,
+    /// Units that the program switches, whose axes matter: name, whether it follows targets, and what holds where it does not.
+    units: Vec<(String, VariableId, ValueId)>,
     on: ValueId,
     off: ValueId,
     displaced: ValueId,
@@ -105,7 +109,8 @@ pub(super) fn translate(
         builder.declare(name, routine.place, start);
     }
     let find = |word: &[u8]| resolved.parsed.symbols.find(word);
-    let modes = Modes::new(&mut builder.script);
+    let units = switched(resolved, &settings.external);
+    let modes = Modes::new(&mut builder.script, units);
     let script = &mut builder.script;
     let mut translator = Translator {
         resolved,
@@ -158,8 +163,40 @@ pub(super) fn translate(
     translator.builder.finish()
 }
 
+/// The name that an instruction is given, in capitals.
+fn unit_name(resolved: &Resolved, file: u32, arguments: Part) -> String {
+    let argument = resolved.parsed.arguments[indices(arguments)].first();
+    let span = argument.map_or(0..0, |a| a.span.0 as usize..a.span.1 as usize);
+    let text = resolved.sources[file as usize].bytes[span].trim_ascii();
+    Source::text(text).to_ascii_uppercase()
+}
+
+/// Units that the program switches on or off, with those of their axes that matter.
+fn switched(resolved: &Resolved, names: &ExternalNames) -> Vec<(String, u16)> {
+    let mut units: Vec<(String, u16)> = Vec::new();
+    let mut here = 0;
+    for statement in &resolved.parsed.statements {
+        match statement.kind {
+            StatementKind::Text { file, .. } => here = file,
+            StatementKind::Call {
+                verb: Verb::Mode(Mode::Unit, _),
+                arguments,
+                ..
+            } => {
+                let name = unit_name(resolved, here, arguments);
+                let axes = names.axes_of_unit(&name);
+                if axes != 0 && !units.iter().any(|(known, _)| *known == name) {
+                    units.push((name, axes));
+                }
+            }
+            _ => {}
+        }
+    }
+    units
+}
+
 impl Modes {
-    fn new(script: &mut Script) -> Self {
+    fn new(script: &mut Script, units: Vec<(String, u16)>) -> Self {
         let on = script.value(Held::Flag(true));
         let off = script.value(Held::Flag(false));
         let remark = script.remark(Remark::error(
@@ -193,22 +230,36 @@ impl Modes {
         let program_displacement = mode("PDispOn", off);
         let external_offset = mode("EOffsOn", unshifted);
         let ambiguous = mode("", ambiguous);
-        let displacements = [program_displacement, external_offset];
-        script.guards.push(Box::new(displacements));
-        script
-            .guards
-            .push(Box::new([program_displacement, external_offset, ambiguous]));
-        script.guards.push(Box::new([external_offset]));
-        let last = crate::program::script::short(script.guards.len() - 1);
+        let units: Vec<(String, VariableId, ValueId)> = units
+            .into_iter()
+            .map(|(name, axes)| {
+                let follows =
+                    Variable::new(name.as_str(), Place { file: 0, offset: 0 }, Expr::Value(on));
+                let follows = script.variable(follows);
+                let off = script.value(Held::AxesOff(axes));
+                (name, follows, off)
+            })
+            .collect();
+        let mut guard = |own: &[VariableId]| {
+            let all = own.iter().copied().chain(units.iter().map(|unit| unit.1));
+            script.guards.push(all.collect());
+            crate::program::script::short(script.guards.len() - 1)
+        };
+        let guards = guard(&[program_displacement, external_offset]);
+        let ambiguous_guards = guard(&[program_displacement, external_offset, ambiguous]);
+        let absolute_guards = guard(&[external_offset]);
+        let unshifted_guards = guard(&[]);
         Self {
             conf_j,
             conf_l,
             wrist,
             program_displacement,
             external_offset,
-            guards: last - 2,
-            ambiguous_guards: last - 1,
-            absolute_guards: last,
+            guards,
+            ambiguous_guards,
+            absolute_guards,
+            unshifted_guards,
+            units,
             on,
             off,
             displaced,
@@ -360,6 +411,13 @@ impl Translator<'_> {
             Mode::Wrist => (modes.wrist, flag(has(words.wrist))),
             Mode::ProgramDisplacement if set == Set::Off => (modes.program_displacement, modes.off),
             Mode::ProgramDisplacement => (modes.program_displacement, modes.displaced),
+            Mode::Unit => {
+                let name = self.unit(arguments);
+                let Some((_, follows, off)) = modes.units.iter().find(|unit| unit.0 == name) else {
+                    return;
+                };
+                (*follows, if set == Set::On { modes.on } else { *off })
+            }
             Mode::ExternalOffset if set == Set::Off => (modes.external_offset, modes.unshifted),
             Mode::ExternalOffset => {
                 let (variable, unknown) = (modes.external_offset, modes.shifted);
@@ -375,6 +433,11 @@ impl Translator<'_> {
             }
         };
         self.set(variable, Expr::Value(value));
+    }
+
+    /// The unit of `DeactUnit STN1`.
+    fn unit(&self, arguments: Part) -> String {
+        unit_name(self.resolved, self.here.file, arguments)
     }
 
     /// The six numbers of `EOffsSet [100,0,0,0,0,0]`; axes that are not connected are not shifted.

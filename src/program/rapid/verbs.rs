@@ -61,6 +61,8 @@ pub(super) fn verb(spelling: &[u8]) -> Verb {
         b"pdispoff" => Verb::Mode(Mode::ProgramDisplacement, Set::Off),
         b"eoffson" => Verb::Mode(Mode::ExternalOffset, Set::On),
         b"eoffsset" => Verb::Mode(Mode::ExternalOffset, Set::Given),
+        b"actunit" => Verb::Mode(Mode::Unit, Set::On),
+        b"deactunit" => Verb::Mode(Mode::Unit, Set::Off),
         b"eoffsoff" => Verb::Mode(Mode::ExternalOffset, Set::Off),
         b"pathrecmovebwd" | b"pathrecmovefwd" | b"stepbwdpath" => Verb::Wander { back: true },
         b"egmrunjoint" | b"egmrunpose" => Verb::Wander { back: false },

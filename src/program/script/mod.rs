@@ -206,6 +206,8 @@ pub enum Held {
     Actual,
     /// What is added to external axes, in the units and the order of the language.
     ExternalOffset(Box<[f64; 6]>),
+    /// As long as this holds these external axes, bit by bit as listed, stand elsewhere than targets say.
+    AxesOff(u16),
 }
 
 /// A tool or a work frame.

@@ -294,3 +294,63 @@ fn a_profile_says_where_it_is_wrong() {
         assert_eq!(line, 4);
     }
 }
+
+#[test]
+fn what_another_robot_or_a_station_carries_is_refused_with_its_reason() {
+    // a base on a kinematic of another controller
+    let config = |controller: u32| {
+        format!(
+            "DEFDAT $CONFIG\nFRAME BASE_DATA[32]\nBASE_DATA[7]={{X 10.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}}\nDECL MACHINE_FRAME_DATA_TYPE x\nMACHINE_FRAME_DAT[7]={{MACH_DEF_INDEX 0,COOP_KRC_INDEX {controller},PARENT[] \" \",GEO \" \"}}\nENDDAT\n"
+        )
+    };
+    let text = "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[7]\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0}\nPTP {X 640,Y 200,Z 700,A 10,B 5,C 170}\nEND\n";
+    for (controller, expected) in [(1, &[][..]), (2, &["two-robots"])] {
+        let config = config(controller);
+        let done = run(
+            &profile("", &[ARM]),
+            &[("t.src", text), ("$config.dat", &config)],
+        );
+        let done = done.expect("read");
+        assert_eq!(errors(&done), expected, "{:?}", done.findings);
+    }
+    // a job that is relative to a station
+    let job = |attributes: &str, groups: &str| {
+        format!(
+            "/JOB\n//NAME T\n//POS\n///NPOS 2,0,0,0,0,0\n///TOOL 1\n///POSTYPE ANGLE\n///ANGLE\nC00000=0,0,10,0,60,0\n///USER 3\n///POSTYPE USER\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00001=640,200,700,170,5,10\n//INST\n///DATE 2024/01/01 10:00\n///ATTR {attributes}\n///FRAME USER 3\n///GROUP1 RB1\n{groups}NOP\nMOVJ C00000 VJ=5.00\nMOVL C00001 V=30.0\nEND\n"
+        )
+    };
+    for (attributes, groups, expected) in [
+        ("SC,RW", "///GROUP2 ST1\n", &[][..]),
+        ("SC,RW,RJ", "", &[]),
+        ("SC,RW,RJ", "///GROUP2 ST1\n", &["moving-frame"]),
+    ] {
+        let done = run(&profile("", &[ARM]), &[("T.JBI", &job(attributes, groups))]);
+        let done = done.expect("read");
+        assert_eq!(errors(&done), expected, "{:?}", done.findings);
+    }
+}
+
+#[test]
+fn a_move_beyond_the_measured_part_of_a_rail_is_told_once() {
+    let bent = "{effect: track_straightness, axis: 1, along: y, degree: 2, mm: 0.4}";
+    let mut rail = profile(TRACK, &[ARM, bent]);
+    let body = |eax: &str| [HOME, &go(640.0, eax, ""), &go(650.0, eax, "")].concat();
+    let told = |rail: &Profile, eax: &str| {
+        let done = run(rail, &[("t.mod", &rapid("", &body(eax)))]).expect("read");
+        let found = done
+            .findings
+            .iter()
+            .filter(|f| f.id == "track-extrapolated");
+        found.map(|f| f.message.clone()).collect::<Vec<_>>()
+    };
+    assert!(told(&rail, "1500,9E9").is_empty());
+    let quality = r#"{"track_mm": [[0.0, 1000.0]]}"#;
+    rail.quality = Some(serde_json::from_str(quality).expect("JSON"));
+    let beyond = told(&rail, "1500,9E9");
+    assert_eq!(beyond.len(), 1, "{beyond:?}");
+    assert!(
+        beyond[0].contains("1500") && beyond[0].contains("1000"),
+        "{beyond:?}"
+    );
+    assert!(told(&rail, "900,9E9").is_empty());
+}
