@@ -70,7 +70,7 @@ pub const SCHEMAS: &[Format] = &[
     ),
     format(
         "changed-profile",
-        "profile set and profile add-tool --json",
+        "profile set, add-tool, add-track, add-positioner, import-moc and import-krc --json",
         of::<profile::Changed>,
     ),
     format(

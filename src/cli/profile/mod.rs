@@ -12,7 +12,7 @@ use crate::printable::name_of;
 use crate::report::Report;
 use crate::task::Failure;
 use crate::task::profile::{diff, import_ur, new, show};
-use change::{AddTool, Set};
+use change::{AddPositioner, AddTool, AddTrack, ImportKrc, ImportMoc, Set};
 use clap::{Args, Subcommand};
 use export::Export;
 use from_urdf::FromUrdf;
@@ -54,6 +54,10 @@ enum Sub {
     FromUrdf(FromUrdf),
     Set(Set),
     AddTool(AddTool),
+    AddTrack(AddTrack),
+    AddPositioner(AddPositioner),
+    ImportMoc(ImportMoc),
+    ImportKrc(ImportKrc),
     Export(Export),
 }
 
@@ -107,6 +111,10 @@ impl ProfileCommand {
             Sub::FromUrdf(command) => command.run(&files, output),
             Sub::Set(command) => command.run(&files, output),
             Sub::AddTool(command) => command.run(&files, output),
+            Sub::AddTrack(command) => command.run(&files, output),
+            Sub::AddPositioner(command) => command.run(&files, output),
+            Sub::ImportMoc(command) => command.run(&files, output),
+            Sub::ImportKrc(command) => command.run(&files, output),
             Sub::Export(command) => command.run(&files, output),
         }
     }

@@ -3,6 +3,7 @@
 use super::Profile;
 use super::file::ControllerModel;
 use crate::model::effects::Effect;
+use crate::model::external::ExternalAxes;
 use crate::printable::{flow, quoted};
 use std::fmt::Write;
 
@@ -58,6 +59,32 @@ pub fn with_controller(
         ..written
     };
     (same && rest == meant).then_some(out)
+}
+
+/// The text of a profile with these external axes: their block is written anew, before the calibration where there was none; every
+/// other byte stays.
+///
+/// `None` where what came out is not what was meant, as in one long line: nothing is guessed.
+#[must_use]
+pub fn with_external(text: &str, axes: &ExternalAxes) -> Option<String> {
+    let (start, end) = block(text, "external_axes")
+        .or_else(|| block(text, "calibration").map(|(start, _)| (start, start)))
+        .unwrap_or((text.len(), text.len()));
+    let line_end = if text.contains("\r\n") { "\r\n" } else { "\n" };
+    let before = &text[..start];
+    let gap = if before.is_empty() || before.ends_with('\n') {
+        ""
+    } else {
+        line_end
+    };
+    let section = super::external::section(axes).replace('\n', line_end);
+    let out = format!("{before}{gap}{section}{}", &text[end..]);
+    let without = |text: &str| {
+        let mut data: serde_json::Value = serde_yaml::from_str(text).ok()?;
+        data.as_object_mut()?.remove("external_axes");
+        Some(data)
+    };
+    (without(text)? == without(&out)?).then_some(out)
 }
 
 /// First byte of a top-level block and the byte behind its last line.

@@ -39,7 +39,7 @@ fn mm(metres: Vector) -> String {
 }
 
 /// A pose in flow style.
-pub(super) fn flow_pose(pose: &Pose) -> String {
+pub(crate) fn flow_pose(pose: &Pose) -> String {
     let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
     let [x, y, z] = [x, y, z].map(|x| number(mm_from_m(x)));
     let [rx, ry, rz] = [rx, ry, rz].map(|a| number(a / DEG));

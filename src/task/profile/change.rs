@@ -1,4 +1,4 @@
-//! `profile set`, `profile add-tool`: values of a profile changed in its text.
+//! Values of a profile changed in its text: `profile set`, `profile add-tool` and their like.
 
 use super::urdf::check_language;
 use super::{Difference, diff};
@@ -99,7 +99,8 @@ fn with(name: &str, text: &str, path: &str, value: &str) -> Result<String, Failu
     })
 }
 
-fn changed(file: &ProfileFile, text: String, output: &str) -> Result<Changed, Failure> {
+/// The change with what differs.
+pub(super) fn changed(file: &ProfileFile, text: String, output: &str) -> Result<Changed, Failure> {
     let profile =
         Profile::from_yaml(&text).map_err(|error| Failure::profile(output, &text, &error))?;
     let mut notes = Vec::new();

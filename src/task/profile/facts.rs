@@ -2,6 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::model::external::Coordinates;
 use crate::model::profile::{ControllerModel, Mounted, Profile};
 use crate::model::{Conditions, Model};
 use schemars::JsonSchema;
@@ -85,6 +86,7 @@ pub(super) fn facts(profile: &Profile) -> Vec<(String, String)> {
         );
     }
     fact("gravity".into(), profile.gravity_m_s2.map(number).join(" "));
+    external(profile, &mut fact);
     for (name, tool) in &profile.tools {
         let load = tool.load.map_or_else(String::new, |(kg, cog)| {
             format!(", {} kg at {}", number(kg), triple(cog))
@@ -112,6 +114,38 @@ pub(super) fn facts(profile: &Profile) -> Vec<(String, String)> {
         );
     }
     facts
+}
+
+/// What stands around the arm and moves.
+fn external(profile: &Profile, fact: &mut impl FnMut(String, String)) {
+    let axes = &profile.external;
+    for axis in &axes.track {
+        let [zero, min, max] = [axis.zero_m, axis.min_m, axis.max_m].map(|m| number(mm_from_m(m)));
+        let along = axis.direction.map(number).join(" ");
+        let relative = match axis.coordinates {
+            Coordinates::World => "",
+            Coordinates::Base => " in the base's coordinates",
+        };
+        fact(
+            format!("external axis {}", axis.axis),
+            format!("track along ({along}) zero {zero} from {min} to {max}{relative}"),
+        );
+    }
+    for positioner in &axes.positioners {
+        for axis in &positioner.axes {
+            let angles = [axis.zero_rad, axis.min_rad, axis.max_rad];
+            let [zero, min, max] = angles.map(|a| number(a / DEG));
+            let sense = if axis.sign < 0.0 { " sign -1" } else { "" };
+            let (name, at) = (&positioner.name, pose(&axis.at));
+            fact(
+                format!("external axis {}", axis.axis),
+                format!("positioner {name} at {at} zero {zero} from {min} to {max}{sense}"),
+            );
+        }
+    }
+    for name in &axes.other {
+        fact(format!("external axis {name}"), "carries nothing".into());
+    }
 }
 
 /// Mean and largest distance between the real and the controller's tool over an even grid of postures.

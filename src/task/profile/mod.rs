@@ -2,13 +2,17 @@
 
 mod change;
 mod export;
+mod external;
 mod facts;
 mod import_ur;
+mod krc;
+mod moc;
 mod tool;
 mod urdf;
 
 pub use change::{Changed, add_tool, set};
 pub use export::{Coupled, Exported, ExportedChain, Form, Row, export};
+pub use external::{add_positioner, add_track, import_krc, import_moc};
 pub use facts::Deviation;
 pub use import_ur::{Imported, import_ur};
 pub use tool::tool;

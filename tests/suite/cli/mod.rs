@@ -3,6 +3,7 @@
 mod as_they_come;
 mod compensate;
 mod control;
+mod external;
 mod folders;
 mod fuzzed;
 mod hostile;

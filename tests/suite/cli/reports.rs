@@ -111,6 +111,11 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "changed-profile/1",
     ),
     (
+        "profile add-track @robots/abb_irb120.yaml eax_a --direction 1,0,0 --min-mm 0 --max-mm 3000 -o railed.yaml",
+        0,
+        "changed-profile/1",
+    ),
+    (
         "profile export @robots/abb_irb120_thesis.yaml --urdf -o arm.urdf",
         0,
         "exported-profile/1",

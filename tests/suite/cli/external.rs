@@ -1,0 +1,308 @@
+//! `profile add-track`, `add-positioner`, `import-moc`, `import-krc` from outside.
+
+use crate::support::{poseshift, repository, scratch};
+use poseshift::model::profile::Profile;
+use std::path::Path;
+
+/// Runs a command in a folder; status, and what was printed to both.
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    let done = poseshift()
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let told = [done.stdout, done.stderr].concat();
+    let told = String::from_utf8_lossy(&told).into_owned();
+    (done.status.code().expect("a status"), told)
+}
+
+fn read(path: &Path) -> (String, Profile) {
+    let text = std::fs::read_to_string(path).expect("written");
+    let profile = Profile::from_yaml(&text).expect("a profile");
+    (text, profile)
+}
+
+#[test]
+fn axes_are_added_and_every_other_line_stays() {
+    let folder = scratch();
+    let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("shipped");
+    let path = folder.path().join("p.yaml");
+    std::fs::write(&path, &plain).expect("a writable folder");
+    let track = [
+        "profile",
+        "add-track",
+        "p.yaml",
+        "eax_a",
+        "--direction",
+        "0,-2,0",
+        "--min-mm=-100",
+        "--max-mm",
+        "3000",
+        "--zero-mm",
+        "500",
+        "-o",
+        "q.yaml",
+    ];
+    let (status, told) = run(folder.path(), &track);
+    assert_eq!(status, 0, "{told}");
+    assert!(told.contains("external axis eax_a"), "{told}");
+    let (text, found) = read(&folder.path().join("q.yaml"));
+    let axis = &found.external.track[0];
+    assert_eq!((axis.direction, axis.zero_m), ([0.0, -1.0, 0.0], 0.5));
+    assert_eq!((axis.min_m, axis.max_m), (-0.1, 3.0));
+    // what was there is there still
+    let kept: Vec<&str> = plain.lines().collect();
+    assert!(kept.iter().all(|line| text.lines().any(|own| own == *line)));
+    let table = [
+        "profile",
+        "add-positioner",
+        "q.yaml",
+        "STN1",
+        "--axis",
+        "eax_b=900,-250,300,0,90,180,-90,90,-1,5",
+        "--axis",
+        "eax_c=0,0,120,90,0,0,-180,180",
+        "--plate",
+        "0,0,50,0,0,0",
+        "--in-place",
+    ];
+    let (status, told) = run(folder.path(), &table);
+    assert_eq!(status, 0, "{told}");
+    let (_, found) = read(&folder.path().join("q.yaml"));
+    let station = &found.external.positioners[0];
+    assert_eq!((station.name.as_str(), station.axes.len()), ("STN1", 2));
+    assert_eq!(station.axes[0].sign, -1.0);
+    assert!((station.axes[0].zero_rad.to_degrees() - 5.0).abs() < 1e-12);
+    assert_eq!(found.external.track.len(), 1);
+    // nothing is written over, nothing half, and the fault is named
+    let (status, told) = run(folder.path(), &track);
+    assert_eq!(status, 2, "{told}");
+    for (option, value, says) in [
+        ("--direction", "0,0,0", "no direction"),
+        ("--direction", "0,0,1", "up is nearly along"),
+        ("--direction", "1,0", "expected 3 numbers"),
+        ("--max-mm", "-200", "not below"),
+    ] {
+        let mut bad = track;
+        let at = bad
+            .iter()
+            .position(|word| *word == option)
+            .expect("an option");
+        bad[at + 1] = value;
+        bad[12] = "bad.yaml";
+        if option == "--max-mm" {
+            bad[at] = "--max-mm=-200";
+            bad[at + 1] = "--coordinates=base";
+        }
+        let (status, told) = run(folder.path(), &bad);
+        assert_eq!(status, 2, "{value} {told}");
+        assert!(told.contains(says), "{value} {told}");
+        assert!(!folder.path().join("bad.yaml").exists());
+    }
+}
+
+const MOC: &str = r#"MOC:CFG_1.0:6:0::
+#
+MECHANICAL_UNIT:
+
+      -name "TRACK_1" -use_activation_relay "" -use_brake_relay "rob1_brake"\
+      -use_single_0 "TRACK_1" -allow_move_of_user_frame  -activate_at_start_up \
+      -deactivation_forbidden 
+
+      -name "STN1" -use_single_0 "STN1" -allow_move_of_user_frame 
+
+      -name "GUN" -use_single_0 "GUN"
+#
+ROBOT:
+
+      -name "ROB_1" -use_robot_type "ROB1_4600"\
+      -base_frame_pos_x 3.5 -base_frame_pos_y -0.25\
+      -base_frame_pos_z 0.0175 -base_frame_orient_u0 0.707106781\
+      -base_frame_orient_u3 -0.707106781 -base_frame_coordinated "TRACK_1"
+#
+SINGLE:
+
+      -name "TRACK_1" -use_single_type "T4004" -use_joint "track1"\
+      -base_frame_pos_x 3.5 -base_frame_pos_y -0.25 -base_frame_orient_u0 0\
+      -base_frame_orient_u3 1
+
+      -name "STN1" -use_single_type "STN" -use_joint "stn1"\
+      -base_frame_pos_y 1.5 -base_frame_pos_z 0.8
+
+      -name "GUN" -use_single_type "GUN" -use_joint "gun"
+#
+SINGLE_TYPE:
+
+      -name "T4004" -mechanics "TRACK"
+
+      -name "STN" -mechanics "FREE_ROT"
+#
+JOINT:
+
+      -name "stn1" -logical_axis 9
+#
+ARM:
+
+      -name "T4004_3.9_1" -use_arm_type "track1" -upper_joint_bound 3.901\
+      -lower_joint_bound -0.001 -upper_joint_bound_max 3.905
+
+      -name "stn1" -upper_joint_bound 3.14159265359 -lower_joint_bound -3.14159265359
+"#;
+
+#[test]
+fn a_backup_of_an_abb_controller_says_where_the_base_goes() {
+    let folder = scratch();
+    let put = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("a writable folder");
+    };
+    put("MOC.cfg", MOC);
+    let profile = repository("robots/abb_irb120.yaml");
+    let profile = profile.to_str().expect("a plain path");
+    let import = |more: &[&str]| {
+        let mut all = vec!["profile", "import-moc", "MOC.cfg", "--profile", profile];
+        all.extend(more);
+        run(folder.path(), &all)
+    };
+    let (status, told) = import(&["-o", "p.yaml"]);
+    assert_eq!(status, 2, "{told}");
+    assert!(
+        told.contains("logical axis") && told.contains("--axis"),
+        "{told}"
+    );
+    let (status, told) = import(&["-o", "p.yaml", "--axis", "eax_a"]);
+    assert_eq!(status, 0, "{told}");
+    assert!(
+        told.contains("MOC.cfg:15") && told.contains("left out: the unit GUN"),
+        "{told}"
+    );
+    let (_, found) = read(&folder.path().join("p.yaml"));
+    let base = &found.world_from_base;
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8);
+    assert!(near(&base.translation, &[3.5, -0.25, 0.0175]), "{base:?}");
+    assert!(near(&base.rotation.axis(0), &[0.0, -1.0, 0.0]), "{base:?}");
+    let track = &found.external.track[0];
+    assert!(near(&track.direction, &[-1.0, 0.0, 0.0]), "{track:?}");
+    assert!(near(&[track.min_m, track.max_m], &[-0.001, 3.901]));
+    let station = &found.external.positioners[0];
+    assert_eq!(
+        (station.name.as_str(), station.axes[0].axis.as_str()),
+        ("STN1", "eax_c")
+    );
+    assert!(near(&station.axes[0].at.translation, &[0.0, 1.5, 0.8]));
+    assert!(near(&[station.axes[0].max_rad], &[std::f64::consts::PI]));
+    for (from, to, says) in [
+        ("MOC:CFG_1.0:6:0::", "EIO:CFG_1.0:6:0::", "no MOC.cfg"),
+        ("u3 -0.707106781", "u3 0.1", "has the length"),
+        (
+            "pos_x 3.5 -base_frame_pos_y -0.25\\",
+            "pos_x abc\\",
+            "`abc`",
+        ),
+        (
+            "\"track1\" -upper",
+            "\"other\" -upper",
+            "how far TRACK_1 goes",
+        ),
+    ] {
+        assert!(MOC.contains(from), "{from}");
+        put("MOC.cfg", &MOC.replacen(from, to, 1));
+        let (status, told) = import(&["-o", "bad.yaml", "--axis", "eax_a"]);
+        assert_eq!(status, 2, "{to} {told}");
+        assert!(told.contains(says), "{to} {told}");
+        assert!(!folder.path().join("bad.yaml").exists());
+    }
+}
+
+const MACHINE: &str = "&ACCESS RV\nDEFDAT  $MACHINE PUBLIC\nINT $EX_AX_NUM=2 ;number\nINT $AXIS_TYPE[12]\n$AXIS_TYPE[7]=1\n$AXIS_TYPE[8]=3\n$SOFTN_END[7]=-50.0\n$SOFTP_END[7]=4500.0\n$SOFTN_END[8]=-90.0\n$SOFTP_END[8]=90.0\nDECL EX_KIN $EX_KIN={ET1 #ERSYS,ET2 #EASYS,ET3 #NONE,ET4 #NONE,ET5 #NONE,ET6 #NONE}\nDECL ET_AX $ET1_AX={TR_A1 #E1,TR_A2 #NONE,TR_A3 #NONE}\nET1_NAME[]=\"KL\"\nDECL FRAME $ET1_TA1KR={X 0.0,Y 0.0,Z 450.0,A 0.0,B 90.0,C 0.0}\nDECL FRAME $ET1_TA2A1={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET1_TA3A2={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET1_TFLA3={X 0.0,Y 0.0,Z 0.0,A 0.0,B -90.0,C 0.0}\nDECL ET_AX $ET2_AX={TR_A1 #E2,TR_A2 #NONE,TR_A3 #NONE}\nDECL FRAME $ET2_TA1KR={X 0.0,Y 0.0,Z 700.0,A 0.0,B 0.0,C 90.0}\nDECL FRAME $ET2_TA2A1={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET2_TA3A2={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET2_TFLA3={X 0.0,Y 0.0,Z 25.0,A 0.0,B 0.0,C 0.0}\nFRAME $ERSYSROOT={X 100.0,Y 200.0,Z 0.0,A 90.0,B 0.0,C 0.0}\nENDDAT\n";
+const CONFIG: &str = "DEFDAT  $CONFIG\nDECL MACHINE_DEF_STRUC MACHINE_DEF[16]\nMACHINE_DEF[1]={NAME[] \"KR\",COOP_KRC_INDEX 1,PARENT[] \"WORLD\",ROOT {X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0},MECH_TYPE #ROBOT,GEOMETRY[] \"\"}\nMACHINE_DEF[2]={NAME[] \"DKP\",COOP_KRC_INDEX 1,PARENT[] \"WORLD\",ROOT {X 1500.0,Y 0.0,Z 0.0,A 180.0,B 0.0,C 0.0},MECH_TYPE #EASYS,GEOMETRY[] \"\"}\nENDDAT\n";
+
+#[test]
+fn an_archive_of_a_kuka_controller_says_what_its_axes_carry() {
+    let folder = scratch();
+    let mada = folder.path().join("KRC/R1/Mada");
+    let system = folder.path().join("KRC/R1/System");
+    for path in [&mada, &system] {
+        std::fs::create_dir_all(path).expect("a writable folder");
+    }
+    let put = |machine: &str, config: &str| {
+        std::fs::write(mada.join("$machine.dat"), machine).expect("a writable folder");
+        std::fs::write(system.join("$config.dat"), config).expect("a writable folder");
+    };
+    put(MACHINE, CONFIG);
+    let profile = repository("robots/kuka_kr6_r900.yaml");
+    let profile = profile.to_str().expect("a plain path").to_owned();
+    let import = |out: &str| {
+        run(
+            folder.path(),
+            &[
+                "profile",
+                "import-krc",
+                "KRC",
+                "--profile",
+                &profile,
+                "-o",
+                out,
+            ],
+        )
+    };
+    let (status, told) = import("p.yaml");
+    assert_eq!(status, 0, "{told}");
+    let (_, found) = read(&folder.path().join("p.yaml"));
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
+    // z of TA1KR is the root's x, which points along the world's y
+    let track = &found.external.track[0];
+    assert_eq!(track.axis, "E1");
+    assert!(near(&track.direction, &[0.0, 1.0, 0.0]), "{track:?}");
+    assert!(near(&[track.min_m, track.max_m], &[-0.05, 4.5]));
+    assert!(near(&found.world_from_base.translation, &[0.1, 0.2, 0.45]));
+    assert!(near(
+        &found.world_from_base.rotation.axis(0),
+        &[0.0, 1.0, 0.0]
+    ));
+    let station = &found.external.positioners[0];
+    assert_eq!(
+        (station.name.as_str(), station.axes[0].axis.as_str()),
+        ("2", "E2")
+    );
+    let at = &station.axes[0].at;
+    assert!(near(&at.translation, &[1.5, 0.0, 0.7]), "{at:?}");
+    // about x by 90 degrees of a root that is turned round: z of the axis points along +y
+    assert!(near(&at.rotation.axis(2), &[0.0, 1.0, 0.0]), "{at:?}");
+    assert!(near(&station.plate.translation, &[0.0, 0.0, 0.025]));
+    for (machine, config, says) in [
+        (
+            MACHINE.replace("#ERSYS,ET2 #EASYS", "#NONE,ET2 #NONE"),
+            CONFIG.to_owned(),
+            "carry nothing",
+        ),
+        (
+            MACHINE.replace("$AXIS_TYPE[7]=1", "$AXIS_TYPE[7]=3"),
+            CONFIG.to_owned(),
+            "turntable",
+        ),
+        (
+            MACHINE.replace("Z 450.0", "Z 4x"),
+            CONFIG.to_owned(),
+            "no frame",
+        ),
+        (
+            MACHINE.to_owned(),
+            CONFIG.replace("#EASYS", "#EBSYS"),
+            "MACHINE_DEF",
+        ),
+        (
+            MACHINE.to_owned(),
+            CONFIG.replace(
+                "\"DKP\",COOP_KRC_INDEX 1,PARENT[] \"WORLD\"",
+                "\"DKP\",COOP_KRC_INDEX 1,PARENT[] \"KL\"",
+            ),
+            "stands on KL",
+        ),
+    ] {
+        put(&machine, &config);
+        let (status, told) = import("bad.yaml");
+        assert_eq!(status, 2, "{says} {told}");
+        assert!(told.contains(says), "{says} {told}");
+        assert!(!folder.path().join("bad.yaml").exists());
+    }
+}
