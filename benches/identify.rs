@@ -12,6 +12,7 @@ use poseshift::identify::simulate::{Command, Session, simulate};
 use poseshift::identify::solver::solve;
 use poseshift::identify::statistics::pairs;
 use poseshift::identify::uncertainty::Uncertainty;
+use poseshift::model::external::Stand;
 use poseshift::model::profile::Profile;
 use std::hint::black_box;
 
@@ -42,6 +43,7 @@ fn measured(count: usize) -> Measurements {
                 .mechanism
                 .joints
                 .map(|j| random.between(j.min_rad, j.max_rad)),
+            stand: Stand::default(),
             conditions: None,
         })
         .collect();
@@ -131,6 +133,8 @@ fn choosing(criterion: &mut Criterion) {
         sigma_m: 5e-5,
         poses: false,
         given: Vec::new(),
+        given_stands: Vec::new(),
+        stations: 11,
         constraints: Constraints::default(),
     };
     let mut group = criterion.benchmark_group("plan");

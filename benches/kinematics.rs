@@ -133,6 +133,7 @@ fn crx() -> Arm {
         load: None,
         gravity_m_s2: [0.0, 0.0, -9.81],
         tool_name: String::new(),
+        carried: None,
     };
     let joint = JointSense {
         sign: 1.0,

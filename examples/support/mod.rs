@@ -25,6 +25,8 @@ pub fn nominal_and_measured(hidden: &str) -> Result<(ProfileFile, Source), Box<d
         sigma_m: 50e-6,
         poses: false,
         given: Vec::new(),
+        given_stands: Vec::new(),
+        stations: 11,
         constraints: Constraints::default(),
     };
     let selection = Selection::level(Level::Geometry);

@@ -17,6 +17,7 @@ use poseshift::identify::simulate::{Command, Device, Session};
 use poseshift::identify::statistics::misses;
 use poseshift::identify::validation::Folds;
 use poseshift::model::Conditions;
+use poseshift::model::external::Stand;
 use poseshift::task::plan::Wanted;
 use poseshift::task::simulate::{measurements_csv, simulate_at};
 use poseshift::task::{self, Failure, ProfileFile, Rows, Said};
@@ -287,6 +288,8 @@ pub(crate) fn plan<'py>(
         sigma_m,
         poses,
         given,
+        given_stands: Vec::new(),
+        stations: STATIONS,
         constraints: Constraints {
             margin_rad,
             approach_rad,
@@ -378,6 +381,7 @@ pub(crate) fn simulate(
         .enumerate()
         .map(|(i, q)| Command {
             q: *q,
+            stand: Stand::default(),
             conditions: said.then(|| Conditions {
                 direction: directions.as_ref().map_or([0.0; 6], |all| all[i]),
                 force_n: forces.as_ref().map_or([0.0; 3], |all| all[i]),
@@ -392,6 +396,9 @@ pub(crate) fn simulate(
     });
     Ok(identified(py, made)?.csv.unwrap_or_default())
 }
+
+/// Places of each axis of a track that a plan chooses among.
+const STATIONS: usize = 11;
 
 /// A row a configuration.
 fn each<const N: usize>(
@@ -469,6 +476,7 @@ pub(crate) fn measurements_of_arrays(
                 direction: directions.as_ref().map_or([0.0; 6], |all| all[i]),
                 ..Conditions::default()
             },
+            stand: Stand::default(),
             tool: tool.as_ref().map(|all| all[i].clone()),
             point: point.as_ref().map(|all| all[i].clone()),
             sigma_m: sigma.as_ref().map(|all| all[i]),
@@ -484,8 +492,8 @@ pub(crate) fn measurements_of_arrays(
         .collect();
     Ok(measurements_csv(
         &all,
-        directions.is_some(),
-        false,
+        (directions.is_some(), false),
+        &[],
         tool.is_some(),
     ))
 }

@@ -9,8 +9,8 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::parameters::Selection;
 use crate::identify::plan::{Constraints, Request};
 use crate::printable::name_of;
-use crate::task::Failure;
 use crate::task::plan::{Wanted, given, plan};
+use crate::task::{Failure, ProfileFile};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -62,6 +62,9 @@ pub(super) struct PlanCommand {
     /// Configurations that are in the set already (CSV)
     #[arg(long, value_name = "FILE")]
     given: Option<PathBuf>,
+    /// Places along each axis of a track that configurations are chosen at, evenly over its limits
+    #[arg(long, value_name = "N", default_value_t = 11)]
+    stations: usize,
     /// Distance from the joint limits
     #[arg(long, value_name = "DEG", default_value_t = 1.0)]
     margin_deg: f64,
@@ -93,10 +96,10 @@ fn metres_box(option: &str, text: &str) -> Result<[[f64; 3]; 2], Failure> {
 }
 
 impl PlanCommand {
-    fn request(&self, files: &Files) -> Result<Request, Failure> {
-        let given = match &self.given {
-            None => Vec::new(),
-            Some(path) => given(&files.source(path)?)?,
+    fn request(&self, files: &Files, profile: &ProfileFile) -> Result<Request, Failure> {
+        let (given, given_stands) = match &self.given {
+            None => (Vec::new(), Vec::new()),
+            Some(path) => given(&files.source(path)?, &profile.profile)?,
         };
         let keep_out = self
             .keep_out_mm
@@ -115,6 +118,8 @@ impl PlanCommand {
             sigma_m: m_from_mm(self.sigma_mm),
             poses: self.poses,
             given,
+            given_stands,
+            stations: self.stations,
             constraints: Constraints {
                 margin_rad: self.margin_deg * DEG,
                 approach_rad: self.approach_deg * DEG,
@@ -131,8 +136,8 @@ impl PlanCommand {
 
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let files = Files::default();
-        let request = self.request(&files)?;
         let profile = files.profile(&self.profile)?;
+        let request = self.request(&files, &profile)?;
         let outputs = self.output.iter().chain(&self.program);
         self.report
             .refuse_over(&files, outputs.map(PathBuf::as_path))?;

@@ -2,10 +2,13 @@
 
 use super::table::{Numbers, Stored, table_into};
 use super::waves;
+use crate::identify::external::places;
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
 use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
-use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Need, Site, SiteKey, of_arm};
+use crate::model::effects::{
+    BASE, Effect, Kind, MOST_PARAMETERS, Need, Site, SiteKey, shown_by_tool,
+};
 use crate::model::{JOINTS, Slot};
 
 /// Harmonics are sought up to this many periods a turn.
@@ -83,7 +86,8 @@ pub struct Candidates {
     pub cannot_test: Vec<CannotTest>,
 }
 
-fn sites(kind: Kind, tools: &[String]) -> Vec<Site> {
+/// `stood`: at how many places each axis of the track stood.
+fn sites(kind: Kind, tools: &[String], stood: &[usize]) -> Vec<Site> {
     let mut all = vec![Site {
         order: 1,
         ..Site::default()
@@ -109,12 +113,20 @@ fn sites(kind: Kind, tools: &[String]) -> Vec<Site> {
                     .map(|t| with(&|s| s.tool = Some(t.clone())))
                     .collect(),
                 SiteKey::Tool | SiteKey::Row => vec![site.clone()],
-                // no measurements say yet where external axes stood
-                SiteKey::Axis
-                | SiteKey::Along(_)
-                | SiteKey::About(_)
-                | SiteKey::Degree(..)
-                | SiteKey::Period => Vec::new(),
+                SiteKey::Axis => (0..stood.len()).map(|i| with(&|s| s.index = i)).collect(),
+                SiteKey::Along(_) | SiteKey::About(_) => {
+                    let (low, high) = place.numbers().unwrap_or_default();
+                    let letters = (low..=high).map(|n| n as usize - 1);
+                    letters.map(|on| with(&|s| s.on = on)).collect()
+                }
+                SiteKey::Degree(low, high) => {
+                    // more places than numbers
+                    let most = stood.get(site.index).map_or(0, |n| n.saturating_sub(2));
+                    let most = u32::try_from(most).unwrap_or(u32::MAX).min(*high);
+                    (*low..=most).map(|n| with(&|s| s.order = n)).collect()
+                }
+                // a period is not sought
+                SiteKey::Period => Vec::new(),
             }
         };
         all = all.iter().flat_map(each).collect();
@@ -141,9 +153,10 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
         Kind::BaseFrame | Kind::FrameShift | Kind::ToolFrame => {
             plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]])
         }
-        Kind::LinkCompliance | Kind::BaseCompliance | Kind::ToolCompliance => {
-            plain(&[&[0], &[1], &[0, 1]])
-        }
+        Kind::LinkCompliance
+        | Kind::BaseCompliance
+        | Kind::ToolCompliance
+        | Kind::TrackDirection => plain(&[&[0], &[1], &[0, 1]]),
         Kind::PayloadError => plain(&[&[0], &[1, 2, 3], &[0, 1, 2, 3]]),
         Kind::ThermalGrowth => tried
             .references
@@ -290,7 +303,10 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
                 let still = rows.iter().all(|r| r.conditions.direction == [0.0; 6]);
                 still.then(|| "a direction in dir1…dir6: all are 0".to_owned())
             }
-            Need::ExternalDirections => Some(need.describe().to_owned()),
+            Need::ExternalDirections => {
+                let still = !rows.iter().any(|row| row.stand.is_directed());
+                still.then(|| need.describe().to_owned())
+            }
             Need::Temperature if !measurements.has(&["temperature_c"]) => {
                 Some(need.describe().to_owned())
             }
@@ -403,7 +419,10 @@ impl Candidates {
         let mut peers: Vec<usize> = Vec::new();
         let times = problem.rows.iter().filter_map(|r| r.conditions.time_s);
         let has_time = range(times) > 0.0;
-        for kind in of_arm() {
+        let track = problem.profile.external.track.len();
+        let mut stood = places(&problem.profile.external, measurements);
+        stood.truncate(track);
+        for kind in shown_by_tool().filter(|kind| track > 0 || !kind.of_track()) {
             if has_time && kind.definition().needs.contains(&Need::NoTime) {
                 continue;
             }
@@ -412,7 +431,7 @@ impl Candidates {
                 continue;
             }
             let mut places = 0;
-            for site in sites(kind, &tools) {
+            for site in sites(kind, &tools, &stood) {
                 let mut any = false;
                 for (sought, value) in variants(kind, &site, tried) {
                     let mut parameters = [0.0; MOST_PARAMETERS];

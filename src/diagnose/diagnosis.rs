@@ -232,7 +232,7 @@ pub fn diagnose(
     options: &Options,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Diagnosis, IdentifyError> {
-    let measurements = &*measurements.in_world_of(profile);
+    let measurements = &*measurements.in_world_of(profile)?;
     let used = for_choice(measurements);
     let (best, remarks) = if is_nominal(profile) {
         attempt(profile, measurements, Trust::Nothing, options, progress)?

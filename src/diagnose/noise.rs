@@ -66,6 +66,7 @@ fn groups(problem: &Problem, used: &[bool]) -> Vec<Vec<usize>> {
         let conditions = &row.conditions;
         let key = (
             bits(&row.q),
+            row.stand.bits(),
             bits(&conditions.direction),
             bits(&conditions.force_n),
             (row.tool, point, row.observed.count(), seen),

@@ -91,17 +91,21 @@ fn selection(profile: &Profile) -> Selection {
     } else {
         Level::Geometry
     });
+    // what a rail does is sought on top of what the profile has: no part of it is fitted along
+    selection.fix = Pick::track();
     let own = profile.effects.iter().filter(|e| {
-        !matches!(
-            e.kind,
-            Kind::BaseFrame
-                | Kind::ToolFrame
-                | Kind::LinkGeometry
-                | Kind::ThermalGrowth
-                | Kind::WarmUpDrift
-                | Kind::ComplianceKnee
-                | Kind::PayloadError
-        )
+        let is_of_arm = !e.definition().of_external_axis();
+        is_of_arm
+            && !matches!(
+                e.kind,
+                Kind::BaseFrame
+                    | Kind::ToolFrame
+                    | Kind::LinkGeometry
+                    | Kind::ThermalGrowth
+                    | Kind::WarmUpDrift
+                    | Kind::ComplianceKnee
+                    | Kind::PayloadError
+            )
     });
     selection.identify = own.map(Pick::of).collect();
     selection
@@ -180,7 +184,9 @@ pub fn session(
         .map_or(profile.world_from_base, |g| g.world_from_base);
     let real = profile.world_from_real_base();
     let (far, turned) = base_gap(&real, &base);
-    let elsewhere = far > SAME_PLACE_M || turned > SAME_TURN_RAD;
+    // a track would take a turned device for its own error
+    let on_track = !profile.external.track.is_empty();
+    let elsewhere = on_track || far > SAME_PLACE_M || turned > SAME_TURN_RAD;
     let nearer = if elsewhere {
         real * base.inverse()
     } else {
@@ -189,6 +195,7 @@ pub fn session(
     let (fit, measurements) = (fit.moved(&nearer), &measurements.moved(&nearer));
     let (mut problem, own) =
         Problem::new(profile, measurements, &selection, profile.world_from_base)?;
+    problem.gravity_by_base = on_track;
     let layout = Layout::of(&problem);
     let used = fit.rows.len();
     let numbers: usize = (0..layout.rows())

@@ -6,7 +6,7 @@ use super::scan::View;
 use super::search::{Chosen, Scored, World};
 use crate::identify::problem::Estimate;
 use crate::model::JOINTS;
-use crate::model::effects::{Effect, Kind, SiteKey, of_arm};
+use crate::model::effects::{Effect, Kind, SiteKey, shown_by_tool};
 
 /// Others compete where they explain this part of what the group explains.
 const PART: f64 = 0.25;
@@ -51,7 +51,7 @@ fn groups(chosen: &[Chosen]) -> Vec<Vec<usize>> {
             all.push(group);
         }
     };
-    for kind in of_arm() {
+    for kind in shown_by_tool() {
         let definition = kind.definition();
         if definition.of_data {
             continue;
@@ -119,7 +119,7 @@ pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
         let keep: Vec<bool> = (0..chosen.len()).map(|i| !group.contains(&i)).collect();
         let loss = view.loss(&keep);
         let own = chosen[group[0]].candidate.effect.kind;
-        let others = of_arm().filter(|kind| *kind != own);
+        let others = shown_by_tool().filter(|kind| *kind != own);
         for kind in others.filter(|kind| kind.definition().parameters.len() == 1) {
             let set = |bounded| view.set_of(world, (chosen, &keep), kind, bounded);
             let (Some((members, free)), Some((_, real))) = (set(false), set(true)) else {
@@ -177,7 +177,7 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
         let own = chosen[group[0]].candidate.effect.kind;
         let scored = view.scan(world, chosen, &keep);
         let cost: f64 = group.iter().map(|i| chosen[*i].cost).sum();
-        for kind in of_arm() {
+        for kind in shown_by_tool() {
             if kind == own || kind.definition().of_data {
                 continue;
             }

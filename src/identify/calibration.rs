@@ -248,7 +248,7 @@ pub fn calibrate(
     measurements: &Measurements,
     options: &Options,
 ) -> Result<Calibration, IdentifyError> {
-    let measurements = &*measurements.in_world_of(profile);
+    let measurements = &*measurements.in_world_of(profile)?;
     let found = identify(profile, measurements, options)?;
     let missed = |found: &Calibration| misses(&found.problem, &found.solution.estimate);
     plausibility::doubt_touches(measurements, &missed(&found), |other| {
@@ -463,8 +463,9 @@ fn identify(
         (profile.world_from_base, Some(device))
     } else if base_replaced {
         // the device's frame becomes the world
-        let base = solution.estimate.world_from_base;
-        (world_from_device.inverse() * base, None)
+        let base = world_from_device.inverse() * solution.estimate.world_from_base;
+        refuse_other_world(profile, &base)?;
+        (base, None)
     } else {
         (solution.estimate.world_from_base, profile.device)
     };
@@ -510,6 +511,22 @@ fn in_si(mut r: DMatrix<f64>, problem: &Problem, parameters: &[Parameter]) -> DM
         r.column_mut(i).scale_mut(sigma_m / parameter.scale);
     }
     r
+}
+
+/// A track's direction stands in the profile's world: another world needs another direction.
+fn refuse_other_world(profile: &Profile, base: &Pose) -> Result<(), IdentifyError> {
+    let (far, turned) = base_gap(&profile.world_from_base, base);
+    if profile.external.is_empty() || far < SAME_PLACE_M && turned < SAME_TURN_RAD {
+        return Ok(());
+    }
+    Err(IdentifyError::Suspicious {
+        message: format!(
+            "the base is {:.1} mm and {:.1} deg from where the profile has it, and `external_axes` of the profile stand in the profile's world",
+            mm_from_m(far),
+            turned / DEG
+        ),
+        hint: "leave --base out: where the device stands is then identified apart".into(),
+    })
 }
 
 /// Quality of an estimate on other measurements of the same set-up.

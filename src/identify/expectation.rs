@@ -8,6 +8,7 @@ use super::random::Random;
 use super::robust::Loss;
 use crate::geometry::{Pose, Scalar, Vector, add, cross, scale};
 use crate::model::batch::{Four, WIDTH};
+use crate::model::external::Stand;
 use crate::model::{Conditions, FourMotions, Motion};
 use nalgebra::{DMatrix, DVector};
 
@@ -102,12 +103,21 @@ pub fn expected_error_m(
         .filter(|row| row.touched.is_none())?;
     let mut random = Random::new(1);
     let joints = &problem.profile.mechanism.joints;
+    let track = &problem.profile.external.track;
+    let axes = track.iter().map(|axis| (axis.min_m, axis.max_m));
     let mut elsewhere = problem.clone();
     elsewhere.rows = (0..POSTURES)
         .map(|_| Row {
             q: std::array::from_fn(|i| random.between(joints[i].min_rad, joints[i].max_rad)),
             observed: super::measurements::Observed::Position([0.0; 3]),
             conditions: Conditions::default(),
+            stand: Stand {
+                values: axes
+                    .clone()
+                    .map(|(low, high)| random.between(low, high))
+                    .collect(),
+                directions: Vec::new(),
+            },
             sigma_m: 1.0,
             ..like.clone()
         })

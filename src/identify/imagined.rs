@@ -10,11 +10,13 @@ use super::parameters::{Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem, Row};
 use crate::geometry::{Pose, Vector, constant};
 use crate::model::batch::{Four, WIDTH, side_by_side};
+use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, FourMotions, Motion, Sensitivity};
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use pulp::Arch;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Numbers of a pose.
 const POSE_NUMBERS: usize = 6;
@@ -23,15 +25,15 @@ const NOTHING: f64 = 1e-12;
 /// Configurations that one thread takes at a time.
 const PORTION: usize = 32 * WIDTH;
 
-/// A problem whose rows are these configurations, to take derivatives of.
+/// A problem whose rows are these configurations, with external axes where each of them has them, to take derivatives of.
 pub(super) fn imagined(
     profile: &Profile,
     tool: &Mounted,
     selection: &Selection,
-    joints: &[[f64; 6]],
+    (joints, stands): (&[[f64; 6]], &[&Stand]),
     poses: bool,
 ) -> Result<(Problem, Estimate), IdentifyError> {
-    let row = |q: &[f64; 6], point: Option<&String>| Measurement {
+    let row = |q: &[f64; 6], stand: &Stand, point: Option<&String>| Measurement {
         line: Line::default(),
         id: String::new(),
         q: *q,
@@ -47,17 +49,18 @@ pub(super) fn imagined(
         point: point.cloned(),
         point_in_tool_m: None,
         conditions: Conditions::default(),
+        stand: stand.clone(),
         sigma_m: None,
         sigma_rad: None,
         purpose: None,
         contact: None,
     };
     let mut rows = Vec::new();
-    for q in joints {
+    for (q, stand) in joints.iter().zip(stands) {
         if profile.points.is_empty() {
-            rows.push(row(q, None));
+            rows.push(row(q, stand, None));
         }
-        rows.extend(profile.points.keys().map(|name| row(q, Some(name))));
+        rows.extend(profile.points.keys().map(|name| row(q, stand, Some(name))));
     }
     let measurements = Measurements {
         rows,
@@ -151,16 +154,46 @@ impl pulp::NullaryFnOnce for Pass<'_> {
 }
 
 impl Derivatives {
-    /// Of configurations that are measured as those of a problem are, by its parameters; `sigma_m` is the standard deviation of a
+    /// Of configurations with external axes at some places, `at` of each: a place's are measured as some rows of a problem are.
+    pub(super) fn of_places(
+        problem: &Problem,
+        estimate: &Estimate,
+        (joints, at): (&[[f64; 6]], &[usize]),
+        rows_of: &[Range<usize>],
+        sigma_m: f64,
+    ) -> Self {
+        if let [rows] = rows_of {
+            return Self::of_joints(problem, estimate, joints, rows.clone(), sigma_m);
+        }
+        let mut all = Self {
+            height: 0,
+            width: problem.parameters.len(),
+            cells: Vec::new(),
+        };
+        for (place, rows) in rows_of.iter().enumerate() {
+            let own: Vec<usize> = (0..joints.len()).filter(|i| at[*i] == place).collect();
+            let there: Vec<[f64; 6]> = own.iter().map(|i| joints[*i]).collect();
+            let found = Self::of_joints(problem, estimate, &there, rows.clone(), sigma_m);
+            all.height = found.height;
+            let size = all.height * all.width;
+            all.cells.resize(joints.len() * size, 0.0);
+            for (cells, i) in found.cells.chunks_exact(size).zip(own) {
+                all.cells[i * size..][..size].copy_from_slice(cells);
+            }
+        }
+        all
+    }
+
+    /// Of configurations that are measured as these rows of a problem are, by its parameters; `sigma_m` is the standard deviation of a
     /// coordinate.
     pub(super) fn of_joints(
         problem: &Problem,
         estimate: &Estimate,
         joints: &[[f64; 6]],
-        rows: usize,
+        rows: Range<usize>,
         sigma_m: f64,
     ) -> Self {
-        let rows = &problem.rows[..rows];
+        let rows = &problem.rows[rows];
         let height: usize = rows.iter().map(|row| row.observed.count()).sum();
         let width = problem.parameters.len();
         let models = problem.models(estimate, &problem.parameters);
@@ -330,10 +363,13 @@ mod tests {
                 selection.identify =
                     super::super::parameters::Pick::parse_list(named).expect("a word");
             }
-            let (problem, estimate) =
-                imagined(&profile, &tool, &selection, &joints, poses).expect("rows");
+            let (problem, estimate) = {
+                let none = Stand::default();
+                let stands = vec![&none; joints.len()];
+                imagined(&profile, &tool, &selection, (&joints, &stands), poses).expect("rows")
+            };
             let each = problem.rows.len() / joints.len();
-            let found = Derivatives::of_joints(&problem, &estimate, &joints, each, 2e-4);
+            let found = Derivatives::of_joints(&problem, &estimate, &joints, 0..each, 2e-4);
             assert_eq!(found.count(), joints.len());
             let mine = found.normal(1, 0.5, &problem.parameters).matrix;
             let peer = Normal::of(&problem, &estimate, &problem.parameters, Loss::squares()).matrix;

@@ -1,13 +1,19 @@
 //! Measurements: what a device saw of the tool, one row a reading.
 
 use super::contact::{Contact, ContactKind};
+use super::error::IdentifyError;
+use super::external;
 use super::line::Line;
 use crate::geometry::{Pose, Vector};
 use crate::model::Conditions;
+use crate::model::effects::MOST_EXTERNAL_AXES;
+use crate::model::external::Stand;
 use crate::model::profile::Profile;
 use std::borrow::Cow;
 
 pub use super::fault::{MeasurementError, MeasurementFault};
+
+const MOST_EXTERNAL: usize = MOST_EXTERNAL_AXES as usize;
 
 /// Columns of joint angles.
 pub const JOINT_COLUMNS: [&str; 6] = ["q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg"];
@@ -29,6 +35,21 @@ pub const MOVE_COLUMNS: [&str; 6] = [
     "move4_deg",
     "move5_deg",
     "move6_deg",
+];
+/// Columns of where linear external axes stood, in the order in which a profile lists its axes.
+pub const EXTERNAL_MM_COLUMNS: [&str; MOST_EXTERNAL] = [
+    "e1_mm", "e2_mm", "e3_mm", "e4_mm", "e5_mm", "e6_mm", "e7_mm", "e8_mm", "e9_mm", "e10_mm",
+    "e11_mm", "e12_mm",
+];
+/// Columns of where rotary external axes stood, likewise.
+pub const EXTERNAL_DEG_COLUMNS: [&str; MOST_EXTERNAL] = [
+    "e1_deg", "e2_deg", "e3_deg", "e4_deg", "e5_deg", "e6_deg", "e7_deg", "e8_deg", "e9_deg",
+    "e10_deg", "e11_deg", "e12_deg",
+];
+/// Columns of the directions in which external axes last moved.
+pub const EXTERNAL_DIRECTION_COLUMNS: [&str; MOST_EXTERNAL] = [
+    "dir_e1", "dir_e2", "dir_e3", "dir_e4", "dir_e5", "dir_e6", "dir_e7", "dir_e8", "dir_e9",
+    "dir_e10", "dir_e11", "dir_e12",
 ];
 /// Columns of the external force on the tool.
 pub const FORCE_COLUMNS: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
@@ -122,6 +143,8 @@ pub struct Measurement {
     pub point_in_tool_m: Option<Vector>,
     /// Direction, force, temperature, time.
     pub conditions: Conditions,
+    /// Where external axes stood.
+    pub stand: Stand,
     /// Standard uncertainty of a coordinate or distance, metres.
     pub sigma_m: Option<f64>,
     /// Standard uncertainty of an orientation about an axis, radians.
@@ -186,12 +209,15 @@ impl Measurements {
     }
 
     /// The readings in the controller's world, by where the profile has the device.
-    #[must_use]
-    pub fn in_world_of(&self, profile: &Profile) -> Cow<'_, Self> {
-        match &profile.device {
+    ///
+    /// # Errors
+    /// External axes that the profile lists and the readings do not say, or the other way round; one beyond its limits.
+    pub fn in_world_of(&self, profile: &Profile) -> Result<Cow<'_, Self>, IdentifyError> {
+        external::agree(self, profile)?;
+        Ok(match &profile.device {
             Some(device) => Cow::Owned(self.moved(&device.world_from_device)),
             None => Cow::Borrowed(self),
-        }
+        })
     }
 
     /// Those rows that `keep` wants.
@@ -208,13 +234,15 @@ impl Measurements {
         }
     }
 
-    /// The number of the configuration of each row: rows in sequence with the same joint angles are one, from 0.
+    /// The number of the configuration of each row: rows in sequence with the same joint angles, and external axes at the same
+    /// places, are one, from 0.
     #[must_use]
     pub fn configurations(&self) -> Vec<usize> {
         let mut number = 0;
         let mut all = Vec::with_capacity(self.rows.len());
         for (i, row) in self.rows.iter().enumerate() {
-            if i > 0 && row.q != self.rows[i - 1].q {
+            let before = &self.rows[i.saturating_sub(1)];
+            if row.q != before.q || row.stand.bits() != before.stand.bits() {
                 number += 1;
             }
             all.push(number);

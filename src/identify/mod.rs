@@ -53,6 +53,7 @@ pub mod doubt;
 mod error;
 mod exchange;
 pub mod expectation;
+pub mod external;
 mod fault;
 mod imagined;
 mod line;

@@ -318,6 +318,7 @@ mod tests {
     use crate::identify::parameters::{Level, Pick, Selection};
     use crate::identify::random::Random;
     use crate::identify::simulate::{Command, Session, simulate};
+    use crate::model::external::Stand;
     use crate::model::profile::Profile;
 
     #[test]
@@ -329,6 +330,7 @@ mod tests {
         let commands: Vec<Command> = (0..20)
             .map(|_| Command {
                 q: [0.0; 6].map(|_: f64| random.between(-1.5, 1.5)),
+                stand: Stand::default(),
                 conditions: None,
             })
             .collect();

@@ -2,7 +2,7 @@
 
 use super::error::SelectionError;
 use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey, Unit};
-use crate::model::profile::Profile;
+use crate::model::profile::{Profile, is_of_profile};
 use crate::model::{JOINTS, Slot};
 
 /// Axes are parallel where the sine of the angle between them is below this: there β stands for the d it makes redundant.
@@ -70,7 +70,7 @@ impl Parameter {
 }
 
 /// Parameters by the words of the command line: `link_geometry`, `joint_compliance:2-6`, `joint_harmonic:6:2`,
-/// `link_geometry:3.beta_deg`, `points`.
+/// `link_geometry:3.beta_deg`, `track_straightness:1:y:2-4`, `points`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pick {
     /// The effect; none are the measured points.
@@ -79,9 +79,34 @@ pub struct Pick {
     pub places: Vec<(u32, u32)>,
     /// One parameter alone.
     pub key: Option<&'static str>,
+    /// It is one of several that a word means together: what the data hardly tell of it is left as it is.
+    pub together: bool,
 }
 
+/// The word for what is wrong with a track.
+const TRACK: &str = "track";
+/// What it means: in every direction and up to the degrees that a rail of some metres usually has.
+const OF_TRACK: [&str; 4] = [
+    "track_scale",
+    "track_direction",
+    "track_straightness:1-12:y-z:2-3",
+    "track_rotation:1-12:x-z:1-2",
+];
+
 impl Pick {
+    /// What is wrong with a track, as far as measurements usually tell it.
+    ///
+    /// # Panics
+    /// Never: the words are ours.
+    #[must_use]
+    pub fn track() -> Vec<Self> {
+        let words = OF_TRACK.iter().map(|word| Self {
+            together: true,
+            ..Self::parse(word).expect("words of effects")
+        });
+        words.collect()
+    }
+
     /// Reads one word.
     ///
     /// # Errors
@@ -107,6 +132,7 @@ impl Pick {
                 kind: None,
                 places: Vec::new(),
                 key: None,
+                together: false,
             });
         }
         let kind =
@@ -116,7 +142,7 @@ impl Pick {
             .site
             .iter()
             .copied()
-            .filter(|place| place.range().is_some())
+            .filter(|place| place.numbers().is_some())
             .collect();
         let mut places = Vec::new();
         for word in words {
@@ -128,17 +154,24 @@ impl Pick {
             let place = counted
                 .get(places.len())
                 .ok_or_else(|| bad("no more numbers".into()))?;
-            let (low, high) = place.range().expect("a counted place");
+            let (low, high) = place.numbers().expect("a counted place");
             let (first, last) = word.split_once('-').unwrap_or((word, word));
-            let parsed = place.from_files(first).zip(place.from_files(last));
+            let parsed = place.from_word(first).zip(place.from_word(last));
             let range = parsed.filter(|(a, b)| a <= b);
             let is_base = *place == SiteKey::JointOrBase && word == BASE_WORD;
             let range = range.or(is_base.then_some((BASE_NUMBER, BASE_NUMBER)));
             let name = place.key();
             places.push(range.ok_or_else(|| {
-                let (low, high) = (place.in_files(low), place.in_files(high));
+                let (low, high) = (place.in_word(low), place.in_word(high));
                 bad(format!("{name}: a number or range from {low} to {high}"))
             })?);
+        }
+        if counted.contains(&SiteKey::Period) && places.len() < counted.len() {
+            return Err(SelectionError::BadPlace {
+                id: definition.id,
+                found: head.into(),
+                expected: "axis, direction and period in mm: track_ripple:1:x:25".into(),
+            });
         }
         let key = match key {
             None => None,
@@ -155,6 +188,7 @@ impl Pick {
             kind: Some(kind),
             places,
             key,
+            together: false,
         })
     }
 
@@ -167,7 +201,7 @@ impl Pick {
             let number = number(effect, *place)?;
             Some(match place {
                 SiteKey::JointOrBase if number == BASE_NUMBER => format!(":{BASE_WORD}"),
-                _ => format!(":{}", place.in_files(number)),
+                _ => format!(":{}", place.in_word(number)),
             })
         });
         definition.id.to_owned() + &words.collect::<String>()
@@ -182,6 +216,7 @@ impl Pick {
             kind: Some(effect.kind),
             places: numbers.map(|n| (n, n)).collect(),
             key: None,
+            together: false,
         }
     }
 
@@ -191,7 +226,15 @@ impl Pick {
     /// As [`Pick::parse`].
     pub fn parse_list(text: &str) -> Result<Vec<Self>, SelectionError> {
         let words = text.split(',').map(str::trim).filter(|w| !w.is_empty());
-        words.map(Self::parse).collect()
+        let mut all = Vec::new();
+        for word in words {
+            if word == TRACK {
+                all.extend(Self::track());
+            } else {
+                all.push(Self::parse(word)?);
+            }
+        }
+        Ok(all)
     }
 
     fn holds(&self, effect: &Effect, key: &str) -> bool {
@@ -225,6 +268,25 @@ impl Pick {
                 .all(|((a, b), n)| (*a..=*b).contains(&n))
     }
 
+    /// Whether an effect that this means may show: of an external axis, that the profile has it, and that it stood at more places
+    /// than the effect has numbers. A degree that is named alone is sought in any case.
+    fn is_shown(&self, effect: &Effect, profile: &Profile, places: &[usize]) -> bool {
+        let site = effect.definition().site;
+        if !effect.definition().of_external_axis() {
+            return true;
+        }
+        let by_name = match self.places.last() {
+            Some((low, high)) if self.places.len() == site.len() => low == high,
+            _ => false,
+        };
+        let is_power = site
+            .iter()
+            .any(|place| matches!(place, SiteKey::Degree(..)));
+        let degree = if is_power { effect.site.order } else { 0 };
+        let stood = places.get(effect.site.index).copied().unwrap_or(0);
+        is_of_profile(effect, &profile.external) && (by_name || stood >= degree as usize + 2)
+    }
+
     /// The effects this means, as they are begun with.
     #[must_use]
     pub fn effects(&self) -> Vec<Effect> {
@@ -236,14 +298,13 @@ impl Pick {
             .definition()
             .site
             .iter()
-            .filter(|p| p.range().is_some());
+            .filter(|p| p.numbers().is_some());
         for (n, place) in counted.enumerate() {
             let default = match place {
                 SiteKey::Order | SiteKey::Row => (place.one(), place.one()),
-                SiteKey::Axis => (1, 1),
-                SiteKey::Degree(low, _) => (*low, *low),
                 SiteKey::JointOrBase => (BASE_NUMBER, BASE_NUMBER),
-                _ => (1, 6),
+                SiteKey::Link | SiteKey::Joint | SiteKey::On => (1, 6),
+                other => other.numbers().unwrap_or_default(),
             };
             let (low, high) = self.places.get(n).copied().unwrap_or(default);
             sites = sites
@@ -291,9 +352,11 @@ fn number(effect: &Effect, place: SiteKey) -> Option<u32> {
         SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
             effect.site.index + 1
         }
-        SiteKey::On => effect.site.on + 1,
-        SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) => return Some(effect.site.order),
-        SiteKey::Tool | SiteKey::Along(_) | SiteKey::About(_) | SiteKey::Period => return None,
+        SiteKey::On | SiteKey::Along(_) | SiteKey::About(_) => effect.site.on + 1,
+        SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) | SiteKey::Period => {
+            return Some(effect.site.order);
+        }
+        SiteKey::Tool => return None,
     };
     u32::try_from(index).ok()
 }
@@ -304,9 +367,11 @@ fn with(site: &Site, place: SiteKey, value: u32) -> Site {
         SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
             site.index = value as usize - 1;
         }
-        SiteKey::On => site.on = value as usize - 1,
-        SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) => site.order = value,
-        SiteKey::Tool | SiteKey::Along(_) | SiteKey::About(_) | SiteKey::Period => {}
+        SiteKey::On | SiteKey::Along(_) | SiteKey::About(_) => site.on = value as usize - 1,
+        SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) | SiteKey::Period => {
+            site.order = value;
+        }
+        SiteKey::Tool => {}
     }
     site
 }
@@ -365,6 +430,8 @@ pub(super) struct Seen {
     pub unknown_points: Vec<(usize, String)>,
     /// Joints that carry a torque that changes.
     pub loaded: [bool; JOINTS],
+    /// At how many places each external axis stood.
+    pub places: Vec<usize>,
     /// Parameters of unknown features, which are kept first.
     pub features: Vec<Parameter>,
 }
@@ -485,8 +552,17 @@ pub(super) fn choose(
             );
         }
     }
-    for pick in &selection.identify {
+    let of_track = matches!(selection.level, Level::Geometry | Level::Compliance);
+    let of_track = if of_track && !profile.external.track.is_empty() {
+        Pick::track()
+    } else {
+        Vec::new()
+    };
+    for pick in of_track.iter().chain(&selection.identify) {
         for effect in pick.effects() {
+            if !pick.is_shown(&effect, profile, &seen.places) {
+                continue;
+            }
             let mut effect = effect;
             if effect.kind == Kind::ToolFrame {
                 effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
@@ -518,7 +594,8 @@ pub(super) fn choose(
             scale,
             rank: rank(profile, effect, key),
             prior: (selection.priors && effect.kind != Kind::BaseFrame).then_some((0.0, scale)),
-            asked: (selection.identify.iter()).any(|pick| pick.holds(effect, key)),
+            asked: (selection.identify.iter())
+                .any(|pick| !pick.together && pick.holds(effect, key)),
         });
     }
     let fixed = selection.fix.iter().any(|pick| pick.kind.is_none());
@@ -546,7 +623,7 @@ pub(super) fn choose(
 #[must_use]
 pub fn words() -> Vec<&'static str> {
     let ids = REGISTRY.iter().map(|kind| kind.definition().id);
-    ids.chain(["points"]).collect()
+    ids.chain(["points", TRACK]).collect()
 }
 
 #[cfg(test)]

@@ -12,8 +12,11 @@ use super::imagined::{Derivatives, imagined};
 use super::parameters::{Parameter, Selection};
 use super::problem::DEFAULT_SIGMA_M;
 use super::random::Random;
+use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Parameters that random configurations tell too badly are given up only where even this part of their standard deviations
 /// is too much: a chosen set tells more, and what was measured decides in the end.
@@ -40,6 +43,10 @@ pub struct Request {
     pub poses: bool,
     /// Configurations that are in the set already, radians.
     pub given: Vec<[f64; 6]>,
+    /// Where external axes stand in these; nothing without a track.
+    pub given_stands: Vec<Stand>,
+    /// At how many places of each axis of a track, evenly over its limits.
+    pub stations: usize,
     /// What they must meet.
     pub constraints: Constraints,
 }
@@ -49,6 +56,8 @@ pub struct Request {
 pub struct Plan {
     /// Joint angles, radians: the given ones first.
     pub joints: Vec<[f64; 6]>,
+    /// Where external axes stand in each; nothing without a track.
+    pub stands: Vec<Stand>,
     /// Indices of the candidates chosen.
     pub chosen: Vec<usize>,
     /// Parameters, determined or not.
@@ -107,16 +116,35 @@ pub fn plan_telling(
     )?;
     let mut all = request.given.clone();
     all.extend(&pool);
+    let (places, at) = stations(profile, request, pool.len())?;
     // what some hundreds of configurations cannot tell apart, none can
     let every = all.len().div_ceil(SAMPLE).max(1);
-    let sample: Vec<[f64; 6]> = all.iter().step_by(every).copied().collect();
-    let (problem, estimate) = imagined(profile, tool, selection, &sample, request.poses)?;
+    let mut sample: Vec<usize> = (0..all.len()).step_by(every).collect();
+    // with every place that is used
+    let used: BTreeSet<usize> = at.iter().copied().collect();
+    for place in &used {
+        if !sample.iter().any(|i| at[*i] == *place) {
+            sample.extend(at.iter().position(|own| own == place));
+        }
+    }
+    let joints: Vec<[f64; 6]> = sample.iter().map(|i| all[*i]).collect();
+    let stands: Vec<&Stand> = sample.iter().map(|i| &places[at[*i]]).collect();
+    let (problem, estimate) =
+        imagined(profile, tool, selection, (&joints, &stands), request.poses)?;
     let each = problem.rows.len() / sample.len().max(1);
-    let derivatives = Derivatives::of_joints(&problem, &estimate, &all, each, request.sigma_m);
+    let rows_of: Vec<Range<usize>> = (0..places.len())
+        .map(|place| {
+            let first = sample.iter().position(|i| at[*i] == place);
+            let first = first.unwrap_or(0) * each;
+            first..first + each
+        })
+        .collect();
+    let derivatives =
+        Derivatives::of_places(&problem, &estimate, (&all, &at), &rows_of, request.sigma_m);
     // standard deviations of as many configurations as are asked for
     let planned = (request.count + request.given.len()) as f64;
-    let noise =
-        GIVEN_UP * request.sigma_m / DEFAULT_SIGMA_M * (sample.len() as f64 / planned).sqrt();
+    let noise = GIVEN_UP * request.sigma_m / DEFAULT_SIGMA_M
+        * (all.len().div_ceil(every) as f64 / planned).sqrt();
     let normal = derivatives.normal(
         every,
         DEFAULT_SIGMA_M / request.sigma_m,
@@ -196,8 +224,12 @@ pub fn plan_telling(
     }
     let mut joints = request.given.clone();
     joints.extend(chosen.iter().map(|i| pool[*i]));
+    let given = 0..request.given.len();
+    let chosen_at = chosen.iter().map(|i| request.given.len() + i);
+    let stands = given.chain(chosen_at).map(|i| places[at[i]].clone());
     Ok(Plan {
         joints,
+        stands: stands.collect(),
         chosen,
         identifiable: known,
         parameters: problem.parameters,
@@ -207,6 +239,64 @@ pub fn plan_telling(
         exchanges,
         admitted,
     })
+}
+
+/// Places of external axes, and at which of them each configuration is: the given ones first. Without a track there is one, where
+/// nothing is said.
+fn stations(
+    profile: &Profile,
+    request: &Request,
+    count: usize,
+) -> Result<(Vec<Stand>, Vec<usize>), IdentifyError> {
+    let track = &profile.external.track;
+    let given = request.given.len();
+    if track.is_empty() {
+        return Ok((vec![Stand::default()], vec![0; given + count]));
+    }
+    let c = &request.constraints;
+    if c.inside.is_some() || !c.keep_out.is_empty() || c.sight.is_some() {
+        return Err(IdentifyError::Suspicious {
+            message: "boxes of the world and the place of the device are not minded where a track carries the base".into(),
+            hint: "leave them out and look where the plan goes, or plan each place of the rail with a profile that stands there and has no `external_axes`".into(),
+        });
+    }
+    if request.stations < 2 || given != request.given_stands.len() {
+        return Err(IdentifyError::Suspicious {
+            message: format!(
+                "{} places along the track, and {} of {given} given configurations say where they are: at least 2 places, and all",
+                request.stations,
+                request.given_stands.len()
+            ),
+            hint: "--stations 11, and columns e1_mm … in --given".into(),
+        });
+    }
+    let mut places: Vec<Stand> = Vec::new();
+    let mut at = Vec::with_capacity(given + count);
+    let mut place = |stand: Stand| {
+        let known = places.iter().position(|known| *known == stand);
+        at.push(known.unwrap_or_else(|| {
+            places.push(stand);
+            places.len() - 1
+        }));
+    };
+    for stand in &request.given_stands {
+        place(Stand {
+            values: stand.values[..track.len().min(stand.values.len())].to_vec(),
+            directions: Vec::new(),
+        });
+    }
+    let mut random = Random::new(request.seed ^ 0x7ac4);
+    for _ in 0..count {
+        let values = track.iter().map(|axis| {
+            let part = random.below(request.stations) as f64 / (request.stations - 1) as f64;
+            axis.min_m + part * (axis.max_m - axis.min_m)
+        });
+        place(Stand {
+            values: values.collect(),
+            directions: Vec::new(),
+        });
+    }
+    Ok((places, at))
 }
 
 #[cfg(test)]
@@ -232,6 +322,8 @@ mod tests {
             sigma_m: 5e-5,
             poses: false,
             given: Vec::new(),
+            given_stands: Vec::new(),
+            stations: 11,
             constraints: Constraints {
                 approach_rad: 0.09,
                 ..Constraints::default()
@@ -241,8 +333,14 @@ mod tests {
         let random: f64 = {
             let (pool, _) =
                 candidates(&profile, &tool, &request(1).constraints, 400, 3).expect("a pool");
-            let (problem, estimate) =
-                imagined(&profile, &tool, &selection, &pool[..20], false).expect("rows");
+            let (problem, estimate) = imagined(
+                &profile,
+                &tool,
+                &selection,
+                (&pool[..20], &vec![&Stand::default(); 20]),
+                false,
+            )
+            .expect("rows");
             let kept: Vec<Parameter> = one
                 .identifiable
                 .kept
@@ -314,13 +412,18 @@ mod tests {
             sigma_m: 5e-5,
             poses: false,
             given: Vec::new(),
+            given_stands: Vec::new(),
+            stations: 11,
             constraints: Constraints::default(),
         };
         let found = plan(&profile, &tool, &selection, &request).expect("a plan");
         let (pool, _) = candidates(&profile, &tool, &request.constraints, 5000, 1).expect("a pool");
-        let (problem, estimate) =
-            imagined(&profile, &tool, &selection, &pool, false).expect("rows");
-        let all = Derivatives::of_joints(&problem, &estimate, &pool, 1, 1.0);
+        let (problem, estimate) = {
+            let none = Stand::default();
+            let stands = vec![&none; pool.len()];
+            imagined(&profile, &tool, &selection, (&pool, &stands), false).expect("rows")
+        };
+        let all = Derivatives::of_joints(&problem, &estimate, &pool, 0..1, 1.0);
         let all: Vec<DMatrix<f64>> = (0..5000).map(|i| all.columns(i).transpose()).collect();
         let mut random = Random::new(9);
         let width = problem.parameters.len();

@@ -2,13 +2,15 @@
 
 use super::contact::{self, Feature, MOST_VALUES};
 use super::error::IdentifyError;
+use super::external;
 use super::measurements::{Measurement, Measurements, Observed};
 use super::observation::Observation;
-use super::parameters::{Parameter, Seen, Selection, Subject, choose};
+use super::parameters::{Parameter, Pick, Seen, Selection, Subject, choose};
 use crate::geometry::{Pose, Vector};
 use crate::model::effects::{Effect, Kind, Need};
-use crate::model::profile::{Mounted, Profile};
-use crate::model::{Conditions, Mechanism, Sensitivity, Slot};
+use crate::model::external::Stand;
+use crate::model::profile::{Mounted, Profile, is_of_profile};
+use crate::model::{Conditions, Geometry, Mechanism, Sensitivity, Slot};
 use std::collections::BTreeMap;
 
 /// The standard deviation of a row that gives none, metres.
@@ -44,6 +46,8 @@ pub struct Row {
     pub point: PointRef,
     /// Direction, force, temperature, time.
     pub conditions: Conditions,
+    /// Where external axes stood.
+    pub stand: Stand,
     /// Standard deviation of a length, metres.
     pub sigma_m: f64,
     /// Standard deviation of an orientation about an axis, radians.
@@ -97,13 +101,16 @@ impl Estimate {
     }
 }
 
-/// Which arm a row is measured with: rows with the same tool, and the same temperature and time where these matter.
+/// Which arm a row is measured with: rows with the same tool, the base carried to the same place, and the same temperature and
+/// time where these matter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
     /// Index of the tool.
     pub tool: usize,
     /// Conditions that change the geometry.
     pub conditions: Conditions,
+    /// Where external axes that carry the base stand.
+    pub stand: Stand,
 }
 
 /// Measurements of one robot, its effects, and which parameters are identified.
@@ -126,7 +133,7 @@ pub struct Problem {
     /// Whether some row has no standard deviation of its own.
     pub sigma_assumed: bool,
     /// Whether the estimated base stands in the frame of a device that may be tilted: gravity is then along the axes of the
-    /// base as the profile has them, wherever the device sees the base.
+    /// base as the profile has them, wherever the device sees the base; so is the track that carries it.
     pub gravity_by_base: bool,
 }
 
@@ -206,6 +213,30 @@ fn loaded(profile: &Profile, tools: &[Mounted], rows: &[Row], gravity_known: boo
     })
 }
 
+/// Effects that are asked for by name must be of axes that the profile has, and that the measured tool shows.
+fn refuse_others_axes(profile: &Profile, asked: &[Pick]) -> Result<(), IdentifyError> {
+    for pick in asked.iter().filter(|pick| !pick.together) {
+        let Some(kind) = pick
+            .kind
+            .filter(|kind| kind.definition().of_external_axis())
+        else {
+            continue;
+        };
+        let id = kind.definition().id;
+        if id.starts_with("positioner_") {
+            let need =
+                "points on the plate: a tool that a device sees shows nothing of a positioner";
+            return Err(IdentifyError::Missing { id, need });
+        }
+        let effects = pick.effects();
+        if !effects.iter().any(|e| is_of_profile(e, &profile.external)) {
+            let need = "a linear axis of that number under `external_axes: track:` of the profile";
+            return Err(IdentifyError::Missing { id, need });
+        }
+    }
+    Ok(())
+}
+
 impl Problem {
     /// Makes rows of measurements and chooses what is identified. The second value is where to start: the profile's own
     /// values, with the base at `world_from_base`.
@@ -250,6 +281,7 @@ impl Problem {
                     row: u32::try_from(index + 1).ok(),
                     ..m.conditions
                 },
+                stand: m.stand.clone(),
                 sigma_m,
                 sigma_rad: m.sigma_rad.unwrap_or(sigma_m / LEVER_M),
                 rig: 0,
@@ -292,7 +324,9 @@ impl Problem {
                 .collect(),
             loaded: loaded(&placed, &tools, &rows, true),
             features: contact::parameters(&features),
+            places: external::places(&profile.external, measurements),
         };
+        refuse_others_axes(profile, &selection.identify)?;
         let (effects, parameters) = choose(profile, selection, &seen);
         if parameters.is_empty() {
             return Err(IdentifyError::NoParameters);
@@ -351,7 +385,7 @@ impl Problem {
                 let met = match need {
                     Need::Masses => masses,
                     Need::Directions => measurements.has(&super::measurements::DIRECTION_COLUMNS),
-                    Need::ExternalDirections => false,
+                    Need::ExternalDirections => self.rows.iter().any(|row| row.stand.is_directed()),
                     Need::Temperature => measurements.has(&["temperature_c"]),
                     Need::Time => measurements.has(&["time_s"]),
                     Need::Order | Need::NoTime => true,
@@ -372,13 +406,19 @@ impl Problem {
 
     /// Gives every row its geometry; one a tool unless an effect changes the geometry with the row's conditions.
     pub fn sort_rigs(&mut self, effects: &[Effect]) {
-        let plain = |need: &Need| matches!(need, Need::Masses | Need::Directions);
+        let plain = |need: &Need| {
+            matches!(
+                need,
+                Need::Masses | Need::Directions | Need::ExternalDirections
+            )
+        };
         let varies = effects.iter().any(|effect| {
             let definition = effect.definition();
             !definition.deflects && !definition.needs.iter().all(plain)
         });
         self.rigs.clear();
-        let mut known: BTreeMap<(usize, u64, u64), usize> = BTreeMap::new();
+        let on_track = !self.profile.external.track.is_empty();
+        let mut known: BTreeMap<(usize, u64, u64, Vec<u64>), usize> = BTreeMap::new();
         for row in &mut self.rows {
             let conditions = if varies {
                 Conditions {
@@ -394,11 +434,17 @@ impl Problem {
                 row.tool,
                 bits(conditions.temperature_c),
                 bits(conditions.time_s),
+                if on_track {
+                    row.stand.bits()
+                } else {
+                    Vec::new()
+                },
             );
             row.rig = *known.entry(key).or_insert_with(|| {
                 self.rigs.push(Rig {
                     tool: row.tool,
                     conditions,
+                    stand: row.stand.clone(),
                 });
                 self.rigs.len() - 1
             });
@@ -426,8 +472,11 @@ impl Problem {
         self.rigs
             .iter()
             .map(|rig| {
-                let mut geometry = self.profile.geometry(&self.tools[rig.tool]);
-                geometry.world_from_base = estimate.world_from_base;
+                let mut geometry = Geometry {
+                    world_from_base: estimate.world_from_base,
+                    carried: self.profile.carried(&rig.stand, self.gravity_by_base),
+                    ..self.profile.geometry(&self.tools[rig.tool])
+                };
                 if let Some(tilt) = tilt {
                     geometry.gravity_m_s2 = tilt * geometry.gravity_m_s2;
                 }
@@ -489,6 +538,8 @@ impl Problem {
             let key: Vec<u64> = numbers
                 .chain(&other)
                 .chain(&from)
+                .chain(&row.stand.values)
+                .chain(&row.stand.directions)
                 .map(|x| x.to_bits())
                 .collect();
             let point = match row.point {

@@ -3,14 +3,16 @@
 use super::contact;
 use super::fault::{MeasurementError, MeasurementFault, UNIT_TOLERANCE, beyond};
 use super::measurements::{
-    CENTRE_COLUMNS, DIFFERENCE_COLUMNS, DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS,
-    JOINT_COLUMNS, MOVE_COLUMNS, Measurement, Measurements, NORMAL_COLUMNS, Observed,
-    POINT_COLUMNS, POSITION_COLUMNS, Purpose, QUATERNION_COLUMNS, TARGET_COLUMNS, last_moves,
+    CENTRE_COLUMNS, DIFFERENCE_COLUMNS, DIRECTION_COLUMNS, DISTANCE_COLUMNS, EXTERNAL_DEG_COLUMNS,
+    EXTERNAL_DIRECTION_COLUMNS, EXTERNAL_MM_COLUMNS, FORCE_COLUMNS, JOINT_COLUMNS, MOVE_COLUMNS,
+    Measurement, Measurements, NORMAL_COLUMNS, Observed, POINT_COLUMNS, POSITION_COLUMNS, Purpose,
+    QUATERNION_COLUMNS, TARGET_COLUMNS, last_moves,
 };
 use super::table::{Euler, Grid, Mapping, Row, Table};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion, Vector, add};
 use crate::model::Conditions;
+use crate::model::external::Stand;
 
 /// Smallest standard deviation, metres.
 const LEAST_SIGMA_M: f64 = 1e-12;
@@ -206,6 +208,26 @@ impl Cells<'_> {
         )))
     }
 
+    /// Where external axes stood.
+    fn stand(&self) -> Result<Stand, MeasurementError> {
+        let mut stand = Stand::default();
+        let columns = EXTERNAL_MM_COLUMNS.into_iter().zip(EXTERNAL_DEG_COLUMNS);
+        let columns = columns.zip(EXTERNAL_DIRECTION_COLUMNS);
+        for (k, ((mm, deg), direction)) in columns.enumerate() {
+            let value = match self.optional(mm)? {
+                Some(mm) => Some(m_from_mm(mm)),
+                None => self.optional(deg)?.map(|deg| deg * DEG),
+            };
+            put(&mut stand.values, k, value, f64::NAN);
+            let moved = self.optional(direction)?;
+            if let Some(moved) = moved.filter(|moved| ![-1.0, 0.0, 1.0].contains(moved)) {
+                return Err(self.not_allowed(direction, moved.to_string(), "-1, 0 or 1"));
+            }
+            put(&mut stand.directions, k, moved, 0.0);
+        }
+        Ok(stand)
+    }
+
     fn measurement(&self, number: usize, kinds: Kinds) -> Result<Measurement, MeasurementError> {
         let q = self.numbers(JOINT_COLUMNS)?.map(|q| q * DEG);
         let own_columns = self
@@ -274,7 +296,16 @@ impl Cells<'_> {
                 return Err(self.not_allowed(column, found, allowed));
             }
         };
+        if let Some(on) = self.name("on")?.filter(|on| on != "tool") {
+            let allowed = "tool: points on a plate, and tools seen from a part, are not read";
+            return Err(self.not_allowed("on", format!("`{on}`"), allowed));
+        }
         let contact = self.contact(kinds)?;
+        let stand = if kinds.external {
+            self.stand()?
+        } else {
+            Stand::default()
+        };
         Ok(Measurement {
             line: self.reader.table.line(self.row).into(),
             id: self
@@ -289,11 +320,20 @@ impl Cells<'_> {
             point,
             point_in_tool_m,
             conditions,
+            stand,
             sigma_m,
             sigma_rad,
             purpose,
             contact,
         })
+    }
+}
+
+/// Puts a number at its place; what is between it and the others is `unknown`.
+fn put(into: &mut Vec<f64>, at: usize, value: Option<f64>, unknown: f64) {
+    if let Some(value) = value {
+        into.resize(at, unknown);
+        into.push(value);
     }
 }
 
@@ -313,6 +353,7 @@ pub(super) struct Kinds {
     moves: bool,
     force: bool,
     contact: bool,
+    external: bool,
     pub(super) probe: bool,
 }
 
@@ -353,6 +394,19 @@ impl Measurements {
                 return Err(reader.whole_file(MeasurementFault::Csv { message, hint }));
             }
         }
+        let mut external = false;
+        for (mm, deg) in EXTERNAL_MM_COLUMNS.into_iter().zip(EXTERNAL_DEG_COLUMNS) {
+            let [has_mm, has_deg] = [reader.group(&[mm])?, reader.group(&[deg])?];
+            if has_mm && has_deg {
+                let message = format!("the file has both {mm} and {deg}");
+                let hint = "an external axis is linear or rotary: one column each".to_owned();
+                return Err(reader.whole_file(MeasurementFault::Csv { message, hint }));
+            }
+            external |= has_mm || has_deg;
+        }
+        for direction in EXTERNAL_DIRECTION_COLUMNS {
+            external |= reader.group(&[direction])?;
+        }
         let kinds = Kinds {
             position: position || by_sum,
             quaternion,
@@ -364,6 +418,7 @@ impl Measurements {
             moves: reader.group(&MOVE_COLUMNS)?,
             force: reader.group(&FORCE_COLUMNS)?,
             contact: reader.group(&["contact"])?,
+            external,
             probe: reader.group(&["probe_radius_mm"])?,
         };
         for single in [
@@ -375,6 +430,7 @@ impl Measurements {
             "sigma_mm",
             "sigma_deg",
             "set",
+            "on",
         ] {
             reader.group(&[single])?;
         }

@@ -61,7 +61,11 @@ fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
     for (i, row) in measurements.rows.iter().enumerate() {
         if row.observed.point_m().is_some() {
             let key = (
-                row.q.iter().map(|q| q.to_bits()).collect(),
+                row.q
+                    .iter()
+                    .chain(&row.stand.values)
+                    .map(|x| x.to_bits())
+                    .collect(),
                 row.point.clone(),
             );
             groups.entry(key).or_default().push(i);

@@ -3,6 +3,7 @@
 use super::measurements::{Measurement, Observed, last_moves};
 use super::random::Random;
 use crate::geometry::{Pose, Rotation, Vector, add, norm, sub};
+use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 
@@ -58,8 +59,19 @@ impl Default for Session {
 pub struct Command {
     /// Joint angles, radians.
     pub q: [f64; 6],
+    /// Where external axes stand; their directions are those from the configuration before where they are not given.
+    pub stand: Stand,
     /// Directions and force; directions are those from the configuration before where they are not given.
     pub conditions: Option<Conditions>,
+}
+
+/// From which side a joint or axis comes: −1, 0, or +1.
+fn side(from: f64, to: f64) -> f64 {
+    match to.total_cmp(&from) {
+        std::cmp::Ordering::Less => -1.0,
+        std::cmp::Ordering::Equal => 0.0,
+        std::cmp::Ordering::Greater => 1.0,
+    }
 }
 
 fn noise(random: &mut Random, sigma: f64) -> Vector {
@@ -84,16 +96,17 @@ pub fn simulate(
     for (i, command) in commands.iter().enumerate() {
         let mut conditions = command.conditions.unwrap_or_else(|| {
             let before = &commands[i.saturating_sub(1)].q;
-            let moved = |j: usize| match command.q[j].total_cmp(&before[j]) {
-                std::cmp::Ordering::Less => -1.0,
-                std::cmp::Ordering::Equal => 0.0,
-                std::cmp::Ordering::Greater => 1.0,
-            };
             Conditions {
-                direction: std::array::from_fn(moved),
+                direction: std::array::from_fn(|j| side(before[j], command.q[j])),
                 ..Conditions::default()
             }
         });
+        let mut stand = command.stand.clone();
+        if stand.directions.is_empty() {
+            let before = &commands[i.saturating_sub(1)].stand.values;
+            let both = before.iter().zip(&stand.values);
+            stand.directions = both.map(|(from, to)| side(*from, *to)).collect();
+        }
         conditions.moved = moves[i];
         let part = i as f64 / (count.max(2) - 1) as f64;
         if let Some([first, last]) = session.temperature_c {
@@ -102,7 +115,7 @@ pub fn simulate(
         if let Some(interval) = session.interval_s {
             conditions.time_s = Some(interval * i as f64);
         }
-        let model: Model = profile.real_model(tool, &conditions);
+        let model: Model = profile.real_model_at(tool, &conditions, &stand);
         let pose = model.forward(&command.q, &conditions);
         for (name, point) in points {
             let (shift, turn) = (
@@ -142,6 +155,7 @@ pub fn simulate(
                 point: name.clone(),
                 point_in_tool_m: None,
                 conditions,
+                stand: stand.clone(),
                 sigma_m: (session.noise_m > 0.0).then_some(session.noise_m),
                 sigma_rad: (session.noise_rad > 0.0).then_some(session.noise_rad),
                 purpose: None,

@@ -3,6 +3,7 @@
 use super::measurements::{Measurements, Observed};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, cross, dot, norm, scale, sub};
 use crate::model::effects::Kind;
+use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix4};
@@ -25,7 +26,7 @@ const TRIED_ORIENTATIONS: usize = 5;
 /// One reading reduced to what the start needs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
-    /// `base_from_flange` by the nominal arm.
+    /// `base_from_flange` by the nominal arm, from the base as it stands at home.
     pub flange: Pose,
     /// The point seen in the world, metres.
     pub seen: Vector,
@@ -94,6 +95,15 @@ pub(super) fn bare_arm(profile: &Profile) -> Model {
         &effects,
         &Conditions::default(),
     )
+}
+
+/// Where the base is carried to, seen from where it stands at home, as the profile has its track.
+fn carried(profile: &Profile, stand: &Stand) -> Pose {
+    profile
+        .carried(stand, true)
+        .map_or_else(Pose::identity, |carried| {
+            carried.carry(Pose::identity(), &profile.effects)
+        })
 }
 
 /// `b_from_a` that takes the points `a` nearest to the points `b`.
@@ -392,7 +402,7 @@ fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> 
         let tool = tool
             .and_then(|t| profile.tool(t))
             .unwrap_or_else(Mounted::flange);
-        let flange = arm.forward(&row.q, &Conditions::default());
+        let flange = carried(profile, &row.stand) * arm.forward(&row.q, &Conditions::default());
         let named = row
             .point
             .as_ref()
@@ -504,7 +514,7 @@ pub(super) fn sights(
             names.len() - 1
         });
         all.push(Sight {
-            flange: arm.forward(&row.q, &Conditions::default()),
+            flange: carried(profile, &row.stand) * arm.forward(&row.q, &Conditions::default()),
             seen,
             carrier,
         });

@@ -152,7 +152,7 @@ pub fn validate_telling(
     folds: Option<Folds>,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Validation, IdentifyError> {
-    let measurements = &*measurements.in_world_of(profile);
+    let measurements = &*measurements.in_world_of(profile)?;
     let selection = Selection::level(Level::Frames);
     let unknown = measurements.rows.iter().find(|row| {
         row.point_in_tool_m.is_none()
@@ -277,6 +277,7 @@ fn parts(
         .iter()
         .map(|p| norm(sub(*p, middle)))
         .fold(0.0, f64::max);
+    let track = &profile.external.track;
     for (number, (row, miss)) in rows.iter().zip(misses).enumerate() {
         let error = mm_from_m(miss.length_m);
         let mut add = |by, name: String| groups.entry((by, name)).or_default().push(error);
@@ -292,6 +293,23 @@ fn parts(
         }
         if let Some(purpose) = row.purpose {
             add("set", purpose.id().into());
+        }
+        for (k, axis) in track.iter().enumerate() {
+            let width = (axis.max_m - axis.min_m) / REGIONS as f64;
+            let along = row
+                .stand
+                .values
+                .get(k)
+                .map_or(f64::NAN, |e| (e - axis.min_m) / width);
+            if along.is_finite() {
+                let part = along.floor().clamp(0.0, (REGIONS - 1) as f64);
+                let [from, to] = [part, part + 1.0].map(|n| mm_from_m(axis.min_m + width * n));
+                let name = &axis.axis;
+                add(
+                    "track",
+                    format!("{name} {}: {from:.0} to {to:.0} mm", part + 1.0),
+                );
+            }
         }
         if let Some(point) = place(number).filter(|_| far > 0.0) {
             let width = far / REGIONS as f64;

@@ -1,5 +1,8 @@
 //! The lengths, angles and masses that make an arm.
 
+use super::conditions::Conditions;
+use super::effects::Effect;
+use super::external::Carried;
 use crate::geometry::{Pose, Scalar, Vector};
 
 /// One row of modified Denavit–Hartenberg parameters with Hayati's angle β:
@@ -142,6 +145,8 @@ pub struct Geometry<S = f64> {
     pub gravity_m_s2: Vector,
     /// Name of the tool, for effects that belong to one tool.
     pub tool_name: String,
+    /// What carries the base away from where it stands at home, and how far.
+    pub carried: Option<Carried>,
 }
 
 impl Geometry {
@@ -174,6 +179,20 @@ impl Geometry {
                 .map(|(mass, cog)| (S::constant(mass), cog.map(S::constant))),
             gravity_m_s2: self.gravity_m_s2,
             tool_name: self.tool_name.clone(),
+            carried: self.carried.clone(),
         }
+    }
+
+    /// What the effects make of it, with the base where it is carried to.
+    #[must_use]
+    pub fn real<S: Scalar>(&self, effects: &[Effect<S>], conditions: &Conditions) -> Geometry<S> {
+        let mut real: Geometry<S> = self.cast();
+        for effect in effects {
+            effect.change_geometry(conditions, &mut real);
+        }
+        if let Some(carried) = &self.carried {
+            real.world_from_base = carried.carry(real.world_from_base, effects);
+        }
+        real
     }
 }

@@ -38,10 +38,7 @@ impl<S: Scalar> Model<S> {
         effects: &[Effect<S>],
         conditions: &Conditions,
     ) -> Self {
-        let mut real: Geometry<S> = geometry.cast();
-        for effect in effects {
-            effect.change_geometry(conditions, &mut real);
-        }
+        let real = geometry.real(effects, conditions);
         let deflecting: Vec<_> = effects
             .iter()
             .filter(|e| e.definition().deflects)

@@ -121,10 +121,7 @@ impl Column {
     ) -> Self {
         let mut dual: Vec<Effect<Dual<1>>> = effects.iter().map(Effect::cast).collect();
         dual[slot.effect].parameters[slot.parameter].slope = [1.0];
-        let mut real: Geometry<Dual<1>> = geometry.cast();
-        for effect in &dual {
-            effect.change_geometry(conditions, &mut real);
-        }
+        let real = geometry.real(&dual, conditions);
         let chain = Chain::of(&real, mechanism);
         let loads = Loads::of(&real, &chain);
         let bends = effects.iter().any(|effect| effect.definition().bends);

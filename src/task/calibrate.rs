@@ -273,7 +273,7 @@ impl Calibration {
         let rows = &self.found.problem.rows;
         let seen: Vec<[f64; 3]> = rows.iter().filter_map(|r| r.observed.point_m()).collect();
         let sum = seen.iter().fold([0.0; 3], |sum, p| add(sum, *p));
-        json!({
+        let mut quality = json!({
             "middle_mm": sum.map(|x| mm_from_m(x / seen.len().max(1) as f64)),
             "before": self.before,
             "frames_only": self.frames_only,
@@ -284,7 +284,19 @@ impl Calibration {
             "parameters": keys,
             "covariance_lower_triangle": (0..parameters.len()).map(row).collect::<Vec<_>>(),
             "strong_correlations": self.correlations,
-        })
+        });
+        let track = &self.found.problem.profile.external.track;
+        if !track.is_empty() {
+            let span = |k: usize| {
+                let values = rows.iter().filter_map(|row| row.stand.values.get(k));
+                values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], e| {
+                    [low.min(*e), high.max(*e)]
+                })
+            };
+            let spans = (0..track.len()).map(|k| span(k).map(mm_from_m));
+            quality["track_mm"] = json!(spans.collect::<Vec<_>>());
+        }
+        quality
     }
 
     fn provenance(&self, date: Option<&str>) -> Value {

@@ -4,7 +4,9 @@ use super::Document;
 use super::failure::Failure;
 use super::parts::Pose;
 use super::profile_file::ProfileFile;
+use super::simulate::stand;
 use super::table::{JOINTS, POSE, Table, cell, text_cell};
+use crate::identify::external::track_columns;
 use crate::identify::measurements::{DIRECTION_COLUMNS, FORCE_COLUMNS};
 use crate::model::Conditions;
 use crate::program::Source;
@@ -51,7 +53,8 @@ impl Document for Poses {
     const KIND: &'static str = "poses/1";
 }
 
-/// The tool's pose for each row of joint angles; directions and forces are used where the table has them.
+/// The tool's pose for each row of joint angles; directions, forces and the places of external axes are used where the table has
+/// them: without these the base stands at home.
 ///
 /// # Errors
 /// A table without joints; a tool that the profile does not have.
@@ -65,6 +68,12 @@ pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<P
     } else {
         profile.profile.controller_model(&tool)
     };
+    let profile = &profile.profile;
+    let columns = track_columns(&profile.external);
+    let is_carried = columns.iter().any(|column| table.has(column));
+    if is_carried {
+        table.require(&columns)?;
+    }
     let has = |columns: &[&str]| is_real && columns.iter().all(|c| table.has(c));
     let (directions, forces) = (has(&DIRECTION_COLUMNS), has(&FORCE_COLUMNS));
     let pose = |(number, row): (usize, super::table::Row)| {
@@ -75,7 +84,18 @@ pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<P
         if forces {
             conditions.force_n = row.numbers(FORCE_COLUMNS)?;
         }
-        let pose = model.forward(&row.joints()?, &conditions);
+        let q = row.joints()?;
+        let pose = if is_carried {
+            let stand = stand(profile, &table, &row)?;
+            if is_real {
+                let model = profile.real_model_at(&tool, &conditions, &stand);
+                model.forward(&q, &conditions)
+            } else {
+                profile.external.base_nominal(&stand.values) * model.forward(&q, &conditions)
+            }
+        } else {
+            model.forward(&q, &conditions)
+        };
         if !pose.translation.iter().all(|x| x.is_finite()) {
             let message =
                 "the tool has no finite pose here: a value of the profile is beyond any arm";

@@ -5,13 +5,15 @@ use super::failure::Failure;
 use super::profile_file::ProfileFile;
 use super::table::{JOINTS, Row, Table, cell, text_cell};
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::external::{agree, column_of, from_files, in_files};
 use crate::identify::measurements::{
-    DIRECTION_COLUMNS, DISTANCE_COLUMNS, FORCE_COLUMNS, Measurement, Measurements, Observed,
-    POSITION_COLUMNS, QUATERNION_COLUMNS,
+    DIRECTION_COLUMNS, DISTANCE_COLUMNS, EXTERNAL_DIRECTION_COLUMNS, FORCE_COLUMNS, Measurement,
+    Measurements, Observed, POSITION_COLUMNS, QUATERNION_COLUMNS,
 };
 use crate::identify::simulate::{Command, Session, simulate as measure};
 use crate::model::Conditions;
-use crate::model::profile::Mounted;
+use crate::model::external::{Listed, Stand};
+use crate::model::profile::{Mounted, Profile};
 use crate::program::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -58,11 +60,34 @@ pub fn simulate(
         }
         Ok(Command {
             q: row.joints()?,
+            stand: stand(&file.profile, &table, &row)?,
             conditions: (directions || forces).then_some(conditions),
         })
     };
     let commands: Vec<Command> = table.rows().map(command).collect::<Result<_, Failure>>()?;
     simulate_at(file, &commands, forces, &tool, session)
+}
+
+/// Where the external axes of a profile stand in a row of a table.
+///
+/// # Errors
+/// A cell that is no number.
+pub(super) fn stand(profile: &Profile, table: &Table, row: &Row) -> Result<Stand, Failure> {
+    let mut stand = Stand::default();
+    for (k, axis) in profile.external.listed().enumerate() {
+        let column = column_of(&axis, k);
+        stand.values.push(if table.has(column) {
+            from_files(&axis, row.number(column)?)
+        } else {
+            f64::NAN
+        });
+        let direction = EXTERNAL_DIRECTION_COLUMNS[k];
+        if table.has(direction) {
+            stand.directions.resize(k, 0.0);
+            stand.directions.push(row.number(direction)?);
+        }
+    }
+    Ok(stand)
 }
 
 /// As [`simulate`], in these configurations; `forces` of them stand in the table.
@@ -91,10 +116,12 @@ pub fn simulate_at(
         rows,
         columns: Vec::new(),
     };
+    agree(&seen, profile).map_err(|error| Failure::with_hint(error.to_string(), error.hint()))?;
     let rows = seen.moved(&profile.world_from_device().inverse()).rows;
     refuse_no_place(&rows)?;
     let named_tool = profile.tools.contains_key(&tool.name);
-    let csv = measurements_csv(&rows, true, forces, named_tool);
+    let axes: Vec<Listed> = profile.external.listed().collect();
+    let csv = measurements_csv(&rows, (true, forces), &axes, named_tool);
     Ok(Simulation {
         rows: rows.len(),
         output: None,
@@ -144,12 +171,13 @@ fn refuse_nonsense(session: &Session) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A file of measurements; every number is read back as it is. Directions, forces and tools stand in it where they are asked for.
+/// A file of measurements; every number is read back as it is. Directions, forces and tools stand in it where they are asked for,
+/// and where these external axes stood, of those that the rows tell.
 #[must_use]
 pub fn measurements_csv(
     rows: &[Measurement],
-    directions: bool,
-    forces: bool,
+    (directions, forces): (bool, bool),
+    axes: &[Listed],
     named_tool: bool,
 ) -> String {
     let Some(first) = rows.first() else {
@@ -163,6 +191,13 @@ pub fn measurements_csv(
         Observed::Distance { .. } => header.extend(DISTANCE_COLUMNS),
         Observed::Contact(_) => {}
     }
+    let stood = &first.stand;
+    let told = |k: &usize| stood.values.get(*k).is_some_and(|value| value.is_finite());
+    let told: Vec<usize> = (0..axes.len()).filter(told).collect();
+    header.extend(told.iter().map(|k| column_of(&axes[*k], *k)));
+    let came: Vec<usize> = (0..stood.directions.len().min(axes.len())).collect();
+    let came = if directions { came } else { Vec::new() };
+    header.extend(came.iter().map(|k| EXTERNAL_DIRECTION_COLUMNS[*k]));
     header.extend(DIRECTION_COLUMNS.iter().filter(|_| directions));
     header.extend(FORCE_COLUMNS.iter().filter(|_| forces));
     let optional = [
@@ -196,6 +231,13 @@ pub fn measurements_csv(
             }
             // no simulated device touches
             Observed::Contact(_) => {}
+        }
+        for k in &told {
+            let value = row.stand.values.get(*k).copied().unwrap_or(f64::NAN);
+            cells.push(cell(in_files(&axes[*k], value)));
+        }
+        for k in &came {
+            cells.push(cell(row.stand.directions.get(*k).copied().unwrap_or(0.0)));
         }
         if directions {
             cells.extend(row.conditions.direction.map(cell));

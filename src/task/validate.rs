@@ -67,7 +67,7 @@ impl<T> Models<T> {
 /// Errors of the real model on a part of the rows.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Part {
-    /// What divides: `point`, `tool`, `set`, `region`.
+    /// What divides: `point`, `tool`, `set`, `region`, `track`.
     pub by: &'static str,
     /// Which part.
     pub name: String,

@@ -248,6 +248,7 @@ pub fn offset_wrist_arms() -> Vec<(
             load: None,
             gravity_m_s2: [0.0, 0.0, -9.81],
             tool_name: String::new(),
+            carried: None,
         };
         let coupling = Vec::new();
         (

@@ -62,7 +62,7 @@ pub fn label(effect: &Effect) -> String {
     }
 }
 
-fn normal(random: &mut StdRng) -> f64 {
+pub fn normal(random: &mut StdRng) -> f64 {
     let (u, v): (f64, f64) = (
         random.random_range(1e-300..1.0),
         random.random_range(0.0..1.0),

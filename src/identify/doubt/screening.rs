@@ -170,6 +170,7 @@ pub fn duplicates(rows: &[Measurement]) -> Option<Remark> {
     let mut twice = Vec::new();
     for row in rows {
         let mut key: Vec<u64> = row.q.iter().map(|q| q.to_bits()).collect();
+        key.extend(row.stand.bits());
         match row.observed {
             Observed::Position(p) => key.extend(p.map(f64::to_bits)),
             Observed::Pose(pose) => key.extend(pose.translation.map(f64::to_bits)),

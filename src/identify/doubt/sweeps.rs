@@ -9,6 +9,7 @@ use crate::identify::line::Line;
 use crate::identify::measurements::{Measurement, Measurements, Observed};
 use crate::identify::start;
 use crate::model::Conditions;
+use crate::model::external::Stand;
 use crate::model::profile::Profile;
 use crate::register::axes::relations::relations;
 use crate::register::axes::{Axis, Sweep};
@@ -137,6 +138,7 @@ fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(
         point: Some(SWEPT.into()),
         point_in_tool_m: None,
         conditions: Conditions::default(),
+        stand: Stand::default(),
         sigma_m: None,
         sigma_rad: None,
         purpose: None,

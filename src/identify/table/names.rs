@@ -3,19 +3,22 @@
 use super::units::{Unit, in_name};
 use crate::nearest::plain;
 
-/// Columns that hold lengths, by the names that mappings use for them.
-const LENGTHS: [&str; 17] = [
+/// Columns that hold lengths (an external axis is linear or rotary: without its unit it is linear), by the names that mappings use for them.
+const LENGTHS: [&str; 29] = [
     "x", "y", "z", "target_x", "target_y", "target_z", "diff_x", "diff_y", "diff_z", "px", "py",
-    "pz", "distance", "from_x", "from_y", "from_z", "sigma",
+    "pz", "distance", "from_x", "from_y", "from_z", "sigma", "e1", "e2", "e3", "e4", "e5", "e6",
+    "e7", "e8", "e9", "e10", "e11", "e12",
 ];
 /// Columns that hold angles.
-const ANGLES: [&str; 16] = [
+const ANGLES: [&str; 28] = [
     "q1", "q2", "q3", "q4", "q5", "q6", "rx", "ry", "rz", "rz2", "move1", "move2", "move3",
-    "move4", "move5", "move6",
+    "move4", "move5", "move6", "e1", "e2", "e3", "e4", "e5", "e6", "e7", "e8", "e9", "e10", "e11",
+    "e12",
 ];
 /// Columns that hold neither.
-const OTHERS: [&str; 29] = [
+const OTHERS: [&str; 42] = [
     "id",
+    "on",
     "tool",
     "point",
     "set",
@@ -44,6 +47,18 @@ const OTHERS: [&str; 29] = [
     "cx_mm",
     "cy_mm",
     "cz_mm",
+    "dir_e1",
+    "dir_e2",
+    "dir_e3",
+    "dir_e4",
+    "dir_e5",
+    "dir_e6",
+    "dir_e7",
+    "dir_e8",
+    "dir_e9",
+    "dir_e10",
+    "dir_e11",
+    "dir_e12",
 ];
 
 /// Names that a mapping may use for columns of the format: without the unit where `--units` tells it.
@@ -100,7 +115,11 @@ pub fn is_of_format(name: &str) -> bool {
 pub(super) fn in_another_unit(name: &str) -> Option<(String, Unit)> {
     let (base, unit) = name.rsplit_once('_')?;
     let unit = Unit::named(unit)?;
-    let (column, quantity) = column(base)?;
+    let ending = match unit.quantity() {
+        Quantity::Angle => "_deg",
+        _ => "_mm",
+    };
+    let (column, quantity) = column(&format!("{base}{ending}")).or_else(|| column(base))?;
     (column != name && unit.quantity() == quantity).then_some((column, unit))
 }
 

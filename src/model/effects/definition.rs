@@ -82,6 +82,8 @@ pub enum SiteKey {
 
 /// An order is counted in thousandths.
 const MILLI: u32 = 1000;
+/// Longest period along a rail, mm.
+pub(super) const MOST_PERIOD_MM: u32 = 100_000;
 /// External axes of one profile.
 pub const MOST_EXTERNAL_AXES: u32 = 12;
 /// Directions by letter.
@@ -92,7 +94,7 @@ impl SiteKey {
     #[must_use]
     pub const fn one(self) -> u32 {
         match self {
-            Self::Order => MILLI,
+            Self::Order | Self::Period => MILLI,
             _ => 1,
         }
     }
@@ -167,7 +169,7 @@ impl SiteKey {
         }
     }
 
-    /// Smallest and largest number; `None` where it is a name, a letter or a length.
+    /// Smallest and largest number; `None` where it is a name or a letter.
     #[must_use]
     pub const fn range(self) -> Option<(u32, u32)> {
         match self {
@@ -176,7 +178,42 @@ impl SiteKey {
             Self::Row => Some((1, 1_000_000_000)),
             Self::Axis => Some((1, MOST_EXTERNAL_AXES)),
             Self::Degree(low, high) => Some((low, high)),
-            Self::Tool | Self::Along(_) | Self::About(_) | Self::Period => None,
+            Self::Period => Some((1, MOST_PERIOD_MM * MILLI)),
+            Self::Tool | Self::Along(_) | Self::About(_) => None,
+        }
+    }
+
+    /// Smallest and largest number that a word of the command line may have: letters are counted from x, 1.
+    #[must_use]
+    pub fn numbers(self) -> Option<(u32, u32)> {
+        let of = |letter: Option<char>| {
+            let at = LETTERS.find(letter?)?;
+            u32::try_from(at + 1).ok()
+        };
+        self.range().or_else(|| {
+            let letters = self.letters()?;
+            Some((of(letters.chars().next())?, of(letters.chars().last())?))
+        })
+    }
+
+    /// Its number from a word of the command line.
+    #[must_use]
+    pub fn from_word(self, text: &str) -> Option<u32> {
+        let Some(letters) = self.letters() else {
+            return self.from_files(text);
+        };
+        let is_own = text.len() == 1 && letters.contains(text);
+        let at = LETTERS.find(text).filter(|_| is_own)?;
+        u32::try_from(at + 1).ok()
+    }
+
+    /// Its number as a word of the command line.
+    #[must_use]
+    pub fn in_word(self, number: u32) -> String {
+        let at = (number as usize).saturating_sub(1);
+        match self.letters().and_then(|_| LETTERS.get(at..=at)) {
+            Some(letter) => letter.to_owned(),
+            None => self.in_files(number).to_string(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! An effect as an entry of a profile: `{effect: ID, joint: 2, rad_per_n_m: 3.2e-5}`.
 
-use super::definition::{Definition, LETTERS, Parameter, SiteKey, Unit};
+use super::definition::{Definition, LETTERS, MOST_PERIOD_MM, Parameter, SiteKey, Unit};
 use super::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site};
 use crate::nearest;
 use serde_json::{Map, Value, json};
@@ -217,15 +217,12 @@ impl Effect {
                     entry.push((place.key(), json!(self.site.index + 1)));
                 }
                 SiteKey::On => entry.push((place.key(), json!(self.site.on + 1))),
-                SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) => {
+                SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) | SiteKey::Period => {
                     entry.push((place.key(), place.in_files(self.site.order)));
                 }
                 SiteKey::Along(_) | SiteKey::About(_) => {
                     let on = self.site.on;
                     entry.push((place.key(), json!(LETTERS[on..=on])));
-                }
-                SiteKey::Period => {
-                    entry.push((place.key(), json!(f64::from(self.site.order) / 1000.0)));
                 }
                 SiteKey::Tool => entry.extend(
                     self.site
@@ -383,14 +380,11 @@ fn letter(
     })
 }
 
-/// Longest period along a rail, millimetres.
-const MOST_PERIOD_MM: f64 = 100_000.0;
-
 /// A period in whole micrometres: what belongs to one place is compared exactly.
 fn micrometres(definition: &Definition, place: SiteKey, value: &Value) -> Result<u32, EntryError> {
     let mm = value
         .as_f64()
-        .filter(|mm| (0.001..=MOST_PERIOD_MM).contains(mm));
+        .filter(|mm| (0.001..=f64::from(MOST_PERIOD_MM)).contains(mm));
     let whole = mm.map(|mm| (mm * 1000.0).round());
     let exact = whole
         .zip(mm)
@@ -437,9 +431,6 @@ pub fn entry_schema() -> Value {
                 }
                 (_, _, Some(letters)) => {
                     json!({"enum": letters.chars().map(String::from).collect::<Vec<_>>()})
-                }
-                (SiteKey::Period, ..) => {
-                    json!({"type": "number", "minimum": 0.001, "maximum": MOST_PERIOD_MM})
                 }
                 _ => json!({"type": "string"}),
             };

@@ -213,7 +213,19 @@ pub fn of_arm() -> impl Iterator<Item = Kind> + Clone {
     all.filter(|kind| !kind.definition().of_external_axis())
 }
 
+/// Those that the place of the tool shows: of the arm and of the track that carries it.
+pub fn shown_by_tool() -> impl Iterator<Item = Kind> + Clone {
+    let of_track = REGISTRY.iter().copied().filter(|kind| kind.of_track());
+    of_arm().chain(of_track)
+}
+
 impl Kind {
+    /// Whether it belongs to a linear axis that carries the base.
+    #[must_use]
+    pub fn of_track(self) -> bool {
+        self.definition().of_external_axis() && self.definition().id.starts_with("track_")
+    }
+
     /// The effect of this name.
     #[must_use]
     pub fn by_id(id: &str) -> Option<Self> {

@@ -149,6 +149,70 @@ pub struct At<'a, S = f64> {
     pub directions: &'a [f64],
 }
 
+/// Where external axes stand, as [`At`], kept.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stand {
+    /// Metres and radians in the order in which they are listed; not a number of an axis of which nothing is known.
+    pub values: Vec<f64>,
+    /// −1, +1, or 0 where it is unknown; empty where nothing is known of any.
+    pub directions: Vec<f64>,
+}
+
+impl Stand {
+    /// The same, lent.
+    #[must_use]
+    pub fn at(&self) -> At<'_> {
+        At {
+            values: &self.values,
+            directions: &self.directions,
+        }
+    }
+
+    /// Whether it says of some axis from which side it came.
+    #[must_use]
+    pub fn is_directed(&self) -> bool {
+        self.directions.iter().any(|direction| *direction != 0.0)
+    }
+
+    /// Its numbers bit by bit: what is the same has the same.
+    #[must_use]
+    pub fn bits(&self) -> Vec<u64> {
+        let numbers = self.values.iter().chain(&self.directions);
+        numbers.map(|x| x.to_bits()).collect()
+    }
+}
+
+/// A track with what it carries: the base, from where it stands at home.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Carried {
+    /// The axes.
+    pub axes: ExternalAxes,
+    /// Where they stand.
+    pub stand: Stand,
+    /// Where the base stands nominally, metres: carriages turn about it.
+    pub origin: Vector,
+    /// Where the base really stands at home, where the track goes along with it: the world is then wherever the base is seen.
+    /// Else the track stands in the world, wherever the base is.
+    pub home: Option<Pose>,
+}
+
+impl Carried {
+    /// The base where it is carried to.
+    #[must_use]
+    pub fn carry<S: Scalar>(&self, world_from_base: Pose<S>, effects: &[Effect<S>]) -> Pose<S> {
+        let values: Vec<S> = self.stand.values.iter().map(|x| S::constant(*x)).collect();
+        let at = At {
+            values: &values,
+            directions: &self.stand.directions,
+        };
+        let motion = self.axes.base_real(at, self.origin, effects);
+        match self.home {
+            None => motion * world_from_base,
+            Some(home) => world_from_base * home.inverse().cast() * motion * home.cast(),
+        }
+    }
+}
+
 impl ExternalAxes {
     /// Whether nothing moves.
     #[must_use]
@@ -169,6 +233,16 @@ impl ExternalAxes {
                 axes.map(move |(axis, n)| Listed::Rotary(axis, of, n == last))
             });
         track.chain(rotary)
+    }
+
+    /// Every axis in the middle of its limits.
+    #[must_use]
+    pub fn middle(&self) -> Stand {
+        let limits = self.listed().map(|axis| axis.limits());
+        Stand {
+            values: limits.map(|(low, high)| 0.5 * (low + high)).collect(),
+            directions: Vec::new(),
+        }
     }
 
     /// Index of the first listed axis of a positioner.

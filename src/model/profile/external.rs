@@ -306,6 +306,12 @@ fn rotary(file: RotaryAxisFile, at: Location) -> Result<RotaryAxis, ProfileError
     })
 }
 
+/// Whether an effect is of none of the external axes, or of one that is listed.
+#[must_use]
+pub fn is_of_profile(effect: &Effect, axes: &ExternalAxes) -> bool {
+    check_effect(effect, axes).is_none()
+}
+
 /// What is wrong with an effect of an external axis: there is no such axis, or it is of the other kind.
 pub(super) fn check_effect(effect: &Effect, axes: &ExternalAxes) -> Option<Fault> {
     if !effect.definition().site.contains(&SiteKey::Axis) {

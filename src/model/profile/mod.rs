@@ -19,16 +19,18 @@ pub(crate) use catalogue::{coupled, flange_remark};
 pub use device::DevicePlace;
 pub use edit::{EditError, with_value};
 pub use error::{Fault, ProfileError};
+pub use external::is_of_profile;
 pub use file::{ControllerModel, FORMAT, ProfileFile, Tables, Theirs};
 pub use makers::{MAKERS, Maker};
-pub use rewrite::with_controller;
+pub use rewrite::{with_controller, with_external};
 pub use shipped::SHIPPED;
+pub(crate) use text::flow_pose;
 pub(crate) use text::flow_tool;
 pub use text::{Comments, made};
 pub use write::{WriteError, rewritten};
 
 use super::effects::{Effect, Kind, Need};
-use super::external::ExternalAxes;
+use super::external::{Carried, ExternalAxes, Stand};
 use super::shape::{Form, LinkShape};
 use super::{Body, Conditions, Coupling, Geometry, JointSense, Link, Mechanism, Model};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -357,7 +359,21 @@ impl Profile {
             load: tool.load,
             gravity_m_s2: self.gravity_m_s2,
             tool_name: tool.name.clone(),
+            carried: None,
         }
+    }
+
+    /// What carries the base where external axes stand so; `None` without a track, and where nothing is said of them.
+    /// `with_base`: the track goes along with the base, wherever that is seen.
+    #[must_use]
+    pub fn carried(&self, stand: &Stand, with_base: bool) -> Option<Carried> {
+        let is_carried = !self.external.track.is_empty() && !stand.values.is_empty();
+        is_carried.then(|| Carried {
+            axes: self.external.clone(),
+            stand: stand.clone(),
+            origin: self.world_from_base.translation,
+            home: with_base.then(|| self.world_from_real_base()),
+        })
     }
 
     /// The effects that the controller already applies itself: those of its own calibrated chain; where the profile does
@@ -398,15 +414,20 @@ impl Profile {
         )
     }
 
-    /// The arm as it really is.
+    /// The arm as it really is, with the base where it stands at home.
     #[must_use]
     pub fn real_model(&self, tool: &Mounted, conditions: &Conditions) -> Model {
-        Model::build(
-            &self.geometry(tool),
-            &self.mechanism,
-            &self.real_effects(),
-            conditions,
-        )
+        self.real_model_at(tool, conditions, &Stand::default())
+    }
+
+    /// The arm as it really is where external axes stand so.
+    #[must_use]
+    pub fn real_model_at(&self, tool: &Mounted, conditions: &Conditions, stand: &Stand) -> Model {
+        let geometry = Geometry {
+            carried: self.carried(stand, false),
+            ..self.geometry(tool)
+        };
+        Model::build(&geometry, &self.mechanism, &self.real_effects(), conditions)
     }
 }
 

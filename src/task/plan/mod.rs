@@ -9,13 +9,16 @@ use super::measurements::identify_failure;
 use super::meshes::Reader;
 use super::parts::Observability;
 use super::profile_file::ProfileFile;
+use super::simulate::stand;
 use super::table::{JOINTS, Table, cell};
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::identify::measurements::DIRECTION_COLUMNS;
+use crate::identify::external::track_columns;
+use crate::identify::measurements::{DIRECTION_COLUMNS, EXTERNAL_MM_COLUMNS};
 use crate::identify::parameters::Selection;
 use crate::identify::plan::{Plan as Found, Request, plan_telling};
 use crate::model::Conditions;
+use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
 use crate::program::{Settings, Source};
 use approach::Stop;
@@ -63,6 +66,9 @@ pub struct Plan {
     pub not_determined: Vec<NotDetermined>,
     /// The controller's joint angles, those given first.
     pub joints_deg: Vec<[f64; 6]>,
+    /// Where the axes of a track stand at each, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub track_mm: Vec<Vec<f64>>,
     /// Where the tool is at each, in the world, by the controller's model.
     pub places_mm: Vec<[f64; 3]>,
     /// O1 of each start.
@@ -97,14 +103,22 @@ impl Document for Plan {
     const KIND: &'static str = "plan/1";
 }
 
-/// Rows of joint angles that are in the set already, radians.
+/// Rows of joint angles that are in the set already, radians, and where external axes stand there; nothing without a track.
 ///
 /// # Errors
-/// A table without joints.
-pub fn given(source: &Source) -> Result<Vec<[f64; 6]>, Failure> {
+/// A table without joints, or without a track's places.
+pub fn given(source: &Source, profile: &Profile) -> Result<(Vec<[f64; 6]>, Vec<Stand>), Failure> {
     let table = Table::read(source)?;
     table.require(&JOINTS)?;
-    table.rows().map(|row| row.joints()).collect()
+    let joints = table.rows().map(|row| row.joints());
+    let joints = joints.collect::<Result<_, _>>()?;
+    let columns = track_columns(&profile.external);
+    if columns.is_empty() {
+        return Ok((joints, Vec::new()));
+    }
+    table.require(&columns)?;
+    let stands = table.rows().map(|row| stand(profile, &table, &row));
+    Ok((joints, stands.collect::<Result<_, _>>()?))
 }
 
 /// Chooses configurations by observability; `read` reads meshes, `hear` is called with how many of how many starts are done.
@@ -131,6 +145,20 @@ pub fn plan(
     let chosen = found.joints.split_off(given);
     let order = driving.order(&chosen);
     found.joints.extend(order.iter().map(|from| chosen[*from]));
+    let chosen = found.stands.split_off(given);
+    found
+        .stands
+        .extend(order.iter().map(|from| chosen[*from].clone()));
+    let on_track = !profile.external.track.is_empty();
+    if let Some(wanted) = wanted.filter(|_| on_track) {
+        return Err(Failure::with_hint(
+            format!(
+                "{}: no program is written that moves external axes",
+                wanted.name
+            ),
+            "leave --program out: the table says where the axes stand at each configuration",
+        ));
+    }
     let approach_rad = request.constraints.approach_rad;
     let (mut program, mut poses_between, mut findings) = (None, 0, Vec::new());
     if let Some(wanted) = wanted {
@@ -151,16 +179,26 @@ pub fn plan(
     }
     drop(driving);
     let controller = profile.controller_model(&tool);
-    let place = |q: &[f64; 6]| {
-        let pose = controller.forward(q, &Conditions::default());
+    let place = |(q, stand): (&[f64; 6], &Stand)| {
+        let carried = profile.external.base_nominal(&stand.values);
+        let pose = carried * controller.forward(q, &Conditions::default());
         pose.translation.map(mm_from_m)
     };
+    let mut track_mm = Vec::new();
+    if on_track {
+        let each = found
+            .stands
+            .iter()
+            .map(|stand| stand.values.iter().map(|e| mm_from_m(*e)));
+        track_mm.extend(each.map(Iterator::collect));
+    }
     Ok(Plan {
         observability: (&found.observability).into(),
         expected_sigma: expected(&found),
         not_determined: not_determined(&found),
         joints_deg: found.joints.iter().map(|q| q.map(|q| q / DEG)).collect(),
-        places_mm: found.joints.iter().map(place).collect(),
+        places_mm: found.joints.iter().zip(&found.stands).map(place).collect(),
+        track_mm,
         starts_o1: found.starts_o1,
         exchanges: found.exchanges,
         admitted: found.admitted,
@@ -254,11 +292,14 @@ impl Plan {
     pub fn csv(&self) -> String {
         let mut header = vec!["id"];
         header.extend(JOINTS);
+        let axes = self.track_mm.first().map_or(0, Vec::len);
+        header.extend(&EXTERNAL_MM_COLUMNS[..axes]);
         header.extend(DIRECTION_COLUMNS.iter().filter(|_| self.approached));
         let mut table = header.join(",") + "\n";
         for (i, q) in self.joints_deg.iter().enumerate() {
             let mut cells = vec![(i + 1).to_string()];
             cells.extend(q.map(cell));
+            cells.extend(self.track_mm.get(i).into_iter().flatten().map(|e| cell(*e)));
             cells.extend((0..6).filter(|_| self.approached).map(|_| "1".to_owned()));
             table += &(cells.join(",") + "\n");
         }

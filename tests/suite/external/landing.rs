@@ -26,7 +26,7 @@ struct Cell {
 }
 
 /// A rigid pose's inverse.
-fn inverse(m: &M4) -> M4 {
+pub(super) fn inverse(m: &M4) -> M4 {
     let mut out = [[0.0, 0.0, 0.0, 0.0]; 4];
     for i in 0..3 {
         for j in 0..3 {
@@ -67,7 +67,7 @@ impl Cell {
 }
 
 /// What is wrong with the arm, in both words.
-fn arm() -> (Vec<String>, Vec<Fault>) {
+pub(super) fn arm() -> (Vec<String>, Vec<Fault>) {
     let effects = [
         "{effect: link_geometry, link: 2, a_mm: 0.4, alpha_deg: 0.02}",
         "{effect: link_geometry, link: 3, theta_deg: 0.05, a_mm: -0.2}",

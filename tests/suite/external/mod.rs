@@ -1,7 +1,9 @@
 //! Tracks and positioners: where the real tool lands on the real part, by a reference that shares no code with the product.
 
 mod landing;
+mod measured;
 mod refused;
+mod switched;
 
 use poseshift::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use poseshift::finding::Severity;
@@ -11,6 +13,12 @@ use poseshift::program::{self, Source};
 
 /// An IRB 120 with these external axes and effects.
 fn profile(external: &str, effects: &[&str]) -> Profile {
+    let text = profile_text(external, effects);
+    Profile::from_yaml(&text).unwrap_or_else(|error| panic!("{error}\n{external}"))
+}
+
+/// The same as a file.
+fn profile_text(external: &str, effects: &[&str]) -> String {
     let text = crate::support::text("robots/abb_irb120.yaml");
     let plain = &text[..text.find("calibration:").expect("a list of effects")];
     let base = "base: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}";
@@ -20,8 +28,7 @@ fn profile(external: &str, effects: &[&str]) -> Profile {
         "base: {x_mm: 250, y_mm: -100, z_mm: 400, rx_deg: 0.5, ry_deg: -0.3, rz_deg: 30}",
     );
     let effects = effects.join(", ");
-    let text = format!("{plain}{external}calibration: {{effects: [{effects}]}}\n");
-    Profile::from_yaml(&text).unwrap_or_else(|error| panic!("{error}\n{external}"))
+    format!("{plain}{external}calibration: {{effects: [{effects}]}}\n")
 }
 
 fn options() -> Options {

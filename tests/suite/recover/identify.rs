@@ -10,6 +10,7 @@ use poseshift::identify::simulate::{Command, Device, Session, simulate};
 use poseshift::identify::validation::{Refit, validate};
 use poseshift::identify::{Calibration, IdentifyError};
 use poseshift::model::effects::{Effect, Kind, Site};
+use poseshift::model::external::Stand;
 use poseshift::model::profile::{Profile, rewritten};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -81,6 +82,7 @@ pub(super) fn hidden(
 pub(super) fn commands(random: &mut StdRng, profile: &Profile, count: usize) -> Vec<Command> {
     let one = |_| Command {
         q: random_joints(random, profile),
+        stand: Stand::default(),
         conditions: None,
     };
     (0..count).map(one).collect()

@@ -144,6 +144,8 @@ fn a_plan_stays_in_the_box_out_of_the_keep_outs_and_in_sight() {
         sigma_m: 0.05 * MM,
         poses: false,
         given: Vec::new(),
+        given_stands: Vec::new(),
+        stations: 11,
         constraints: Constraints {
             margin_rad: DEG,
             approach_rad: 5.0 * DEG,
