@@ -337,7 +337,7 @@ mod tests {
                 &profile,
                 &tool,
                 &selection,
-                (&pool[..20], &vec![&Stand::default(); 20]),
+                (&pool[..20], &[&Stand::default(); 20]),
                 false,
             )
             .expect("rows");
