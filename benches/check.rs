@@ -1,5 +1,5 @@
-//! A program of 10 000 targets certified continuously against the arm itself and a cell of 20 000 triangles; and the same arm
-//! at as many single postures by parry alone.
+//! A program of 10 000 targets certified continuously against the arm itself and a cell of 20 000
+//! triangles; and the same arm at as many single postures by parry alone.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use parry::math::{Pose as ParryPose, Vector as Glam};

@@ -1,4 +1,5 @@
-//! Programs of 100 000 targets in every language: reading and writing alone, on one core, and the whole command.
+//! Programs of 100 000 targets in every language: reading and writing alone, on one core, and the
+//! whole command.
 
 #[path = "../tests/suite/path.rs"]
 mod path;

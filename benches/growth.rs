@@ -1,7 +1,9 @@
-//! How time and memory grow with what is read: the program on 1 000, 10 000 and 100 000 moves, rows and (a tenth) files.
+//! How time and memory grow with what is read: the program on 1 000, 10 000 and 100 000 moves, rows
+//! and (a tenth) files.
 //!
-//! Prints the table of docs/performance.md: seconds and MB at most in memory. `GROWTH=10000,1000000` takes other sizes.
-//! Memory is read from `/proc` while the program runs, where there is one.
+//! Prints the table of docs/performance.md: seconds and MB at most in memory.
+//! `GROWTH=10000,1000000` takes other sizes. Memory is read from `/proc` while the program runs,
+//! where there is one.
 
 #[path = "../tests/suite/path.rs"]
 #[allow(dead_code, reason = "one language is enough here")]

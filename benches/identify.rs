@@ -1,4 +1,5 @@
-//! Identification, distance errors of all pairs, and choosing configurations, on the thesis's IRB 120.
+//! Identification, distance errors of all pairs, and choosing configurations, on the thesis's IRB
+//! 120.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
@@ -26,7 +27,8 @@ fn nominal() -> Profile {
     profile
 }
 
-/// 30 parameters: base, links 2 to 6 without the redundant ones, five compliances; the tool is known.
+/// 30 parameters: base, links 2 to 6 without the redundant ones, five compliances; the tool is
+/// known.
 fn selection() -> Selection {
     let mut selection = Selection::level(Level::Compliance);
     selection.fix = Pick::parse_list("tool_frame,link_geometry:6.d_mm").expect("words");

@@ -1,4 +1,5 @@
-//! Forward models and inverses of the thesis's IRB 120, a target; answers of a CRX-10iA; what is refused.
+//! Forward models and inverses of the thesis's IRB 120, a target; answers of a CRX-10iA; what is
+//! refused.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use poseshift::geometry::Pose;

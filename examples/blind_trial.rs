@@ -1,4 +1,5 @@
-//! How often `diagnose` names what is hidden in a robot: seeded cases, diagnosed without the answer.
+//! How often `diagnose` names what is hidden in a robot: seeded cases, diagnosed without the
+//! answer.
 //!
 //! `cargo run --release --example blind_trial -- --help` lists what can be asked.
 

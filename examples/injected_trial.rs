@@ -1,8 +1,10 @@
-//! Effects added to real measurements: how often `diagnose` names them first, and what it names where nothing was added.
+//! Effects added to real measurements: how often `diagnose` names them first, and what it names
+//! where nothing was added.
 //!
-//! `cargo run --release --example injected_trial -- FOLDER`, with a folder for each robot that has `profile.yaml` and `fit.csv`. Each
-//! robot is calibrated (level 3) and diagnosed with all its rows, what was found is taken into the profile, and that is where the diagnosis of
-//! the rows with an effect added starts.
+//! `cargo run --release --example injected_trial -- FOLDER`, with a folder for each robot that has
+//! `profile.yaml` and `fit.csv`. Each robot is calibrated (level 3) and diagnosed with all its
+//! rows, what was found is taken into the profile, and that is where the diagnosis of the rows with
+//! an effect added starts.
 
 #[path = "../tests/physics/mod.rs"]
 #[allow(dead_code)]
@@ -135,7 +137,8 @@ impl Robot {
         at.collect()
     }
 
-    /// An effect of this kind whose displacements have this root mean square, and the measurements with it.
+    /// An effect of this kind whose displacements have this root mean square, and the measurements
+    /// with it.
     fn with(&self, kind: Kind, size: f64, random: &mut StdRng) -> (Effect, Measurements) {
         let mut torques = [0.0_f64; 6];
         let model = self.profile.real_model(&self.tool, &Conditions::default());

@@ -1,22 +1,24 @@
 //! Makes an offline-programmed robot path land where the simulation wanted it.
 //!
-//! An industrial arm repeats to hundredths of a millimetre but misses by millimetres, because its controller computes with a
-//! nominal model. This library rewrites each target of a robot program into a *fake target* with which the nominal
-//! controller brings the real tool to the wanted pose:
+//! An industrial arm repeats to hundredths of a millimetre but misses by millimetres, because its
+//! controller computes with a nominal model. This library rewrites each target of a robot program
+//! into a *fake target* with which the nominal controller brings the real tool to the wanted pose:
 //!
 //! ```text
 //! program bytes → targets → (profile, frames) → fake targets → findings → edits + report
 //! ```
 //!
-//! [`compensate()`](compensate::compensate) is the main job; [`program`] reads and rewrites programs, [`model`] says where
-//! the real tool is, [`inverse`] finds joints for a pose, [`geometry`] is what they compute with.
+//! [`compensate()`](compensate::compensate) is the main job; [`program`] reads and rewrites
+//! programs, [`model`] says where the real tool is, [`inverse`] finds joints for a pose,
+//! [`geometry`] is what they compute with.
 //!
 //! Lengths are metres and angles radians everywhere but in files and printed text.
 //!
 //! # Features
 //!
-//! `cli` (default) is the command line, `html` (default) the texts and pages of results; the library needs neither. What each
-//! command does is in [`task`]; `examples/` has one program a task.
+//! `cli` (default) is the command line, `html` (default) the texts and pages of results; the
+//! library needs neither. What each command does is in [`task`]; `examples/` has one program a
+//! task.
 //!
 //! # Example
 //!

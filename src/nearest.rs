@@ -20,8 +20,9 @@ fn first_word(name: &str) -> String {
 /// Known names that may be meant, the likeliest first: three at most, none where none is alike.
 ///
 /// # Source
-/// W. E. Winkler, "String comparator metrics and enhanced decision rules in the Fellegi–Sunter model of record linkage"
-/// (1990). A name that holds what was typed, or begins with the same word, counts as alike, too.
+/// W. E. Winkler, "String comparator metrics and enhanced decision rules in the Fellegi–Sunter
+/// model of record linkage" (1990). A name that holds what was typed, or begins with the same word,
+/// counts as alike, too.
 pub(crate) fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let (wanted, first) = (plain(wanted), first_word(wanted));
     let likeness = |name: &str| {
@@ -46,8 +47,8 @@ pub(crate) fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>
     rated.into_iter().take(MOST).map(|(_, name)| name).collect()
 }
 
-/// The way out of a name that is not known: what may be meant, and the known names unless they are too many. `what` names
-/// these: `tools of the profile`.
+/// The way out of a name that is not known: what may be meant, and the known names unless they are
+/// too many. `what` names these: `tools of the profile`.
 pub(crate) fn hint<'a>(
     wanted: &str,
     what: &str,

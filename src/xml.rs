@@ -1,7 +1,9 @@
-//! XML as a tree, read without recursion and within limits: what nests deeper, or has more elements, is refused.
+//! XML as a tree, read without recursion and within limits: what nests deeper, or has more
+//! elements, is refused.
 //!
 //! # Source
-//! W3C, "Extensible Markup Language (XML) 1.0"; entities that a document defines itself are not expanded.
+//! W3C, "Extensible Markup Language (XML) 1.0"; entities that a document defines itself are not
+//! expanded.
 
 use quick_xml::XmlVersion;
 use quick_xml::escape::resolve_predefined_entity;

@@ -1,4 +1,5 @@
-//! What the examples of measurements share: an arm as its maker describes it, and what a tracker saw of a real one.
+//! What the examples of measurements share: an arm as its maker describes it, and what a tracker
+//! saw of a real one.
 
 use poseshift::identify::parameters::Level;
 use poseshift::identify::parameters::Selection;
@@ -8,7 +9,8 @@ use poseshift::program::Source;
 use poseshift::task::{ProfileFile, plan::plan, simulate::simulate};
 use std::error::Error;
 
-/// The nominal profile, and simulated measurements of the calibrated one and a `hidden` effect with 20 µm of noise.
+/// The nominal profile, and simulated measurements of the calibrated one and a `hidden` effect with
+/// 20 µm of noise.
 pub fn nominal_and_measured(hidden: &str) -> Result<(ProfileFile, Source), Box<dyn Error>> {
     let real = include_str!("../../robots/abb_irb120_thesis.yaml");
     let real = real.replacen("effects:\n", &format!("effects:\n{hidden}"), 1);

@@ -1,8 +1,8 @@
-//! The module `poseshift._poseshift`: the library for Python, without a computation of its own. What callers see is the package
-//! `poseshift` around it.
+//! The module `poseshift._poseshift`: the library for Python, without a computation of its own.
+//! What callers see is the package `poseshift` around it.
 //!
-//! Arrays are metres and radians, float64, C order; documents are the JSON of the commands. Whatever computes releases the
-//! interpreter's lock.
+//! Arrays are metres and radians, float64, C order; documents are the JSON of the commands.
+//! Whatever computes releases the interpreter's lock.
 
 #![forbid(unsafe_code)]
 #![allow(

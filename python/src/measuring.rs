@@ -24,8 +24,8 @@ use poseshift::task::{self, Failure, ProfileFile, Rows, Said};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Tables of measurements and what is said of their columns: files, columns, units, euler, driven in order, and whether the two
-/// files are joints and points to be joined.
+/// Tables of measurements and what is said of their columns: files, columns, units, euler, driven
+/// in order, and whether the two files are joints and points to be joined.
 type Tables = (
     Files,
     Option<String>,
@@ -117,8 +117,8 @@ fn identified<T>(py: Python<'_>, found: Result<T, Failure>) -> PyResult<T> {
     found.map_err(|failure| Kind::Identify.raise(py, &failure))
 }
 
-/// Effects of measurements: the document, the profile's text, the names of the parameters with their covariance in SI units,
-/// and the residuals of the rows.
+/// Effects of measurements: the document, the profile's text, the names of the parameters with
+/// their covariance in SI units, and the residuals of the rows.
 #[pyfunction]
 #[pyo3(signature = (profile, tables, *, level="compliance", identify="", fix="", priors=false, loss="huber", base="controller", date=None))]
 pub(crate) fn calibrate<'py>(
@@ -198,8 +198,8 @@ pub(crate) fn validate(
     Ok(Document::new(identified(py, found)?))
 }
 
-/// The effects that a profile lacks: the document, whether it is sure, the better profile where it is, and the configurations
-/// that would tell alternatives apart.
+/// The effects that a profile lacks: the document, whether it is sure, the better profile where it
+/// is, and the configurations that would tell alternatives apart.
 #[pyfunction]
 #[pyo3(signature = (profile, tables, *, accept="", reject="", quick=false, steps=false))]
 pub(crate) fn diagnose(
@@ -246,7 +246,8 @@ fn corners(name: &str, array: &Numbers<'_>) -> PyResult<[[f64; 3]; 2]> {
     }
 }
 
-/// Configurations to measure: the document, their joint angles, their table, and the program where one is asked for.
+/// Configurations to measure: the document, their joint angles, their table, and the program where
+/// one is asked for.
 #[pyfunction]
 #[pyo3(signature = (profile, count, *, tool=None, level="compliance", identify="", fix="", candidates=5000, starts=4, seed=1,
     sigma_m=50e-6, poses=false, given_rad=None, margin_rad=DEG, approach_rad=5.0 * DEG, inside_m=None, keep_out_m=vec![],

@@ -11,7 +11,8 @@ use poseshift::task::{self, Failure};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Residuals of measurements and their exact Jacobian, for solvers such as `scipy.optimize.least_squares`.
+/// Residuals of measurements and their exact Jacobian, for solvers such as
+/// `scipy.optimize.least_squares`.
 #[pyclass(frozen, module = "poseshift")]
 pub(crate) struct Problem {
     residuals: Residuals,

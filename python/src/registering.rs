@@ -9,7 +9,8 @@ use poseshift::task::Failure;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// The rigid motion between matched points: `to_from_from`, residuals, root mean square distance, noise, covariance.
+/// The rigid motion between matched points: `to_from_from`, residuals, root mean square distance,
+/// noise, covariance.
 #[pyfunction]
 #[pyo3(signature = (from_m, to_m, weights=None))]
 pub(crate) fn register<'py>(

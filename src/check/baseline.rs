@@ -1,7 +1,7 @@
 //! A check against one that was stored: what got worse, what better.
 //!
-//! The stored run is the JSON report of a check. Moves are paired by file and by their place among the file's moves, so that
-//! a line inserted above changes nothing.
+//! The stored run is the JSON report of a check. Moves are paired by file and by their place among
+//! the file's moves, so that a line inserted above changes nothing.
 
 use serde_json::Value;
 use std::collections::BTreeMap;

@@ -1,18 +1,21 @@
 //! How near bodies come anywhere along a move: conservative advancement by halving.
 //!
-//! Over an interval of a move with bounds V of a body's speed and K of its acceleration by s, seen from the other body, and
-//! the two bodies' distance d at the middle with unit normal n between them, their distance is nowhere less than
+//! Over an interval of a move with bounds V of a body's speed and K of its acceleration by s, seen
+//! from the other body, and the two bodies' distance d at the middle with unit normal n between
+//! them, their distance is nowhere less than
 //!
 //! ```text
 //! d − V h/2                                                     no point moves farther
 //! the gap along n, at the ends and the middle, less K (h/2)²/8   no point leaves its chord by more
 //! ```
 //!
-//! The interval with the least bound is halved until it is within a tolerance of the nearest sample; pairs that cannot be
-//! the nearest are dropped on the way. What is told is the bound: never more than the true clearance.
+//! The interval with the least bound is halved until it is within a tolerance of the nearest
+//! sample; pairs that cannot be the nearest are dropped on the way. What is told is the bound:
+//! never more than the true clearance.
 //!
 //! # Source
-//! B. Mirtich, J. Canny, "Impulse-based simulation" (1995) (conservative advancement); S. Piyavskii (1972) (the search).
+//! B. Mirtich, J. Canny, "Impulse-based simulation" (1995) (conservative advancement); S. Piyavskii
+//! (1972) (the search).
 
 use super::query::{Body, Nearest};
 use super::scene::{FixedForm, Other, Scene, Watched};
@@ -63,7 +66,8 @@ pub(crate) struct Mover<'a> {
     pub is_real: bool,
 }
 
-/// Bounds of the rates of a piece: what each joint adds to the speed and acceleration of what it carries.
+/// Bounds of the rates of a piece: what each joint adds to the speed and acceleration of what it
+/// carries.
 #[derive(Clone, Copy, Debug)]
 struct Rates {
     /// Angular speed of each joint, radians by s.
@@ -134,7 +138,8 @@ impl Mover<'_> {
         rates
     }
 
-    /// Bounds of speed and acceleration of a body on link `on` seen from link `from` (0 is the world), by s.
+    /// Bounds of speed and acceleration of a body on link `on` seen from link `from` (0 is the
+    /// world), by s.
     fn speed(
         &self,
         rates: &Rates,
@@ -214,7 +219,8 @@ struct Search<'a> {
 
 type Frames = [Pose; 7];
 
-/// The clearance of one move, as far as anything comes within `horizon_m` of what is required of it.
+/// The clearance of one move, as far as anything comes within `horizon_m` of what is required of
+/// it.
 pub(crate) fn clearance(
     scene: &Scene,
     mover: &Mover,
@@ -393,8 +399,8 @@ impl Search<'_> {
         }
     }
 
-    /// Samples an interval in its middle; returns the joints there, what remains in question, and the least margin that it
-    /// can have.
+    /// Samples an interval in its middle; returns the joints there, what remains in question, and
+    /// the least margin that it can have.
     fn look(&mut self, node: &Node) -> ([f64; 6], f64, Vec<Item>) {
         let at = 0.5 * (node.from + node.to);
         let half = 0.5 * (node.to - node.from);

@@ -1,11 +1,12 @@
 //! How far the real tool is from the wanted path anywhere along a move.
 //!
-//! Between two samples at a and b a function e with |e''| ≤ B is within B (b − a)² / 8 of the straight line between its
-//! values there. With e the difference of the real tool's pose and the wanted one, B from [`Jet`]s over the whole interval,
-//! and halving where the bound is not yet near the largest sample, the bound that is told holds everywhere, and is near.
+//! Between two samples at a and b a function e with |e''| ≤ B is within B (b − a)² / 8 of the
+//! straight line between its values there. With e the difference of the real tool's pose and the
+//! wanted one, B from [`Jet`]s over the whole interval, and halving where the bound is not yet near
+//! the largest sample, the bound that is told holds everywhere, and is near.
 //!
-//! The pose's difference has twelve components: three of the position, and nine of the rotation matrices, whose Frobenius
-//! norm is `2√2 sin(φ/2)` at an angle φ.
+//! The pose's difference has twelve components: three of the position, and nine of the rotation
+//! matrices, whose Frobenius norm is `2√2 sin(φ/2)` at an angle φ.
 
 use crate::geometry::{Jet, Pose, Scalar, Separation, norm, sub};
 use crate::model::{Conditions, Model};
@@ -40,7 +41,8 @@ pub(crate) struct Models<S> {
     pub controller: Model<S>,
 }
 
-/// The move that says where the tool is wanted: this one in the controller's own belief, or a part of another one.
+/// The move that says where the tool is wanted: this one in the controller's own belief, or a part
+/// of another one.
 pub(crate) struct Wanted<'a> {
     pub leg: &'a Leg<'a>,
     pub from: f64,
@@ -215,8 +217,8 @@ pub(crate) fn path_error(
         } else if is_whole && bound.0.is_finite() && bound.1.is_finite() {
             high = (high.0.max(bound.0), high.1.max(bound.1));
         } else {
-            // it leaps from one posture to another, or at a singularity nothing bounds the joints' rates: what is between the
-            // samples is unknown
+            // it leaps from one posture to another, or at a singularity nothing bounds the joints'
+            // rates: what is between the samples is unknown
             found.certified = false;
         }
     }

@@ -7,13 +7,15 @@ use crate::motion::course::{Course, Leg, Piece};
 /// The least room of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Least distance of a joint from its limits anywhere along the move, radians; negative beyond.
+    /// Least distance of a joint from its limits anywhere along the move, radians; negative
+    /// beyond.
     pub margin_rad: f64,
     /// Which joint, from 0.
     pub joint: usize,
     /// Least distances from the singularities, of samples.
     pub margins: Margins,
-    /// Largest rate of any joint anywhere along the move, radians for the whole move at a constant rate of s.
+    /// Largest rate of any joint anywhere along the move, radians for the whole move at a constant
+    /// rate of s.
     pub rate_rad: f64,
     /// Programmed time of the move, seconds.
     pub duration_s: Option<f64>,
@@ -30,7 +32,8 @@ pub(crate) struct Asked {
 
 /// Samples of the distance from singularities in each piece.
 const SAMPLES: usize = 4;
-/// A joint cannot be said to leave the straight line between two samples by more than this, radians.
+/// A joint cannot be said to leave the straight line between two samples by more than this,
+/// radians.
 const MOST_BULGE_RAD: f64 = 0.5;
 
 /// The largest value of a function over a piece from its ends and the bound of its curvature.

@@ -1,7 +1,8 @@
 //! Triangle meshes from files: STL and OBJ by a crate, COLLADA and glTF here.
 //!
-//! COLLADA and glTF say how long their unit is and which axis points up: what is read is in metres, and z points up. STL and
-//! OBJ say neither: they are taken as they stand, and their unit, where nobody says, as a millimetre.
+//! COLLADA and glTF say how long their unit is and which axis points up: what is read is in metres,
+//! and z points up. STL and OBJ say neither: they are taken as they stand, and their unit, where
+//! nobody says, as a millimetre.
 
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, cross, norm, sub};
@@ -24,7 +25,8 @@ const DEGENERATE: f64 = 1e-12;
 /// Three corners.
 type Triangle = [Vector; 3];
 
-/// Reads a file that a mesh file names: it stands in the same folder or below it. An error says why it cannot be read.
+/// Reads a file that a mesh file names: it stands in the same folder or below it. An error says why
+/// it cannot be read.
 pub type Neighbour<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// Triangles in metres.
@@ -110,8 +112,8 @@ fn ending(name: &str) -> String {
 }
 
 impl Mesh {
-    /// Reads a mesh file's bytes; `scale` is millimetres of a unit on each axis, of files that say their unit of a metre in
-    /// them. `neighbour` reads a file that this one names.
+    /// Reads a mesh file's bytes; `scale` is millimetres of a unit on each axis, of files that say
+    /// their unit of a metre in them. `neighbour` reads a file that this one names.
     ///
     /// # Errors
     /// If it is no mesh, has no area, or a size that cannot be meant.
@@ -193,7 +195,8 @@ impl Mesh {
         sub(high, low).into_iter().fold(0.0, f64::max)
     }
 
-    /// Whether a point is inside: an odd number of triangles lies on a ray from it. Meaningless where the mesh is open.
+    /// Whether a point is inside: an odd number of triangles lies on a ray from it. Meaningless
+    /// where the mesh is open.
     #[must_use]
     pub fn contains(&self, point: Vector) -> bool {
         // a direction that no drawing has: no ray along an edge

@@ -1,4 +1,5 @@
-//! Where the real robot goes when it runs a program as it is, how far that is from the wanted path, and what it comes near.
+//! Where the real robot goes when it runs a program as it is, how far that is from the wanted path,
+//! and what it comes near.
 //!
 //! ```text
 //! program → route (compensate) → legs (course) → pieces with bounds
@@ -7,9 +8,9 @@
 //!                                    └ limits      joint limits, singularities, rates
 //! ```
 //!
-//! The controller interpolates in its own model: joints, straight lines and arcs of the tool; the real model says where the
-//! tool and the links are then. Corners (zones) are not rounded: the path is that through the programmed corner, and moves
-//! with a zone are marked.
+//! The controller interpolates in its own model: joints, straight lines and arcs of the tool; the
+//! real model says where the tool and the links are then. Corners (zones) are not rounded: the path
+//! is that through the programmed corner, and moves with a zone are marked.
 //!
 //! # Example
 //!
@@ -166,14 +167,15 @@ pub struct MoveReport {
     pub line: u32,
     /// How far from the wanted pose the real tool ends.
     pub target_error: Separation,
-    /// One standard deviation of the real tool's predicted position at its end in the direction of its error, metres; `None`
-    /// where the calibration tells no covariance.
+    /// One standard deviation of the real tool's predicted position at its end in the direction of
+    /// its error, metres; `None` where the calibration tells no covariance.
     pub uncertainty_m: Option<f64>,
     /// The error along the path; `None` where it is unknown where the move begins.
     pub path: Option<PathError>,
     /// The least room of the real arm; `None` where no bodies were compared.
     pub clearance: Option<Box<Clearance>>,
-    /// The least room of the arm as the controller, or the simulation, believes it, metres: along the whole move, and of samples.
+    /// The least room of the arm as the controller, or the simulation, believes it, metres: along
+    /// the whole move, and of samples.
     pub nominal_clearance_m: Option<[f64; 2]>,
     /// What it asks of the joints.
     pub limits: Option<Limits>,
@@ -186,7 +188,8 @@ impl MoveReport {
         program.speed_zone(&program.moves[self.motion])
     }
 
-    /// Whether its target is given in joints, which compensation leaves as they are unless it is asked to shift them.
+    /// Whether its target is given in joints, which compensation leaves as they are unless it is
+    /// asked to shift them.
     #[must_use]
     pub fn in_joints(&self, program: &Program) -> bool {
         !program.goes_to_pose(&program.moves[self.motion])
@@ -263,8 +266,8 @@ impl Check {
 /// Follows a program through the real robot.
 ///
 /// # Errors
-/// If a program cannot be read, a tool or frame is unknown, the arm has no closed-form inverse, or the original has other
-/// moves. What a move does wrong is a [`Finding`].
+/// If a program cannot be read, a tool or frame is unknown, the arm has no closed-form inverse, or
+/// the original has other moves. What a move does wrong is a [`Finding`].
 pub fn check(subject: &Subject, options: &Options) -> Result<Check, CheckError> {
     check_telling(subject, options, &mut |_, _| ())
 }
@@ -339,7 +342,8 @@ pub fn check_telling(
     })
 }
 
-/// Configurations that the paths of the original do not end in either are those of its simulation: worth a look, no more.
+/// Configurations that the paths of the original do not end in either are those of its simulation:
+/// worth a look, no more.
 fn soften(findings: &mut [Finding], of_original: &[Finding]) {
     let id = crate::motion::walk::CONFIGURATION_CHANGE;
     let count = |findings: &[Finding]| findings.iter().filter(|f| f.id == id).count();

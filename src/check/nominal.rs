@@ -1,7 +1,8 @@
 //! Which move of the original program each move of a compensated one is, or is a part of.
 //!
-//! A refined program has targets between those of the original. A move belongs to the original's next move whose end its own
-//! landing is at; what comes before it on the same way are parts of that move.
+//! A refined program has targets between those of the original. A move belongs to the original's
+//! next move whose end its own landing is at; what comes before it on the same way are parts of
+//! that move.
 
 use super::walk::Walk;
 use super::{CheckError, Options, Subject};
@@ -42,7 +43,8 @@ impl Part {
     }
 }
 
-/// For each stop of the program the part of the original that its move is; `None` for those that cannot be followed.
+/// For each stop of the program the part of the original that its move is; `None` for those that
+/// cannot be followed.
 pub(crate) fn align(
     walk: &Walk,
     original: &Walk,
@@ -59,8 +61,8 @@ pub(crate) fn align(
     Ok((0..walk.stops.all.len()).map(part).collect())
 }
 
-/// The stop of the original's move that the robot comes to as to a stop of ours: from the same move, else in the nearest
-/// joints.
+/// The stop of the original's move that the robot comes to as to a stop of ours: from the same
+/// move, else in the nearest joints.
 fn alike(
     walk: &Walk,
     original: &Walk,
@@ -89,7 +91,8 @@ fn alike(
     })
 }
 
-/// For each move of the program the part of the original that it is, with the first stop of the original's move.
+/// For each move of the program the part of the original that it is, with the first stop of the
+/// original's move.
 fn align_moves(
     walk: &Walk,
     original: &Walk,
@@ -199,7 +202,8 @@ fn align_moves(
     Ok(parts)
 }
 
-/// Where beyond `from` a path is nearest to a pose, in position and, where the tool only turns, in orientation.
+/// Where beyond `from` a path is nearest to a pose, in position and, where the tool only turns, in
+/// orientation.
 fn nearest_on(along: &dyn Fn(f64) -> Pose, landed: &Pose, from: f64, fine: bool) -> f64 {
     let gap = |s: f64| {
         let pose = along(s);
@@ -222,6 +226,7 @@ fn nearest_on(along: &dyn Fn(f64) -> Pose, landed: &Pose, from: f64, fine: bool)
             low = a;
         }
     }
-    // inserted targets stand at round fractions of the rest: decimals of the file blur them by less than this
+    // inserted targets stand at round fractions of the rest: decimals of the file blur them by less
+    // than this
     0.5 * (low + high)
 }

@@ -30,8 +30,8 @@ impl Passage {
         Ok(Self { equipped, arms })
     }
 
-    /// Whether nothing comes nearer than required and `room_m` beyond (at most a millimetre), guaranteed between these joints
-    /// (radians) and not only at samples.
+    /// Whether nothing comes nearer than required and `room_m` beyond (at most a millimetre),
+    /// guaranteed between these joints (radians) and not only at samples.
     #[must_use]
     pub fn is_clear(&self, scene: &Scene, from: &[f64; 6], to: &[f64; 6], room_m: f64) -> bool {
         let leg = Leg {

@@ -3,8 +3,8 @@
 use super::scene::{FixedForm, Other, Scene};
 use crate::model::{Conditions, Model};
 
-/// Names of two bodies that touch, or come nearer than they must, at these joints (radians); the convex ones: of fixed meshes
-/// nothing is said here.
+/// Names of two bodies that touch, or come nearer than they must, at these joints (radians); the
+/// convex ones: of fixed meshes nothing is said here.
 #[must_use]
 pub fn touching<'a>(scene: &'a Scene, model: &Model, q: &[f64; 6]) -> Option<(&'a str, &'a str)> {
     let frames = model.link_frames(q, &Conditions::default());

@@ -1,11 +1,13 @@
 //! Distances between convex bodies. The only file that knows parry.
 //!
-//! Segments with a radius (capsules, spheres) are met in closed form; everything else by the algorithm of Gilbert, Johnson
-//! and Keerthi. What the latter finds is only used as a direction: the distance that is told is the width of the gap between
-//! two parallel planes that separate the bodies, which never is more than their distance, however well the search converged.
+//! Segments with a radius (capsules, spheres) are met in closed form; everything else by the
+//! algorithm of Gilbert, Johnson and Keerthi. What the latter finds is only used as a direction:
+//! the distance that is told is the width of the gap between two parallel planes that separate the
+//! bodies, which never is more than their distance, however well the search converged.
 //!
 //! # Source
-//! C. Ericson, "Real-Time Collision Detection" (2005), 5.1.9 (segments); E. Gilbert, D. Johnson, S. Keerthi (1988).
+//! C. Ericson, "Real-Time Collision Detection" (2005), 5.1.9 (segments); E. Gilbert, D. Johnson, S.
+//! Keerthi (1988).
 
 use crate::geometry::{Pose, Vector, add, cross, dot, norm, scale, sub};
 use parry::bounding_volume::Aabb;
@@ -191,7 +193,8 @@ impl Body {
         self.ball
     }
 
-    /// The body is at least so far from a point of its own frame: exactly so where it is a capsule. Negative inside.
+    /// The body is at least so far from a point of its own frame: exactly so where it is a capsule.
+    /// Negative inside.
     #[must_use]
     pub(crate) fn least_distance(&self, point: Vector) -> f64 {
         match &self.core {
@@ -241,7 +244,8 @@ impl Body {
         }
     }
 
-    /// The largest coordinate along a unit direction `n` (in frame b) of its points placed by `b_from_a`.
+    /// The largest coordinate along a unit direction `n` (in frame b) of its points placed by
+    /// `b_from_a`.
     #[inline]
     #[must_use]
     pub(crate) fn support_placed(&self, b_from_a: &Pose, n: Vector) -> f64 {

@@ -1,8 +1,9 @@
 //! Targets between those of a program, where the real path would otherwise leave the wanted one.
 //!
-//! A compensated program meets its targets; between them the controller still interpolates in its own model. A move whose
-//! path error is above the limit is halved, each half again, until every part is within it: the new targets are poses of the
-//! wanted path, brought through the real inverse like all others. An arc stays an arc, through a new point for each part.
+//! A compensated program meets its targets; between them the controller still interpolates in its
+//! own model. A move whose path error is above the limit is halved, each half again, until every
+//! part is within it: the new targets are poses of the wanted path, brought through the real
+//! inverse like all others. An arc stays an arc, through a new point for each part.
 
 use super::deviation::{self, Models, Wanted};
 use super::walk::Walk;
@@ -36,7 +37,8 @@ struct Point {
     fake: Pose,
 }
 
-/// Adds moves to a compensated program so that no path is farther from the wanted one than `limit_m`.
+/// Adds moves to a compensated program so that no path is farther from the wanted one than
+/// `limit_m`.
 ///
 /// # Errors
 /// As [`super::check`] for the original program.
@@ -330,7 +332,8 @@ impl Job<'_> {
         found.bound.distance_m
     }
 
-    /// The point through which a part of an arc goes; none on other courses, an error where it cannot be reached.
+    /// The point through which a part of an arc goes; none on other courses, an error where it
+    /// cannot be reached.
     fn via(&self, leg: &Leg, index: usize, a: &Point, b: &Point) -> Result<Option<Pose>, ()> {
         let is_arc = matches!(&leg.course, Course::Tool(course) if course.is_arc());
         if !is_arc {
@@ -340,7 +343,8 @@ impl Job<'_> {
         middle.map(|point| Some(point.fake)).ok_or(())
     }
 
-    /// Appends the points behind `a` up to `b`; false where one cannot be reached or too many would be needed.
+    /// Appends the points behind `a` up to `b`; false where one cannot be reached or too many would
+    /// be needed.
     fn split(
         &self,
         leg: &Leg,
@@ -368,7 +372,8 @@ impl Job<'_> {
             && self.split(leg, index, &middle, b, depth + 1, out)
     }
 
-    /// The numbers of the new targets as text: each new move's, and where the move is an arc, the points of all parts.
+    /// The numbers of the new targets as text: each new move's, and where the move is an arc, the
+    /// points of all parts.
     fn between(
         &self,
         leg: &Leg,

@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 /// Meshes by the name that a profile or cell file gives them.
 pub type Meshes = BTreeMap<String, Mesh>;
 
-/// Bodies whose links are nearer than this in the chain are kept apart by the joint limits, and their capsules overlap.
+/// Bodies whose links are nearer than this in the chain are kept apart by the joint limits, and
+/// their capsules overlap.
 const APART: usize = 3;
 
 /// A body that moves with a link.
@@ -203,7 +204,8 @@ impl Scene {
                     let names = [&self.names[one.name], &self.names[other.name]];
                     names.contains(&&pair.a) && names.contains(&&pair.b)
                 });
-                // what moves together cannot come nearer; neighbours touch; a cell file may name others
+                // what moves together cannot come nearer; neighbours touch; a cell file may name
+                // others
                 if apart == 0 || (apart < APART && !(said && apart > usize::from(own))) {
                     continue;
                 }

@@ -1,5 +1,5 @@
-//! Meshes whose unit nobody says, beside bodies whose size is known: an STL in metres, taken as millimetres, is a crumb that
-//! nothing ever touches.
+//! Meshes whose unit nobody says, beside bodies whose size is known: an STL in metres, taken as
+//! millimetres, is a crumb that nothing ever touches.
 
 use super::Meshes;
 use super::cell::{Cell, LINKS};
@@ -9,7 +9,8 @@ use crate::geometry::{norm, sub};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::shape::{Form, Shape};
 
-/// A body this many times smaller than another one is in another unit, unless somebody says its unit.
+/// A body this many times smaller than another one is in another unit, unless somebody says its
+/// unit.
 const SMALLER: f64 = 100.0;
 
 /// Errors of meshes that are too small beside the largest body or the arm.

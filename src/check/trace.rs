@@ -1,4 +1,5 @@
-//! The way of the real tool beside the wanted one, move by move, in samples to draw: nothing is judged and nothing bounded.
+//! The way of the real tool beside the wanted one, move by move, in samples to draw: nothing is
+//! judged and nothing bounded.
 
 use super::deviation::Wanted;
 use super::{CheckError, Options, Subject, Walk, nominal};
@@ -21,7 +22,8 @@ pub struct PathPoint {
 pub struct Traced {
     /// Index in the program's moves.
     pub motion: usize,
-    /// Index of the move of the original that it is, or is a part of; its own where there is no original.
+    /// Index of the move of the original that it is, or is a part of; its own where there is no
+    /// original.
     pub counterpart: usize,
     /// Index of the program's target at its end.
     pub target: usize,
@@ -35,7 +37,8 @@ pub struct Traced {
     pub joints: [f64; 6],
     /// It continues the move before it; else its first place is where it ends.
     pub continues: bool,
-    /// From its beginning to its end; of a move that continues another the beginning is the other's end and left out.
+    /// From its beginning to its end; of a move that continues another the beginning is the
+    /// other's end and left out.
     pub places: Vec<PathPoint>,
 }
 

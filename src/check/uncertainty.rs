@@ -1,4 +1,5 @@
-//! How well the calibration knows where the real tool is: the covariance of the parameters, pushed through the model.
+//! How well the calibration knows where the real tool is: the covariance of the parameters, pushed
+//! through the model.
 
 use crate::geometry::{Vector, dot, sub};
 use crate::model::profile::{Mounted, Profile};
@@ -36,7 +37,8 @@ fn covariance(quality: &Value) -> Option<Named<'_>> {
 }
 
 impl Spread {
-    /// The spread of a profile with a tool; `None` where the calibration says nothing of its covariance.
+    /// The spread of a profile with a tool; `None` where the calibration says nothing of its
+    /// covariance.
     pub(super) fn of(profile: &Profile, tool: &Mounted) -> Option<Self> {
         let (names, rows) = covariance(profile.quality.as_ref()?)?;
         let mut moved = Vec::new();
@@ -69,8 +71,8 @@ impl Spread {
         (!kept.is_empty()).then_some(Self { moved, correlation })
     }
 
-    /// One standard deviation of the tool's position along a unit direction, metres; along the worst axis of the world where
-    /// there is none.
+    /// One standard deviation of the tool's position along a unit direction, metres; along the
+    /// worst axis of the world where there is none.
     pub(super) fn sigma_m(
         &self,
         q: &[f64; 6],

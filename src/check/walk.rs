@@ -108,7 +108,8 @@ struct Carried {
 /// The ends of all moves.
 #[derive(Debug, Default)]
 pub(super) struct Stops {
-    /// In the order of the text, one for each stop that a move begins at; `None` where it is unknown where the robot is then.
+    /// In the order of the text, one for each stop that a move begins at; `None` where it is
+    /// unknown where the robot is then.
     pub all: Vec<Option<Stop>>,
     carried: Vec<Carried>,
 }
@@ -375,7 +376,8 @@ impl Walk {
         };
         Some(Leg {
             ride,
-            // the branch of the path's end is that of the whole path; at its beginning it may be open
+            // the branch of the path's end is that of the whole path; at its beginning it may be
+            // open
             branch: match motion.motion {
                 Motion::Joint => equipped.arm.posture(&start.q).0,
                 _ => stop.branch,
@@ -388,7 +390,8 @@ impl Walk {
     }
 }
 
-/// Where the controller believes the tool to be at the end of a move; `None` where that is not known.
+/// Where the controller believes the tool to be at the end of a move; `None` where that is not
+/// known.
 fn stop_pose(ground: &Ground, arrival: &Arrival) -> Option<Pose> {
     let motion = &ground.program.moves[arrival.motion as usize];
     let target = motion

@@ -39,7 +39,8 @@ impl LossName {
 /// What becomes of the measured place of the base
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BaseName {
-    /// The base is where the controller has it: where the device stands is identified apart, as `world_from_device`
+    /// The base is where the controller has it: where the device stands is identified apart, as
+    /// `world_from_device`
     Controller,
     /// `profile` where they are within 20 mm and 1 deg, else `device`
     Auto,

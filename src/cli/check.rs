@@ -20,10 +20,12 @@ use crate::task::{Document, Failure, text};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
-/// Predict where the real robot goes with programs as they are: accuracy along the path, limits, collisions
+/// Predict where the real robot goes with programs as they are: accuracy along the path, limits,
+/// collisions
 #[derive(Args)]
 pub(super) struct Check {
-    /// Program files that belong together, or folders of them; `-` is one program on standard input
+    /// Program files that belong together, or folders of them; `-` is one program on standard
+    /// input
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
     /// Robot profile (YAML)
@@ -35,7 +37,8 @@ pub(super) struct Check {
     /// The program that a compensated one was made from: where the tool is wanted
     #[arg(long, value_name = "ORIGINAL")]
     nominal: Vec<PathBuf>,
-    /// Compare with --nominal and --profile although the marker of a program names another original or profile
+    /// Compare with --nominal and --profile although the marker of a program names another
+    /// original or profile
     #[arg(long)]
     force: bool,
     /// A path error above this is an error, mm
@@ -62,7 +65,8 @@ pub(super) struct Check {
     /// Write `JUnit` XML for a build server
     #[arg(long, value_name = "XML")]
     junit: Option<PathBuf>,
-    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
+    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and
+    /// degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
     /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
@@ -71,13 +75,15 @@ pub(super) struct Check {
     /// Files and folders that are read for their declarations and calls only
     #[arg(long, value_name = "PATH")]
     with: Vec<PathBuf>,
-    /// Of the programs and originals only those of this name, with or without its ending; the others are read as with --with
+    /// Of the programs and originals only those of this name, with or without its ending; the
+    /// others are read as with --with
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Take an error, by its id, everywhere or at one place
     #[arg(long, value_name = "ID[:FILE[:LINE]]")]
     accept: Vec<String>,
-    /// Joints of the robot when a program starts, degrees: they tell the first posture and direction
+    /// Joints of the robot when a program starts, degrees: they tell the first posture and
+    /// direction
     #[arg(long, value_name = "Q1,…,Q6", allow_hyphen_values = true)]
     start_joints: Option<String>,
     /// Language of the programs (default: by file name and content)
@@ -224,7 +230,8 @@ impl Check {
         })
     }
 
-    /// The comparison with the stored run; none where there is no baseline, or where it is to be written for the first time.
+    /// The comparison with the stored run; none where there is no baseline, or where it is to be
+    /// written for the first time.
     fn compare(&self, files: &Files, now: &Run) -> Result<Option<baseline::Comparison>, Failure> {
         let Some(path) = &self.baseline else {
             return Ok(None);

@@ -22,7 +22,8 @@ use std::path::{Path, PathBuf};
 /// Rewrite the targets of programs so that the real tool arrives where the simulation wanted it
 #[derive(Args)]
 pub(super) struct Compensate {
-    /// Program files that belong together, or folders of them; `-` is one program on standard input
+    /// Program files that belong together, or folders of them; `-` is one program on standard
+    /// input
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
     /// Robot profile (YAML) with a calibration
@@ -43,17 +44,19 @@ pub(super) struct Compensate {
     /// Write even when targets cannot be compensated; these stay as they are, and the status is 1
     #[arg(long, conflicts_with = "write_good")]
     keep_going: bool,
-    /// Write the programs that share neither targets nor calls with one that is refused; the status is 1
+    /// Write the programs that share neither targets nor calls with one that is refused; the
+    /// status is 1
     #[arg(long)]
     write_good: bool,
     /// Files and folders that are read for their declarations and calls only
     #[arg(long, value_name = "PATH")]
     with: Vec<PathBuf>,
-    /// Of the programs only those of this name, with or without its ending; the others are read as with --with
+    /// Of the programs only those of this name, with or without its ending; the others are read as
+    /// with --with
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Take an error, by its id, everywhere or at one place; the marker records it (not for reach, numbers that are not
-    /// finite, unknown tools and frames)
+    /// Take an error, by its id, everywhere or at one place; the marker records it (not for reach,
+    /// numbers that are not finite, unknown tools and frames)
     #[arg(long, value_name = "ID[:FILE[:LINE]]")]
     accept: Vec<String>,
     /// Write a target out at each of its moves where one set of numbers does not serve all
@@ -62,7 +65,8 @@ pub(super) struct Compensate {
     /// A target at the wrist's singularity that the real arm does not reach on the meant side
     #[arg(long, value_enum, default_value = "refuse")]
     at_singularity: Singularity,
-    /// Compensate files that already are, and targets that the controller corrects itself (KRL: S with bit 4)
+    /// Compensate files that already are, and targets that the controller corrects itself (KRL: S
+    /// with bit 4)
     #[arg(long)]
     force: bool,
     /// Write at least so many decimals of a millimetre (default: as many as the file has)
@@ -77,27 +81,31 @@ pub(super) struct Compensate {
     /// How to search the joints of the real arm
     #[arg(long, value_enum, default_value = "auto")]
     method: Search,
-    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and degrees on the flange
+    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and
+    /// degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
     /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
-    /// Where the part stands: a frame file that maps the part as simulated into the part as measured, both in the world;
-    /// moves every target with the part
+    /// Where the part stands: a frame file that maps the part as simulated into the part as
+    /// measured, both in the world; moves every target with the part
     #[arg(long, value_name = "FRAME.yaml")]
     work_offset: Option<PathBuf>,
-    /// Where a work object stands in the world: a frame file. Like --frame, but a program that declares it elsewhere is refused
+    /// Where a work object stands in the world: a frame file. Like --frame, but a program that
+    /// declares it elsewhere is refused
     #[arg(long = "wobj", value_name = "NAME=FRAME.yaml")]
     wobjs: Vec<String>,
-    /// Joints of the robot when a program starts, degrees: they tell the first posture and direction
+    /// Joints of the robot when a program starts, degrees: they tell the first posture and
+    /// direction
     #[arg(long, value_name = "Q1,…,Q6", allow_hyphen_values = true)]
     start_joints: Option<String>,
-    /// How far points that the running program derives from a target may land off their own wanted pose, mm
+    /// How far points that the running program derives from a target may land off their own wanted
+    /// pose, mm
     #[arg(long, value_name = "MM", default_value_t = 0.05)]
     max_derived_error: f64,
-    /// How far a correction may shift a target (default: ten times what the profile's effects usually do, at most 20mm,2deg);
-    /// the marker records it
+    /// How far a correction may shift a target (default: ten times what the profile's effects
+    /// usually do, at most 20mm,2deg); the marker records it
     #[arg(long, value_name = "MM,DEG")]
     max_shift: Option<String>,
     /// Language of the programs (default: by file name and content)
@@ -299,7 +307,8 @@ impl Compensate {
         })
     }
 
-    /// The sources, and where each one's compensated version goes: nowhere where it is read for its declarations only.
+    /// The sources, and where each one's compensated version goes: nowhere where it is read for its
+    /// declarations only.
     fn jobs(
         &self,
         files: &Files,

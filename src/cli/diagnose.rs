@@ -23,7 +23,8 @@ pub(super) struct Diagnose {
     /// Improved profile to write (YAML)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Have this effect in the model whatever the evidence, and no others: `backlash:3`; may be given again
+    /// Have this effect in the model whatever the evidence, and no others: `backlash:3`; may be
+    /// given again
     #[arg(long, value_name = "EFFECT")]
     accept: Vec<String>,
     /// Leave this effect out: `joint_harmonic`, `link_compliance:2`; may be given again

@@ -24,7 +24,8 @@ const IN_MEMORY: usize = 16 << 20;
 /// The page that is asked for.
 #[derive(Args)]
 pub(super) struct ReportFile {
-    /// Write a report to look at: one HTML file with views, charts and tables that needs no network
+    /// Write a report to look at: one HTML file with views, charts and tables that needs no
+    /// network
     #[arg(long = "report", value_name = "FILE.html")]
     file: Option<PathBuf>,
 }
@@ -35,7 +36,8 @@ impl ReportFile {
         self.file.is_some()
     }
 
-    /// Neither the report nor another output may take the place of what was read, nor of one another.
+    /// Neither the report nor another output may take the place of what was read, nor of one
+    /// another.
     pub(super) fn refuse_over<'a>(
         &'a self,
         files: &Files,
@@ -62,8 +64,8 @@ impl ReportFile {
     }
 }
 
-/// When a page is made, and by which command line. `SOURCE_DATE_EPOCH`, seconds since 1970, takes the place of the time, so that
-/// the same run gives the same bytes.
+/// When a page is made, and by which command line. `SOURCE_DATE_EPOCH`, seconds since 1970, takes
+/// the place of the time, so that the same run gives the same bytes.
 fn made() -> String {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok();
     let given = given.and_then(|seconds| seconds.parse().ok());
@@ -174,7 +176,8 @@ impl Default for Ending<'_> {
 /// What is printed.
 #[derive(Default)]
 pub(super) struct Said {
-    /// For people, to standard output; to standard error where that is taken by what programs read.
+    /// For people, to standard output; to standard error where that is taken by what programs
+    /// read.
     pub text: String,
     /// For programs, to standard output.
     pub data: Option<Box<dyn Read>>,
@@ -256,8 +259,8 @@ pub(super) fn deliver(
     }
 }
 
-/// Writes the files and the page, all or none, and prints the JSON alone, or findings to standard error and the text to
-/// standard output.
+/// Writes the files and the page, all or none, and prints the JSON alone, or findings to standard
+/// error and the text to standard output.
 pub(super) fn finish(
     files: &Files,
     found: &impl Report,
@@ -342,7 +345,8 @@ fn text(found: &impl Report, output: Output) -> String {
     })
 }
 
-/// Prints a table that is the result itself, whole lines and whatever else is asked for; with `--json` the document.
+/// Prints a table that is the result itself, whole lines and whatever else is asked for; with
+/// `--json` the document.
 pub(super) fn print_table(
     found: &impl Report,
     output: Output,

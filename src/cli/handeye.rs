@@ -32,7 +32,8 @@ pub(super) struct Handeye {
     /// Tool whose load the arm carried (with --profile)
     #[arg(long, value_name = "NAME", requires = "profile")]
     tool: Option<String>,
-    /// Corners seen by the camera and touched by the robot: refine the camera's pose if left-out corners improve
+    /// Corners seen by the camera and touched by the robot: refine the camera's pose if left-out
+    /// corners improve
     #[arg(long, value_name = "CORNERS.csv")]
     corners: Option<PathBuf>,
     /// Write the camera's pose as a frame file

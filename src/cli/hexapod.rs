@@ -1,4 +1,5 @@
-//! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot can measure.
+//! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot
+//! can measure.
 
 use super::ending::{Ending, ReportFile, Said, deliver, finish};
 use super::files::{Files, is_standard_output};
@@ -29,7 +30,8 @@ pub(super) struct Hexapod {
     /// Where the base balls stand in the world: a frame file
     #[arg(long, value_name = "FRAME.yaml")]
     frame: Option<PathBuf>,
-    /// Write measurements for `calibrate` (rows with joints), the frame file (--taught), or joints (--reach)
+    /// Write measurements for `calibrate` (rows with joints), the frame file (--taught), or joints
+    /// (--reach)
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     /// The base balls B1 B2 B3 as the robot was taught them (points): find their frame
@@ -53,7 +55,8 @@ pub(super) struct Hexapod {
     /// Robot profile (YAML), for --reach
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
-    /// Tool of the profile whose frame is that of the tool balls: origin T1, x to T2, T3 in the xy plane
+    /// Tool of the profile whose frame is that of the tool balls: origin T1, x to T2, T3 in the xy
+    /// plane
     #[arg(long, value_name = "NAME")]
     tool: Option<String>,
     #[command(flatten)]

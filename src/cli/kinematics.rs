@@ -50,7 +50,8 @@ pub(super) struct Ik {
     /// Tool of the profile (default: its only one)
     #[arg(long, value_name = "NAME")]
     tool: Option<String>,
-    /// Every solution: one a branch, or as many as there are with an offset wrist (`branch/number`)
+    /// Every solution: one a branch, or as many as there are with an offset wrist
+    /// (`branch/number`)
     #[arg(long)]
     all: bool,
 }

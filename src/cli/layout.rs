@@ -1,10 +1,12 @@
-//! How wide the output is: `COLUMNS` where it is set, else the terminal, else 80. The one place that knows it.
+//! How wide the output is: `COLUMNS` where it is set, else the terminal, else 80. The one place
+//! that knows it.
 
 use crate::finding::Finding;
 use crate::report;
 use crate::report::layout::wrapped_lines;
 
-/// Columns where nothing gives them: of a pipe or a file, so that the same text is written everywhere.
+/// Columns where nothing gives them: of a pipe or a file, so that the same text is written
+/// everywhere.
 const UNKNOWN: usize = 80;
 /// Fewer columns than the first are not laid out for; more than the last are hard to read.
 const LEAST_AND_MOST: (usize, usize) = (40, 100);
@@ -43,7 +45,8 @@ pub(super) fn fitted(text: &str) -> String {
     wrapped_lines(text, width())
 }
 
-/// Findings for standard output. Where nobody sees them a finding is one line, for `grep` and editors.
+/// Findings for standard output. Where nobody sees them a finding is one line, for `grep` and
+/// editors.
 pub(super) fn findings(findings: &[Finding], every: bool) -> String {
     of_findings(findings, every, seen())
 }

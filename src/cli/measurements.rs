@@ -20,19 +20,23 @@ pub(super) struct MeasurementFiles {
     /// Joint angles (CSV) of the rows of --points
     #[arg(long, value_name = "FILE", requires = "points")]
     joints: Option<PathBuf>,
-    /// What the device saw at the joint angles of --joints: joined by the column id, else in the order of the rows
+    /// What the device saw at the joint angles of --joints: joined by the column id, else in the
+    /// order of the rows
     #[arg(long, value_name = "FILE", requires = "joints")]
     points: Option<PathBuf>,
-    /// Names of columns: `x=X,y=Y,q1=J1`, `#3` for the third; `nest1.x=X1` where each reflector has columns of its own
+    /// Names of columns: `x=X,y=Y,q1=J1`, `#3` for the third; `nest1.x=X1` where each reflector
+    /// has columns of its own
     #[arg(long, value_name = "NAME=THEIRS,…")]
     columns: Option<String>,
     /// Units of these columns: `m,rad` (mm m cm um in ft; deg rad)
     #[arg(long, value_name = "UNITS")]
     units: Option<String>,
-    /// How angles rx, ry, rz rotate the tool: xyz, zyx (kuka, fanuc, yaskawa), zyz (kawasaki), rotation-vector (ur)
+    /// How angles rx, ry, rz rotate the tool: xyz, zyx (kuka, fanuc, yaskawa), zyz (kawasaki),
+    /// rotation-vector (ur)
     #[arg(long, value_name = "NAME")]
     euler: Option<String>,
-    /// The rows (of --joints) are in the order in which the robot drove to them: directions follow, dir1 to dir6
+    /// The rows (of --joints) are in the order in which the robot drove to them: directions
+    /// follow, dir1 to dir6
     #[arg(long)]
     driven_in_order: bool,
 }

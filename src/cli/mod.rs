@@ -100,7 +100,8 @@ enum Answer {
 
 /// Runs the command line with these arguments, the program's own name first.
 ///
-/// Exit status: 0 done; 1 done, and the answer is no; 2 could not do it; 3 a fault of poseshift itself, also a panic.
+/// Exit status: 0 done; 1 done, and the answer is no; 2 could not do it; 3 a fault of poseshift
+/// itself, also a panic.
 ///
 /// # Example
 ///

@@ -71,10 +71,12 @@ pub(super) struct PlanCommand {
     /// Every joint arrives from so far below
     #[arg(long, value_name = "DEG", default_value_t = 5.0)]
     approach_deg: f64,
-    /// The tool is inside this box of the world wherever it is measured and approached from: x0,y0,z0,x1,y1,z1 in mm
+    /// The tool is inside this box of the world wherever it is measured and approached from:
+    /// x0,y0,z0,x1,y1,z1 in mm
     #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
     inside_mm: Option<String>,
-    /// Tool, wrist and elbow are outside this box wherever it is measured and approached from; may be given again
+    /// Tool, wrist and elbow are outside this box wherever it is measured and approached from; may
+    /// be given again
     #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
     keep_out_mm: Vec<String>,
     /// Where the device stands: x,y,z in mm; the tool's z axis points to it within --cone-deg

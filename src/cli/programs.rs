@@ -17,7 +17,8 @@ const LOOKED_AT: usize = 1 << 16;
 /// What of folders is no matter.
 #[derive(Args)]
 pub(super) struct Ignored {
-    /// Leave files and folders out that are called so: `*.bak`, `old/**`; may be given again. The summary lists them
+    /// Leave files and folders out that are called so: `*.bak`, `old/**`; may be given again. The
+    /// summary lists them
     #[arg(long, value_name = "GLOB")]
     ignore: Vec<String>,
 }
@@ -72,7 +73,8 @@ impl Gathered {
         paths.collect()
     }
 
-    /// The programs that `--only` means, and behind them the others, which are read for what they declare.
+    /// The programs that `--only` means, and behind them the others, which are read for what they
+    /// declare.
     pub(super) fn only(self, names: &[String]) -> Result<Vec<Source>, Failure> {
         let meant = meant(&self.programs, names)?;
         let (mut own, mut others) = (Vec::new(), Vec::new());
@@ -264,7 +266,8 @@ impl Reading<'_> {
 /// The program files that are meant.
 ///
 /// # Errors
-/// One cannot be read; a folder holds what can be neither read nor passed over in silence; there is none.
+/// One cannot be read; a folder holds what can be neither read nor passed over in silence; there is
+/// none.
 pub(super) fn gather(
     files: &Files,
     paths: &[PathBuf],

@@ -35,7 +35,8 @@ pub(super) struct Register {
     /// Write the frame file (for `compensate --work-offset` or --wobj)
     #[arg(short, long, value_name = "FRAME.yaml")]
     output: Option<PathBuf>,
-    /// Standard deviation of one coordinate of a point, both sets together (default: from the residuals)
+    /// Standard deviation of one coordinate of a point, both sets together (default: from the
+    /// residuals)
     #[arg(long, value_name = "MM")]
     sigma_mm: Option<f64>,
     /// Leave out touches that disagree with the others, and tell why

@@ -1,4 +1,5 @@
-//! Standard output and standard error: the one place that writes there, and that keeps control characters of files from them.
+//! Standard output and standard error: the one place that writes there, and that keeps control
+//! characters of files from them.
 
 use crate::printable::printable_lines;
 use crate::report::layout::coloured;
@@ -53,7 +54,8 @@ pub(super) fn print(text: &str) -> std::result::Result<(), Stop> {
     arrived("standard output", written.and_then(|()| out.flush()))
 }
 
-/// Prints what programs read to standard output, byte by byte; where people see it as they may see it.
+/// Prints what programs read to standard output, byte by byte; where people see it as they may see
+/// it.
 pub(super) fn print_data(data: &mut dyn Read) -> std::result::Result<(), Stop> {
     let mut out = std::io::stdout().lock();
     let written = if out.is_terminal() {

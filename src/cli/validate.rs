@@ -19,15 +19,15 @@ pub(super) struct Validate {
     profile: PathBuf,
     #[command(flatten)]
     measurements: MeasurementFiles,
-    /// Fit base, tool and points first, to the rows not marked for `validate` where there are both, else to those judged: the
-    /// device or the tool was set up anew
+    /// Fit base, tool and points first, to the rows not marked for `validate` where there are
+    /// both, else to those judged: the device or the tool was set up anew
     #[arg(long)]
     refit_frames: bool,
     /// Identify the profile's effects again without each of so many parts of the configurations
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=1000))]
     folds: Option<u32>,
-    /// Identify so much of the arm in each of the --folds, as `calibrate` does: 0 frames alone; 1 and joint offsets and scales; 2 and link
-    /// geometry; 3 and joint compliance
+    /// Identify so much of the arm in each of the --folds, as `calibrate` does: 0 frames alone; 1
+    /// and joint offsets and scales; 2 and link geometry; 3 and joint compliance
     #[arg(long, value_name = "0..3", requires = "folds", value_parser = clap::value_parser!(u8).range(0..=3))]
     level: Option<u8>,
     /// Count each effect's typical size as one more measurement in each of the --folds

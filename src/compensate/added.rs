@@ -6,8 +6,9 @@ use crate::program::{Edits, Insertion, Language, Program, Replacements, Source, 
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Compensation {
-    /// Puts moves and targets into a file, in the place of what was to be changed there; for each insertion whether its move
-    /// can be written so. A move that was given a target of its own before keeps it.
+    /// Puts moves and targets into a file, in the place of what was to be changed there; for each
+    /// insertion whether its move can be written so. A move that was given a target of its own
+    /// before keeps it.
     pub fn insert(
         &mut self,
         language: &dyn Language,

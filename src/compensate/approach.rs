@@ -190,7 +190,8 @@ fn is_same(job: &Job, a: &Approach, b: &Approach) -> bool {
         && setting.same_frame(a.frame as usize, b.frame as usize)
 }
 
-/// Targets that moves only go near: as if the robot went there itself, in the posture that it has nearby.
+/// Targets that moves only go near: as if the robot went there itself, in the posture that it has
+/// nearby.
 fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>) {
     let direct = approaches.len();
     for mut approach in derived {
@@ -213,7 +214,8 @@ fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>
     }
 }
 
-/// A target that no move in these files uses: its tool and frame are what the user gives for unknown names.
+/// A target that no move in these files uses: its tool and frame are what the user gives for
+/// unknown names.
 fn add_unused(
     job: &Job,
     used: &[bool],

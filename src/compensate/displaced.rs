@@ -1,5 +1,5 @@
-//! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction along; here is told how far
-//! from their own wanted poses they land.
+//! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction
+//! along; here is told how far from their own wanted poses they land.
 
 use super::approach::Approach;
 use super::{Job, LIMIT_DERIVED_M};
@@ -19,7 +19,8 @@ pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
     displaced.filter_map(|motion| motion.target).collect()
 }
 
-/// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that points are derived from.
+/// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that
+/// points are derived from.
 pub(super) fn check(
     job: &Job,
     approaches: &[Approach],
@@ -109,7 +110,8 @@ pub(super) fn check(
 /// How far a sensor or a register usually displaces a point, metres.
 const SOMEHOW_M: f64 = 5.0 * MM;
 
-/// Displacements that stand for one that only the running program knows: along each axis of the work frame.
+/// Displacements that stand for one that only the running program knows: along each axis of the
+/// work frame.
 fn somehow() -> impl Iterator<Item = Shift> {
     (0..6).map(|side| {
         let mut by = [0.0; 3];
@@ -118,7 +120,8 @@ fn somehow() -> impl Iterator<Item = Shift> {
     })
 }
 
-/// How far from its wanted pose a displaced use of a target lands; `None` where the controller does not reach it.
+/// How far from its wanted pose a displaced use of a target lands; `None` where the controller does
+/// not reach it.
 fn landing(
     job: &Job,
     approach: &Approach,

@@ -11,7 +11,8 @@ use crate::motion::external;
 use crate::motion::ground::Ground;
 use std::sync::OnceLock;
 
-/// Postures at which the effects are looked at, and which of them in order of size counts: 95 in 100.
+/// Postures at which the effects are looked at, and which of them in order of size counts: 95 in
+/// 100.
 const POSTURES: usize = 1000;
 const COUNTS: usize = 949;
 /// The limit is so many times what the effects do there.

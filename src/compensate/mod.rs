@@ -10,14 +10,16 @@
 //! fake target = world_from_frame⁻¹ · F
 //! ```
 //!
-//! External axes put the base and the frame elsewhere at each target ([`crate::motion`]): both poses are then those that an arm with
-//! its base at home sees.
+//! External axes put the base and the frame elsewhere at each target ([`crate::motion`]): both
+//! poses are then those that an arm with its base at home sees.
 //!
-//! Each step is one file. [`crate::motion`] says with what and in which posture the robot comes to each target; `approach` lists
-//! the ways to come there, `solve` finds the joints (`singular` at the wrist's singularity), `shared` one set of numbers for all
-//! ways, `limit` what a correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new targets between
-//! them, `displaced` says what a correction does to points that the program derives from a target; `written` puts it all into the
-//! files and reads them again. `context` and `refused` say which files stay.
+//! Each step is one file. [`crate::motion`] says with what and in which posture the robot comes to
+//! each target; `approach` lists the ways to come there, `solve` finds the joints (`singular` at
+//! the wrist's singularity), `shared` one set of numbers for all ways, `limit` what a correction
+//! may be; `rewrite` puts the new numbers in the place of the old ones, `added` new targets between
+//! them, `displaced` says what a correction does to points that the program derives from a target;
+//! `written` puts it all into the files and reads them again. `context` and `refused` say which
+//! files stay.
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
@@ -87,8 +89,8 @@ const CHUNK: usize = 512;
 pub struct Options {
     /// Tools and work frames for names that the program files do not tell.
     pub given: Given,
-    /// Where the part really stands: moves every wanted pose in the world, `W' = work_offset · W` (FROM: as simulated; TO: as
-    /// measured). The controller's frames stay what they are.
+    /// Where the part really stands: moves every wanted pose in the world, `W' = work_offset · W`
+    /// (FROM: as simulated; TO: as measured). The controller's frames stay what they are.
     pub work_offset: Option<Pose>,
     /// Shift joint targets too.
     pub correct_joint_targets: bool,
@@ -98,23 +100,25 @@ pub struct Options {
     pub summary_only: bool,
     /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
     pub accept_absolutely_accurate: bool,
-    /// How far points that the running program derives from a target may land off their wanted pose, metres; 0.05 mm where
-    /// it is not given.
+    /// How far points that the running program derives from a target may land off their wanted
+    /// pose, metres; 0.05 mm where it is not given.
     pub max_derived_error_m: Option<f64>,
     /// Write a target out at each of its moves where one set of numbers does not serve all.
     pub split_targets: bool,
-    /// What becomes of a target at the wrist's singularity that the real arm does not reach on the meant side.
+    /// What becomes of a target at the wrist's singularity that the real arm does not reach on the
+    /// meant side.
     pub at_singularity: AtSingularity,
     /// Errors that the user takes.
     pub accepted: Vec<Acceptance>,
-    /// A tool or frame that is not known is an error of the programs that use it, and does not stop the others.
+    /// A tool or frame that is not known is an error of the programs that use it, and does not
+    /// stop the others.
     pub each_for_itself: bool,
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
     /// Which methods may search the joints of the real arm.
     pub methods: Methods,
-    /// How far a correction may shift a target; without it ten times what the profile's effects usually do, and at most 20 mm
-    /// and 2 degrees.
+    /// How far a correction may shift a target; without it ten times what the profile's effects
+    /// usually do, and at most 20 mm and 2 degrees.
     pub max_shift: Option<Separation>,
 }
 
@@ -137,7 +141,8 @@ impl Options {
     }
 }
 
-/// What becomes of a target at the wrist's singularity that the real arm does not reach on the meant side.
+/// What becomes of a target at the wrist's singularity that the real arm does not reach on the
+/// meant side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AtSingularity {
     /// It is an error, which says what the others would give.
@@ -172,7 +177,8 @@ pub enum CompensateError {
         "the profile has no effect that moves the tool: the program would be marked as compensated and be the same"
     )]
     NothingToCorrect,
-    /// Not one of several targets can be reached from where the base stands, but from the origin they can.
+    /// Not one of several targets can be reached from where the base stands, but from the origin
+    /// they can.
     #[error(
         "none of the {targets} targets is within reach from kinematics.base, which is at ({:.0}, {:.0}, {:.0}) mm; with the base at the \
          origin {in_reach} are",
@@ -207,8 +213,9 @@ struct Job<'a> {
 /// Computes fake targets for a program and the edits that put them in its files.
 ///
 /// # Errors
-/// If the program cannot be read, a tool or frame is unknown, the arm has no inverse, or the profile corrects nothing. A target
-/// that cannot be compensated is a [`Finding`] of severity error instead.
+/// If the program cannot be read, a tool or frame is unknown, the arm has no inverse, or the
+/// profile corrects nothing. A target that cannot be compensated is a [`Finding`] of severity error
+/// instead.
 ///
 /// # Panics
 /// By a fault of poseshift alone: hashing fails on no bytes.
@@ -379,8 +386,8 @@ impl Compensation {
         self.program = program;
     }
 
-    /// Looks at all findings: brings them into the order of the files, takes what the user accepts, tells which files are
-    /// refused. Who adds findings later calls it again.
+    /// Looks at all findings: brings them into the order of the files, takes what the user accepts,
+    /// tells which files are refused. Who adds findings later calls it again.
     pub fn judge(&mut self, sources: &[Source], accepted: &[Acceptance]) {
         let of_context = |finding: &Finding| {
             let mut of = sources.iter().filter(|source| source.name == finding.file);
@@ -422,8 +429,8 @@ fn beyond(findings: &[Finding]) -> BTreeSet<(&str, usize, usize)> {
         .collect()
 }
 
-/// Where not one of several targets is within reach, the profile has the base elsewhere or is that of another robot. `with` gives
-/// the findings of another profile.
+/// Where not one of several targets is within reach, the profile has the base elsewhere or is that
+/// of another robot. `with` gives the findings of another profile.
 fn refuse_strange_robots(
     job: &Job,
     findings: &[Finding],
@@ -522,7 +529,8 @@ fn rewrite_all(
         told: Vec::new(),
     };
     let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
-    // a few chunks for each thread at a time: what they return is not in memory twice for a long program
+    // a few chunks for each thread at a time: what they return is not in memory twice for a long
+    // program
     for some in chunks.chunks(4 * rayon::current_num_threads()) {
         let portions: Vec<Portion> = some.par_iter().map(|groups| rewrite(groups)).collect();
         for portion in portions {

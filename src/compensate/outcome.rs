@@ -31,7 +31,8 @@ pub struct Compensation {
     pub added: Added,
     /// Edits of files before moves and targets were put into them, by file.
     pub(super) untouched: BTreeMap<usize, Edits>,
-    /// What the moves of a file put into it and into others: the file of the moves and that of the text.
+    /// What the moves of a file put into it and into others: the file of the moves and that of the
+    /// text.
     pub(super) put_in: BTreeMap<(usize, usize), Replacements>,
     /// What was put in, by move.
     pub(super) inserted: BTreeMap<usize, Insertion>,
@@ -62,9 +63,11 @@ impl Compensation {
 pub struct Added {
     /// Moves.
     pub moves: usize,
-    /// The numbers of each target, in the order of [`crate::program::Language::roles`]; 0 for configuration data.
+    /// The numbers of each target, in the order of [`crate::program::Language::roles`]; 0 for
+    /// configuration data.
     pub targets: Vec<Vec<f64>>,
-    /// Targets of the program whose moves have others now: some languages know no target that nothing goes to.
+    /// Targets of the program whose moves have others now: some languages know no target that
+    /// nothing goes to.
     pub freed: Vec<usize>,
 }
 
@@ -165,7 +168,8 @@ pub(super) struct Tally {
     summary: Summary,
     /// All shifts added up, metres.
     shifts_m: f64,
-    /// Targets that were solved, and their distances from the wanted pose before and after, added up, metres.
+    /// Targets that were solved, and their distances from the wanted pose before and after, added
+    /// up, metres.
     solved: usize,
     before_m: f64,
     after_m: f64,

@@ -1,4 +1,5 @@
-//! Which files must not be written: those with an error, and those that share targets or calls with one.
+//! Which files must not be written: those with an error, and those that share targets or calls with
+//! one.
 
 use crate::finding::{Finding, Severity};
 use crate::program::{Before, Program, Source};

@@ -38,7 +38,8 @@ pub(super) struct Portion<'a> {
     pub findings: Vec<Finding>,
     /// Moves that are to get a target of their own.
     pub splits: Vec<Split>,
-    /// Configuration data that change, and numbers that are put in: index in the program's numbers, and the value.
+    /// Configuration data that change, and numbers that are put in: index in the program's
+    /// numbers, and the value.
     pub told: Vec<(u32, f64)>,
 }
 
@@ -82,7 +83,8 @@ impl<'a> Portion<'a> {
         }
     }
 
-    /// Writes the new text of one target, where it converged from wherever the robot comes, and reports on it.
+    /// Writes the new text of one target, where it converged from wherever the robot comes, and
+    /// reports on it.
     pub(super) fn add(&mut self, job: &Job, group: &[Solved], fractions: &[Fraction]) {
         let approach = group[0].approach;
         let mut report = TargetReport::new(Some(&group[0]));
@@ -473,8 +475,8 @@ pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {
     }
 }
 
-/// A joint that the correction takes out of the range that the configuration data name, where these stay as they are
-/// because the language cannot write them for one target alone.
+/// A joint that the correction takes out of the range that the configuration data name, where these
+/// stay as they are because the language cannot write them for one target alone.
 fn kept_configuration(job: &Job, approach: &Approach, q: &[f64; 6], new: &[f64]) -> Option<usize> {
     let target = &job.ground.program.targets[approach.target as usize];
     let roles = job.ground.language.roles(target.layout);

@@ -1,8 +1,8 @@
-//! Targets so near the wrist's singularity that the real arm has no posture on the meant side: joints 4 and 6 would have to
-//! turn far for nothing.
+//! Targets so near the wrist's singularity that the real arm has no posture on the meant side:
+//! joints 4 and 6 would have to turn far for nothing.
 //!
-//! Two ways out, both for the user to choose: to go through (joint 5 changes its sign, the tool lands), or to stay with joint 4
-//! where it is (the tip lands, the orientation nearly).
+//! Two ways out, both for the user to choose: to go through (joint 5 changes its sign, the tool
+//! lands), or to stay with joint 4 where it is (the tip lands, the orientation nearly).
 
 use super::approach::Approach;
 use super::{AtSingularity, Job};

@@ -1,4 +1,5 @@
-//! The joints with which the real arm reaches each wanted pose, and from which side each joint comes on the path to it.
+//! The joints with which the real arm reaches each wanted pose, and from which side each joint
+//! comes on the path to it.
 
 use super::Job;
 use super::approach::{Approach, SAME_RAD};
@@ -153,7 +154,8 @@ fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut 
     }
 }
 
-/// Approaches whose joints arrive from another side on the path between fake targets than they were solved for.
+/// Approaches whose joints arrive from another side on the path between fake targets than they were
+/// solved for.
 fn changed_directions(
     job: &Job,
     arrivals: &Arrivals,

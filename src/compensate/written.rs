@@ -1,4 +1,5 @@
-//! The files' new bytes: changes and marker put in, read again, and every number compared with what was meant.
+//! The files' new bytes: changes and marker put in, read again, and every number compared with what
+//! was meant.
 
 use super::Compensation;
 use crate::program::script::Script;
@@ -26,9 +27,11 @@ pub struct Written {
 }
 
 impl Compensation {
-    /// The files with their changes and markers. Takes the compensation, so that a long program is not in memory twice.
+    /// The files with their changes and markers. Takes the compensation, so that a long program is
+    /// not in memory twice.
     ///
-    /// `only_good`: files that are refused, or share targets or calls with one that is, stay as they are.
+    /// `only_good`: files that are refused, or share targets or calls with one that is, stay as
+    /// they are.
     ///
     /// # Errors
     /// What is written would not read back, number by number, as what was meant.
@@ -221,7 +224,8 @@ impl Meant {
         }
     }
 
-    /// Compares with what was read again: a file and the numbers of its targets. Adds the numbers of new targets.
+    /// Compares with what was read again: a file and the numbers of its targets. Adds the numbers
+    /// of new targets.
     fn compare(
         &self,
         after: &Script,

@@ -27,7 +27,8 @@ const ROUNDS: usize = 4;
 pub(super) const ALIKE: f64 = 2e-4;
 /// A calibration is off as a whole where the pull at it is less likely by chance.
 const STRAINED: f64 = 1e-4;
-/// Noise is more than stated where that is less likely by chance, in standard deviations of its estimate.
+/// Noise is more than stated where that is less likely by chance, in standard deviations of its
+/// estimate.
 const LOUDER: f64 = 4.0;
 
 /// What a search on one set of assumptions found.
@@ -41,7 +42,8 @@ pub(super) struct Attempt {
     pub rivalled: Vec<(usize, Unknown)>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
-    /// What is left over the noise that is stated or repeated poses show, where that is beyond chance.
+    /// What is left over the noise that is stated or repeated poses show, where that is beyond
+    /// chance.
     pub louder: Option<f64>,
     /// Noise by repeated poses beside what was found, where `sigma_mm` does not state it.
     pub repeats: Option<Repeats>,
@@ -126,7 +128,8 @@ fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
     (p < STRAINED).then_some(p)
 }
 
-/// What is left over the noise that is stated, or that repeated poses show, where that is beyond chance.
+/// What is left over the noise that is stated, or that repeated poses show, where that is beyond
+/// chance.
 fn louder(session: &Session, refit: &Refit, repeats: Option<Repeats>) -> Option<f64> {
     let (scale, freedom) = (refit.fit.scale, refit.fit.freedom);
     if session.problem.sigma_assumed {
@@ -137,7 +140,8 @@ fn louder(session: &Session, refit: &Refit, repeats: Option<Repeats>) -> Option<
     (chi_squared_tail(scale * scale * freedom, freedom) < normal_tail(LOUDER)).then_some(scale)
 }
 
-/// Deviance, the information criterion's price of what is fitted freely, and what naming the effects costs.
+/// Deviance, the information criterion's price of what is fitted freely, and what naming the
+/// effects costs.
 fn merit(session: &Session, trust: Trust, used: &[bool], chosen: &[Chosen], refit: &Refit) -> f64 {
     let columns = match trust {
         Trust::Nothing => session.shares.len(),

@@ -1,5 +1,5 @@
-//! What columns gain beside effects that come and go: products with the effects' columns are made once, and every choice of
-//! effects that are kept takes a small triangle only.
+//! What columns gain beside effects that come and go: products with the effects' columns are made
+//! once, and every choice of effects that are kept takes a small triangle only.
 
 use super::fit::{Fit, Gain, Projection, REDUNDANT, gain_of};
 use super::table::{Column, dot};
@@ -48,7 +48,8 @@ impl Group {
 }
 
 impl Group {
-    /// Products that are known: of the columns with one another and with what is left, all projected, and their squares before.
+    /// Products that are known: of the columns with one another and with what is left, all
+    /// projected, and their squares before.
     #[must_use]
     pub const fn known(gram: Vec<Vec<f64>>, slopes: Vec<f64>, squares: Vec<f64>) -> Self {
         Self {
@@ -125,7 +126,8 @@ impl Beside {
         self.deviance - dot(&kept.parts, &kept.parts)
     }
 
-    /// What a group of columns gains beside the effects kept; `cross` are each column's products with all effects.
+    /// What a group of columns gains beside the effects kept; `cross` are each column's products
+    /// with all effects.
     #[must_use]
     pub fn gain(
         &self,

@@ -23,7 +23,8 @@ const KNEES: [f64; 7] = [0.05, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7];
 /// One effect at one place, with the parameters that are sought; others are held.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The effect: its place, and the values of the parameters that are not sought (a knee's torque, a time constant).
+    /// The effect: its place, and the values of the parameters that are not sought (a knee's
+    /// torque, a time constant).
     pub effect: Effect,
     /// Which parameters are sought.
     pub sought: Vec<usize>,
@@ -31,9 +32,11 @@ pub struct Candidate {
     pub columns: Vec<usize>,
     /// Smallest values, in typical sizes.
     pub least: Vec<Option<f64>>,
-    /// First row, from 1, for an effect that begins during the session; the columns hold from row 1.
+    /// First row, from 1, for an effect that begins during the session; the columns hold from row
+    /// 1.
     pub row: Option<u32>,
-    /// Parameters that were chosen from a list (a torque, a time constant, a row): they count like fitted ones.
+    /// Parameters that were chosen from a list (a torque, a time constant, a row): they count like
+    /// fitted ones.
     pub chosen: usize,
     /// How many candidates of its kind there are: their choice costs twice the logarithm.
     pub peers: usize,
@@ -136,7 +139,8 @@ fn sites(kind: Kind, tools: &[String], stood: &[usize]) -> Vec<Site> {
     all
 }
 
-/// The parameters that are sought together, and a parameter with the value that a list chose for it.
+/// The parameters that are sought together, and a parameter with the value that a list chose for
+/// it.
 type Variant = (Vec<usize>, Option<(usize, f64)>);
 
 /// Which parameters are sought together, and the values of those that are chosen from a list.
@@ -209,7 +213,8 @@ pub struct Tried {
     pub row_constants: Vec<f64>,
     /// Reference temperatures, °C.
     pub references: Vec<f64>,
-    /// Parameters of each link's geometry that a complete and minimal model has: the others do what a neighbour's do.
+    /// Parameters of each link's geometry that a complete and minimal model has: the others do
+    /// what a neighbour's do.
     pub geometry: [Vec<usize>; JOINTS],
 }
 
@@ -362,8 +367,8 @@ fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
 
 /// The columns of some parameters of effects that are not in the model, each on its own.
 ///
-/// Effects that only deflect are added to the model at zero, all at once; others change the geometry and are added one by
-/// one, or found in the model.
+/// Effects that only deflect are added to the model at zero, all at once; others change the
+/// geometry and are added one by one, or found in the model.
 pub(super) fn columns_of<C: Numbers>(
     problem: &Problem,
     estimate: &Estimate,

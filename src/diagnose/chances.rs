@@ -17,7 +17,8 @@ pub fn chi_squared_quantile(p: f64, k: f64) -> f64 {
     ChiSquared::new(k).map_or(k, |distribution| distribution.inverse_cdf(p))
 }
 
-/// Probability that the ratio of two mean squares of the same variance, with `a` and `b` degrees of freedom, exceeds `x`.
+/// Probability that the ratio of two mean squares of the same variance, with `a` and `b` degrees of
+/// freedom, exceeds `x`.
 #[must_use]
 pub fn f_tail(x: f64, a: f64, b: f64) -> f64 {
     match FisherSnedecor::new(a, b) {
@@ -32,8 +33,8 @@ pub fn normal_tail(z: f64) -> f64 {
     Normal::standard().sf(z)
 }
 
-/// Probability that the mean of normal numbers about zero comes out as large as that of these, in its standard deviations
-/// (Student's t); 1 of fewer than two.
+/// Probability that the mean of normal numbers about zero comes out as large as that of these, in
+/// its standard deviations (Student's t); 1 of fewer than two.
 #[must_use]
 pub fn mean_tail(numbers: &[f64]) -> f64 {
     let n = numbers.len() as f64;
@@ -81,7 +82,8 @@ mod tests {
         assert!((f_tail(25.0, 400.0, 60.0) / 1.884_382_151_421_661_8e-30 - 1.0).abs() < 1e-6);
         assert!((f_tail(0.0, 3.0, 4.0) - 1.0).abs() < 1e-15);
         assert!((normal_tail(5.0) / 2.866_515_718_791_939e-7 - 1.0).abs() < 1e-9);
-        // Student's own example of the sleep of ten patients: t = 4.0621, and scipy's one-sided tail
+        // Student's own example of the sleep of ten patients: t = 4.0621, and scipy's one-sided
+        // tail
         let hours = [1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4];
         assert!((mean_tail(&hours) / 1.416_445e-3 - 1.0).abs() < 1e-4);
         assert!((mean_tail(&hours) + mean_tail(&hours.map(|x| -x)) - 1.0).abs() < 1e-12);

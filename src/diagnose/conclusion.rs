@@ -1,4 +1,5 @@
-//! What an attempt's outcome means: effects with their evidence, rivals, doubts, the verdict, and the improved profile.
+//! What an attempt's outcome means: effects with their evidence, rivals, doubts, the verdict, and
+//! the improved profile.
 
 use super::attempt::Attempt;
 use super::candidates::Candidate;
@@ -25,7 +26,8 @@ use crate::model::effects::{Effect, of_arm};
 use crate::model::profile::Profile;
 use rayon::prelude::*;
 
-/// Another effect explains the data nearly as well where it is worse by no more than this, twice a log likelihood.
+/// Another effect explains the data nearly as well where it is worse by no more than this, twice a
+/// log likelihood.
 const NEARLY: f64 = 6.0;
 /// Or where its gain is this part of that of the effect found.
 const NEARLY_PART: f64 = 0.95;
@@ -60,7 +62,8 @@ pub(super) fn conclude(
     let mut found = effects(attempt, options, &proof, &spreads);
     let rivals = rivals(attempt);
     let Judged { reasons, verdict } = judge(attempt, &proof, &found, &rivals);
-    // what competes with a group is told where the answer is in doubt; else only what explains nearly all
+    // what competes with a group is told where the answer is in doubt; else only what explains
+    // nearly all
     let world = session.world(&used, &options.accept);
     let doubted = !reasons.is_empty();
     let stand_ins = stand_ins(attempt, &world, (!doubted).then_some(NEARLY_PART));
@@ -246,8 +249,8 @@ fn followed(attempt: &Attempt, measurements: &Measurements) -> Vec<FollowedRow> 
     followed
 }
 
-/// Configurations that tell the strongest rival from the effect found: the rival takes its place, everything is fitted
-/// again, and where the two models differ most tells.
+/// Configurations that tell the strongest rival from the effect found: the rival takes its place,
+/// everything is fitted again, and where the two models differ most tells.
 fn telling_poses(
     profile: &Profile,
     attempt: &Attempt,

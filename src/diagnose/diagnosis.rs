@@ -36,7 +36,8 @@ pub struct Options {
     pub steps: bool,
 }
 
-/// A row that decides parameters alone: its residual is small whatever it says, and no evidence for the model.
+/// A row that decides parameters alone: its residual is small whatever it says, and no evidence for
+/// the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FollowedRow {
     /// Where it stands.
@@ -52,8 +53,8 @@ pub struct FollowedRow {
 pub enum Verdict {
     /// The effects found explain the disagreement down to the noise.
     Explained,
-    /// Rows left out are predicted better with the effects found than without, beyond chance; something else is missing too, or one of
-    /// them is another.
+    /// Rows left out are predicted better with the effects found than without, beyond chance;
+    /// something else is missing too, or one of them is another.
     Improved,
     /// The model agrees with the measurements within the noise.
     NothingMissing,
@@ -225,7 +226,8 @@ fn calibrated_rows(profile: &Profile) -> Option<f64> {
 /// Diagnoses measurements against a profile. `progress` is told what is being done.
 ///
 /// # Errors
-/// Measurements that contradict the robot or themselves, or are too few for the parameters that have to be fitted.
+/// Measurements that contradict the robot or themselves, or are too few for the parameters that
+/// have to be fitted.
 pub fn diagnose(
     profile: &Profile,
     measurements: &Measurements,

@@ -1,5 +1,5 @@
-//! A linear robust fit in which some parameters are free, others held by their calibration, and what a new column would
-//! gain: a projected score test.
+//! A linear robust fit in which some parameters are free, others held by their calibration, and
+//! what a new column would gain: a projected score test.
 
 use super::table::{Column, Layout, add_scaled, dot};
 use super::weights::Plain;
@@ -7,9 +7,11 @@ use crate::identify::robust::median_of_squares;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// A column is redundant where less than this part of its square is left when earlier ones have explained the rest.
+/// A column is redundant where less than this part of its square is left when earlier ones have
+/// explained the rest.
 pub(super) const REDUNDANT: f64 = 1e-7;
-/// A column shows nothing where its parameter's typical size moves all numbers together by fewer standard deviations.
+/// A column shows nothing where its parameter's typical size moves all numbers together by fewer
+/// standard deviations.
 pub(super) const INVISIBLE: f64 = 0.1;
 /// Turns of re-weighting.
 pub(super) const TURNS: usize = 8;
@@ -21,17 +23,20 @@ const PRIOR_WIDTH: f64 = 5.0;
 pub struct Held<'a> {
     /// What it does.
     pub column: &'a [f64],
-    /// 1 for a free parameter; g/(1 + g) for one whose calibration is worth 1/g of these measurements (Zellner's prior).
+    /// 1 for a free parameter; g/(1 + g) for one whose calibration is worth 1/g of these
+    /// measurements (Zellner's prior).
     pub share: f64,
-    /// A parameter of an effect that is sought: fitted freely, on top of what the others can absorb.
+    /// A parameter of an effect that is sought: fitted freely, on top of what the others can
+    /// absorb.
     pub sought: bool,
 }
 
 /// The fit: a basis of everything fitted, robust weights, what is left.
 ///
-/// With the orthonormal basis Q of the columns that are held and their shares S, `M0 = I - Q S Qᵀ` is the precision of the
-/// residuals when those are integrated out. Columns E that are sought lower it to `M = M0 - U Uᵀ`, `U = M0 E L⁻ᵀ`,
-/// `L Lᵀ = Eᵀ M0 E`: generalised least squares. The prior of what is held stays the same whatever is sought.
+/// With the orthonormal basis Q of the columns that are held and their shares S, `M0 = I - Q S Qᵀ`
+/// is the precision of the residuals when those are integrated out. Columns E that are sought lower
+/// it to `M = M0 - U Uᵀ`, `U = M0 E L⁻ᵀ`, `L Lᵀ = Eᵀ M0 E`: generalised least squares. The prior of
+/// what is held stays the same whatever is sought.
 #[derive(Clone, Debug)]
 pub struct Fit {
     /// Roots of the weights of all numbers; zero for rows not used.
@@ -86,8 +91,8 @@ pub(super) fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom
 }
 
 impl Fit {
-    /// Fits `residual` by `held` columns, those that are sought behind the others, on the rows in use: robustly, see
-    /// [`Plain::fits`].
+    /// Fits `residual` by `held` columns, those that are sought behind the others, on the rows in
+    /// use: robustly, see [`Plain::fits`].
     #[must_use]
     pub fn of(layout: &Layout, used: &[bool], residual: &[f64], held: &[Held], floor: f64) -> Self {
         let first = held.iter().position(|h| h.sought).unwrap_or(held.len());
@@ -265,7 +270,8 @@ impl Fit {
         rest
     }
 
-    /// How much of each row's own numbers its expectation follows: near 1, its residual says nothing of it.
+    /// How much of each row's own numbers its expectation follows: near 1, its residual says
+    /// nothing of it.
     #[must_use]
     pub fn leverage(&self, layout: &Layout) -> Vec<f64> {
         let of = |row: usize| {
@@ -319,7 +325,8 @@ impl Fit {
         dot(&a.column, &b.column) - along
     }
 
-    /// The square of one over a typical size, in numbers' units: the scale is that of the noise, not of what is missing.
+    /// The square of one over a typical size, in numbers' units: the scale is that of the noise,
+    /// not of what is missing.
     pub(super) fn ridge(&self) -> f64 {
         let variance = self.scale * self.scale;
         let noise = variance.min((self.floor * self.floor).max(0.01 * variance));
@@ -343,7 +350,8 @@ impl Fit {
         gain_of(&gram, &slopes, &squares, least, self.scale, self.ridge())
     }
 
-    /// Standard deviations of a group's parameters when all are fitted, in their typical sizes; infinite where redundant.
+    /// Standard deviations of a group's parameters when all are fitted, in their typical sizes;
+    /// infinite where redundant.
     #[must_use]
     pub fn deviations(&self, group: &[&Projection]) -> Vec<f64> {
         let count = group.len();
@@ -376,9 +384,11 @@ pub struct Projection {
 /// What a group of columns gains.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gain {
-    /// Fall of the deviance in units of the scale squared: chi-squared where the columns do nothing.
+    /// Fall of the deviance in units of the scale squared: chi-squared where the columns do
+    /// nothing.
     pub gain: f64,
-    /// Values of the group's parameters in their typical sizes; zero where a column is redundant or at its bound.
+    /// Values of the group's parameters in their typical sizes; zero where a column is redundant
+    /// or at its bound.
     pub values: Vec<f64>,
     /// How many of them are determined.
     pub count: usize,

@@ -1,5 +1,5 @@
-//! Functions of the posture, the load, the motion and the time that an error may follow, whether or not an effect of the registry
-//! does.
+//! Functions of the posture, the load, the motion and the time that an error may follow, whether or
+//! not an effect of the registry does.
 
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::JOINTS;
@@ -156,7 +156,8 @@ impl Function {
         }
     }
 
-    /// What effects of the registry do already: a joint's scale, coupling, harmonic, compliance or backlash.
+    /// What effects of the registry do already: a joint's scale, coupling, harmonic, compliance or
+    /// backlash.
     pub(super) const fn registered(&self) -> Option<Registered> {
         match *self {
             Self::Power(_, 1) => Some(Registered::OfAll),

@@ -1,7 +1,7 @@
 //! The profile with what was found.
 //!
-//! Effects of the data repair the analysis and are none of the robot's, but what they moved stays where it is: base, tool and zeros are
-//! those of the last row.
+//! Effects of the data repair the analysis and are none of the robot's, but what they moved stays
+//! where it is: base, tool and zeros are those of the last row.
 
 use super::refit::Refit;
 use super::session::Session;
@@ -13,7 +13,8 @@ use crate::model::profile::{DevicePlace, Profile};
 /// Index of a joint's zero in its link's geometry.
 const THETA: usize = 3;
 
-/// What effects of the data have moved by the last row. What depends on where the tool is stays with the measurements.
+/// What effects of the data have moved by the last row. What depends on where the tool is stays
+/// with the measurements.
 fn moved(effects: &[Effect], rows: usize) -> Deflection {
     let conditions = Conditions {
         row: u32::try_from(rows).ok(),

@@ -1,7 +1,8 @@
 //! What may be believed: of each effect found, and of the whole.
 //!
-//! Explanation and prediction are two questions. The verdict is `explained` where nothing speaks against the effects found, `improved` where
-//! something does but rows left out are predicted better with them; each effect has its own standing.
+//! Explanation and prediction are two questions. The verdict is `explained` where nothing speaks
+//! against the effects found, `improved` where something does but rows left out are predicted
+//! better with them; each effect has its own standing.
 
 use super::attempt::{ALIKE, Attempt};
 use super::candidates::range;
@@ -14,9 +15,11 @@ use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, Need, SiteKey};
 use std::f64::consts::TAU;
 
-/// Two effects cannot be told apart where one is better by less than this, in twice a log likelihood: odds of 1.6.
+/// Two effects cannot be told apart where one is better by less than this, in twice a log
+/// likelihood: odds of 1.6.
 const TIE: f64 = 1.0;
-/// One is clearly better beyond this: odds of 150 (R. E. Kass, A. E. Raftery, "Bayes factors" (1995): very strong).
+/// One is clearly better beyond this: odds of 150 (R. E. Kass, A. E. Raftery, "Bayes factors"
+/// (1995): very strong).
 const CLEAR: f64 = 10.0;
 /// So many slow functions of one joint's angle, a harmonic among them, are the series of another.
 const SERIES: usize = 2;
@@ -134,7 +137,8 @@ pub(super) fn stand(
         let is_tied = against.first().is_some_and(|a| a.odds < (0.5 * TIE).exp());
         let (times, of) = one.found_again;
         let is_again = times as f64 >= AGAIN * of as f64;
-        // the residual is larger than it, or as smooth: the shadow of what is missing may look like this
+        // the residual is larger than it, or as smooth: the shadow of what is missing may look like
+        // this
         let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i])
             || smooth[i] && is_missing
             || one.effect.definition().of_data && attempt.likeness.in_order < ALIKE;
@@ -153,14 +157,15 @@ pub(super) fn stand(
     }
 }
 
-/// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a little apart.
+/// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a
+/// little apart.
 fn is_same(rival: &Rival, found: &Found) -> bool {
     let is_step = rival.effect.definition().begins_at_a_row();
     rival.effect.kind == found.effect.kind && is_step || near(&rival.effect, &found.effect)
 }
 
-/// Whether a smooth function of the posture may stand for what it does: it has no step, no side that a joint comes from, and no
-/// two whole periods in its range.
+/// Whether a smooth function of the posture may stand for what it does: it has no step, no side
+/// that a joint comes from, and no two whole periods in its range.
 fn is_smooth(attempt: &Attempt, found: &Found) -> bool {
     let definition = found.effect.definition();
     let is_sharp = definition.of_data && !definition.needs.contains(&Need::Places)
@@ -177,7 +182,8 @@ fn periods(attempt: &Attempt, found: &Found) -> f64 {
     site.periods() * range(angles) / TAU
 }
 
-/// Whether another wave of the same joint differs from this one by less than a period in the range of its angle.
+/// Whether another wave of the same joint differs from this one by less than a period in the range
+/// of its angle.
 fn is_unresolved(attempt: &Attempt, found: &[Found], one: &Found) -> bool {
     let effect = &one.effect;
     if !effect.definition().site.contains(&SiteKey::Order) {
@@ -198,7 +204,8 @@ fn is_seldom(found: &Found) -> bool {
     2 * times < of
 }
 
-/// Whether what is left is the only thing that says how loud the noise is, and there is too little of it.
+/// Whether what is left is the only thing that says how loud the noise is, and there is too little
+/// of it.
 fn nobody_knows(attempt: &Attempt) -> bool {
     let states = !attempt.session.problem.sigma_assumed || attempt.repeats.is_some();
     !states && attempt.refit.fit.freedom < TELLS_NOISE
@@ -341,8 +348,9 @@ struct Series {
     members: Vec<usize>,
 }
 
-/// Effects found at one joint that may together be the series of another function of its angle: slow ones, without two whole periods in
-/// its range, where a harmonic is among them; or more of them and of waves than an eccentric gear has.
+/// Effects found at one joint that may together be the series of another function of its angle:
+/// slow ones, without two whole periods in its range, where a harmonic is among them; or more of
+/// them and of waves than an eccentric gear has.
 fn series(attempt: &Attempt, found: &[Found]) -> Option<Series> {
     let is_wave = |i: &usize| found[*i].effect.kind == Kind::JointHarmonic;
     let is_slow = |i: &usize| !is_wave(i) || periods(attempt, &found[*i]) < FEW_PERIODS;

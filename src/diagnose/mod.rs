@@ -1,9 +1,10 @@
 //! Where simulation and measurement disagree, which effect explains it, and what is left.
 //!
-//! Everything is linear about the profile (or about its frames, geometry and compliance fitted anew): every effect of the
-//! registry, at every joint, order, torque, time constant or row it may have, is a group of columns, tested by what it gains
-//! beyond the parameters that are fitted with it. Source: C. R. Rao's score test; A. Zellner's g-prior for a calibration
-//! that is trusted in part; G. Schwarz (1978) for the information criterion.
+//! Everything is linear about the profile (or about its frames, geometry and compliance fitted
+//! anew): every effect of the registry, at every joint, order, torque, time constant or row it may
+//! have, is a group of columns, tested by what it gains beyond the parameters that are fitted with
+//! it. Source: C. R. Rao's score test; A. Zellner's g-prior for a calibration that is trusted in
+//! part; G. Schwarz (1978) for the information criterion.
 //!
 //! # Example
 //!

@@ -1,8 +1,9 @@
 //! The noise that poses measured more than once show: pure error, whatever the model.
 //!
 //! # Source
-//! J. von Neumann, R. H. Kent, H. R. Bellinson, B. I. Hart, "The mean square successive difference" (1941): what changes slowly
-//! cancels from one repetition to the next. N. R. Draper, H. Smith, "Applied Regression Analysis", on pure error and lack of fit.
+//! J. von Neumann, R. H. Kent, H. R. Bellinson, B. I. Hart, "The mean square successive difference"
+//! (1941): what changes slowly cancels from one repetition to the next. N. R. Draper, H. Smith,
+//! "Applied Regression Analysis", on pure error and lack of fit.
 
 use super::chances::{chi_squared_quantile, f_tail};
 use super::fit::Fit;
@@ -37,7 +38,8 @@ impl Repeats {
         self.scale * (self.freedom / chi_squared_quantile(SURE, self.freedom)).sqrt()
     }
 
-    /// Probability that normal residuals of this noise, with so many degrees of freedom, come out as large as `scale`.
+    /// Probability that normal residuals of this noise, with so many degrees of freedom, come out
+    /// as large as `scale`.
     #[must_use]
     pub fn chance_of(&self, scale: f64, freedom: f64) -> f64 {
         f_tail((scale / self.scale).powi(2), freedom, self.freedom)
@@ -49,8 +51,9 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|x| (x + 0.0).to_bits()).collect()
 }
 
-/// Rows of the same angles, arrived at from the same side under the same force, of the same point on the same tool seen from
-/// the same place. An unknown direction is one of its own. Where something was touched the angles are the reading: no two agree.
+/// Rows of the same angles, arrived at from the same side under the same force, of the same point
+/// on the same tool seen from the same place. An unknown direction is one of its own. Where
+/// something was touched the angles are the reading: no two agree.
 fn groups(problem: &Problem, used: &[bool]) -> Vec<Vec<usize>> {
     let mut groups: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for (i, row) in problem.rows.iter().enumerate().filter(|(i, _)| used[*i]) {
@@ -90,7 +93,8 @@ fn moments(rows: &[Row]) -> Vec<f64> {
     times.iter().map(|t| (t - first) / length).collect()
 }
 
-/// How many independent differences tell as much as these successive ones: by the variance of their mean square, n normal numbers.
+/// How many independent differences tell as much as these successive ones: by the variance of their
+/// mean square, n normal numbers.
 fn independent_of(differences: usize) -> f64 {
     let n = differences as f64 + 1.0;
     if differences == 0 {
@@ -100,11 +104,13 @@ fn independent_of(differences: usize) -> f64 {
     }
 }
 
-/// The noise of repeated poses on the rows in use, where there are enough; `residual` in standard deviations of the rows.
+/// The noise of repeated poses on the rows in use, where there are enough; `residual` in standard
+/// deviations of the rows.
 ///
-/// Differences of successive repetitions count, so that drift hardly does; a reading that is wrong counts as one at the limit of
-/// what is normal. Where there are enough repetitions near one another in time and temperature, those far apart are left out:
-/// they differ by what the model does not know of either. Readings that agree in every digit are copies, and say nothing.
+/// Differences of successive repetitions count, so that drift hardly does; a reading that is wrong
+/// counts as one at the limit of what is normal. Where there are enough repetitions near one
+/// another in time and temperature, those far apart are left out: they differ by what the model
+/// does not know of either. Readings that agree in every digit are copies, and say nothing.
 #[must_use]
 pub fn of_repeats(
     problem: &Problem,

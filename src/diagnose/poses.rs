@@ -1,4 +1,5 @@
-//! Configurations that tell two explanations apart: where their models, both fitted to the same measurements, differ most.
+//! Configurations that tell two explanations apart: where their models, both fitted to the same
+//! measurements, differ most.
 
 use crate::identify::IdentifyError;
 use crate::identify::plan::{Constraints, candidates};

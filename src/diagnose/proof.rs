@@ -37,9 +37,11 @@ pub struct Compared {
     pub start: Spread,
     /// With them.
     pub found: Spread,
-    /// All that the profile has was fitted again without these rows, for both; else the profile is taken as it is.
+    /// All that the profile has was fitted again without these rows, for both; else the profile is
+    /// taken as it is.
     pub refitted: bool,
-    /// Probability that they are better by so much by chance: Student's t of the differences, one for each configuration.
+    /// Probability that they are better by so much by chance: Student's t of the differences, one
+    /// for each configuration.
     pub p_value: f64,
 }
 
@@ -79,10 +81,12 @@ impl Compared {
 pub(super) struct Proof {
     /// Lengths of their residuals, metres: present model, what is absorbed, then with each effect.
     lengths: Vec<Vec<f64>>,
-    /// The profile as it is, against its calibration with the effects found on top. A profile that was calibrated with these rows
-    /// has seen those left out: it is better than it should be. None where it is fitted anew.
+    /// The profile as it is, against its calibration with the effects found on top. A profile that
+    /// was calibrated with these rows has seen those left out: it is better than it should be.
+    /// None where it is fitted anew.
     pub profile: Option<Compared>,
-    /// Everything that the profile has fitted again without the rows left out, without and with the effects found.
+    /// Everything that the profile has fitted again without the rows left out, without and with
+    /// the effects found.
     pub equal: Option<Compared>,
     /// For each effect, in how many parts it was found again, and of how many.
     pub again: Vec<(usize, usize)>,
@@ -99,7 +103,8 @@ impl Proof {
         }
     }
 
-    /// The comparison by which the effects found are judged: the better of those that are fair to them.
+    /// The comparison by which the effects found are judged: the better of those that are fair to
+    /// them.
     pub(super) fn judged(&self) -> Option<Compared> {
         let both = self.profile.iter().chain(&self.equal);
         both.copied().min_by(|a, b| a.p_value.total_cmp(&b.p_value))
@@ -114,7 +119,8 @@ impl Proof {
     }
 }
 
-/// Rows that are left out, part by part: those kept for it, else contiguous blocks of whole configurations.
+/// Rows that are left out, part by part: those kept for it, else contiguous blocks of whole
+/// configurations.
 fn parts(measurements: &Measurements, choice: &[bool]) -> Vec<Vec<usize>> {
     let rows = choice.len();
     let validate: Vec<usize> = (0..rows).filter(|r| !choice[*r]).collect();

@@ -1,4 +1,5 @@
-//! The effects' values with everything fitted together, without linearisation, and the improved profile.
+//! The effects' values with everything fitted together, without linearisation, and the improved
+//! profile.
 
 use super::candidates::least;
 use super::fit::{Fit, Held};
@@ -132,8 +133,8 @@ pub fn refit(
                 residual,
             };
         }
-        // what is held by its calibration stays: its prior stands at the profile's value. The effects are estimated with it
-        // integrated out, what is free then fits the rest
+        // what is held by its calibration stays: its prior stands at the profile's value. The
+        // effects are estimated with it integrated out, what is free then fits the rest
         let values = fit.values(held.len());
         let (mut rest, mut free) = (residual.clone(), Vec::new());
         for (i, one) in held.iter().enumerate() {
@@ -201,7 +202,8 @@ pub fn shrink(problem: &Problem, shares: &[f64], refit: &mut Refit) {
     let values = refit
         .fit
         .values(shares.len() + refit.sigmas.iter().map(Vec::len).sum::<usize>());
-    // what is free goes along: it has fitted the residuals already, so that its values are what the others' take
+    // what is free goes along: it has fitted the residuals already, so that its values are what the
+    // others' take
     let held = shares.iter().copied().find(|s| *s < 1.0).unwrap_or(1.0);
     for (parameter, value) in problem.parameters.iter().zip(&values) {
         *refit.estimate.value_mut(parameter.subject) += factor / held * value * parameter.scale;

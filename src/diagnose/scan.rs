@@ -69,8 +69,8 @@ impl Side {
     }
 }
 
-/// A candidate's column seen from a fit. It holds a number for each measured one: where there are many, it is cheaper to make
-/// again than to keep.
+/// A candidate's column seen from a fit. It holds a number for each measured one: where there are
+/// many, it is cheaper to make again than to keep.
 fn projection(world: &World, base: &Weighted, products: &[Products], column: usize) -> Projection {
     let own = world.candidates.columns[column].column();
     (world.plain).projection(base, &own, &products[column])
@@ -155,15 +155,17 @@ impl View {
         self.scan_side(world, &self.side, chosen, keep)
     }
 
-    /// Every candidate beside other effects than those shown, with the weights and the scale of those shown.
+    /// Every candidate beside other effects than those shown, with the weights and the scale of
+    /// those shown.
     #[must_use]
     pub(super) fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
         let side = Side::of(world, (&self.seen, &self.products), &self.full, others);
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
 
-    /// What all of a kind gain together beside those of the effects shown that are kept: which candidates, one for each place, and
-    /// their gain and values. Values stay physical only if they are `bounded`.
+    /// What all of a kind gain together beside those of the effects shown that are kept: which
+    /// candidates, one for each place, and their gain and values. Values stay physical only if
+    /// they are `bounded`.
     #[must_use]
     pub(super) fn set_of(
         &self,
@@ -197,7 +199,8 @@ impl View {
         Some((own, gain))
     }
 
-    /// What all of a kind would gain together beside the effects shown: one for each place, those at their bound left out.
+    /// What all of a kind would gain together beside the effects shown: one for each place, those
+    /// at their bound left out.
     #[must_use]
     pub(super) fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
         let list = &world.candidates.list;

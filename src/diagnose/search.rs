@@ -12,7 +12,8 @@ use crate::model::effects::{Effect, Kind, of_arm};
 const MARGIN: f64 = 3.0;
 /// Most effects found.
 const MOST_EFFECTS: usize = 12;
-/// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one turn a step.
+/// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one turn
+/// a step.
 const FEW_EFFECTS: usize = 4;
 /// Turns of exchange and removal after a step.
 const MOST_TURNS: usize = 4;
@@ -23,9 +24,10 @@ const SAME_ROW: u32 = 3;
 /// Odds of an effect that every arm has in some measure against one that only some have.
 const ODDS: f64 = 5.0;
 
-/// Effects that only some arms have: a structure that bends, a gear with two stiffnesses, a load that is not what was
-/// stated, axes that take each other along. Frames, geometry, the gears' ratio, stiffness, play and waves are in every arm,
-/// and what needs a column of its own (time, temperature, order) is told from them by that.
+/// Effects that only some arms have: a structure that bends, a gear with two stiffnesses, a load
+/// that is not what was stated, axes that take each other along. Frames, geometry, the gears'
+/// ratio, stiffness, play and waves are in every arm, and what needs a column of its own (time,
+/// temperature, order) is told from them by that.
 const fn rare(kind: Kind) -> bool {
     matches!(
         kind,
@@ -41,7 +43,8 @@ const fn rare(kind: Kind) -> bool {
     )
 }
 
-/// Kinds of one cause: a gear that gives way, a structure that bends, something that moved; each other kind is its own.
+/// Kinds of one cause: a gear that gives way, a structure that bends, something that moved; each
+/// other kind is its own.
 const fn cause(kind: Kind) -> Kind {
     match kind {
         Kind::ComplianceKnee => Kind::JointCompliance,
@@ -146,8 +149,8 @@ pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 }
 
 impl World<'_> {
-    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`, the choice among its
-    /// peers and among all kinds, and the odds against a rare one.
+    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`,
+    /// the choice among its peers and among all kinds, and the odds against a rare one.
     pub(super) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
         let parameters = (count + candidate.chosen) as f64;
         let kinds = of_arm().count() as f64;
@@ -198,7 +201,8 @@ impl World<'_> {
         held.chain(own).collect()
     }
 
-    /// The robust fit with these effects, and before it that of the columns held at its weights and scale.
+    /// The robust fit with these effects, and before it that of the columns held at its weights and
+    /// scale.
     #[must_use]
     pub fn fits(&self, chosen: &[Chosen]) -> (Weighted, Fit) {
         let own = chosen.iter().flat_map(|c| &c.columns);
@@ -239,8 +243,8 @@ impl World<'_> {
         }
     }
 
-    /// Looks at every effect in the model: exchanges it where another is better in its place, removes it where it is
-    /// needless. Whether anything changed.
+    /// Looks at every effect in the model: exchanges it where another is better in its place,
+    /// removes it where it is needless. Whether anything changed.
     fn revise(&self, chosen: &mut Vec<Chosen>, view: &mut View) -> bool {
         let mut changed = false;
         let mut i = 0;
@@ -306,7 +310,8 @@ impl World<'_> {
         self.accepted.iter().any(|pick| pick.means(own))
     }
 
-    /// Whether a candidate may be in the model: where a person has said what is, nothing else is sought.
+    /// Whether a candidate may be in the model: where a person has said what is, nothing else is
+    /// sought.
     fn allowed(&self, scored: &Scored) -> bool {
         let candidate = &self.candidates.list[scored.index];
         let of_row = |row| with_row(&candidate.effect, row);
@@ -426,8 +431,8 @@ impl World<'_> {
 }
 
 impl World<'_> {
-    /// The cause first without which most is lost, in it the effect that explains most, then what explains most beside those,
-    /// and so on.
+    /// The cause first without which most is lost, in it the effect that explains most, then what
+    /// explains most beside those, and so on.
     #[must_use]
     pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
         let mut ordered: Vec<Chosen> = Vec::new();
@@ -444,7 +449,8 @@ impl World<'_> {
             let of = |c: &Chosen| cause(c.candidate.effect.kind);
             let last = ordered.last().map(of);
             let more = |kind: Kind| chosen.iter().any(|c| of(c) == kind);
-            // what is lost without it: causes that imitate each other share what either explains alone
+            // what is lost without it: causes that imitate each other share what either explains
+            // alone
             let of_kind = |kind: Kind| gain(&|_| true) - gain(&|c| of(c) != kind);
             let kinds = chosen.iter().map(of);
             let Some(kind) = last

@@ -37,7 +37,8 @@ const LEAST: f64 = 1e-6;
 /// What is known of the arm before its effects are sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trust {
-    /// The profile's calibration holds but for its uncertainty: it is worth 1/g of these measurements.
+    /// The profile's calibration holds but for its uncertainty: it is worth 1/g of these
+    /// measurements.
     Calibrated {
         /// Zellner's g.
         g: f64,
@@ -52,7 +53,8 @@ pub struct Session {
     pub problem: Problem,
     /// Values before any effect is added.
     pub estimate: Estimate,
-    /// The present model with its frames fitted where they have to be: residuals in standard deviations.
+    /// The present model with its frames fitted where they have to be: residuals in standard
+    /// deviations.
     pub present: Column,
     /// Its values.
     pub present_estimate: Estimate,
@@ -72,7 +74,8 @@ pub struct Session {
     pub repeats: Option<Repeats>,
     /// Whether the device's frame is not the profile's: the base is fitted.
     pub elsewhere: bool,
-    /// Where the device's frame is taken to be; what the base is fitted to beyond it is the device's, too.
+    /// Where the device's frame is taken to be; what the base is fitted to beyond it is the
+    /// device's, too.
     pub world_from_device: Pose,
 }
 
@@ -83,7 +86,8 @@ pub fn is_nominal(profile: &Profile) -> bool {
     !geometry && profile.controller == ControllerModel::Nominal
 }
 
-/// What is fitted along: frames and geometry, what the profile already has, and joint compliance where it has nothing yet.
+/// What is fitted along: frames and geometry, what the profile already has, and joint compliance
+/// where it has nothing yet.
 fn selection(profile: &Profile) -> Selection {
     let nominal = is_nominal(profile);
     let mut selection = Selection::level(if nominal {
@@ -140,8 +144,9 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
     }
 }
 
-/// Which columns do not do what those before them do. The others are left out for good: beside an effect found later, a last
-/// link that bends, they would be told apart by next to nothing and run away together.
+/// Which columns do not do what those before them do. The others are left out for good: beside an
+/// effect found later, a last link that bends, they would be told apart by next to nothing and run
+/// away together.
 fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> Vec<usize> {
     let mut kept = Plain::of(layout, used, residual, held, LEAST).kept();
     kept.sort_unstable();
@@ -239,7 +244,8 @@ pub fn session(
                     );
                     estimate
                 }
-                // what is missing may keep it from resting: a few robust steps are enough to start from
+                // what is missing may keep it from resting: a few robust steps are enough to start
+                // from
                 Err(IdentifyError::NotConverged { .. }) => {
                     let shares = vec![1.0; problem.parameters.len()];
                     let used = for_choice(measurements);
@@ -341,8 +347,8 @@ impl Session {
         }
     }
 
-    /// The residuals' scale is at least this: stated noise is not doubted downwards, that of repeated poses not below what it
-    /// is known to be.
+    /// The residuals' scale is at least this: stated noise is not doubted downwards, that of
+    /// repeated poses not below what it is known to be.
     #[must_use]
     pub fn floor(&self) -> f64 {
         if self.problem.sigma_assumed {
@@ -352,8 +358,8 @@ impl Session {
         }
     }
 
-    /// Adds candidates with list values nearer to those found, a knee's torque, a time constant, and waves that what is left has.
-    /// Whether there were any.
+    /// Adds candidates with list values nearer to those found, a knee's torque, a time constant,
+    /// and waves that what is left has. Whether there were any.
     pub fn refine(
         &mut self,
         chosen: &[Chosen],

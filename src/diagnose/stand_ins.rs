@@ -1,4 +1,5 @@
-//! Effects of one kind in the place of several of another: a group of like effects is dropped, and others stand in.
+//! Effects of one kind in the place of several of another: a group of like effects is dropped, and
+//! others stand in.
 
 use super::attempt::Attempt;
 use super::refit::refit;
@@ -32,7 +33,8 @@ pub struct StandIn {
     pub(super) estimate: Estimate,
 }
 
-/// Effects that would compete with a group of those found if they could be what they would have to be.
+/// Effects that would compete with a group of those found if they could be what they would have to
+/// be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Impossible {
     /// Indices of the effects found that they would stand for.
@@ -106,7 +108,8 @@ fn of_kind(
     (others, gain)
 }
 
-/// Springs that would explain as much as a group of other effects if some of them pushed against their load.
+/// Springs that would explain as much as a group of other effects if some of them pushed against
+/// their load.
 pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
     let chosen = &attempt.chosen;
     let mut view = View::of(world);
@@ -159,8 +162,8 @@ pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
     all
 }
 
-/// What competes with groups of the effects found, the nearest first. Where the verdict is sure only what explains nearly
-/// all is told: `least` is the part.
+/// What competes with groups of the effects found, the nearest first. Where the verdict is sure
+/// only what explains nearly all is told: `least` is the part.
 pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) -> Vec<StandIn> {
     let chosen = &attempt.chosen;
     let least = least.unwrap_or(PART);

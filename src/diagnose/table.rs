@@ -1,4 +1,5 @@
-//! Residuals and columns in memory: what a parameter does to every measured number, in standard deviations of the rows.
+//! Residuals and columns in memory: what a parameter does to every measured number, in standard
+//! deviations of the rows.
 
 use crate::identify::observation::MOST_NUMBERS;
 use crate::identify::parameters::{Parameter, Subject};
@@ -108,7 +109,8 @@ impl Layout {
     }
 }
 
-/// Residuals (measured minus expected) and the columns of some parameters in their scales, both in standard deviations.
+/// Residuals (measured minus expected) and the columns of some parameters in their scales, both in
+/// standard deviations.
 #[must_use]
 pub fn table(
     problem: &Problem,

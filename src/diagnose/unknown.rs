@@ -1,5 +1,6 @@
-//! What no effect of the registry is: functions of the posture, the load, the motion and the time that may explain what is
-//! left. Where one of them does, or does it better than an effect that was named, the truth is not in the registry.
+//! What no effect of the registry is: functions of the posture, the load, the motion and the time
+//! that may explain what is left. Where one of them does, or does it better than an effect that was
+//! named, the truth is not in the registry.
 
 use super::beside::{Beside, Group, Kept};
 use super::candidates::columns_of;
@@ -13,7 +14,8 @@ use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// A function must be better than nothing by this beyond the logarithm of how many there are, in twice a log likelihood.
+/// A function must be better than nothing by this beyond the logarithm of how many there are, in
+/// twice a log likelihood.
 const MARGIN: f64 = 10.0;
 
 /// Rows whose products are in memory at a time.
@@ -74,8 +76,8 @@ impl Unknown {
     }
 }
 
-/// A motion's columns multiplied with everything that they may be multiplied with, summed over the numbers of each row of a block: a
-/// function of the rows is then a factor of each sum.
+/// A motion's columns multiplied with everything that they may be multiplied with, summed over the
+/// numbers of each row of a block: a function of the rows is then a factor of each sum.
 struct Summed {
     /// For each column, products with the basis.
     along: Vec<Vec<Column>>,
@@ -240,7 +242,8 @@ impl Library {
         2.0 * (self.pairs().len() as f64).ln() + 3.0 * (count as f64 - 1.0) + MARGIN
     }
 
-    /// The functions that gain most, best first, at most eight, for each choice of effects beside a fit.
+    /// The functions that gain most, best first, at most eight, for each choice of effects beside a
+    /// fit.
     #[must_use]
     pub fn scan(
         &self,
@@ -296,7 +299,8 @@ impl Library {
     }
 }
 
-/// Whether neighbours in time or posture have like residuals: p-values of the mean product of neighbours.
+/// Whether neighbours in time or posture have like residuals: p-values of the mean product of
+/// neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Likeness {
     /// Rows one after another.

@@ -1,11 +1,11 @@
 //! Orders of waves in a joint's angle, up to those of its gear: a periodogram of what is left.
 //!
-//! A wave of every order has two columns at every joint; those of the lowest orders are candidates from the beginning, the others
-//! only where the periodogram has a peak.
+//! A wave of every order has two columns at every joint; those of the lowest orders are candidates
+//! from the beginning, the others only where the periodogram has a peak.
 //!
 //! # Source
-//! J. D. Scargle, "Studies in astronomical time series analysis II" (1982): the periodogram of unevenly spaced readings, here with
-//! the weight that the joint has in each of them.
+//! J. D. Scargle, "Studies in astronomical time series analysis II" (1982): the periodogram of
+//! unevenly spaced readings, here with the weight that the joint has in each of them.
 
 use super::candidates::{Candidates, MOST_ORDERS, columns_of};
 use super::fit::Fit;
@@ -15,7 +15,8 @@ use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey};
 use rayon::prelude::*;
 
-/// Half orders are tried from here on, periods in one turn: below, they are what any slow function is made of.
+/// Half orders are tried from here on, periods in one turn: below, they are what any slow function
+/// is made of.
 const HALVES_FROM: u32 = 6;
 /// And up to here: two gears in series.
 const HALVES_TO: u32 = 64;
@@ -53,7 +54,8 @@ pub(super) fn wave(joint: usize, order: u32) -> Effect {
     }
 }
 
-/// What the rows say of a joint: the product of its turn with what is left, its square, and its angle.
+/// What the rows say of a joint: the product of its turn with what is left, its square, and its
+/// angle.
 struct Seen {
     slopes: Column,
     squares: Column,
@@ -77,7 +79,8 @@ impl Seen {
         }
     }
 
-    /// What a wave of this order gains, in units of its noise squared, before it is seen beside all that is fitted.
+    /// What a wave of this order gains, in units of its noise squared, before it is seen beside all
+    /// that is fitted.
     fn gain(&self, order: f64, variance: f64) -> f64 {
         let (mut a, mut b, mut cc, mut cs, mut ss) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for ((slope, square), angle) in self.slopes.iter().zip(&self.squares).zip(&self.angles) {
@@ -96,7 +99,8 @@ impl Seen {
     }
 }
 
-/// Waves that what is left of a fit has and that are no candidates yet, where they are worth more than `least`.
+/// Waves that what is left of a fit has and that are no candidates yet, where they are worth more
+/// than `least`.
 pub(super) fn peaks(
     problem: &Problem,
     estimate: &Estimate,
@@ -129,7 +133,8 @@ pub(super) fn peaks(
     all.filter(|effect| known.is_new(effect)).collect()
 }
 
-/// Whether two effects are waves of one joint with orders that are next to each other in the periodogram: the same wave.
+/// Whether two effects are waves of one joint with orders that are next to each other in the
+/// periodogram: the same wave.
 pub(super) fn near(a: &Effect, b: &Effect) -> bool {
     a.kind == b.kind
         && a.definition().site.contains(&SiteKey::Order)
@@ -137,7 +142,8 @@ pub(super) fn near(a: &Effect, b: &Effect) -> bool {
         && a.site.order.abs_diff(b.site.order) <= SiteKey::Order.one() / 2
 }
 
-/// The waves of the orders next to that of an effect, where it is a wave of the periodogram and they are no candidates yet.
+/// The waves of the orders next to that of an effect, where it is a wave of the periodogram and
+/// they are no candidates yet.
 pub(super) fn beside(effect: &Effect, known: &Candidates) -> Vec<Effect> {
     if !effect.definition().site.contains(&SiteKey::Order) {
         return Vec::new();

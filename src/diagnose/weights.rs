@@ -1,10 +1,11 @@
 //! Columns that are held, made orthonormal once; weights then take a small triangle.
 //!
-//! Weights differ from one in few rows. With Q orthonormal on the rows in use and weights W, `W Q = Q' Lᵀ` where `L Lᵀ = Qᵀ W² Q`,
-//! which is the identity less what those rows lack.
+//! Weights differ from one in few rows. With Q orthonormal on the rows in use and weights W, `W Q =
+//! Q' Lᵀ` where `L Lᵀ = Qᵀ W² Q`, which is the identity less what those rows lack.
 //!
 //! # Source
-//! G. H. Golub, C. F. Van Loan, "Matrix Computations": orthogonalisation by the Cholesky factor of the products.
+//! G. H. Golub, C. F. Van Loan, "Matrix Computations": orthogonalisation by the Cholesky factor of
+//! the products.
 
 use super::fit::{Fit, Held, INVISIBLE, Projection, REDUNDANT, TURNS, scale_of};
 use super::table::{Column, Layout, add_scaled, dot};
@@ -219,7 +220,8 @@ impl Plain {
         }
     }
 
-    /// Residuals on the rows in use with everything fitted at some weights, and how many parameters are free.
+    /// Residuals on the rows in use with everything fitted at some weights, and how many parameters
+    /// are free.
     fn rest(&self, residual: &[f64], sought: &Sought, less: &[Less]) -> (Column, f64) {
         let shares = &self.fit.shares;
         let lower = self.lower(less);
@@ -328,10 +330,12 @@ impl Plain {
         roots
     }
 
-    /// The robust fit of columns that are sought beside those held, and the fit of those held at its weights and scale.
+    /// The robust fit of columns that are sought beside those held, and the fit of those held at
+    /// its weights and scale.
     ///
-    /// Weights are one up to the length that 99.7 % of normal rows stay below, and fall with the square beyond it, so that
-    /// a gross error counts as one row at the limit, whatever its size.
+    /// Weights are one up to the length that 99.7 % of normal rows stay below, and fall with the
+    /// square beyond it, so that a gross error counts as one row at the limit, whatever its
+    /// size.
     #[must_use]
     pub fn fits(
         &self,

@@ -18,7 +18,8 @@ pub const SIGNIFICANT: f64 = 0.01;
 pub struct Spot {
     /// `q3_deg`, `torque 2`, `dir3`, `temperature_c`, `order`, `region x`, `point`.
     pub column: String,
-    /// Which values have the largest mean residual: their range in the column's unit, or the name of a point.
+    /// Which values have the largest mean residual: their range in the column's unit, or the name
+    /// of a point.
     pub values: String,
     /// Root mean square of the groups' mean residuals, metres.
     pub size_m: f64,
@@ -150,8 +151,8 @@ fn groupings(problem: &Problem, estimate: &Estimate) -> Vec<Grouping> {
     all
 }
 
-/// Columns and regions on which residuals depend, strongest first. `residual` is in standard deviations of the rows,
-/// `scale` their noise; rows far beyond it count as at the limit.
+/// Columns and regions on which residuals depend, strongest first. `residual` is in standard
+/// deviations of the rows, `scale` their noise; rows far beyond it count as at the limit.
 #[must_use]
 pub fn spots(
     problem: &Problem,
@@ -224,7 +225,8 @@ pub fn spots(
             .map(|g| counts[*g] * means(*g).iter().map(|m| m * m).sum::<f64>())
             .sum();
         let freedom = (live.len() - 1) * widest;
-        // against what is left within the groups, so that the test holds where the noise is not known
+        // against what is left within the groups, so that the test holds where the noise is not
+        // known
         let within =
             (total - between).max(1e-12) / (count * widest as f64 - freedom as f64).max(1.0);
         let statistic = between / within.max(scale * scale * 0.25);

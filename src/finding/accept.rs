@@ -96,7 +96,8 @@ impl Acceptance {
     }
 }
 
-/// Makes warnings of the errors that are taken; gives back the acceptances that took none, and the ids of what was taken.
+/// Makes warnings of the errors that are taken; gives back the acceptances that took none, and the
+/// ids of what was taken.
 pub fn accept<'a>(
     findings: &mut [Finding],
     acceptances: &'a [Acceptance],

@@ -19,7 +19,8 @@ pub struct Kind {
     pub languages: &'static [&'static str],
     /// What it was called in earlier versions: still known by these names.
     pub was: &'static [&'static str],
-    /// `--accept` does not take it: a number, a reach, a tool or a frame that nobody knows stays unknown.
+    /// `--accept` does not take it: a number, a reach, a tool or a frame that nobody knows stays
+    /// unknown.
     pub never_accepted: bool,
 }
 

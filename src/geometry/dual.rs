@@ -3,7 +3,8 @@
 use super::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A value and its partial derivatives with respect to `N` variables (forward-mode differentiation).
+/// A value and its partial derivatives with respect to `N` variables (forward-mode
+/// differentiation).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
     /// The value.

@@ -128,11 +128,13 @@ impl Ball {
     }
 }
 
-/// A function of one variable s over an interval of s: enclosures of its values, its first and its second derivative.
+/// A function of one variable s over an interval of s: enclosures of its values, its first and its
+/// second derivative.
 ///
-/// An equation written over [`Scalar`] and evaluated with jets gives bounds that hold everywhere in the interval, so that
-/// what happens between samples is known. Where a bound cannot be given (a division by what may be zero) the radius is
-/// infinite or not a number. An angle of a point is continued across the cut at π: it is right but for whole turns.
+/// An equation written over [`Scalar`] and evaluated with jets gives bounds that hold everywhere in
+/// the interval, so that what happens between samples is known. Where a bound cannot be given (a
+/// division by what may be zero) the radius is infinite or not a number. An angle of a point is
+/// continued across the cut at π: it is right but for whole turns.
 ///
 /// # Source
 /// R. E. Moore, "Interval Analysis" (1966); midpoint–radius arithmetic after S. M. Rump (1999).
@@ -179,7 +181,8 @@ impl Jet {
         }
     }
 
-    /// Either of two functions: where one goes over into the other there is no derivative to enclose.
+    /// Either of two functions: where one goes over into the other there is no derivative to
+    /// enclose.
     fn either(self, other: Self) -> Self {
         Self {
             value: self.value.hull(other.value),
@@ -196,12 +199,12 @@ impl Jet {
         }
     }
 
-    /// The function x(s) that solves x = g(s, x) and is zero, but for `slack`, in the middle of an interval of s that reaches
-    /// `half_width` to either side.
+    /// The function x(s) that solves x = g(s, x) and is zero, but for `slack`, in the middle of an
+    /// interval of s that reaches `half_width` to either side.
     ///
-    /// `moving` encloses g over the interval; `resting` does with everything but x at rest, so that its slope is ∂g/∂x where
-    /// that of x is one. Slope and bend are those of the implicit function; they bound how far x comes from zero. Unbounded
-    /// where no such bound is found.
+    /// `moving` encloses g over the interval; `resting` does with everything but x at rest, so that
+    /// its slope is ∂g/∂x where that of x is one. Slope and bend are those of the implicit
+    /// function; they bound how far x comes from zero. Unbounded where no such bound is found.
     #[must_use]
     pub fn implicit(
         half_width: f64,

@@ -1,7 +1,8 @@
 //! Poses, rotations and the scalars they are computed with; knows no robots.
 //!
-//! A transform `a_from_b` maps coordinates in frame b to coordinates in frame a, so adjacent words match in a product:
-//! `world_from_tool = world_from_base * base_from_flange * flange_from_tool`. Lengths are metres, angles radians.
+//! A transform `a_from_b` maps coordinates in frame b to coordinates in frame a, so adjacent words
+//! match in a product: `world_from_tool = world_from_base * base_from_flange * flange_from_tool`.
+//! Lengths are metres, angles radians.
 //!
 //! # Example
 //!

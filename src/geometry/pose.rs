@@ -3,7 +3,8 @@
 use super::{Quaternion, Rotation, Scalar, Turn, Vector, add, constant, norm, scale, sub};
 use std::ops::Mul;
 
-/// A rigid motion `a_from_b`: rotation and translation (metres) that map coordinates in b to coordinates in a.
+/// A rigid motion `a_from_b`: rotation and translation (metres) that map coordinates in b to
+/// coordinates in a.
 ///
 /// It is not checked to be orthonormal; every constructor here makes it so to rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +52,8 @@ impl<S: Scalar> Pose<S> {
         }
     }
 
-    /// `Trans(x, y, z) · Rx · Ry · Rz`, metres and radians in that order: the pose of profile files.
+    /// `Trans(x, y, z) · Rx · Ry · Rz`, metres and radians in that order: the pose of profile
+    /// files.
     ///
     /// # Source
     /// A. Nubiola, thesis, eq. I.2.

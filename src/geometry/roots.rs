@@ -4,14 +4,16 @@
 const NARROWEST: f64 = 1e-7;
 /// A function that comes no nearer to zero than this, in units of its own, touches it.
 const TOUCHES: f64 = 1e-14;
-/// Share of the cubic's own third-order part that it may miss the function by. Over a quarter of the function's shortest wave
-/// it misses it by a thirtieth.
+/// Share of the cubic's own third-order part that it may miss the function by. Over a quarter of
+/// the function's shortest wave it misses it by a thirtieth.
 const DOUBT: f64 = 0.2;
-/// Steps of Newton's method within a bracket; four are usual, and each that leaves the bracket halves it.
+/// Steps of Newton's method within a bracket; four are usual, and each that leaves the bracket
+/// halves it.
 const MOST_STEPS: usize = 60;
 /// A step that changes a variable of some radians by rounding only.
 const STEP: f64 = 4e-16;
-/// Evaluations after which a function that stays at zero, whose roots cannot be counted, is left. A hundred are usual.
+/// Evaluations after which a function that stays at zero, whose roots cannot be counted, is left. A
+/// hundred are usual.
 const MOST_EVALUATIONS: u32 = 4000;
 
 /// A function and its slope at one place.
@@ -22,15 +24,17 @@ pub(crate) struct Sample {
     pub slope: f64,
 }
 
-/// The roots of `function`, which gives value and slope, in `[from, to]` in ascending order, appended to `found`.
+/// The roots of `function`, which gives value and slope, in `[from, to]` in ascending order,
+/// appended to `found`.
 ///
-/// The interval is cut into `cells`; on each the cubic through both ends with their slopes is enclosed by its Bernstein
-/// coefficients. A cell is dropped where it stays clear of zero, searched where it rises or falls throughout and changes its
-/// sign, and halved otherwise. Features much narrower than a cell that show at neither end can be missed.
+/// The interval is cut into `cells`; on each the cubic through both ends with their slopes is
+/// enclosed by its Bernstein coefficients. A cell is dropped where it stays clear of zero, searched
+/// where it rises or falls throughout and changes its sign, and halved otherwise. Features much
+/// narrower than a cell that show at neither end can be missed.
 ///
 /// # Source
-/// Bernstein subdivision as in T. W. Sederberg, T. Nishita, "Curve intersection using Bézier clipping" (1990), on the cubic
-/// Hermite interpolant.
+/// Bernstein subdivision as in T. W. Sederberg, T. Nishita, "Curve intersection using Bézier
+/// clipping" (1990), on the cubic Hermite interpolant.
 pub(crate) fn roots(
     function: &mut impl FnMut(f64) -> (f64, f64),
     [from, to]: [f64; 2],

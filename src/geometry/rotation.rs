@@ -1,4 +1,5 @@
-//! Rotations, named by their shape: each maker's angle names are translated in its own language folder.
+//! Rotations, named by their shape: each maker's angle names are translated in its own language
+//! folder.
 
 use super::{Scalar, Vector, constant, dot, norm};
 use std::ops::Mul;
@@ -104,14 +105,15 @@ impl Rotation {
         Rotation([constant(a), constant(b), constant(c)])
     }
 
-    /// `Rz(a) · Ry(b) · Rx(c)`, radians: `[a, b, c]` (A B C of KRL, R P W of FANUC, Rz Ry Rx of INFORM).
+    /// `Rz(a) · Ry(b) · Rx(c)`, radians: `[a, b, c]` (A B C of KRL, R P W of FANUC, Rz Ry Rx of
+    /// INFORM).
     #[must_use]
     pub fn from_rzryrx([a, b, c]: [f64; 3]) -> Self {
         Self::about_z(a) * Self::about_y(b) * Self::about_x(c)
     }
 
-    /// The angles of [`Rotation::from_rzryrx`]; b in [−π/2, π/2]. Where b = ±π/2 only the sum or difference of a and c
-    /// is determined, and c is the given one.
+    /// The angles of [`Rotation::from_rzryrx`]; b in [−π/2, π/2]. Where b = ±π/2 only the sum or
+    /// difference of a and c is determined, and c is the given one.
     #[must_use]
     pub fn rzryrx(&self, c_if_undetermined: f64) -> [f64; 3] {
         let m = &self.0;
@@ -131,7 +133,8 @@ impl Rotation {
         }
     }
 
-    /// `Rx(a) · Ry(b) · Rz(c)` angles `[a, b, c]` in radians, b in [−π/2, π/2]; c is 0 where b = ±π/2.
+    /// `Rx(a) · Ry(b) · Rz(c)` angles `[a, b, c]` in radians, b in [−π/2, π/2]; c is 0 where b =
+    /// ±π/2.
     #[must_use]
     pub fn rxryrz(&self) -> [f64; 3] {
         // Rx(a)·Ry(b)·Rz(c) is the transpose of Rz(−c)·Ry(−b)·Rx(−a)
@@ -167,7 +170,8 @@ impl Rotation {
     /// The unit quaternion with non-negative scalar part.
     ///
     /// # Source
-    /// S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978): divide by the largest part.
+    /// S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978): divide
+    /// by the largest part.
     #[must_use]
     pub fn quaternion(&self) -> Quaternion {
         let m = &self.0;
@@ -219,7 +223,8 @@ impl Quaternion {
         self.0.iter().map(|c| c * c).sum::<f64>().sqrt()
     }
 
-    /// The same direction with length 1. A zero quaternion becomes not-a-number: check [`Quaternion::norm`] first.
+    /// The same direction with length 1. A zero quaternion becomes not-a-number: check
+    /// [`Quaternion::norm`] first.
     #[must_use]
     pub fn normalized(&self) -> Self {
         let length = self.norm();

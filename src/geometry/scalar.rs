@@ -3,11 +3,13 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A real number: a plain `f64`, a dual number that carries derivatives, or several `f64` side by side.
+/// A real number: a plain `f64`, a dual number that carries derivatives, or several `f64` side by
+/// side.
 ///
-/// An equation written once over `Scalar` gives its value, its exact derivatives and its vectorised batch form.
-/// No comparison says which of two ways to go, since lanes may disagree: use [`Scalar::choose_less`]. Only a way that is
-/// right for all may be cut short, by [`Scalar::every_below`].
+/// An equation written once over `Scalar` gives its value, its exact derivatives and its vectorised
+/// batch form. No comparison says which of two ways to go, since lanes may disagree: use
+/// [`Scalar::choose_less`]. Only a way that is right for all may be cut short, by
+/// [`Scalar::every_below`].
 pub trait Scalar:
     Copy
     + Debug
@@ -116,8 +118,9 @@ impl Scalar for f64 {
 
 /// Branch-free elementary functions, so that a loop over lanes becomes vector instructions.
 ///
-/// Reduction and polynomials as in S. L. Moshier's Cephes library (sin.c, atan.c): the coefficients are its published
-/// minimax constants. Error below 2 units in the last place, tested against the standard library.
+/// Reduction and polynomials as in S. L. Moshier's Cephes library (sin.c, atan.c): the coefficients
+/// are its published minimax constants. Error below 2 units in the last place, tested against the
+/// standard library.
 pub(super) mod elementary {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 

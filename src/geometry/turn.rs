@@ -97,7 +97,8 @@ impl<S: Scalar> Turn<S> {
         self * more
     }
 
-    /// Series to the seventh power: the first term left out is below a tenth of the rounding of one.
+    /// Series to the seventh power: the first term left out is below a tenth of the rounding of
+    /// one.
     #[inline(always)]
     fn of_small(angle: S) -> Self {
         let k = S::constant;

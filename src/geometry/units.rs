@@ -5,7 +5,8 @@ pub const MM: f64 = 1e-3;
 /// One degree in radians.
 pub const DEG: f64 = std::f64::consts::PI / 180.0;
 
-/// Millimetres to metres, so that the printed decimal is met exactly on the way back where that is possible.
+/// Millimetres to metres, so that the printed decimal is met exactly on the way back where that is
+/// possible.
 #[inline]
 #[must_use]
 pub fn m_from_mm(mm: f64) -> f64 {

@@ -26,28 +26,31 @@ use std::f64::consts::TAU;
 pub const OUTLIER: f64 = 1.6;
 /// Residuals below this are nobody's outliers, metres.
 const SMALL_M: f64 = 1e-6;
-/// The profile's base is believed to be in the device's frame where the measured one is nearer than this, metres.
+/// The profile's base is believed to be in the device's frame where the measured one is nearer than
+/// this, metres.
 const SAME_PLACE_M: f64 = 0.02;
 /// And turned by less than this, radians.
 const SAME_TURN_RAD: f64 = 1.0 * DEG;
-/// Gravity along the device's z is tried where that is tilted from the profile's by so much, radians.
+/// Gravity along the device's z is tried where that is tilted from the profile's by so much,
+/// radians.
 const TILTED_RAD: f64 = 3.0 * DEG;
 /// And by no more.
 const MOST_TILTED_RAD: f64 = 60.0 * DEG;
-/// There is strong evidence for one of two models of as many parameters beyond this, twice a log likelihood: odds of 20 (R. E. Kass,
-/// A. E. Raftery, "Bayes factors" (1995)).
+/// There is strong evidence for one of two models of as many parameters beyond this, twice a log
+/// likelihood: odds of 20 (R. E. Kass, A. E. Raftery, "Bayes factors" (1995)).
 const STRONG: f64 = 6.0;
 /// Correlations above this are reported.
 pub const STRONG_CORRELATION: f64 = 0.9;
 
 /// What becomes of the measured place of the base.
 ///
-/// A device sees the base in its own frame: `device_from_base`, the product of where the device stands and where the base stands. No
-/// measurement of the arm divides that product; something else must say where one of the two is.
+/// A device sees the base in its own frame: `device_from_base`, the product of where the device
+/// stands and where the base stands. No measurement of the arm divides that product; something else
+/// must say where one of the two is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BasePolicy {
-    /// The base is where the controller has it, with the effects `base_frame` of the profile; what was measured is where the
-    /// device stands.
+    /// The base is where the controller has it, with the effects `base_frame` of the profile; what
+    /// was measured is where the device stands.
     Controller,
     /// It is the device's world that counts: `kinematics.base` is replaced.
     Device,
@@ -241,8 +244,8 @@ pub(super) fn begin_frames(
 /// Identifies a robot's parameters from measurements.
 ///
 /// # Errors
-/// Measurements that contradict the robot or themselves, too few of them, a start that does not follow from them, no
-/// convergence.
+/// Measurements that contradict the robot or themselves, too few of them, a start that does not
+/// follow from them, no convergence.
 pub fn calibrate(
     profile: &Profile,
     measurements: &Measurements,
@@ -257,8 +260,9 @@ pub fn calibrate(
     by_the_device(profile, measurements, options, found)
 }
 
-/// The calibration with gravity along the device's z where axis 1 is tilted from where the profile has it, and the arm clearly bends so:
-/// a levelled device knows better than the robot's foot where down is.
+/// The calibration with gravity along the device's z where axis 1 is tilted from where the profile
+/// has it, and the arm clearly bends so: a levelled device knows better than the robot's foot where
+/// down is.
 fn by_the_device(
     profile: &Profile,
     measurements: &Measurements,
@@ -314,7 +318,8 @@ fn by_the_device(
     Ok(other)
 }
 
-/// As [`calibrate`], with the device where the profile has it, and without asking whether touches are meant otherwise.
+/// As [`calibrate`], with the device where the profile has it, and without asking whether touches
+/// are meant otherwise.
 fn identify(
     profile: &Profile,
     measurements: &Measurements,
@@ -503,7 +508,8 @@ fn identify(
     })
 }
 
-/// `R` of the Jacobian in metres and radians by the parameters in SI units, for rows of one standard deviation: their mean.
+/// `R` of the Jacobian in metres and radians by the parameters in SI units, for rows of one
+/// standard deviation: their mean.
 fn in_si(mut r: DMatrix<f64>, problem: &Problem, parameters: &[Parameter]) -> DMatrix<f64> {
     let logs = problem.rows.iter().map(|row| row.sigma_m.ln());
     let sigma_m = (logs.sum::<f64>() / problem.rows.len().max(1) as f64).exp();
@@ -596,10 +602,12 @@ fn base_policy(
     Ok(false)
 }
 
-/// Where the device stands, of rows in a frame that `frame_from_device` maps into, with the standard deviations of its numbers.
+/// Where the device stands, of rows in a frame that `frame_from_device` maps into, with the
+/// standard deviations of its numbers.
 ///
-/// `world_from_device = real_base · (measured_base · T(δ))⁻¹ · frame_from_device` with the deviation δ of the base, whose covariance
-/// is propagated by central differences. No deviation is known where one of the six is not determined.
+/// `world_from_device = real_base · (measured_base · T(δ))⁻¹ · frame_from_device` with the
+/// deviation δ of the base, whose covariance is propagated by central differences. No deviation is
+/// known where one of the six is not determined.
 fn device_of(
     profile: &Profile,
     solution: &Solution,
@@ -693,7 +701,8 @@ impl Calibration {
         self.solution.stop
     }
 
-    /// Every parameter that was asked for with its value and, where the data determine it, its standard deviation, SI.
+    /// Every parameter that was asked for with its value and, where the data determine it, its
+    /// standard deviation, SI.
     pub fn parameters(&self) -> impl Iterator<Item = (&Parameter, f64, Option<f64>)> {
         self.problem
             .parameters
@@ -706,7 +715,8 @@ impl Calibration {
             })
     }
 
-    /// What the probe touched and was not wholly known, and where it was found in the device's frame.
+    /// What the probe touched and was not wholly known, and where it was found in the device's
+    /// frame.
     pub fn features(&self) -> impl Iterator<Item = (&contact::Feature, contact::Fitted)> {
         let values = &self.solution.estimate.features;
         let all = self.problem.features.iter().zip(values);
@@ -723,7 +733,8 @@ impl Calibration {
             })
     }
 
-    /// The calibrated robot: the profile with the identified effects, points and, where it was replaced, base.
+    /// The calibrated robot: the profile with the identified effects, points and, where it was
+    /// replaced, base.
     #[must_use]
     pub fn profile(&self) -> Profile {
         let mut profile = self.problem.profile.clone();

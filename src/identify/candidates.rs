@@ -29,9 +29,11 @@ pub struct Constraints {
     pub approach_rad: f64,
     /// The tool must be inside, there and where it is approached from.
     pub inside: Option<Box3>,
-    /// The tool, the wrist and the elbow must be outside, there and where they are approached from.
+    /// The tool, the wrist and the elbow must be outside, there and where they are approached
+    /// from.
     pub keep_out: Vec<Box3>,
-    /// Where the measuring device stands, metres, and how far the tool's z axis may point away from it, radians.
+    /// Where the measuring device stands, metres, and how far the tool's z axis may point away
+    /// from it, radians.
     pub sight: Option<(Vector, f64)>,
 }
 
@@ -122,8 +124,8 @@ impl<'a> Guard<'a> {
         (deepest >= 0.0).then_some(Breach::KeptOut(deepest))
     }
 
-    /// How far tool, wrist and elbow are at least from what the boxes do not allow, metres: negative in a breach, infinite without
-    /// boxes.
+    /// How far tool, wrist and elbow are at least from what the boxes do not allow, metres:
+    /// negative in a breach, infinite without boxes.
     fn room_m(&self, q: &[f64; 6]) -> f64 {
         let Constraints {
             inside, keep_out, ..
@@ -151,8 +153,9 @@ impl<'a> Guard<'a> {
         places[2..].iter().map(|frame| frame.translation).collect()
     }
 
-    /// Whether the boxes are kept everywhere on a move of the joints at constant rates, guaranteed by how fast the points move: no
-    /// breach can be between two places that have more room together than the way between them is long.
+    /// Whether the boxes are kept everywhere on a move of the joints at constant rates, guaranteed
+    /// by how fast the points move: no breach can be between two places that have more room
+    /// together than the way between them is long.
     #[must_use]
     pub fn keeps(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
         let at = |s: f64| self.room_m(&std::array::from_fn(|i| from[i] + s * (to[i] - from[i])));
@@ -210,8 +213,8 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// Random configurations that meet the constraints, as near to zero as they can be: no joint makes a whole turn in vain. The
-/// second value is the part of draws that did.
+/// Random configurations that meet the constraints, as near to zero as they can be: no joint makes
+/// a whole turn in vain. The second value is the part of draws that did.
 ///
 /// # Errors
 /// Constraints that no draw meets.

@@ -1,12 +1,13 @@
-//! Contacts of a probe's ball with spheres, planes and points: closed-loop measurements, whose features may be unknown.
+//! Contacts of a probe's ball with spheres, planes and points: closed-loop measurements, whose
+//! features may be unknown.
 //!
-//! The measured point of the row is the centre of the ball. With `p` where it is expected, `r` the ball's radius:
-//! a sphere (centre `c`, radius `R`) leaves `R + r − |p − c|`; a plane (normal `n`, point `a`, offset `d`)
-//! `d + r − n·(p − a)`; a repeated point `c − p`.
+//! The measured point of the row is the centre of the ball. With `p` where it is expected, `r` the
+//! ball's radius: a sphere (centre `c`, radius `R`) leaves `R + r − |p − c|`; a plane (normal `n`,
+//! point `a`, offset `d`) `d + r − n·(p − a)`; a repeated point `c − p`.
 //!
 //! # Source
-//! The loop closed by a constraint instead of a measuring device: J. M. Hollerbach, C. W. Wampler, "The calibration index and
-//! taxonomy for robot kinematic calibration methods" (1996).
+//! The loop closed by a constraint instead of a measuring device: J. M. Hollerbach, C. W. Wampler,
+//! "The calibration index and taxonomy for robot kinematic calibration methods" (1996).
 
 use super::error::IdentifyError;
 use super::line::Line;
@@ -90,7 +91,8 @@ pub struct Contact {
     pub feature: String,
     /// What it is.
     pub kind: ContactKind,
-    /// Centre of the sphere, a point of the plane, or the point, in the world, metres; none: to be identified.
+    /// Centre of the sphere, a point of the plane, or the point, in the world, metres; none: to be
+    /// identified.
     pub centre_m: Option<Vector>,
     /// Radius of the sphere, metres; none: to be identified.
     pub radius_m: Option<f64>,
@@ -185,7 +187,8 @@ pub struct Feature {
     pub name: String,
     /// What it is.
     pub kind: ContactKind,
-    /// Which of its numbers are given: x, y, z, radius of a sphere; offset and two tilts of a plane; x, y, z of a point.
+    /// Which of its numbers are given: x, y, z, radius of a sphere; offset and two tilts of a
+    /// plane; x, y, z of a point.
     pub known: [bool; MOST_VALUES],
     /// What was given.
     pub given: Contact,
@@ -318,7 +321,8 @@ impl Feature {
                     Some(normal) => normal,
                     None => plane(balls_m).map_err(|e| e.to_string())?.normal,
                 };
-                // the side on which the balls are; of an unknown plane the side of the world's origin
+                // the side on which the balls are; of an unknown plane the side of the world's
+                // origin
                 let height = match self.given.centre_m {
                     Some(point) => dot(normal, sub(middle, point)),
                     None => -dot(normal, middle),
@@ -411,7 +415,8 @@ pub(super) fn gather(rows: &[Measurement]) -> Result<Vec<Feature>, IdentifyError
     Ok(features)
 }
 
-/// The parameters of the unknown features. They come first: where nothing known is touched the base is what stays.
+/// The parameters of the unknown features. They come first: where nothing known is touched the base
+/// is what stays.
 pub(super) fn parameters(features: &[Feature]) -> Vec<Parameter> {
     let mut all = Vec::new();
     for (index, feature) in features.iter().enumerate() {

@@ -50,7 +50,8 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// A point is of no arm that is this many times farther from the middle of all points than half of them are.
+/// A point is of no arm that is this many times farther from the middle of all points than half of
+/// them are.
 pub(super) const FAR_OFF: f64 = 100.0;
 
 /// Why nothing was identified.

@@ -1,7 +1,7 @@
 //! The exchange of configurations for better ones, by updates of a determinant.
 //!
-//! A pass over all candidates finds those that tell most beside the set; exchanges are then made among these few alone, until none
-//! of them is worth one, and a pass over all of them follows.
+//! A pass over all candidates finds those that tell most beside the set; exchanges are then made
+//! among these few alone, until none of them is worth one, and a pass over all of them follows.
 
 mod lanes;
 
@@ -155,7 +155,8 @@ impl<'a> Chooser<'a> {
         })
     }
 
-    /// Changes the blocks of a shortlist's candidates; fewer blocks than there are change those alone.
+    /// Changes the blocks of a shortlist's candidates; fewer blocks than there are change those
+    /// alone.
     #[allow(
         clippy::cast_possible_truncation,
         reason = "what is chosen by it is checked in double precision"
@@ -171,7 +172,8 @@ impl<'a> Chooser<'a> {
         });
     }
 
-    /// A set improved by exchanges until none of the candidates that tell most beside it is worth one.
+    /// A set improved by exchanges until none of the candidates that tell most beside it is worth
+    /// one.
     pub(super) fn improve(&self, mut set: Vec<usize>, tried: usize) -> Improved {
         let mut exchanges = 0;
         loop {
@@ -203,7 +205,8 @@ impl<'a> Chooser<'a> {
         }
     }
 
-    /// Exchanges members of a set for some candidates while one of the `tried` best of them is worth it; how many there were.
+    /// Exchanges members of a set for some candidates while one of the `tried` best of them is
+    /// worth it; how many there were.
     fn exchange(
         &self,
         set: &mut [usize],

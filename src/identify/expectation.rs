@@ -14,10 +14,12 @@ use nalgebra::{DMatrix, DVector};
 
 /// Random postures within the joint limits.
 pub const POSTURES: usize = 300;
-/// Base, tool and points are believed to be within so many of their typical sizes where the data do not tell.
+/// Base, tool and points are believed to be within so many of their typical sizes where the data do
+/// not tell.
 const ANYWHERE: f64 = 100.0;
 
-/// Derivatives of what is observed of a row by the parameters, in their scales and in standard deviations of the row.
+/// Derivatives of what is observed of a row by the parameters, in their scales and in standard
+/// deviations of the row.
 pub(super) fn slopes(
     seen: &Observation,
     motions: &[Motion],
@@ -35,8 +37,8 @@ pub(super) fn slopes(
     }
 }
 
-/// The same in four postures, with the tools there and the point at `arm` from their origins: how the point is shifted and how the
-/// tool turns, metres and radians a scale.
+/// The same in four postures, with the tools there and the point at `arm` from their origins: how
+/// the point is shifted and how the tool turns, metres and radians a scale.
 #[inline(always)]
 pub(super) fn four_slopes(
     pose: &Pose<Four>,
@@ -73,11 +75,13 @@ pub(super) fn four_slopes(
     }
 }
 
-/// Root mean square of the position error that is to be expected of the first measured point over the joint limits, metres.
+/// Root mean square of the position error that is to be expected of the first measured point over
+/// the joint limits, metres.
 ///
-/// The parameters' covariance from the measurements (`loss` as they were weighted, standard deviations of the rows times
-/// `factor`), where values that the data do not tell vary as those of other arms do: each has its typical size as a prior. `None`
-/// where the measurements are touches only.
+/// The parameters' covariance from the measurements (`loss` as they were weighted, standard
+/// deviations of the rows times `factor`), where values that the data do not tell vary as those of
+/// other arms do: each has its typical size as a prior. `None` where the measurements are touches
+/// only.
 pub fn expected_error_m(
     problem: &Problem,
     estimate: &Estimate,

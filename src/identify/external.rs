@@ -71,8 +71,8 @@ fn refused(message: String, hint: &str) -> IdentifyError {
     }
 }
 
-/// Whether readings and profile speak of the same external axes. Those of a track must be read; what a positioner does, no tool
-/// of the arm shows.
+/// Whether readings and profile speak of the same external axes. Those of a track must be read;
+/// what a positioner does, no tool of the arm shows.
 ///
 /// # Errors
 /// Both sides are named: the column and the axis.

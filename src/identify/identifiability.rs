@@ -4,11 +4,14 @@ use super::normal::Normal;
 use super::parameters::{FIRST_PHYSICAL, Parameter};
 use nalgebra::{DMatrix, DVector};
 
-/// A column is redundant where less than this part of it is left when earlier columns have explained the rest.
+/// A column is redundant where less than this part of it is left when earlier columns have
+/// explained the rest.
 pub const REDUNDANT: f64 = 1e-4;
-/// A column shows nothing where a typical size of its parameter moves all rows together by fewer standard deviations.
+/// A column shows nothing where a typical size of its parameter moves all rows together by fewer
+/// standard deviations.
 const INVISIBLE: f64 = 1e-3;
-/// A parameter is hardly seen that the data would tell with a standard deviation of more than this many typical sizes.
+/// A parameter is hardly seen that the data would tell with a standard deviation of more than this
+/// many typical sizes.
 pub const WEAK: f64 = 3.0;
 /// The part of a redundant column that another parameter must explain to be named.
 const NAMED: f64 = 0.1;
@@ -18,9 +21,11 @@ const NAMED: f64 = 0.1;
 pub struct Dropped {
     /// Index of the parameter.
     pub parameter: usize,
-    /// Parameters that do the same to the data together, strongest first; empty where it does nothing.
+    /// Parameters that do the same to the data together, strongest first; empty where it does
+    /// nothing.
     pub confounded_with: Vec<usize>,
-    /// Its standard deviation in its typical sizes, where it is seen but known less well than before.
+    /// Its standard deviation in its typical sizes, where it is seen but known less well than
+    /// before.
     pub weak: Option<f64>,
 }
 
@@ -33,13 +38,14 @@ pub struct Identifiable {
     pub dropped: Vec<Dropped>,
 }
 
-/// Finds redundant columns in the order of the parameters, earlier ones are kept: a Cholesky factorisation of the scaled
-/// normal matrix that leaves out every column whose pivot vanishes. With the residuals' size `noise` in standard
-/// deviations, those are left out as well, the least known first, whose standard deviation beside all that is kept would be more
-/// than [`WEAK`] typical sizes.
+/// Finds redundant columns in the order of the parameters, earlier ones are kept: a Cholesky
+/// factorisation of the scaled normal matrix that leaves out every column whose pivot vanishes.
+/// With the residuals' size `noise` in standard deviations, those are left out as well, the least
+/// known first, whose standard deviation beside all that is kept would be more than [`WEAK`]
+/// typical sizes.
 ///
-/// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it, the limit is
-/// [`REDUNDANT`] squared.
+/// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it,
+/// the limit is [`REDUNDANT`] squared.
 #[must_use]
 pub fn identifiable(normal: &Normal, parameters: &[Parameter], noise: Option<f64>) -> Identifiable {
     let count = parameters.len();
@@ -90,7 +96,8 @@ pub fn identifiable(normal: &Normal, parameters: &[Parameter], noise: Option<f64
     found
 }
 
-/// The columns that explain one, strongest first: those whose weight times their length is a good part of its own.
+/// The columns that explain one, strongest first: those whose weight times their length is a good
+/// part of its own.
 fn explained_by(
     normal: &Normal,
     column: usize,
@@ -108,7 +115,8 @@ fn explained_by(
     parts.into_iter().map(|(_, other)| other).collect()
 }
 
-/// Leaves out what is kept but hardly known, one after another: without one the others are known better.
+/// Leaves out what is kept but hardly known, one after another: without one the others are known
+/// better.
 fn leave_out_weak(normal: &Normal, parameters: &[Parameter], noise: f64, found: &mut Identifiable) {
     let Some(factor) = normal.part(&found.kept).matrix.cholesky() else {
         return;
@@ -147,8 +155,8 @@ fn leave_out_weak(normal: &Normal, parameters: &[Parameter], noise: f64, found: 
 /// Singular values of a square matrix by one-sided Jacobi rotations, largest first.
 ///
 /// # Source
-/// M. R. Hestenes, "Inversion of matrices by biorthogonalization and related results" (1958); J. Demmel, K. Veselić, "Jacobi's method is
-/// more accurate than QR" (1992).
+/// M. R. Hestenes, "Inversion of matrices by biorthogonalization and related results" (1958); J.
+/// Demmel, K. Veselić, "Jacobi's method is more accurate than QR" (1992).
 #[must_use]
 pub fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
     let mut a = matrix.clone();
@@ -209,8 +217,9 @@ pub struct Observability {
 /// The indices of these singular values, with `rows` measured configurations.
 ///
 /// # Source
-/// J. H. Borm, C. H. Menq (1991); M. R. Driels, U. S. Pathre (1990); A. Nahvi, J. M. Hollerbach (1994, 1996); Y. Sun,
-/// J. M. Hollerbach, "Observability index selection for robot calibration" (2008).
+/// J. H. Borm, C. H. Menq (1991); M. R. Driels, U. S. Pathre (1990); A. Nahvi, J. M. Hollerbach
+/// (1994, 1996); Y. Sun, J. M. Hollerbach, "Observability index selection for robot calibration"
+/// (2008).
 #[must_use]
 pub fn observability(singular_values: Vec<f64>, rows: usize) -> Observability {
     let count = singular_values.len();
@@ -252,8 +261,9 @@ impl Normal {
         Some(self.matrix.clone().cholesky()?.l().transpose())
     }
 
-    /// By how much the sum of squares falls when the columns `new` are added to the columns `present`, both fitted: the
-    /// test of a candidate effect without solving again. The second value is the candidate's parameters in their scales.
+    /// By how much the sum of squares falls when the columns `new` are added to the columns
+    /// `present`, both fitted: the test of a candidate effect without solving again. The second
+    /// value is the candidate's parameters in their scales.
     #[must_use]
     pub fn gain(&self, present: &[usize], new: &[usize]) -> Option<(f64, DVector<f64>)> {
         let block = |rows: &[usize], columns: &[usize]| {

@@ -25,7 +25,8 @@ const NOTHING: f64 = 1e-12;
 /// Configurations that one thread takes at a time.
 const PORTION: usize = 32 * WIDTH;
 
-/// A problem whose rows are these configurations, with external axes where each of them has them, to take derivatives of.
+/// A problem whose rows are these configurations, with external axes where each of them has them,
+/// to take derivatives of.
 pub(super) fn imagined(
     profile: &Profile,
     tool: &Mounted,
@@ -69,8 +70,8 @@ pub(super) fn imagined(
     Problem::new(profile, &measurements, selection, profile.world_from_base)
 }
 
-/// Derivatives of what is measured at each configuration by the parameters, in their scales and in standard deviations:
-/// `[configuration][row][parameter]`.
+/// Derivatives of what is measured at each configuration by the parameters, in their scales and in
+/// standard deviations: `[configuration][row][parameter]`.
 #[derive(Clone, Debug)]
 pub(super) struct Derivatives {
     /// Rows of a configuration.
@@ -154,7 +155,8 @@ impl pulp::NullaryFnOnce for Pass<'_> {
 }
 
 impl Derivatives {
-    /// Of configurations with external axes at some places, `at` of each: a place's are measured as some rows of a problem are.
+    /// Of configurations with external axes at some places, `at` of each: a place's are measured as
+    /// some rows of a problem are.
     pub(super) fn of_places(
         problem: &Problem,
         estimate: &Estimate,
@@ -184,8 +186,8 @@ impl Derivatives {
         all
     }
 
-    /// Of configurations that are measured as these rows of a problem are, by its parameters; `sigma_m` is the standard deviation of a
-    /// coordinate.
+    /// Of configurations that are measured as these rows of a problem are, by its parameters;
+    /// `sigma_m` is the standard deviation of a coordinate.
     pub(super) fn of_joints(
         problem: &Problem,
         estimate: &Estimate,
@@ -242,7 +244,8 @@ impl Derivatives {
         }
     }
 
-    /// Normal equations of every so manieth configuration without measurements, in standard deviations of so many of these.
+    /// Normal equations of every so manieth configuration without measurements, in standard
+    /// deviations of so many of these.
     pub(super) fn normal(&self, every: usize, sigmas: f64, parameters: &[Parameter]) -> Normal {
         let cells: Vec<f64> = (0..self.count())
             .step_by(every)
@@ -278,8 +281,8 @@ impl Derivatives {
         }
     }
 
-    /// The same information in fewer rows, where every configuration tells as much in [`POSE_NUMBERS`]: several known points on one
-    /// tool say no more than its pose.
+    /// The same information in fewer rows, where every configuration tells as much in
+    /// [`POSE_NUMBERS`]: several known points on one tool say no more than its pose.
     pub(super) fn in_fewer_rows(self) -> Self {
         let (height, width) = (self.height, self.width);
         if height <= POSE_NUMBERS {

@@ -164,8 +164,8 @@ pub struct Measurements {
     pub columns: Vec<String>,
 }
 
-/// How far the joints moved last at each of these postures, one after another: an arm that stands still has not moved since. Of
-/// the first nothing is known.
+/// How far the joints moved last at each of these postures, one after another: an arm that stands
+/// still has not moved since. Of the first nothing is known.
 #[must_use]
 pub fn last_moves(postures: &[[f64; 6]]) -> Vec<[f64; 6]> {
     let mut moved = [0.0; 6];
@@ -211,7 +211,8 @@ impl Measurements {
     /// The readings in the controller's world, by where the profile has the device.
     ///
     /// # Errors
-    /// External axes that the profile lists and the readings do not say, or the other way round; one beyond its limits.
+    /// External axes that the profile lists and the readings do not say, or the other way round;
+    /// one beyond its limits.
     pub fn in_world_of(&self, profile: &Profile) -> Result<Cow<'_, Self>, IdentifyError> {
         external::agree(self, profile)?;
         Ok(match &profile.device {
@@ -234,8 +235,8 @@ impl Measurements {
         }
     }
 
-    /// The number of the configuration of each row: rows in sequence with the same joint angles, and external axes at the same
-    /// places, are one, from 0.
+    /// The number of the configuration of each row: rows in sequence with the same joint angles,
+    /// and external axes at the same places, are one, from 0.
     #[must_use]
     pub fn configurations(&self) -> Vec<usize> {
         let mut number = 0;

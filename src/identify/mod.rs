@@ -1,10 +1,11 @@
 //! From measurements to a robot's parameters, with honest uncertainty.
 //!
-//! The data flow: [`measurements`] are read and doubted ([`doubt`], as is what is made of them); [`start`] finds the base in closed form;
-//! [`problem`] makes rows that [`observation`] compares with a model; [`normal`] gathers normal equations in one pass;
-//! [`identifiability`] says which parameters they determine; [`solver`] finds these, [`uncertainty`] and [`statistics`] say
-//! what they are worth. [`calibrate`] is all of it; [`validation`] judges, [`plan`] chooses what to measure,
-//! [`simulate`] makes the truth that tests find again.
+//! The data flow: [`measurements`] are read and doubted ([`doubt`], as is what is made of them);
+//! [`start`] finds the base in closed form; [`problem`] makes rows that [`observation`] compares
+//! with a model; [`normal`] gathers normal equations in one pass; [`identifiability`] says which
+//! parameters they determine; [`solver`] finds these, [`uncertainty`] and [`statistics`] say
+//! what they are worth. [`calibrate`] is all of it; [`validation`] judges, [`plan`] chooses what to
+//! measure, [`simulate`] makes the truth that tests find again.
 //!
 //! [`normal::Normal::gain`] tests a candidate effect against a solved model without solving again.
 //!

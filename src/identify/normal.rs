@@ -29,7 +29,8 @@ pub struct Normal {
     pub cost: f64,
     /// Sum of squared residuals in standard deviations of each row, before robust weights.
     pub squares: Vec<f64>,
-    /// Squared distance of each parameter from its prior, in the prior's standard deviations; zero without one.
+    /// Squared distance of each parameter from its prior, in the prior's standard deviations; zero
+    /// without one.
     pub prior_squares: Vec<f64>,
 }
 

@@ -59,8 +59,9 @@ impl<'a> Observation<'a> {
         add(self.world_from_tool.translation, self.arm)
     }
 
-    /// Measured minus expected in metres: three coordinates, then three components of the rotation vector in radians for
-    /// a pose, or one distance. The first [`Observed::count`] numbers hold.
+    /// Measured minus expected in metres: three coordinates, then three components of the rotation
+    /// vector in radians for a pose, or one distance. The first [`Observed::count`] numbers
+    /// hold.
     #[inline(always)]
     #[must_use]
     pub fn gap(&self) -> [f64; MOST_NUMBERS] {
@@ -98,8 +99,9 @@ impl<'a> Observation<'a> {
 
     /// What a motion of the tool does to the expectation.
     ///
-    /// The gap of a touched point is taken along axes that turn with the tool: it is as long, and turns of the arm and of the
-    /// unknown point together leave it as it is, whatever is left of it.
+    /// The gap of a touched point is taken along axes that turn with the tool: it is as long, and
+    /// turns of the arm and of the unknown point together leave it as it is, whatever is left
+    /// of it.
     #[inline(always)]
     #[must_use]
     pub fn slope(&self, motion: &Motion) -> [f64; MOST_NUMBERS] {
@@ -111,7 +113,8 @@ impl<'a> Observation<'a> {
         self.of_shift(shift, motion.turn_rad)
     }
 
-    /// What growth of one coordinate of the point in the tool frame does; zero where `point` is another one.
+    /// What growth of one coordinate of the point in the tool frame does; zero where `point` is
+    /// another one.
     #[inline(always)]
     #[must_use]
     pub fn slope_of_point(&self, point: usize, axis: usize) -> [f64; MOST_NUMBERS] {

@@ -25,9 +25,11 @@ impl Pairs {
     }
 }
 
-/// Points that are compared with a block of others at a time: their coordinates stay in the nearest cache.
+/// Points that are compared with a block of others at a time: their coordinates stay in the nearest
+/// cache.
 const BLOCK: usize = 512;
-/// Points of which all pairs are compared; of more, each is compared with half as many others, picked at random.
+/// Points of which all pairs are compared; of more, each is compared with half as many others,
+/// picked at random.
 const ALL: usize = 20_000;
 /// Beyond this part of a distance, squared, its error is computed the long way.
 const LARGE: f32 = 1e-3;
@@ -221,13 +223,16 @@ fn shuffled(count: usize) -> Vec<usize> {
     order
 }
 
-/// Errors of the distances between all pairs of points, in the unit of the points; `None` with fewer than two points.
+/// Errors of the distances between all pairs of points, in the unit of the points; `None` with
+/// fewer than two points.
 ///
-/// Of more than 20 000 points not all pairs are compared: each with 7 000 to 10 000 others, picked at random, the same in
-/// every run. Mean and standard deviation are then those of this sample, and the largest error is its largest.
+/// Of more than 20 000 points not all pairs are compared: each with 7 000 to 10 000 others, picked
+/// at random, the same in every run. Mean and standard deviation are then those of this sample, and
+/// the largest error is its largest.
 ///
-/// Memory is that of the points. Sums and differences of measured and expected points are rounded to single precision about
-/// their means: the mean is right to some 1e-6 of itself. Points that nearly coincide are compared in double precision.
+/// Memory is that of the points. Sums and differences of measured and expected points are rounded
+/// to single precision about their means: the mean is right to some 1e-6 of itself. Points that
+/// nearly coincide are compared in double precision.
 #[must_use]
 pub fn pairs(measured: &[Vector], expected: &[Vector]) -> Option<Pairs> {
     let count = measured.len().min(expected.len());

@@ -1,11 +1,13 @@
-//! Which parameters are identified, in which order they are kept where the data cannot tell them apart.
+//! Which parameters are identified, in which order they are kept where the data cannot tell them
+//! apart.
 
 use super::error::SelectionError;
 use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey, Unit};
 use crate::model::profile::{Profile, is_of_profile};
 use crate::model::{JOINTS, Slot};
 
-/// Axes are parallel where the sine of the angle between them is below this: there β stands for the d it makes redundant.
+/// Axes are parallel where the sine of the angle between them is below this: there β stands for the
+/// d it makes redundant.
 const PARALLEL: f64 = 0.1;
 /// Parameters of this rank and above have a typical size; base, tool and points may be anywhere.
 pub const FIRST_PHYSICAL: u32 = 2;
@@ -69,8 +71,8 @@ impl Parameter {
     }
 }
 
-/// Parameters by the words of the command line: `link_geometry`, `joint_compliance:2-6`, `joint_harmonic:6:2`,
-/// `link_geometry:3.beta_deg`, `track_straightness:1:y:2-4`, `points`.
+/// Parameters by the words of the command line: `link_geometry`, `joint_compliance:2-6`,
+/// `joint_harmonic:6:2`, `link_geometry:3.beta_deg`, `track_straightness:1:y:2-4`, `points`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pick {
     /// The effect; none are the measured points.
@@ -79,7 +81,8 @@ pub struct Pick {
     pub places: Vec<(u32, u32)>,
     /// One parameter alone.
     pub key: Option<&'static str>,
-    /// It is one of several that a word means together: what the data hardly tell of it is left as it is.
+    /// It is one of several that a word means together: what the data hardly tell of it is left as
+    /// it is.
     pub together: bool,
 }
 
@@ -268,8 +271,9 @@ impl Pick {
                 .all(|((a, b), n)| (*a..=*b).contains(&n))
     }
 
-    /// Whether an effect that this means may show: of an external axis, that the profile has it, and that it stood at more places
-    /// than the effect has numbers. A degree that is named alone is sought in any case.
+    /// Whether an effect that this means may show: of an external axis, that the profile has it,
+    /// and that it stood at more places than the effect has numbers. A degree that is named
+    /// alone is sought in any case.
     fn is_shown(&self, effect: &Effect, profile: &Profile, places: &[usize]) -> bool {
         let site = effect.definition().site;
         if !effect.definition().of_external_axis() {
@@ -326,7 +330,8 @@ impl Pick {
     }
 }
 
-/// What an effect begins with: nothing but a typical time constant, which only shows once there is a drift.
+/// What an effect begins with: nothing but a typical time constant, which only shows once there is
+/// a drift.
 fn first_values(kind: Kind) -> [f64; MOST_PARAMETERS] {
     let mut values = [0.0; MOST_PARAMETERS];
     for (value, parameter) in values.iter_mut().zip(kind.definition().parameters) {
@@ -337,7 +342,8 @@ fn first_values(kind: Kind) -> [f64; MOST_PARAMETERS] {
     values
 }
 
-/// Whether a number of an effect means something at its place: a joint drifts by an angle, the base by lengths.
+/// Whether a number of an effect means something at its place: a joint drifts by an angle, the base
+/// by lengths.
 fn means_something(effect: &Effect, key: &str) -> bool {
     !effect.definition().site.contains(&SiteKey::JointOrBase)
         || match key {
@@ -424,7 +430,8 @@ impl Selection {
 pub(super) struct Seen {
     /// Names of the tools, and whether their turning shows.
     pub tools: Vec<(String, bool)>,
-    /// Whether the tool's place is sought in the tool frame: it is not where the measured points are.
+    /// Whether the tool's place is sought in the tool frame: it is not where the measured points
+    /// are.
     pub tool_frame: bool,
     /// Names of points with unknown coordinates, by index.
     pub unknown_points: Vec<(usize, String)>,
@@ -479,7 +486,8 @@ fn rank(profile: &Profile, effect: &Effect, key: &str) -> u32 {
     }
 }
 
-/// The effects of a problem and the parameters that are identified, in the order in which they are kept.
+/// The effects of a problem and the parameters that are identified, in the order in which they are
+/// kept.
 pub(super) fn choose(
     profile: &Profile,
     selection: &Selection,

@@ -18,10 +18,12 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// Parameters that random configurations tell too badly are given up only where even this part of their standard deviations
-/// is too much: a chosen set tells more, and what was measured decides in the end.
+/// Parameters that random configurations tell too badly are given up only where even this part of
+/// their standard deviations is too much: a chosen set tells more, and what was measured decides in
+/// the end.
 const GIVEN_UP: f64 = 0.3;
-/// Candidates that each start is tried to be improved with at a time; the best of them with a whole [`SHORTLIST`].
+/// Candidates that each start is tried to be improved with at a time; the best of them with a whole
+/// [`SHORTLIST`].
 const TRIED: usize = 4;
 /// Configurations that tell which parameters can be determined.
 const SAMPLE: usize = 1000;
@@ -76,11 +78,12 @@ pub struct Plan {
     pub admitted: f64,
 }
 
-/// Chooses configurations that tell the parameters best: the largest determinant of the information matrix, which is the
-/// largest O1, by exchanges from random sets.
+/// Chooses configurations that tell the parameters best: the largest determinant of the information
+/// matrix, which is the largest O1, by exchanges from random sets.
 ///
 /// # Errors
-/// Constraints that cannot be met; fewer numbers than parameters; parameters that cannot be determined at all.
+/// Constraints that cannot be met; fewer numbers than parameters; parameters that cannot be
+/// determined at all.
 pub fn plan(
     profile: &Profile,
     tool: &Mounted,
@@ -90,7 +93,8 @@ pub fn plan(
     plan_telling(profile, tool, selection, request, &|_| true, &mut |_, _| ())
 }
 
-/// As [`plan`]; configurations that are not `admitted`, with the way from where they are approached, are not drawn; `tell` hears how many of how many starts are done.
+/// As [`plan`]; configurations that are not `admitted`, with the way from where they are
+/// approached, are not drawn; `tell` hears how many of how many starts are done.
 ///
 /// # Errors
 /// As [`plan`].
@@ -241,8 +245,8 @@ pub fn plan_telling(
     })
 }
 
-/// Places of external axes, and at which of them each configuration is: the given ones first. Without a track there is one, where
-/// nothing is said.
+/// Places of external axes, and at which of them each configuration is: the given ones first.
+/// Without a track there is one, where nothing is said.
 fn stations(
     profile: &Profile,
     request: &Request,
@@ -456,7 +460,8 @@ mod tests {
         // best of ten starts 0.2745, random 0.239 in the reference, in units of its own
         assert!(same > 0.2745 / 0.239 * mean, "{same} {mean}");
 
-        // no exchange of one for another is worth it: det(M − JᵀJ + KᵀK) = det(M − JᵀJ) · det(I + K (M − JᵀJ)⁻¹ Kᵀ)
+        // no exchange of one for another is worth it: det(M − JᵀJ + KᵀK) = det(M − JᵀJ) · det(I + K
+        // (M − JᵀJ)⁻¹ Kᵀ)
         let sum = |set: &[usize]| {
             let mut m = DMatrix::zeros(width, width);
             for i in set {

@@ -19,7 +19,8 @@ pub const DEFAULT_SIGMA_M: f64 = 1e-4;
 pub const LEVER_M: f64 = 0.3;
 /// A joint's torque must change by this part of the largest change to tell its compliance.
 const TORQUE_PART: f64 = 1e-3;
-/// And that of joint 1, which carries none where the arm stands upright: 1 % is half a degree of tilt.
+/// And that of joint 1, which carries none where the arm stands upright: 1 % is half a degree of
+/// tilt.
 const UPRIGHT_PART: f64 = 0.02;
 
 /// Where the measured point of a row is in the tool frame.
@@ -54,7 +55,8 @@ pub struct Row {
     pub sigma_rad: f64,
     /// Index of the arm's geometry among [`Problem::rigs`].
     pub rig: usize,
-    /// Index of what was touched among [`Problem::features`] and the radius of the probe's ball, metres.
+    /// Index of what was touched among [`Problem::features`] and the radius of the probe's ball,
+    /// metres.
     pub touched: Option<(usize, f64)>,
 }
 
@@ -101,8 +103,8 @@ impl Estimate {
     }
 }
 
-/// Which arm a row is measured with: rows with the same tool, the base carried to the same place, and the same temperature and
-/// time where these matter.
+/// Which arm a row is measured with: rows with the same tool, the base carried to the same place,
+/// and the same temperature and time where these matter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
     /// Index of the tool.
@@ -132,8 +134,9 @@ pub struct Problem {
     pub parameters: Vec<Parameter>,
     /// Whether some row has no standard deviation of its own.
     pub sigma_assumed: bool,
-    /// Whether the estimated base stands in the frame of a device that may be tilted: gravity is then along the axes of the
-    /// base as the profile has them, wherever the device sees the base; so is the track that carries it.
+    /// Whether the estimated base stands in the frame of a device that may be tilted: gravity is
+    /// then along the axes of the base as the profile has them, wherever the device sees the
+    /// base; so is the track that carries it.
     pub gravity_by_base: bool,
 }
 
@@ -158,7 +161,8 @@ fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyErro
     }
 }
 
-/// The named points of the measurements with their coordinates, where the rows or the profile give them.
+/// The named points of the measurements with their coordinates, where the rows or the profile give
+/// them.
 fn named_points(
     profile: &Profile,
     measurements: &Measurements,
@@ -213,7 +217,8 @@ fn loaded(profile: &Profile, tools: &[Mounted], rows: &[Row], gravity_known: boo
     })
 }
 
-/// Effects that are asked for by name must be of axes that the profile has, and that the measured tool shows.
+/// Effects that are asked for by name must be of axes that the profile has, and that the measured
+/// tool shows.
 fn refuse_others_axes(profile: &Profile, asked: &[Pick]) -> Result<(), IdentifyError> {
     for pick in asked.iter().filter(|pick| !pick.together) {
         let Some(kind) = pick
@@ -238,8 +243,8 @@ fn refuse_others_axes(profile: &Profile, asked: &[Pick]) -> Result<(), IdentifyE
 }
 
 impl Problem {
-    /// Makes rows of measurements and chooses what is identified. The second value is where to start: the profile's own
-    /// values, with the base at `world_from_base`.
+    /// Makes rows of measurements and chooses what is identified. The second value is where to
+    /// start: the profile's own values, with the base at `world_from_base`.
     ///
     /// # Errors
     /// Unknown tools; an effect asked for that lacks a column or masses; no parameter.
@@ -404,7 +409,8 @@ impl Problem {
         Ok(())
     }
 
-    /// Gives every row its geometry; one a tool unless an effect changes the geometry with the row's conditions.
+    /// Gives every row its geometry; one a tool unless an effect changes the geometry with the
+    /// row's conditions.
     pub fn sort_rigs(&mut self, effects: &[Effect]) {
         let plain = |need: &Need| {
             matches!(
@@ -457,7 +463,8 @@ impl Problem {
         &self.profile.mechanism
     }
 
-    /// The models of every rig with the derivatives by these parameters; only effects count, points need none.
+    /// The models of every rig with the derivatives by these parameters; only effects count, points
+    /// need none.
     #[must_use]
     pub fn models(&self, estimate: &Estimate, parameters: &[Parameter]) -> Vec<Sensitivity> {
         let slots: Vec<Slot> = parameters
@@ -523,7 +530,8 @@ impl Problem {
         self.rows.iter().map(|row| row.observed.count()).sum()
     }
 
-    /// How many numbers were measured in different ways: what is repeated tells of the noise, not of the arm.
+    /// How many numbers were measured in different ways: what is repeated tells of the noise, not
+    /// of the arm.
     #[must_use]
     pub fn distinct_numbers(&self) -> usize {
         let mut known = std::collections::HashSet::new();

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 /// A generator of 64-bit numbers.
 ///
 /// # Source
-/// G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators" (2014): `SplitMix64`. Normal numbers by
-/// G. E. P. Box, M. E. Muller (1958).
+/// G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators" (2014):
+/// `SplitMix64`. Normal numbers by G. E. P. Box, M. E. Muller (1958).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Random(u64);
 

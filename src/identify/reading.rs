@@ -144,7 +144,8 @@ impl Cells<'_> {
         columns.iter().all(|column| self.text(column).is_none())
     }
 
-    /// The measured position in mm; where only a wanted one and the difference are there, their sum.
+    /// The measured position in mm; where only a wanted one and the difference are there, their
+    /// sum.
     fn position(&self, kinds: Kinds) -> Result<Vector, MeasurementError> {
         if kinds.by_sum {
             let (target, difference) = (
@@ -358,10 +359,12 @@ pub(super) struct Kinds {
 }
 
 impl Measurements {
-    /// Reads a file's bytes: a table with a header, columns in any order, lines that start with `#` left out.
+    /// Reads a file's bytes: a table with a header, columns in any order, lines that start with `#`
+    /// left out.
     ///
-    /// Where a file has columns of both a position and a distance, or of a position and an orientation, a row leaves the
-    /// cells empty of what was not measured. Every other empty or non-finite cell is an error.
+    /// Where a file has columns of both a position and a distance, or of a position and an
+    /// orientation, a row leaves the cells empty of what was not measured. Every other empty or
+    /// non-finite cell is an error.
     ///
     /// # Errors
     /// Anything the format does not allow, with line and column.

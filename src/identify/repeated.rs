@@ -1,8 +1,8 @@
 //! Accuracy and repeatability of poses and distances that were measured several times.
 //!
 //! # Source
-//! ISO 9283:1998, pose accuracy and repeatability (7.2), multi-directional pose accuracy variation (7.2.3), distance accuracy and
-//! repeatability (7.3).
+//! ISO 9283:1998, pose accuracy and repeatability (7.2), multi-directional pose accuracy variation
+//! (7.2.3), distance accuracy and repeatability (7.3).
 
 use super::line::Line;
 use super::measurements::Measurements;
@@ -27,8 +27,8 @@ pub struct Repeated {
     pub commanded_accuracy_mm: f64,
     /// RP: mean plus three standard deviations of the distances from their mean, mm.
     pub repeatability_mm: f64,
-    /// vAP: largest distance between the means of different approach directions, mm; `None` from one direction only. Rows of
-    /// unknown direction are left out.
+    /// vAP: largest distance between the means of different approach directions, mm; `None` from
+    /// one direction only. Rows of unknown direction are left out.
     pub variation_mm: Option<f64>,
 }
 
@@ -79,8 +79,8 @@ fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
     found
 }
 
-/// The directions that the joints of some rows arrived in, one word a row; `None` of a row that does not tell them. A joint that no
-/// row tells of does not matter.
+/// The directions that the joints of some rows arrived in, one word a row; `None` of a row that
+/// does not tell them. A joint that no row tells of does not matter.
 fn ways(measurements: &Measurements, rows: &[usize]) -> Vec<Option<Vec<bool>>> {
     let direction = |row: &usize| measurements.rows[*row].conditions.direction;
     let told: Vec<usize> = (0..6)

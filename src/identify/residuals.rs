@@ -1,4 +1,5 @@
-//! An identification as a function: residuals and their exact derivatives at any values, for solvers from elsewhere.
+//! An identification as a function: residuals and their exact derivatives at any values, for
+//! solvers from elsewhere.
 
 use super::calibration::Calibration;
 use super::parameters::{Parameter, Subject};
@@ -40,7 +41,8 @@ impl Residuals {
         self.parameters.iter().map(value).collect()
     }
 
-    /// Their values as a profile has them; frames, tools and points, which no profile knows, as they were found.
+    /// Their values as a profile has them; frames, tools and points, which no profile knows, as
+    /// they were found.
     #[must_use]
     pub fn start(&self, profile: &Profile) -> Vec<f64> {
         let value = |p: &Parameter| {

@@ -23,7 +23,8 @@ pub struct Loss {
     pub scale: f64,
 }
 
-/// The length that 99.73 % of rows of `count` normal residuals stay below: the square root of chi-squared's quantile.
+/// The length that 99.73 % of rows of `count` normal residuals stay below: the square root of
+/// chi-squared's quantile.
 #[must_use]
 pub fn limit(count: usize) -> f64 {
     match count {
@@ -59,7 +60,8 @@ impl Loss {
         }
     }
 
-    /// The loss of a row with this sum of squares of `count` residuals, and its weight: the loss's derivative by it.
+    /// The loss of a row with this sum of squares of `count` residuals, and its weight: the loss's
+    /// derivative by it.
     #[inline(always)]
     #[must_use]
     pub fn of(&self, squared: f64, count: usize) -> (f64, f64) {
@@ -88,7 +90,8 @@ impl Loss {
     }
 }
 
-/// A typical factor between residuals and their standard deviations, by the median, so that some wrong rows do not matter.
+/// A typical factor between residuals and their standard deviations, by the median, so that some
+/// wrong rows do not matter.
 #[must_use]
 pub fn scale_of(squares: &[f64], counts: impl Iterator<Item = usize>) -> f64 {
     let mut ratios: Vec<f64> = squares

@@ -14,9 +14,9 @@ fn far(a: &[f64; 6], b: &[f64; 6]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// An order of configurations, each left for where the next one is approached from by a move that is `free`, as far as there is
-/// one: always on to the nearest that can be reached, and what is left over is put in between where it fits; the best of some
-/// beginnings.
+/// An order of configurations, each left for where the next one is approached from by a move that
+/// is `free`, as far as there is one: always on to the nearest that can be reached, and what is
+/// left over is put in between where it fits; the best of some beginnings.
 #[must_use]
 pub fn order(
     joints: &[[f64; 6]],
@@ -62,8 +62,9 @@ const TUCKED: [&[usize]; 7] = [
     &[1],
 ];
 
-/// Poses to go over from one place to another, as few as do, where the straight way of the joints is not free: with some joints of
-/// either end at `home`, or over some of `others`. None where the straight way is free, or where nothing helps.
+/// Poses to go over from one place to another, as few as do, where the straight way of the joints
+/// is not free: with some joints of either end at `home`, or over some of `others`. None where the
+/// straight way is free, or where nothing helps.
 #[must_use]
 pub fn detour(
     from: &[f64; 6],

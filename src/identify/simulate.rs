@@ -1,4 +1,5 @@
-//! Measurements of the robot that a profile describes: the truth that an identification must find again.
+//! Measurements of the robot that a profile describes: the truth that an identification must find
+//! again.
 
 use super::measurements::{Measurement, Observed, last_moves};
 use super::random::Random;
@@ -59,9 +60,11 @@ impl Default for Session {
 pub struct Command {
     /// Joint angles, radians.
     pub q: [f64; 6],
-    /// Where external axes stand; their directions are those from the configuration before where they are not given.
+    /// Where external axes stand; their directions are those from the configuration before where
+    /// they are not given.
     pub stand: Stand,
-    /// Directions and force; directions are those from the configuration before where they are not given.
+    /// Directions and force; directions are those from the configuration before where they are not
+    /// given.
     pub conditions: Option<Conditions>,
 }
 
@@ -78,9 +81,11 @@ fn noise(random: &mut Random, sigma: f64) -> Vector {
     std::array::from_fn(|_| sigma * random.normal())
 }
 
-/// Measures a robot in these configurations, all of `points` (names with places in the tool frame, metres) at each.
+/// Measures a robot in these configurations, all of `points` (names with places in the tool frame,
+/// metres) at each.
 ///
-/// The same seed gives the same noise for every profile: a difference between two files is that of the robots.
+/// The same seed gives the same noise for every profile: a difference between two files is that of
+/// the robots.
 #[must_use]
 pub fn simulate(
     profile: &Profile,

@@ -12,11 +12,13 @@ use nalgebra::DVector;
 
 /// Passes over the data before parameters that are hardly seen are looked for.
 const FIRST_PASSES: usize = 12;
-/// Passes over the data with one loss and choice of parameters before the iteration counts as failed.
+/// Passes over the data with one loss and choice of parameters before the iteration counts as
+/// failed.
 const MOST_PASSES: usize = 60;
 /// A step below this part of every parameter's typical size ends the iteration.
 pub const STEP_LIMIT: f64 = 1e-7;
-/// A sum of squares that falls by less than this part of itself ends the iteration, if it promised no more.
+/// A sum of squares that falls by less than this part of itself ends the iteration, if it promised
+/// no more.
 const FALL_LIMIT: f64 = 1e-9;
 /// A step below this part of every parameter's typical size leaves its square to a further one.
 const SMALL_STEP: f64 = 1e-3;
@@ -170,7 +172,8 @@ impl Iteration<'_> {
     }
 }
 
-/// Parameters that the data determine, and the normal equations of those, while they are being found.
+/// Parameters that the data determine, and the normal equations of those, while they are being
+/// found.
 struct Chosen {
     known: Identifiable,
     normal: Normal,
@@ -190,15 +193,16 @@ impl Chosen {
         picked(problem, &self.known.kept)
     }
 
-    /// Those that were left out because too little was known of them; what others do as well stays out.
+    /// Those that were left out because too little was known of them; what others do as well stays
+    /// out.
     fn may_return(&self) -> Vec<usize> {
         let dropped = self.known.dropped.iter();
         let unseen = dropped.filter(|d| d.weak.is_some() || d.confounded_with.is_empty());
         unseen.map(|d| d.parameter).collect()
     }
 
-    /// Chooses again among some parameters, of which `normal` has the normal equations; those left out go back to their origin.
-    /// Whether the choice is another one.
+    /// Chooses again among some parameters, of which `normal` has the normal equations; those left
+    /// out go back to their origin. Whether the choice is another one.
     fn choose_again(
         &mut self,
         problem: &Problem,
@@ -240,9 +244,10 @@ fn noise_of(problem: &Problem, normal: &Normal) -> f64 {
 
 /// Solves a problem from a start.
 ///
-/// Gauss–Newton steps on the normal equations; a step that does not lower the loss is damped (Levenberg–Marquardt). Where
-/// there are many rows a sample of them comes first. The scale of a robust loss is the residuals' median and is found again
-/// until it rests; parameters that were left out before that are tried once more. With `free_base` the deviation of the base goes into
+/// Gauss–Newton steps on the normal equations; a step that does not lower the loss is damped
+/// (Levenberg–Marquardt). Where there are many rows a sample of them comes first. The scale of a
+/// robust loss is the residuals' median and is found again until it rests; parameters that were
+/// left out before that are tried once more. With `free_base` the deviation of the base goes into
 /// [`Estimate::world_from_base`].
 ///
 /// # Errors
@@ -366,8 +371,8 @@ pub fn solve(
     }
 }
 
-/// What is identified first. Of a robust loss the scale is that of the residuals at the start, so that gross errors do not bend
-/// the first steps.
+/// What is identified first. Of a robust loss the scale is that of the residuals at the start, so
+/// that gross errors do not bend the first steps.
 fn begin(problem: &Problem, estimate: &Estimate, shape: Shape, loss: &mut Loss) -> Chosen {
     let first = Chosen::of(problem, estimate, *loss);
     if shape == Shape::Squares {

@@ -48,7 +48,8 @@ pub struct Start {
     pub points_on_flange_m: Vec<((String, Option<String>), Vector)>,
     /// Root mean square of the distances left, without gross errors, metres.
     pub rms_m: f64,
-    /// The same with the tool and points as the profile has them; `None` where it does not have them all.
+    /// The same with the tool and points as the profile has them; `None` where it does not have
+    /// them all.
     pub believed_rms_m: Option<f64>,
     /// How far what was measured spreads, metres.
     pub spread_m: f64,
@@ -56,7 +57,8 @@ pub struct Start {
     pub turned: Vec<(String, Rotation)>,
     /// The angle between measured orientations and those, half of the rows are below it, radians.
     pub turned_apart_rad: Option<f64>,
-    /// Number of fixed points that distances were measured from, where only such tell where the base is.
+    /// Number of fixed points that distances were measured from, where only such tell where the
+    /// base is.
     pub fixed_points: Option<usize>,
 }
 
@@ -109,7 +111,8 @@ fn carried(profile: &Profile, stand: &Stand) -> Pose {
 /// `b_from_a` that takes the points `a` nearest to the points `b`.
 ///
 /// # Source
-/// B. K. P. Horn, "Closed-form solution of absolute orientation using unit quaternions", JOSA A 4 (1987).
+/// B. K. P. Horn, "Closed-form solution of absolute orientation using unit quaternions", JOSA A 4
+/// (1987).
 pub(super) fn align(pairs: impl Iterator<Item = (Vector, Vector)> + Clone) -> Pose {
     let count = pairs.clone().count().max(1) as f64;
     let (mut a0, mut b0) = ([0.0; 3], [0.0; 3]);
@@ -196,7 +199,8 @@ fn points_at(sights: &[Sight], base: &Pose, count: usize) -> Vec<Vector> {
         .collect()
 }
 
-/// Base and points from `Rᵀp − t' − R_j c = t_j`, which is linear in the nine cells of R, in t' and in the points c.
+/// Base and points from `Rᵀp − t' − R_j c = t_j`, which is linear in the nine cells of R, in t' and
+/// in the points c.
 fn linear(sights: &[Sight], count: usize) -> Option<Pose> {
     let width = 12 + 3 * count;
     if 3 * sights.len() < width {
@@ -435,7 +439,8 @@ fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> 
     let world_from_base = match pairs[..] {
         [] => return None,
         [_, _, _, ..] if spreads(&world)[1] > 1e-3 => align(pairs.iter().copied()),
-        // too few fixed points for a rotation: the profile's, turned as little as two of them ask for
+        // too few fixed points for a rotation: the profile's, turned as little as two of them ask
+        // for
         _ => {
             let mut rotation = profile.world_from_base.rotation;
             if let [(a, b), (c, d), ..] = pairs[..]
@@ -528,9 +533,9 @@ pub(super) fn sights(
 
 /// Finds the base and the measured points. `None` where positions or distances do not determine it.
 ///
-/// Positions: the points believed on the tool are aligned with those seen; where they do not fit, or are not known, base
-/// and points follow from a linear system, then in alternation. Distances: each fixed point in the base's frame is linear
-/// in squared distances.
+/// Positions: the points believed on the tool are aligned with those seen; where they do not fit,
+/// or are not known, base and points follow from a linear system, then in alternation. Distances:
+/// each fixed point in the base's frame is linear in squared distances.
 #[must_use]
 pub fn find(profile: &Profile, measurements: &Measurements) -> Option<Start> {
     let (sights, names, carriers) = sights(profile, measurements);
@@ -552,7 +557,8 @@ pub fn find(profile: &Profile, measurements: &Measurements) -> Option<Start> {
     })
 }
 
-/// The orientation of each tool on the flange by poses, and how far they are from it: of some rows that which fits the others best.
+/// The orientation of each tool on the flange by poses, and how far they are from it: of some rows
+/// that which fits the others best.
 fn orientations(
     measurements: &Measurements,
     sights: &[Sight],

@@ -130,7 +130,8 @@ pub struct Quality {
     pub position: Option<Spread>,
     /// Error of orientation, degrees.
     pub orientation: Option<Spread>,
-    /// Error of distances measured from fixed points, or between a ball and the surface it touches, mm.
+    /// Error of distances measured from fixed points, or between a ball and the surface it
+    /// touches, mm.
     pub range: Option<Spread>,
 }
 

@@ -12,19 +12,23 @@ pub struct Uncertainty {
     pub covariance: DMatrix<f64>,
     /// Standard deviation of each parameter, SI.
     pub sigma: Vec<f64>,
-    /// Residuals in standard deviations of the rows: their root mean square over the degrees of freedom.
+    /// Residuals in standard deviations of the rows: their root mean square over the degrees of
+    /// freedom.
     pub sigma_factor: f64,
-    /// What the standard deviations of the rows were multiplied by: `sigma_factor` where it is above one or no row gave any.
+    /// What the standard deviations of the rows were multiplied by: `sigma_factor` where it is
+    /// above one or no row gave any.
     pub applied_factor: f64,
     /// Measured numbers minus parameters.
     pub degrees_of_freedom: usize,
 }
 
 impl Uncertainty {
-    /// Covariance `(JᵀWJ)⁻¹` of the kept parameters, times what the residuals say of the rows' standard deviations.
+    /// Covariance `(JᵀWJ)⁻¹` of the kept parameters, times what the residuals say of the rows'
+    /// standard deviations.
     ///
-    /// A model that misses more than the rows' standard deviations say has parameters that are known less well: the factor
-    /// is never below one unless no standard deviations were given (`assumed`).
+    /// A model that misses more than the rows' standard deviations say has parameters that are
+    /// known less well: the factor is never below one unless no standard deviations were given
+    /// (`assumed`).
     #[must_use]
     pub fn of(
         normal: &Normal,

@@ -95,9 +95,11 @@ pub struct Validation {
     pub repeated_distances: Vec<RepeatedDistance>,
     /// What a person should look at.
     pub remarks: Vec<Remark>,
-    /// Root mean square of residuals in standard deviations; near one where the rows' sigmas are right.
+    /// Root mean square of residuals in standard deviations; near one where the rows' sigmas are
+    /// right.
     pub normalised_rms: Option<f64>,
-    /// Errors of every row by a model that was identified without it, and the same for frames alone.
+    /// Errors of every row by a model that was identified without it, and the same for frames
+    /// alone.
     pub folds: Option<(usize, Quality, Quality)>,
 }
 
@@ -127,8 +129,9 @@ fn controller_profile(profile: &Profile) -> Profile {
 
 /// Compares measurements with a profile's models.
 ///
-/// Where base, tool and points of the real model are fitted (`refit`), the device or the tool was set up anew. With `folds` the
-/// effects of the profile are identified again without each part of the configurations in turn.
+/// Where base, tool and points of the real model are fitted (`refit`), the device or the tool was
+/// set up anew. With `folds` the effects of the profile are identified again without each part of
+/// the configurations in turn.
 ///
 /// # Errors
 /// As [`super::calibrate`]; points without coordinates where they are not to be fitted.
@@ -253,7 +256,8 @@ pub fn validate_telling(
     })
 }
 
-/// `places`: where the rows are in the frame of the calibration's device; `None` where they were measured.
+/// `places`: where the rows are in the frame of the calibration's device; `None` where they were
+/// measured.
 fn parts(
     profile: &Profile,
     measurements: &Measurements,
@@ -374,7 +378,8 @@ impl Folds {
     }
 }
 
-/// Errors of every row by models that were identified without it: the profile's effects and frames, and frames alone.
+/// Errors of every row by models that were identified without it: the profile's effects and frames,
+/// and frames alone.
 ///
 /// Rows of one configuration stay together; part k has every k-th configuration.
 fn cross_validate(
@@ -447,7 +452,8 @@ fn cross_validate(
         only_frames.parameters.clone_from(&frames);
         let solved = solve(&only_frames, nominal.clone(), Shape::Squares, true)?;
         alone.extend(misses(&test, &solved.estimate));
-        // what a level does not seek stays as the profile has it; else the profile's own effects are found again from nothing
+        // what a level does not seek stays as the profile has it; else the profile's own effects
+        // are found again from nothing
         let from = match folds.level {
             Some(_) => begun.clone(),
             None => solved.estimate,

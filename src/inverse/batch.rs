@@ -23,11 +23,11 @@ pub struct Targets<'a> {
     pub near: &'a [[f64; 6]],
 }
 
-/// Solves many targets with one tool under one set of conditions; the same outcomes as [`Inverse::solve`] within its
-/// tolerances, in the same order.
+/// Solves many targets with one tool under one set of conditions; the same outcomes as
+/// [`Inverse::solve`] within its tolerances, in the same order.
 ///
-/// The pose shift runs on four targets at a time with the widest vector instructions that this processor has. Targets that
-/// do not converge in it are finished one by one.
+/// The pose shift runs on four targets at a time with the widest vector instructions that this
+/// processor has. Targets that do not converge in it are finished one by one.
 ///
 /// # Panics
 /// If the three slices differ in length: the caller's bug.

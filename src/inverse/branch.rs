@@ -39,7 +39,8 @@ impl Branch {
             + u8::from(self.joint_5_negative)
     }
 
-    /// The three signs: wrist centre in front of axis 1, in front of the lower arm, joint 5 positive.
+    /// The three signs: wrist centre in front of axis 1, in front of the lower arm, joint 5
+    /// positive.
     #[must_use]
     pub fn signs(self) -> [f64; 3] {
         [

@@ -1,8 +1,9 @@
-//! From a wanted pose to joint angles: the nominal arm in closed form, the calibrated one by pose shift.
+//! From a wanted pose to joint angles: the nominal arm in closed form, the calibrated one by pose
+//! shift.
 //!
-//! The calibrated inverse needs no derivative: the pose shift feeds what is still missing back into the nominal inverse.
-//! Where that stalls, near singularities and at the edge of reach, a damped Newton method on the exact Jacobian
-//! goes on from the best posture and keeps the branch.
+//! The calibrated inverse needs no derivative: the pose shift feeds what is still missing back into
+//! the nominal inverse. Where that stalls, near singularities and at the edge of reach, a damped
+//! Newton method on the exact Jacobian goes on from the best posture and keeps the branch.
 //!
 //! # Example
 //!

@@ -1,11 +1,13 @@
 //! Damped Newton on the exact Jacobian, for postures where the pose shift stalls.
 //!
-//! Levenberg–Marquardt: `(Jᵀ J + λ D) δq = Jᵀ e` with the six components of the missing motion `e`, the Jacobian from dual
-//! numbers, and λ raised until the error falls. Near an aligned wrist or a stretched elbow the first posture may be on the
-//! wrong side of a ridge, so a few starts beside it are tried, all on the wanted branch.
+//! Levenberg–Marquardt: `(Jᵀ J + λ D) δq = Jᵀ e` with the six components of the missing motion `e`,
+//! the Jacobian from dual numbers, and λ raised until the error falls. Near an aligned wrist or a
+//! stretched elbow the first posture may be on the wrong side of a ridge, so a few starts beside it
+//! are tried, all on the wanted branch.
 //!
 //! # Source
-//! D. W. Marquardt, J. SIAM 11 (1963); S. R. Buss, "Introduction to inverse kinematics" (2004) for the error vector.
+//! D. W. Marquardt, J. SIAM 11 (1963); S. R. Buss, "Introduction to inverse kinematics" (2004) for
+//! the error vector.
 
 use super::branch::Branch;
 use super::closed_form::{Arm, Margins};
@@ -15,11 +17,13 @@ use crate::model::{Conditions, Model};
 use nalgebra::{SMatrix, SVector};
 
 const MOST_ITERATIONS: u32 = 60;
-/// Evaluations after which no further start is tried: where an answer is to be had, it is mostly found within some dozens.
+/// Evaluations after which no further start is tried: where an answer is to be had, it is mostly
+/// found within some dozens.
 const MOST_EVALUATIONS: u32 = 2000;
 /// A descent that does not lower the error by this share in so many steps has come to rest.
 const STALLS: (f64, u32) = (0.01, 4);
-/// A posture with the tool nearer to the target than this is a start of its own, metres and radians.
+/// A posture with the tool nearer to the target than this is a start of its own, metres and
+/// radians.
 const NEAR_TARGET: (f64, f64) = (0.1, 0.3);
 const LEAST_DAMPING: f64 = 1e-12;
 const MOST_DAMPING: f64 = 1e6;
@@ -27,13 +31,15 @@ const MOST_DAMPING: f64 = 1e6;
 const MOST_STEP_RAD: f64 = 0.5;
 /// Where the arm is straight or the wrist aligned, starts this far from it are tried, radians.
 const ASIDE_RAD: [f64; 3] = [0.003, 0.03, 0.2];
-/// Where the wrist centre lies on axis 1, starts on rings about it are tried: how many on each, and their radii in metres.
+/// Where the wrist centre lies on axis 1, starts on rings about it are tried: how many on each, and
+/// their radii in metres.
 const RING: u32 = 12;
 const RINGS_M: [f64; 4] = [0.0005, 0.001, 0.002, 0.004];
 /// A wrist centre nearer to axis 1, and a joint nearer to straight, is searched around.
 const NEAR_AXIS_1_M: f64 = 0.008;
 const NEAR_STRAIGHT_RAD: f64 = 0.15;
-/// Where the two first starts end farther from the wanted pose, no other start can help: the pose is out of reach.
+/// Where the two first starts end farther from the wanted pose, no other start can help: the pose
+/// is out of reach.
 const HOPELESS_M: f64 = 0.002;
 /// A metre at the tip counts as much as so many radians where not all can be had.
 const TIP_FIRST: f64 = 1e4;
@@ -67,7 +73,8 @@ pub(super) fn from_near(inverse: &Inverse, wanted: &Pose, near: &[f64; 6]) -> Op
     is_near.then(|| descend(&real.cast(), conditions, wanted, near, None))
 }
 
-/// The descent from `near` with one joint held where it is: the tool's tip goes to `wanted`, its orientation as near as may be.
+/// The descent from `near` with one joint held where it is: the tool's tip goes to `wanted`, its
+/// orientation as near as may be.
 pub(super) fn held(inverse: &Inverse, wanted: &Pose, near: &[f64; 6], joint: usize) -> Found {
     let Inverse {
         real, conditions, ..
@@ -75,8 +82,8 @@ pub(super) fn held(inverse: &Inverse, wanted: &Pose, near: &[f64; 6], joint: usi
     descend(&real.cast(), conditions, wanted, near, Some(joint))
 }
 
-/// Searches from the given start and the nominal solution, then from starts beside the singularities that these are near
-/// to, until one ends at `wanted` on `branch`.
+/// Searches from the given start and the nominal solution, then from starts beside the
+/// singularities that these are near to, until one ends at `wanted` on `branch`.
 pub(super) fn solve(
     inverse: &Inverse,
     wanted: &Pose,

@@ -19,7 +19,8 @@ pub enum Status {
     JointLimit(usize),
     /// The wanted pose can be reached on another branch only.
     BranchLost,
-    /// Neither method came within the tolerances; or a number of the target or of the posture near it is not finite.
+    /// Neither method came within the tolerances; or a number of the target or of the posture near
+    /// it is not finite.
     NotConverged,
 }
 
@@ -102,7 +103,8 @@ pub(super) struct Landed<'a> {
     pub residual: Separation,
     pub method: Method,
     pub spent: Spent,
-    /// Whether it follows the nominal answer without a leap: with an offset wrist the branch may change on the way.
+    /// Whether it follows the nominal answer without a leap: with an offset wrist the branch may
+    /// change on the way.
     pub follows: bool,
 }
 
@@ -126,8 +128,8 @@ impl Inverse {
         self.finish(branch, &landed)
     }
 
-    /// Whether a posture of an arm with an offset wrist follows another without a leap; never for other arms, whose branches
-    /// end at singularities.
+    /// Whether a posture of an arm with an offset wrist follows another without a leap; never for
+    /// other arms, whose branches end at singularities.
     pub(super) fn follows(&self, q: &[f64; 6], track: &[f64; 6]) -> bool {
         let turns = |q| Turn::of_each(&self.arm.mechanism().commanded(q));
         self.arm.has_offset_wrist() && is_close(&turns(q), &turns(track))

@@ -1,4 +1,5 @@
-//! The calibrated inverse: multiply what is still missing into the pose given to the nominal inverse.
+//! The calibrated inverse: multiply what is still missing into the pose given to the nominal
+//! inverse.
 //!
 //! ```text
 //! H0 = W                                     W: wanted pose; H: pose given to the nominal inverse
@@ -9,8 +10,9 @@
 //! ```
 //!
 //! # Source
-//! A. Nubiola, I. A. Bonev, "Geometric approach to solving the inverse displacement problem of calibrated decoupled 6R
-//! serial robots", Trans. CSME 38 (2014), after N. Chen, G. A. Parker (1994).
+//! A. Nubiola, I. A. Bonev, "Geometric approach to solving the inverse displacement problem of
+//! calibrated decoupled 6R serial robots", Trans. CSME 38 (2014), after N. Chen, G. A. Parker
+//! (1994).
 
 use super::branch::Branch;
 use super::closed_form::{Arm, Turned, is_close};
@@ -25,10 +27,11 @@ pub const TOLERANCE_M: f64 = 1e-9;
 pub const TOLERANCE_RAD: f64 = 1e-9;
 /// Iterations after which the pose shift gives up; it needs four to six where it converges well.
 const MOST_ITERATIONS: u32 = 12;
-/// Farther beyond reach than this the real arm, which is millimetres longer or shorter, does not reach either: in squared
-/// cosines of the elbow, more than 10 mm on an arm with links of 0.4 m.
+/// Farther beyond reach than this the real arm, which is millimetres longer or shorter, does not
+/// reach either: in squared cosines of the elbow, more than 10 mm on an arm with links of 0.4 m.
 const FAR_BEYOND: f64 = 0.05;
-/// What is missing at the stretched nominal arm that no joint can make up: this and the turn of a tool of a metre.
+/// What is missing at the stretched nominal arm that no joint can make up: this and the turn of a
+/// tool of a metre.
 const HOPELESS_M: f64 = 0.01;
 const LEVER_M: f64 = 1.0;
 
@@ -51,7 +54,8 @@ pub(super) struct Step<S> {
     /// The pose to give to the nominal inverse next.
     pub next: Pose<S>,
     pub distance: S,
-    /// Sine of the angle still missing; the angle itself where it is small, and 2 where it is above a right angle.
+    /// Sine of the angle still missing; the angle itself where it is small, and 2 where it is
+    /// above a right angle.
     pub angle: S,
     pub beyond: S,
 }
@@ -109,16 +113,19 @@ pub(super) fn within(distance_m: f64, angle_rad: f64) -> bool {
 
 /// How the pose shift ended.
 enum Shifted {
-    /// It brings the tool to the target; the joints may be beyond their limits or on another branch.
+    /// It brings the tool to the target; the joints may be beyond their limits or on another
+    /// branch.
     Landed(Outcome),
     /// It does not, and this is the best it found.
     Stalled(Step<f64>, u32),
 }
 
 impl Inverse {
-    /// The joint angles with which the real arm brings its tool to `wanted`, on one branch, by whole turns nearest to `near`.
+    /// The joint angles with which the real arm brings its tool to `wanted`, on one branch, by
+    /// whole turns nearest to `near`.
     ///
-    /// Where a branch holds several answers (an offset wrist) it is the one that the nearest nominal answer to `near` leads to.
+    /// Where a branch holds several answers (an offset wrist) it is the one that the nearest
+    /// nominal answer to `near` leads to.
     #[must_use]
     pub fn solve(&self, wanted: &Pose, branch: Branch, near: &[f64; 6]) -> Outcome {
         self.solve_by(Methods::Auto, wanted, branch, near)
@@ -130,8 +137,9 @@ impl Inverse {
         self.solve(wanted, self.arm.posture(near).0, near)
     }
 
-    /// The posture with one joint where it is in `near` that brings the tip of the real tool to `wanted`, and its orientation as near
-    /// as may be: [`Status::Converged`] tells that the tip is there and the joints are within their limits.
+    /// The posture with one joint where it is in `near` that brings the tip of the real tool to
+    /// `wanted`, and its orientation as near as may be: [`Status::Converged`] tells that the
+    /// tip is there and the joints are within their limits.
     #[must_use]
     pub fn solve_held(&self, wanted: &Pose, near: &[f64; 6], joint: usize) -> Outcome {
         if !is_finite(wanted, near) {
@@ -297,15 +305,16 @@ impl Inverse {
         failed(q, found.residual, nominal.beyond, newton)
     }
 
-    /// Whether the nominal arm ends so far from the target that the real one does not reach it either.
+    /// Whether the nominal arm ends so far from the target that the real one does not reach it
+    /// either.
     fn is_hopeless(&self, stalled: &Step<f64>) -> bool {
         let far = stalled.beyond > FAR_BEYOND
             || (stalled.beyond > 0.0 && stalled.distance > HOPELESS_M + LEVER_M * stalled.angle);
         far && self.arm.reach_is_steady(&self.arm.stance(&stalled.turns))
     }
 
-    /// A target that the pose shift reaches only beyond the limits or on another branch: where the posture near it is close
-    /// to the target, Newton's method from there may stay within.
+    /// A target that the pose shift reaches only beyond the limits or on another branch: where the
+    /// posture near it is close to the target, Newton's method from there may stay within.
     fn beside(&self, wanted: &Pose, branch: Branch, near: &[f64; 6], by_shift: Outcome) -> Outcome {
         let Some(found) = newton::from_near(self, wanted, near) else {
             return by_shift;

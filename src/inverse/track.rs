@@ -1,7 +1,7 @@
 //! The answer that a straight path of the tool leads to, and the one that a configuration means.
 //!
-//! Where a branch holds several answers, the letters that a program carries do not tell them apart. What the arm does is
-//! known where it comes from a known posture: it follows one connected track.
+//! Where a branch holds several answers, the letters that a program carries do not tell them apart.
+//! What the arm does is known where it comes from a known posture: it follows one connected track.
 
 use super::closed_form::{Answer, Arm};
 use crate::geometry::{Pose, Rotation, add, scale, sub, wrap};
@@ -10,7 +10,8 @@ use crate::geometry::{Pose, Rotation, add, scale, sub, wrap};
 const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 1024.0];
 /// A joint turns by less than this in one step, radians.
 const MOST_STEP_RAD: f64 = 0.35;
-/// Nearer to a fold than this, radians, two answers cannot be told apart on the path: they are some three degrees apart.
+/// Nearer to a fold than this, radians, two answers cannot be told apart on the path: they are some
+/// three degrees apart.
 const NEAR_FOLD_RAD: f64 = 0.02;
 
 /// A path on which the track of a posture ends.
@@ -30,12 +31,12 @@ pub struct Ambiguous {
 }
 
 impl Arm {
-    /// The joint angles of the nominal arm at `to` when its tool goes there on a straight path, turning evenly, from where it
-    /// is at `from`: those on the same connected track.
+    /// The joint angles of the nominal arm at `to` when its tool goes there on a straight path,
+    /// turning evenly, from where it is at `from`: those on the same connected track.
     ///
     /// # Errors
-    /// Where the track ends before: out of reach, or at a singularity (for an arm with an offset wrist at a fold), beyond
-    /// which there are two ways to go on.
+    /// Where the track ends before: out of reach, or at a singularity (for an arm with an offset
+    /// wrist at a fold), beyond which there are two ways to go on.
     pub fn follow(&self, from: &[f64; 6], to: &Pose) -> Result<[f64; 6], TrackEnds> {
         let start = self.forward(from);
         let turn = (to.rotation * start.rotation.transpose()).vector();
@@ -68,13 +69,15 @@ impl Arm {
         Ok(near)
     }
 
-    /// The answer at a pose that a configuration means, nearest to `near`: where several answers of one branch have it, the
-    /// one that [`Arm::follow`] leads to from the posture before.
+    /// The answer at a pose that a configuration means, nearest to `near`: where several answers of
+    /// one branch have it, the one that [`Arm::follow`] leads to from the posture before.
     ///
-    /// `is_meant` says what the program's data tells: branch, quadrants, turns. `Ok(None)` where no answer has it.
+    /// `is_meant` says what the program's data tells: branch, quadrants, turns. `Ok(None)` where no
+    /// answer has it.
     ///
     /// # Errors
-    /// The candidates, where several are on the branch of the nearest and no posture before tells which is meant.
+    /// The candidates, where several are on the branch of the nearest and no posture before tells
+    /// which is meant.
     pub fn choose(
         &self,
         world_from_tool: &Pose,

@@ -9,7 +9,8 @@ pub(crate) const WIDTH: usize = 4;
 /// That many numbers.
 pub(crate) type Four = Lanes<WIDTH>;
 
-/// [`Model::forward`] of many postures, with the widest vector instructions that this processor has.
+/// [`Model::forward`] of many postures, with the widest vector instructions that this processor
+/// has.
 #[must_use]
 pub fn forward_batch(model: &Model, conditions: &Conditions, q: &[[f64; 6]]) -> Vec<Pose> {
     let four = model.cast::<Four>();

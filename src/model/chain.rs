@@ -10,13 +10,14 @@ use super::geometry::{Body, Geometry, Link, Mechanism};
 use super::rows::Axes;
 use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, norm, scale, sub};
 
-/// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(u1) · F1 · Rz(u2) · … · Rz(u6) · F6`, with
-/// the mechanical joint angles u in the controller's sense.
+/// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(u1) · F1 · Rz(u2)
+/// · … · Rz(u6) · F6`, with the mechanical joint angles u in the controller's sense.
 ///
-/// Row i of the chain is `Xi · Rz(homei ± ui) · Trans(0, 0, di)` with `Xi = Rot(x, αi) · Trans(ai, 0, 0) · Rot(y, βi)`, and a
-/// joint that turns in the negative sense is turned over: `Rz(−u) = D · Rz(u) · D` with `D = Rot(x, 180°)`. So `F0` is
-/// `world_from_base · X1 · Rz(home1) · D1`, `Fi` is `Di · Trans(0, 0, di) · X(i+1) · Rz(home(i+1)) · D(i+1)`, and `F6` is
-/// `D6 · Trans(0, 0, d6) · link6_from_flange · flange_from_tool`.
+/// Row i of the chain is `Xi · Rz(homei ± ui) · Trans(0, 0, di)` with `Xi = Rot(x, αi) · Trans(ai,
+/// 0, 0) · Rot(y, βi)`, and a joint that turns in the negative sense is turned over: `Rz(−u) = D ·
+/// Rz(u) · D` with `D = Rot(x, 180°)`. So `F0` is `world_from_base · X1 · Rz(home1) · D1`, `Fi` is
+/// `Di · Trans(0, 0, di) · X(i+1) · Rz(home(i+1)) · D(i+1)`, and `F6` is `D6 · Trans(0, 0, d6) ·
+/// link6_from_flange · flange_from_tool`.
 ///
 /// # Source
 /// Thesis, Annex I, regrouped.
@@ -33,7 +34,8 @@ pub struct Chain<S = f64> {
 pub struct Frames<S> {
     /// `world_from_link`, the frame after each row of the chain.
     pub links: [Pose<S>; 6],
-    /// Moment of gravity and external force about the origin of each link's frame, along the world's axes, N·m.
+    /// Moment of gravity and external force about the origin of each link's frame, along the
+    /// world's axes, N·m.
     pub moments: [Vector<S>; 6],
     /// `world_from_base`.
     pub base: Pose<S>,
@@ -51,8 +53,8 @@ pub struct Frames<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hanging<S = f64> {
     pub(super) mass_kg: [S; 6],
-    /// First moment of that mass about the origin of the turning frame, in that frame, as far as no joint farther out moves
-    /// it, kg·m.
+    /// First moment of that mass about the origin of the turning frame, in that frame, as far as
+    /// no joint farther out moves it, kg·m.
     pub(super) fixed_moment: [Vector<S>; 6],
 }
 
@@ -61,7 +63,8 @@ pub(super) struct Hanging<S = f64> {
 pub struct Loads<S = f64> {
     pub(super) masses: Hanging<S>,
     pub(super) gravity_m_s2: Vector<S>,
-    /// One kilogram at the controller's tool: a field of so many m/s² pulls it with so many newton.
+    /// One kilogram at the controller's tool: a field of so many m/s² pulls it with so many
+    /// newton.
     pub(super) unit_mass: Hanging<S>,
     /// Mass of the tool and its centre of gravity in the flange frame.
     tool: Option<(S, Vector<S>)>,
@@ -182,7 +185,8 @@ impl<S: Scalar> Chain<S> {
         pose
     }
 
-    /// `world_from_tool` with rotations of the links, the base and the tool on top of the turns of the joints.
+    /// `world_from_tool` with rotations of the links, the base and the tool on top of the turns of
+    /// the joints.
     #[inline(always)]
     #[must_use]
     pub fn forward_deflected(&self, turns: &[Turn<S>; 6], deflection: &Deflection<S>) -> Pose<S> {
@@ -200,7 +204,8 @@ impl<S: Scalar> Chain<S> {
         pose * Pose::from_xyz_rxryrz(deflection.tool)
     }
 
-    /// `world_from_link`, the frame after each row, with rotations of the links and the base where there are any.
+    /// `world_from_link`, the frame after each row, with rotations of the links and the base where
+    /// there are any.
     #[must_use]
     pub fn links(&self, turns: &[Turn<S>; 6], deflection: Option<&Deflection<S>>) -> [Pose<S>; 6] {
         let mut pose = self.fixed[0];
@@ -223,7 +228,8 @@ impl<S: Scalar> Chain<S> {
         links
     }
 
-    /// Lengths of the way from the origin of each link's frame to the next, the base's first, metres.
+    /// Lengths of the way from the origin of each link's frame to the next, the base's first,
+    /// metres.
     #[must_use]
     pub fn reaches(&self, world_from_base: &Pose<S>) -> [S; 6] {
         let zero = [Turn::none(); 6];
@@ -251,12 +257,13 @@ impl<S: Scalar> Chain<S> {
 
     /// Torque of gravity and an external force about each joint in the controller's sense, N·m.
     ///
-    /// The field is carried outward and the first moment inward, from frame to frame; no pose is needed. The torque about
-    /// a joint is the z component of `first moment × field` in the frame that it turns.
+    /// The field is carried outward and the first moment inward, from frame to frame; no pose is
+    /// needed. The torque about a joint is the z component of `first moment × field` in the
+    /// frame that it turns.
     ///
     /// # Source
-    /// Thesis, eqs. I.5–I.10, by the recursion of J. Luh, M. Walker, R. Paul, "On-line computational scheme for mechanical
-    /// manipulators" (1980).
+    /// Thesis, eqs. I.5–I.10, by the recursion of J. Luh, M. Walker, R. Paul, "On-line
+    /// computational scheme for mechanical manipulators" (1980).
     #[inline(always)]
     #[must_use]
     pub fn torques(&self, turns: &[Turn<S>; 6], loads: &Loads<S>, force_n: Vector) -> [S; 6] {
@@ -278,7 +285,8 @@ impl<S: Scalar> Chain<S> {
         torques
     }
 
-    /// The links' frames and the moments that gravity and a force at the tool exert about their origins.
+    /// The links' frames and the moments that gravity and a force at the tool exert about their
+    /// origins.
     #[must_use]
     pub fn frames(&self, turns: &[Turn<S>; 6], loads: &Loads<S>, force_n: Vector) -> Frames<S> {
         let mut pose = self.fixed[0];
@@ -317,8 +325,8 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Calls `each` with the index of a joint, the first moment of all that hangs on it and the field, both in the frame
-    /// that it turns, from the last joint to the first.
+    /// Calls `each` with the index of a joint, the first moment of all that hangs on it and the
+    /// field, both in the frame that it turns, from the last joint to the first.
     #[inline(always)]
     pub(super) fn pull(
         &self,

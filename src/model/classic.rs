@@ -19,12 +19,14 @@ pub struct ClassicRow {
     pub alpha_rad: f64,
 }
 
-/// `before · Π Rz(θi + qi) · Tz(di) · Tx(ai) · Rx(αi)`, exactly the chain of rows with β: where β is not zero, the row goes over
-/// the common normal of the two axes. That of nearly parallel axes lies far away; the d of the rows beside it are large and
-/// cancel, as in the factory calibrations of Universal Robots.
+/// `before · Π Rz(θi + qi) · Tz(di) · Tx(ai) · Rx(αi)`, exactly the chain of rows with β: where β
+/// is not zero, the row goes over the common normal of the two axes. That of nearly parallel axes
+/// lies far away; the d of the rows beside it are large and cancel, as in the factory calibrations
+/// of Universal Robots.
 ///
 /// # Source
-/// J. Denavit, R. S. Hartenberg, "A kinematic notation for lower-pair mechanisms based on matrices", J. Appl. Mech. 22 (1955).
+/// J. Denavit, R. S. Hartenberg, "A kinematic notation for lower-pair mechanisms based on
+/// matrices", J. Appl. Mech. 22 (1955).
 #[must_use]
 pub fn classic(rows: &[Link; 6]) -> (Pose, [ClassicRow; 6]) {
     let mut all: [ClassicRow; 6] = std::array::from_fn(|i| ClassicRow {

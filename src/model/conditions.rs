@@ -2,7 +2,8 @@
 
 use crate::geometry::Vector;
 
-/// The circumstances of one posture. Unknown ones stay at their default and switch off the effects that need them.
+/// The circumstances of one posture. Unknown ones stay at their default and switch off the effects
+/// that need them.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Conditions {
     /// Direction in which each joint last moved: −1, +1, or 0 where it is unknown.
@@ -15,7 +16,8 @@ pub struct Conditions {
     pub temperature_c: Option<f64>,
     /// Time since the session began, seconds.
     pub time_s: Option<f64>,
-    /// Gravity along the axes of the arm's own world, m/s², where the base leans with a track; else that of the profile.
+    /// Gravity along the axes of the arm's own world, m/s², where the base leans with a track;
+    /// else that of the profile.
     pub gravity_m_s2: Option<Vector>,
     /// Row of the measurements, from 1; none outside a session of measurements.
     pub row: Option<u32>,

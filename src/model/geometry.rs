@@ -6,11 +6,13 @@ use super::external::Carried;
 use crate::geometry::{Pose, Scalar, Vector};
 
 /// One row of modified Denavit–Hartenberg parameters with Hayati's angle β:
-/// `A = Rot(x, α) · Trans(a, 0, 0) · Rot(y, β) · Rot(z, θ + joint) · Trans(0, 0, d)`, metres and radians.
+/// `A = Rot(x, α) · Trans(a, 0, 0) · Rot(y, β) · Rot(z, θ + joint) · Trans(0, 0, d)`, metres and
+/// radians.
 ///
 /// # Source
-/// J. J. Craig, "Introduction to Robotics"; S. Hayati and M. Mirmirani, "Improving the absolute positioning accuracy of
-/// robot manipulators", J. Robotic Systems 2 (1985): β keeps the description continuous where axes are nearly parallel.
+/// J. J. Craig, "Introduction to Robotics"; S. Hayati and M. Mirmirani, "Improving the absolute
+/// positioning accuracy of robot manipulators", J. Robotic Systems 2 (1985): β keeps the
+/// description continuous where axes are nearly parallel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link<S = f64> {
     /// Angle between the axes, about x.
@@ -36,7 +38,8 @@ pub struct Body<S = f64> {
     pub cog_m: Vector<S>,
 }
 
-/// How a controller's joint angle turns the chain: `chain angle = sign · (q + Σ ratio · q_on) + offset`.
+/// How a controller's joint angle turns the chain: `chain angle = sign · (q + Σ ratio · q_on) +
+/// offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointSense {
     /// +1 or −1.
@@ -70,7 +73,8 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// The commanded angle of each mechanical joint in the controller's sense: `u = q + Σ ratio · q_on`, radians.
+    /// The commanded angle of each mechanical joint in the controller's sense: `u = q + Σ ratio ·
+    /// q_on`, radians.
     #[inline(always)]
     #[must_use]
     pub fn commanded<S: Scalar>(&self, q: &[S; 6]) -> [S; 6] {
@@ -81,8 +85,9 @@ impl Mechanism {
         u
     }
 
-    /// Counts a joint together with another one from now on. Whether the joint's limits are those of the controller's own angle
-    /// or of the chain's is not known where they come from a file without couplings: they are widened to hold both.
+    /// Counts a joint together with another one from now on. Whether the joint's limits are those
+    /// of the controller's own angle or of the chain's is not known where they come from a file
+    /// without couplings: they are widened to hold both.
     pub fn couple(&mut self, coupling: Coupling) {
         let on = &self.joints[coupling.on];
         let by = [coupling.ratio * on.min_rad, coupling.ratio * on.max_rad];
@@ -92,7 +97,8 @@ impl Mechanism {
         self.coupling.push(coupling);
     }
 
-    /// The controller's joint angles of these mechanical ones: the inverse of [`Mechanism::commanded`].
+    /// The controller's joint angles of these mechanical ones: the inverse of
+    /// [`Mechanism::commanded`].
     #[inline(always)]
     #[must_use]
     pub fn controller<S: Scalar>(&self, u: &[S; 6]) -> [S; 6] {
@@ -104,7 +110,8 @@ impl Mechanism {
         q
     }
 
-    /// The controller's joint angles, moved by whole turns of mechanical joints so that each is as near as can be to `near`.
+    /// The controller's joint angles, moved by whole turns of mechanical joints so that each is as
+    /// near as can be to `near`.
     #[must_use]
     pub fn nearest_turns(&self, q: &[f64; 6], near: &[f64; 6]) -> [f64; 6] {
         let (mut u, near) = (self.commanded(q), self.commanded(near));

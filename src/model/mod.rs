@@ -1,8 +1,9 @@
-//! Where a robot's tool is: the nominal chain, and every physical cause that makes the real one differ.
+//! Where a robot's tool is: the nominal chain, and every physical cause that makes the real one
+//! differ.
 //!
-//! The data flow: a [`profile::Profile`] gives the nominal [`Geometry`] and a list of [`effects`]; [`Model::build`] applies
-//! the effects that change the geometry once, and [`Model::forward`] evaluates the ones that depend on the posture for
-//! each set of commanded joint angles.
+//! The data flow: a [`profile::Profile`] gives the nominal [`Geometry`] and a list of [`effects`];
+//! [`Model::build`] applies the effects that change the geometry once, and [`Model::forward`]
+//! evaluates the ones that depend on the posture for each set of commanded joint angles.
 //!
 //! # Example
 //!

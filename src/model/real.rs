@@ -12,10 +12,11 @@ use super::geometry::{Geometry, Mechanism};
 use crate::geometry::{Dual, Pose, Scalar, Turn};
 use std::borrow::Cow;
 
-/// An arm with one tool, ready to be evaluated: joint angles in the controller's sense in, tool pose in the world out.
+/// An arm with one tool, ready to be evaluated: joint angles in the controller's sense in, tool
+/// pose in the world out.
 ///
-/// Every joint effect is evaluated at the commanded angles, and gravity torques on the calibrated geometry at the commanded
-/// angles: small perturbations superpose (thesis, Annex I).
+/// Every joint effect is evaluated at the commanded angles, and gravity torques on the calibrated
+/// geometry at the commanded angles: small perturbations superpose (thesis, Annex I).
 #[derive(Clone, Debug)]
 pub struct Model<S = f64> {
     pub(super) chain: Chain<S>,
@@ -71,8 +72,8 @@ impl<S: Scalar> Model<S> {
         self.forward_turned(&commanded, &Turn::of_each(&commanded), conditions)
     }
 
-    /// [`Model::forward`] from the mechanical angles in the controller's sense and their sines and cosines. The angles
-    /// themselves are not looked at unless [`Model::reads_angles`].
+    /// [`Model::forward`] from the mechanical angles in the controller's sense and their sines and
+    /// cosines. The angles themselves are not looked at unless [`Model::reads_angles`].
     #[inline(always)]
     #[must_use]
     pub(crate) fn forward_turned(
@@ -95,8 +96,8 @@ impl<S: Scalar> Model<S> {
         self.chain.forward(&real)
     }
 
-    /// Where the base and the frame after each row of the chain are in the world, `world_from_link` of link 0 to 6, with all
-    /// that the posture does to them.
+    /// Where the base and the frame after each row of the chain are in the world, `world_from_link`
+    /// of link 0 to 6, with all that the posture does to them.
     #[must_use]
     pub fn link_frames(&self, q: &[S; 6], conditions: &Conditions) -> [Pose<S>; 7] {
         let commanded = self.mechanism.commanded(q);
@@ -115,19 +116,21 @@ impl<S: Scalar> Model<S> {
         frames
     }
 
-    /// Distance from the origin of the base or a link's frame to the origin of the next, the base's first, metres: no posture
-    /// changes it.
+    /// Distance from the origin of the base or a link's frame to the origin of the next, the base's
+    /// first, metres: no posture changes it.
     #[must_use]
     pub fn reaches(&self) -> [S; 6] {
         self.chain.reaches(&self.world_from_base)
     }
 
-    /// Whether some effect depends on the joint angles themselves, not only on their sines and cosines.
+    /// Whether some effect depends on the joint angles themselves, not only on their sines and
+    /// cosines.
     pub(crate) fn reads_angles(&self) -> bool {
         self.reads_angles
     }
 
-    /// What the posture does to joints, links, base and tool at the controller's joint angles `q`, radians.
+    /// What the posture does to joints, links, base and tool at the controller's joint angles `q`,
+    /// radians.
     #[must_use]
     pub fn deflection(&self, q: &[S; 6], conditions: &Conditions) -> Deflection<S> {
         let commanded = self.mechanism.commanded(q);

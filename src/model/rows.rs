@@ -13,7 +13,8 @@ const PARALLEL_SINE: f64 = 0.1;
 const LARGEST_MM: f64 = 20.0;
 const LARGEST_DEG: f64 = 5.0;
 
-/// Six axes: `base_from_flange = steps[0] · Rz(q1) · steps[1] · Rz(q2) · … · steps[5] · Rz(q6) · last`.
+/// Six axes: `base_from_flange = steps[0] · Rz(q1) · steps[1] · Rz(q2) · … · steps[5] · Rz(q6) ·
+/// last`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axes {
     /// What stands before each joint.
@@ -76,20 +77,23 @@ impl Axes {
         pose * self.last
     }
 
-    /// The rows of a chain with the same axes and flange, near the nominal rows; exact for all joint angles.
+    /// The rows of a chain with the same axes and flange, near the nominal rows; exact for all
+    /// joint angles.
     ///
-    /// The frame of a row may turn about its own axis and slide along it; the row before takes that up in its θ and d. So
-    /// the frames that the steps start from do not matter, only the lines of the axes. A row whose axis is nearly
-    /// perpendicular to the one before has its x on their common normal, and β = 0. Where two axes are nearly parallel that
-    /// normal may lie hundreds of metres away, at a place that says nothing; there the d before stays the nominal one, and
-    /// β takes its place (Hayati).
+    /// The frame of a row may turn about its own axis and slide along it; the row before takes that
+    /// up in its θ and d. So the frames that the steps start from do not matter, only the lines
+    /// of the axes. A row whose axis is nearly perpendicular to the one before has its x on
+    /// their common normal, and β = 0. Where two axes are nearly parallel that normal may lie
+    /// hundreds of metres away, at a place that says nothing; there the d before stays the nominal
+    /// one, and β takes its place (Hayati).
     ///
     /// # Errors
-    /// Where axis 1 or the flange cannot be described so, or where the axes are those of another arm.
+    /// Where axis 1 or the flange cannot be described so, or where the axes are those of another
+    /// arm.
     ///
     /// # Source
-    /// J. J. Craig, "Introduction to robotics" (the rows); S. Hayati, M. Mirmirani, "Improving the absolute positioning
-    /// accuracy of robot manipulators", J. Robotic Systems 2 (1985) (β).
+    /// J. J. Craig, "Introduction to robotics" (the rows); S. Hayati, M. Mirmirani, "Improving the
+    /// absolute positioning accuracy of robot manipulators", J. Robotic Systems 2 (1985) (β).
     pub fn rows(
         &self,
         nominal: &[Link; 6],
@@ -110,7 +114,8 @@ impl Axes {
             });
         }
         take(&mut links[0], &at);
-        // the given frame of the present axis, seen from the row's frame before its θ: a turn about z and a shift along it
+        // the given frame of the present axis, seen from the row's frame before its θ: a turn about
+        // z and a shift along it
         let mut row_from_given = at.pose().inverse() * self.steps[0];
         for i in 1..6 {
             let axis = row_from_given * self.steps[i];
@@ -161,7 +166,8 @@ impl Crossing {
     }
 }
 
-/// The crossing whose z axis has the direction of this frame's, and how far beside the x axis the line passes at height z.
+/// The crossing whose z axis has the direction of this frame's, and how far beside the x axis the
+/// line passes at height z.
 fn crossing(axis: &Pose, z: f64) -> (Crossing, f64) {
     let [x, y, along] = axis.rotation.axis(2);
     let (point, beta) = if along.abs() > PARALLEL_SINE {

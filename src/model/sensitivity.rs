@@ -1,8 +1,10 @@
-//! How the tool moves when a parameter of an effect changes: exact, and without a derivative written for any effect.
+//! How the tool moves when a parameter of an effect changes: exact, and without a derivative
+//! written for any effect.
 //!
-//! Two facts make it fast. An effect that changes the geometry moves the fixed transforms of the chain by twists that no
-//! posture changes, so one evaluation with dual numbers gives them for all postures. An effect that deflects is evaluated
-//! with one dual number a posture; how a turned joint, link, base or tool moves the tool is geometry.
+//! Two facts make it fast. An effect that changes the geometry moves the fixed transforms of the
+//! chain by twists that no posture changes, so one evaluation with dual numbers gives them for all
+//! postures. An effect that deflects is evaluated with one dual number a posture; how a turned
+//! joint, link, base or tool moves the tool is geometry.
 
 mod four;
 
@@ -40,7 +42,8 @@ pub struct Slot {
 #[derive(Clone, Copy, Debug)]
 struct Twist {
     at: usize,
-    /// It is of the part of the transform before the link bends: in the frame of link `at` − 1 (from 1), not behind the whole.
+    /// It is of the part of the transform before the link bends: in the frame of link `at` − 1
+    /// (from 1), not behind the whole.
     unbent: bool,
     turn: Vector,
     shift: Vector,
@@ -66,12 +69,14 @@ struct Column {
 /// A model with the derivatives of its tool pose by some parameters.
 ///
 /// # Source
-/// Geometric Jacobians (twists of the product of exponentials); torques by eqs. I.5–I.10 of the thesis, differentiated.
+/// Geometric Jacobians (twists of the product of exponentials); torques by eqs. I.5–I.10 of the
+/// thesis, differentiated.
 #[derive(Clone, Debug)]
 pub struct Sensitivity {
     model: Model,
     columns: Vec<Column>,
-    /// The whole model with duals for columns that change the geometry, where links bend by moments.
+    /// The whole model with duals for columns that change the geometry, where links bend by
+    /// moments.
     bending: Vec<(Vec<usize>, Model<Dual<CHUNK>>)>,
     /// The effects that read torques, with the six torques as variables.
     torque_effects: Vec<Effect<Dual<6>>>,
@@ -345,7 +350,8 @@ fn axis_of_angle([x, y, _]: Vector, k: usize) -> Vector {
 }
 
 impl Sensitivity {
-    /// Prepares a model and its derivatives by the parameters `slots`. The conditions are those that change the geometry.
+    /// Prepares a model and its derivatives by the parameters `slots`. The conditions are those
+    /// that change the geometry.
     #[must_use]
     pub fn build(
         geometry: &Geometry,
@@ -397,7 +403,8 @@ impl Sensitivity {
         &self.model
     }
 
-    /// `world_from_tool` at the controller's joint angles `q` in radians; `motions` receives one motion a parameter.
+    /// `world_from_tool` at the controller's joint angles `q` in radians; `motions` receives one
+    /// motion a parameter.
     #[inline(always)]
     pub fn evaluate(&self, q: &[f64; 6], conditions: &Conditions, motions: &mut [Motion]) -> Pose {
         let model = &self.model;

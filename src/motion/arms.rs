@@ -54,7 +54,8 @@ impl Equipped {
         })
     }
 
-    /// The joints that the controller computes for `world_from_tool` near others, and whether they reach it.
+    /// The joints that the controller computes for `world_from_tool` near others, and whether they
+    /// reach it.
     pub(crate) fn controller_joints(
         &self,
         world_from_tool: &Pose,

@@ -1,7 +1,7 @@
 //! The controller's path from one target to the next.
 //!
-//! Every path is written over [`Scalar`], so that it gives poses at a parameter s from 0 to 1 and, with [`Jet`]s, bounds of
-//! slope and curvature over whole intervals of s.
+//! Every path is written over [`Scalar`], so that it gives poses at a parameter s from 0 to 1 and,
+//! with [`Jet`]s, bounds of slope and curvature over whole intervals of s.
 
 use super::arms::Equipped;
 use super::ride::Ride;
@@ -12,7 +12,8 @@ use crate::inverse::Branch;
 use crate::model::{Conditions, Model};
 use std::sync::Arc;
 
-/// Angles below this, radians, are no rotation; circles whose three points are as near to a line are a line.
+/// Angles below this, radians, are no rotation; circles whose three points are as near to a line
+/// are a line.
 const SMALL: f64 = 1e-9;
 /// An interval shorter than this whose bounds are not finite is not halved again.
 const SHORTEST: f64 = 1.0 / 512.0;
@@ -84,7 +85,8 @@ enum Turn {
 }
 
 impl ToolCourse {
-    /// The straight way, or the arc through a point; on what external axes carry meanwhile where they bend it.
+    /// The straight way, or the arc through a point; on what external axes carry meanwhile where
+    /// they bend it.
     #[must_use]
     pub(crate) fn of(
         from: &Pose,
@@ -323,7 +325,8 @@ pub(crate) struct Piece {
     pub joints: [Jet; 6],
     /// The conditions of the arm in it: from which side joints with backlash come.
     pub conditions: Conditions,
-    /// The bounds hold everywhere in the piece; else it is near a singularity or the controller has a chain of its own.
+    /// The bounds hold everywhere in the piece; else it is near a singularity or the controller
+    /// has a chain of its own.
     pub certified: bool,
 }
 
@@ -337,7 +340,8 @@ impl Piece {
         })
     }
 
-    /// Whether these joints lie within the bounds: with those of both ends in one piece the way between them has no leap.
+    /// Whether these joints lie within the bounds: with those of both ends in one piece the way
+    /// between them has no leap.
     pub(crate) fn holds(&self, joints: &[f64; 6]) -> bool {
         let within =
             |(jet, q): (&Jet, &f64)| (q - jet.value.middle).abs() <= jet.value.radius + SLACK_RAD;
@@ -430,7 +434,8 @@ impl Leg<'_> {
             certified,
         };
         piece.certified &= piece.is_bounded();
-        // gravity is taken as it is at the end, and what begins nobody knows where is taken to stand
+        // gravity is taken as it is at the end, and what begins nobody knows where is taken to
+        // stand
         piece.certified &= self
             .ride
             .as_ref()
@@ -438,8 +443,9 @@ impl Leg<'_> {
         piece
     }
 
-    /// The whole move in pieces whose bounds are tight enough to work with. A piece in which a joint with backlash may turn
-    /// back stands there once for each side from which it may come.
+    /// The whole move in pieces whose bounds are tight enough to work with. A piece in which a
+    /// joint with backlash may turn back stands there once for each side from which it may
+    /// come.
     pub(crate) fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut near = self.start;
@@ -474,7 +480,8 @@ impl Leg<'_> {
 }
 
 impl Leg<'_> {
-    /// From which sides each joint may come in a piece. A joint that stands keeps the side of the move's end.
+    /// From which sides each joint may come in a piece. A joint that stands keeps the side of the
+    /// move's end.
     fn sides(&self, piece: &Piece) -> [Vec<f64>; 6] {
         let Course::Tool(course) = &self.course else {
             return self.conditions.direction.map(|side| vec![side]);
@@ -521,8 +528,8 @@ fn each_side(piece: &Piece, sides: &[Vec<f64>; 6], out: &mut Vec<Piece>) {
     }));
 }
 
-/// Bounds of a joint of a controller whose own chain is calibrated: those of the nominal one, shifted and widened. Its chain
-/// differs by thousandths; the widening is ten times that.
+/// Bounds of a joint of a controller whose own chain is calibrated: those of the nominal one,
+/// shifted and widened. Its chain differs by thousandths; the widening is ten times that.
 fn beside(nominal: Jet, by: f64) -> Jet {
     let mut joint = nominal + Jet::constant(by);
     joint.value.radius += 0.5 * by.abs();

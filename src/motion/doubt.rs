@@ -1,4 +1,5 @@
-//! Units that cannot be meant: tools of tenths of a millimetre, masses that no robot of this kind carries.
+//! Units that cannot be meant: tools of tenths of a millimetre, masses that no robot of this kind
+//! carries.
 
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};

@@ -5,8 +5,8 @@
 //! stand + work frame + profile → the poses that the arm is asked for, in the world of an arm that stands at home
 //! ```
 //!
-//! A move with a stand gets a work frame of its own ([`Program::frames`]): what comes behind knows frames only, and that a wanted
-//! pose of the real arm is another than the nominal one's.
+//! A move with a stand gets a work frame of its own ([`Program::frames`]): what comes behind knows
+//! frames only, and that a wanted pose of the real arm is another than the nominal one's.
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -83,7 +83,8 @@ impl Known {
     }
 }
 
-/// Gives moves the stand of external axes, and blocks targets of which it is not known, or beyond limits.
+/// Gives moves the stand of external axes, and blocks targets of which it is not known, or beyond
+/// limits.
 pub(crate) fn settle(
     language: &dyn Language,
     program: &mut Program,
@@ -172,8 +173,8 @@ fn part_of<K: Ord + Copy, T>(list: &[(K, T)], key: K) -> &[(K, T)] {
     &list[first..first + count]
 }
 
-/// The value of each axis at each move, kept from the moves before where it says nothing itself, and the direction in which
-/// it moves there.
+/// The value of each axis at each move, kept from the moves before where it says nothing itself,
+/// and the direction in which it moves there.
 fn followed(
     program: &Program,
     profile: &Profile,
@@ -255,12 +256,13 @@ struct Settler<'a> {
     /// Axes that stand elsewhere when they come from the other side.
     backlash: Vec<bool>,
     made: HashMap<Key, FrameId>,
-    /// Between which places each axis of the track stood when it was measured, where the profile says so and it was not said yet
-    /// that a move goes beyond.
+    /// Between which places each axis of the track stood when it was measured, where the profile
+    /// says so and it was not said yet that a move goes beyond.
     measured: Vec<Option<[f64; 2]>>,
 }
 
-/// Between which places the axes of the track stood when it was measured, metres: of those with errors that are powers of the place.
+/// Between which places the axes of the track stood when it was measured, metres: of those with
+/// errors that are powers of the place.
 fn measured(profile: &Profile) -> Vec<Option<[f64; 2]>> {
     let of = |k: usize| {
         let mut powers = profile.effects.iter();
@@ -450,7 +452,8 @@ impl Settler<'_> {
 /// The positioner that carries a frame.
 ///
 /// # Errors
-/// The program says that a unit carries it, and the profile does not know the unit: the finding and why.
+/// The program says that a unit carries it, and the profile does not know the unit: the finding and
+/// why.
 fn carrier(
     frame: &Frame,
     external: &ExternalAxes,
@@ -486,8 +489,9 @@ fn carrier(
     }
 }
 
-/// Where the real base and the nominal one are in the world, from where they are at home, on a work piece that is carried where the
-/// controller has it: with each external axis at a part of its travel that `draw` gives, from 0 to 1.
+/// Where the real base and the nominal one are in the world, from where they are at home, on a work
+/// piece that is carried where the controller has it: with each external axis at a part of its
+/// travel that `draw` gives, from 0 to 1.
 pub(crate) fn bases(profile: &Profile, mut draw: impl FnMut() -> f64) -> [Pose; 2] {
     let external = &profile.external;
     let mut values = Vec::new();
@@ -521,8 +525,8 @@ pub(crate) fn bases(profile: &Profile, mut draw: impl FnMut() -> f64) -> [Pose; 
     [external.base_real(at, origin, &effects), nominal]
 }
 
-/// A work frame where external axes stand, seen from the world of an arm that stands at home: with the base where it is with
-/// every axis of the track at zero.
+/// A work frame where external axes stand, seen from the world of an arm that stands at home: with
+/// the base where it is with every axis of the track at zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placed {
     /// Of the controller: what a target's numbers are relative to.

@@ -1,8 +1,9 @@
 //! What holds at each move and which moves come before it, whichever way the program runs.
 //!
-//! Forward data flow to a fixed point over the statements of all routines. A routine is gone through once for each call of it,
-//! up to a depth; beyond, and where routines call themselves, its callers are joined. What variables hold is a [`Holding`], where
-//! the robot comes from a [`Before`]; both only grow, so that it ends.
+//! Forward data flow to a fixed point over the statements of all routines. A routine is gone
+//! through once for each call of it, up to a depth; beyond, and where routines call themselves, its
+//! callers are joined. What variables hold is a [`Holding`], where the robot comes from a
+//! [`Before`]; both only grow, so that it ends.
 //!
 //! # Source
 //! G. A. Kildall, "A unified approach to global program optimization" (1973).
@@ -78,7 +79,8 @@ struct State {
     before: Before,
 }
 
-/// Where to go on, the deepest routine first and there the first statement: [`BinaryHeap`] gives the largest.
+/// Where to go on, the deepest routine first and there the first statement: [`BinaryHeap`] gives
+/// the largest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Item {
     depth: u32,
@@ -130,7 +132,8 @@ pub(super) struct Flow<'a> {
     fixed: Vec<Holding>,
     /// Variables in slots.
     tracked: Vec<VariableId>,
-    /// Tables that are written at so many places by numbers that only the running program knows, that what is written holds anywhere.
+    /// Tables that are written at so many places by numbers that only the running program knows,
+    /// that what is written holds anywhere.
     loose: HashSet<TableId>,
     /// What routines that run at any time may write, by variable.
     anytime: HashMap<VariableId, Holding>,
@@ -344,7 +347,8 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// What an expression without variables that are written holds; of one with such variables their declarations.
+    /// What an expression without variables that are written holds; of one with such variables
+    /// their declarations.
     fn constant(&mut self, value: Expr, site: Site) -> Holding {
         match value {
             Expr::Variable(variable) if (variable as usize) < self.fixed.len() => {
@@ -615,7 +619,8 @@ impl<'a> Flow<'a> {
     fn arrive(&mut self, instance: u32, label: Label, state: &State) {
         let place = self.label_places[label as usize];
         let key = (instance, label);
-        // the text may have no such label: nothing is known to follow; what is reached is not reached from dead text
+        // the text may have no such label: nothing is known to follow; what is reached is not
+        // reached from dead text
         if place == u32::MAX || self.dead == Some(instance) && self.visited[place as usize] {
             return;
         }
@@ -831,7 +836,8 @@ impl<'a> Flow<'a> {
         id
     }
 
-    /// Whether an expression is one of several, displaced or not: the resolver looks at each of them.
+    /// Whether an expression is one of several, displaced or not: the resolver looks at each of
+    /// them.
     fn is_choice(&self, value: Expr) -> bool {
         match value {
             Expr::Any { .. } => true,
@@ -852,7 +858,8 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// Where a variable was given the number that it certainly holds in the place of the one that a move expects.
+    /// Where a variable was given the number that it certainly holds in the place of the one that a
+    /// move expects.
     fn differs(&mut self, state: &State, expected: &Expected) -> Option<Site> {
         let held = self.variable(state, expected.variable);
         let atoms = self.holdings.of(held);
@@ -903,7 +910,8 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// What a variable holds that something may have written: its own position with other numbers, or anything.
+    /// What a variable holds that something may have written: its own position with other numbers,
+    /// or anything.
     fn changed(&self, variable: VariableId) -> Atom {
         match self.script.variables[variable as usize].declared {
             Expr::Target(target) => Atom::Changed {
@@ -913,7 +921,8 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// Whether a variable holds its own target, of which some parts may be written over: once more changes nothing.
+    /// Whether a variable holds its own target, of which some parts may be written over: once more
+    /// changes nothing.
     fn is_in_parts(&self, held: Holding, variable: VariableId) -> bool {
         let Expr::Target(own) = self.script.variables[variable as usize].declared else {
             return false;
@@ -963,7 +972,8 @@ impl<'a> Flow<'a> {
             Expr::Target(target) => Some(short(target)),
             _ => None,
         };
-        // numbers of the text do not know of a correction; what is computed is mostly the old value and something more
+        // numbers of the text do not know of a correction; what is computed is mostly the old value
+        // and something more
         let by = if matches!(write.how, How::PartNumber(_)) {
             OVERWRITTEN
         } else {
@@ -1077,7 +1087,8 @@ impl<'a> Flow<'a> {
 
     // ---- calls
 
-    /// What a call itself does before it goes anywhere: arguments are given away, what is shared is in doubt.
+    /// What a call itself does before it goes anywhere: arguments are given away, what is shared is
+    /// in doubt.
     fn call(&mut self, instance: u32, call: &Call, site: Site, state: &mut State) {
         let _ = instance;
         if !call.foreign {
@@ -1108,7 +1119,8 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// The state behind a call, as far as the routines that it calls have come; `None` where none has come to its end.
+    /// The state behind a call, as far as the routines that it calls have come; `None` where none
+    /// has come to its end.
     fn behind_call(&mut self, instance: u32, statement: u32) -> Option<State> {
         let Statement::Call(call) = self.script.statements[statement as usize] else {
             return None;
@@ -1194,7 +1206,8 @@ impl<'a> Flow<'a> {
         back
     }
 
-    /// What a variable holds that was given by reference: of its own position parts may have been written.
+    /// What a variable holds that was given by reference: of its own position parts may have been
+    /// written.
     fn come_back(&mut self, held: Holding, variable: VariableId) -> Holding {
         let Expr::Target(own) = self.script.variables[variable as usize].declared else {
             return held;
@@ -1340,7 +1353,8 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// What the controller keeps from run to run is there when the routine starts again; whether that is new.
+    /// What the controller keeps from run to run is there when the routine starts again; whether
+    /// that is new.
     fn keep(&mut self, instance: u32) -> bool {
         let of = &self.instances[instance as usize];
         let (Some(entry), Some(exit)) = (of.entry.clone(), of.exit.clone()) else {
@@ -1362,7 +1376,8 @@ impl<'a> Flow<'a> {
         changed
     }
 
-    /// Notes what routines write that only the operator starts, and what others read: these do not see it.
+    /// Notes what routines write that only the operator starts, and what others read: these do not
+    /// see it.
     fn note_operators(&mut self, entries: &[u32]) {
         let script = self.script;
         let routine_of = |instance: &u32| self.instances[*instance as usize].routine;

@@ -107,7 +107,8 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Whether nobody knows where external axes carry the arm or the work piece at a move to a pose.
+    /// Whether nobody knows where external axes carry the arm or the work piece at a move to a
+    /// pose.
     pub(crate) fn is_adrift(&self, motion: &Move) -> bool {
         let frame = &self.program.frames[motion.frame];
         let carried = frame.is_carried() || !self.profile.external.track.is_empty();
@@ -158,7 +159,8 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Where a target's numbers want the tool of the controller's arm at home, on the part as it stands.
+    /// Where a target's numbers want the tool of the controller's arm at home, on the part as it
+    /// stands.
     pub(crate) fn meant(&self, value: &Value, tool: ToolId, frame: FrameId) -> Pose {
         self.placed(frame).meant * self.in_frame(value, tool)
     }

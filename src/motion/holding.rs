@@ -30,10 +30,12 @@ pub(super) enum Atom {
 
 /// Values that are told apart.
 const MOST_VALUES: usize = 4;
-/// Positions with numbers in the files that are told apart: a routine may be called for each of an array.
+/// Positions with numbers in the files that are told apart: a routine may be called for each of an
+/// array.
 const MOST_TARGETS: usize = 64;
 
-/// What a variable may hold, each with the write that put it there; by [`Atom`], an index of [`Holdings`].
+/// What a variable may hold, each with the write that put it there; by [`Atom`], an index of
+/// [`Holdings`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Holding(u32);
 

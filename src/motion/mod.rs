@@ -4,7 +4,8 @@
 //! statements (program::script) → flow → moves with tool, frame, load, target and the moves before → legs → approaches
 //! ```
 //!
-//! This is once for all languages: a reader translates text into statements and knows no flow; here no text is known.
+//! This is once for all languages: a reader translates text into statements and knows no flow; here
+//! no text is known.
 //!
 //! # Example
 //!

@@ -1,5 +1,5 @@
-//! Which of the inverse's solutions a target means by itself: by its configuration data where the controller honours them,
-//! and by the joints before.
+//! Which of the inverse's solutions a target means by itself: by its configuration data where the
+//! controller honours them, and by the joints before.
 
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};
@@ -8,7 +8,8 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Ambiguous, Answer, Arm, Branch};
 use crate::program::{Configuration, TargetId};
 
-/// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both sides.
+/// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both
+/// sides.
 const BORDER_RAD: f64 = 0.05 * DEG;
 /// How far beyond its limits a joint of the nominal arm may stand; the real one is judged exactly.
 pub(super) const LIMIT_RAD: f64 = 2.0 * DEG;
@@ -38,7 +39,8 @@ pub(super) struct Asked<'a> {
     pub start: Option<[f64; 6]>,
 }
 
-/// The posture that configuration data and the joints before ask for; `None` where there is none, with a finding.
+/// The posture that configuration data and the joints before ask for; `None` where there is none,
+/// with a finding.
 pub(super) fn choose(
     ground: &Ground,
     asked: &Asked,
@@ -66,7 +68,8 @@ pub(super) fn choose(
             }
         }
     }
-    // along a path the next posture is mostly on the branch of the last one; the others are tried where it does not fit
+    // along a path the next posture is mostly on the branch of the last one; the others are tried
+    // where it does not fit
     if let Some(before) = start {
         let same = on_branch(arm, wanted, arm.posture(before).0, before, configuration);
         if let Some(same) = same.filter(|same| same.configured && is_close(&same.q, before)) {
@@ -167,8 +170,8 @@ fn with_kept(asked: &Asked) -> Configuration {
     all
 }
 
-/// The answer of an arm with an offset wrist that the configuration means, by its track from the posture before where several
-/// have it. `None` where none has it.
+/// The answer of an arm with an offset wrist that the configuration means, by its track from the
+/// posture before where several have it. `None` where none has it.
 fn on_track(asked: &Asked) -> Result<Option<Posture>, Ambiguous> {
     let (arm, wanted) = (asked.arm, &asked.wanted);
     let middle = arm
@@ -249,8 +252,8 @@ pub(super) fn holds(configuration: &Configuration, branch: Branch, q: &[f64; 6])
         && (0..6).all(inside)
 }
 
-/// The solution on one branch with the turns that the configuration data and the limits ask for; `None` out of reach or
-/// beyond a limit.
+/// The solution on one branch with the turns that the configuration data and the limits ask for;
+/// `None` out of reach or beyond a limit.
 pub(super) fn on_branch(
     arm: &Arm,
     wanted: &Pose,
@@ -265,7 +268,8 @@ pub(super) fn on_branch(
     configured(arm, branch, solution.q, configuration)
 }
 
-/// A solution with the rotations that the configuration data and the limits ask for; `None` beyond a limit.
+/// A solution with the rotations that the configuration data and the limits ask for; `None` beyond
+/// a limit.
 fn configured(
     arm: &Arm,
     branch: Branch,
@@ -319,8 +323,8 @@ fn turned_into(angle: f64, range: (f64, f64), limits: (f64, f64)) -> Option<f64>
     (low..=high).contains(&moved).then_some(moved)
 }
 
-/// A pose that the nominal arm does not reach within its limits: the real one may, so the branch of the posture before or of
-/// the stretched arm goes on; with neither it is an error.
+/// A pose that the nominal arm does not reach within its limits: the real one may, so the branch of
+/// the posture before or of the stretched arm goes on; with neither it is an error.
 fn out_of_reach(
     ground: &Ground,
     asked: &Asked,

@@ -11,7 +11,8 @@ enum From {
     Several,
 }
 
-/// Of `written`, each a variable and the routine that writes it, those that a routine reads which is also reached otherwise.
+/// Of `written`, each a variable and the routine that writes it, those that a routine reads which
+/// is also reached otherwise.
 pub(super) fn read_elsewhere(
     script: &Script,
     entries: &[RoutineId],

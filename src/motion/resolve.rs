@@ -98,7 +98,8 @@ struct Resolver<'a, 'p> {
     changed: Vec<(TargetId, Option<Place>)>,
     /// Targets that are tools or frames, and where.
     as_frames: HashMap<TargetId, Place>,
-    /// Moves whose tool, frame or mode is in doubt: target, the call, and whether it is the tool alone.
+    /// Moves whose tool, frame or mode is in doubt: target, the call, and whether it is the tool
+    /// alone.
     doubted: Vec<(TargetId, Site, bool)>,
     /// What [`Flow::modes`] mean, as far as moves have asked.
     choices: Vec<Option<Rc<Choices>>>,
@@ -480,7 +481,8 @@ impl Resolver<'_, '_> {
 
     // ---- targets
 
-    /// Lists the moves to an expression that says the same whatever was before, or to each of several.
+    /// Lists the moves to an expression that says the same whatever was before, or to each of
+    /// several.
     fn fixed(&mut self, value: Expr, displacement: u32, listed: &mut Listed) {
         let script = self.script;
         match value {
@@ -583,7 +585,8 @@ impl Resolver<'_, '_> {
             .say("computed-target", severity, place, message.into(), hint);
     }
 
-    /// A move to somewhere: nothing is rewritten, and what follows does not know where it comes from.
+    /// A move to somewhere: nothing is rewritten, and what follows does not know where it comes
+    /// from.
     fn go_nowhere(&mut self, listed: &Listed) {
         let (tool, _) = listed.choices.tools[0];
         let (frame, _) = listed.choices.frames[0];
@@ -792,7 +795,8 @@ impl Resolver<'_, '_> {
 
     // ---- what concerns the whole
 
-    /// A routine that is not in the files may set another tool or frame: that matters where moves use more than one.
+    /// A routine that is not in the files may set another tool or frame: that matters where moves
+    /// use more than one.
     fn judge_doubts(&mut self) {
         let doubted = std::mem::take(&mut self.doubted);
         if doubted.is_empty() {
@@ -837,7 +841,8 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// Targets that the running program changes: where a move goes to their numbers in the file too, these cannot be replaced.
+    /// Targets that the running program changes: where a move goes to their numbers in the file
+    /// too, these cannot be replaced.
     fn judge_changed(&mut self) {
         for (target, because) in std::mem::take(&mut self.changed) {
             let severity = if self.as_written[target] {
@@ -856,7 +861,8 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// Targets that are given away, that are frames too, or that nothing uses; writes that nothing sees.
+    /// Targets that are given away, that are frames too, or that nothing uses; writes that nothing
+    /// sees.
     fn judge_targets(&mut self) {
         self.judge_changed();
         for &(target, remark) in &self.script.refused {
@@ -1061,7 +1067,8 @@ impl<'a, 'p> Report<'a, 'p> {
         self.say(remark.id, remark.severity, place, text, remark.hint);
     }
 
-    /// The target has to stay as it is; `because` is where the program says so. Joint targets stay unless they are asked for.
+    /// The target has to stay as it is; `because` is where the program says so. Joint targets stay
+    /// unless they are asked for.
     fn block(
         &mut self,
         target: TargetId,

@@ -1,4 +1,5 @@
-//! What external axes do along a move: all go at constant rates from where they stand to where they stand then.
+//! What external axes do along a move: all go at constant rates from where they stand to where they
+//! stand then.
 
 use crate::geometry::{Pose, Rotation, Scalar, Vector};
 use crate::model::effects::Effect;
@@ -121,7 +122,8 @@ impl Ride {
         self.external.base_real(at, self.origin, &effects)
     }
 
-    /// What stands still for the numbers of the move, seen from the controller's arm at home at `s`.
+    /// What stands still for the numbers of the move, seen from the controller's arm at home at
+    /// `s`.
     pub(crate) fn home_from_part<S: Scalar>(&self, s: S) -> Pose<S> {
         let values = self.values(s);
         let base = self.external.base_nominal(&values);
@@ -136,7 +138,8 @@ impl Ride {
         base.inverse() * riding * self.plate(&values, &[])
     }
 
-    /// From a pose that the controller's arm at home has to the one that the real arm at home has where the real part wants it.
+    /// From a pose that the controller's arm at home has to the one that the real arm at home has
+    /// where the real part wants it.
     pub(crate) fn real_from_nominal<S: Scalar>(&self, s: S) -> Pose<S> {
         let values = self.values(s);
         let effects: Vec<Effect<S>> = self.effects.iter().map(Effect::cast).collect();

@@ -12,14 +12,16 @@ use std::collections::BTreeMap;
 /// Two values of one tool or frame that differ by less than this are the same, metres and radians.
 const SAME: f64 = 1e-9;
 
-/// Tools and work frames that the user gives, by name in the program or, under `None`, for every name that is unknown.
+/// Tools and work frames that the user gives, by name in the program or, under `None`, for every
+/// name that is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Given {
     /// Tools.
     pub tools: BTreeMap<Option<String>, Mounted>,
     /// `world_from_frame` of work frames.
     pub frames: BTreeMap<Option<String>, Pose>,
-    /// `world_from_frame` of work frames as they were measured, by name; the program must not say otherwise.
+    /// `world_from_frame` of work frames as they were measured, by name; the program must not say
+    /// otherwise.
     pub measured_frames: BTreeMap<String, Pose>,
 }
 
@@ -61,7 +63,8 @@ impl MeasuredFrameError {
     }
 }
 
-/// Measured frames must be used, and agree with what the program declares: the controller computes with its own.
+/// Measured frames must be used, and agree with what the program declares: the controller computes
+/// with its own.
 pub(crate) fn check_measured(program: &Program, given: &Given) -> Result<(), MeasuredFrameError> {
     for (name, measured) in &given.measured_frames {
         let Some(frame) = program.frames.iter().find(|frame| frame.name == *name) else {
@@ -123,7 +126,8 @@ impl GivenError {
     }
 }
 
-/// Tools and work frames that are given by name must be used, and not be known already. The programs are those of one run.
+/// Tools and work frames that are given by name must be used, and not be known already. The
+/// programs are those of one run.
 pub(crate) fn check_given(programs: &[&Program], given: &Given) -> Result<(), GivenError> {
     let tools = programs.iter().flat_map(|program| &program.tools);
     let tools: Vec<(&str, bool)> = tools
@@ -258,7 +262,8 @@ impl std::fmt::Display for PlacementError {
 
 impl std::error::Error for PlacementError {}
 
-/// Makes an error of each tool and frame that nobody knows, and leaves the targets of the moves that need it.
+/// Makes an error of each tool and frame that nobody knows, and leaves the targets of the moves
+/// that need it.
 pub(crate) fn block_unplaced(
     language: &dyn Language,
     program: &mut Program,
@@ -312,7 +317,8 @@ impl Missing {
 pub(crate) struct Setting {
     /// The program's, and one more: what the user gave for targets that no move uses.
     pub tools: Vec<Option<Mounted>>,
-    /// The program's, and two more: what the user gave for targets that no move uses, and the world for joint targets.
+    /// The program's, and two more: what the user gave for targets that no move uses, and the
+    /// world for joint targets.
     pub frames: Vec<Option<Placed>>,
 }
 

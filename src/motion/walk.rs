@@ -1,8 +1,9 @@
 //! In which posture the robot arrives at the end of each move, and which way each joint moves then.
 //!
-//! Moves are gone through along the moves before them, from where programs start. On a joint move configuration data decide
-//! as the controller does; on a straight line or an arc the posture is that of the path itself, followed from the posture before.
-//! The direction of a joint is the sign of its rate at the end of the path; one that stands keeps its last.
+//! Moves are gone through along the moves before them, from where programs start. On a joint move
+//! configuration data decide as the controller does; on a straight line or an arc the posture is
+//! that of the path itself, followed from the posture before. The direction of a joint is the sign
+//! of its rate at the end of the path; one that stands keeps its last.
 
 use super::course::{Course, Leg, STANDSTILL_RAD_M, ToolCourse, Turning};
 use super::ground::Ground;
@@ -18,7 +19,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-/// A joint that moves less than this on a joint move keeps the direction in which it moved before, radians.
+/// A joint that moves less than this on a joint move keeps the direction in which it moved before,
+/// radians.
 const STANDSTILL_RAD: f64 = 1e-6;
 /// A joint that stands beyond this is written in another unit: 278 rotations, as of orientations.
 const MOST_JOINT_RAD: f64 = 1e5 * DEG;
@@ -30,7 +32,8 @@ const MOST_ARRIVALS: usize = 64;
 const SAME_RAD: f64 = 1e-7;
 /// A joint that moves more in a step of a path may have gone round: the step is halved.
 const MOST_STEP_RAD: f64 = 45.0 * DEG;
-/// Nearer to alignment than this joint 5 goes through, where the other joints then move less than the second angle.
+/// Nearer to alignment than this joint 5 goes through, where the other joints then move less than
+/// the second angle.
 const NEAR_WRIST_RAD: f64 = 5.0 * DEG;
 const MOST_THROUGH_RAD: f64 = 20.0 * DEG;
 /// The shortest step of a path.
@@ -111,8 +114,8 @@ impl Arrivals {
 pub(crate) struct WalkOptions {
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
-    /// Joints are those of a controller that computes with a calibrated chain of its own, where it does; else those of the
-    /// nominal arm.
+    /// Joints are those of a controller that computes with a calibrated chain of its own, where it
+    /// does; else those of the nominal arm.
     pub exact: bool,
     /// A path that ends in another configuration than the file gives is an error.
     pub strict: bool,
@@ -439,8 +442,8 @@ impl Walker<'_, '_> {
         posture::choose(ground, &asked, self.findings)
     }
 
-    /// The posture at the end of a path, within the limits by whole rotations; its configuration data are compared where the
-    /// controller does.
+    /// The posture at the end of a path, within the limits by whole rotations; its configuration
+    /// data are compared where the controller does.
     fn compared(
         &mut self,
         motion: &Move,
@@ -463,7 +466,8 @@ impl Walker<'_, '_> {
             } else {
                 ("configuration-mismatch", Severity::Warning)
             };
-            // the controller would stop there: where the program runs, it stands as the file says, and stood so before
+            // the controller would stop there: where the program runs, it stands as the file says,
+            // and stood so before
             let meant = self.meant(motion, target, wanted, configuration, &q);
             if meant.is_some() {
                 message += "; the one of the file is taken, since the controller stops at another";
@@ -501,7 +505,8 @@ impl Walker<'_, '_> {
             .unwrap_or(as_it_is)
     }
 
-    /// The posture that the configuration data of a path's end name; `None` where there is none, or the program is only looked at.
+    /// The posture that the configuration data of a path's end name; `None` where there is none, or
+    /// the program is only looked at.
     fn meant(
         &self,
         motion: &Move,
@@ -597,8 +602,8 @@ pub(crate) fn course(
     Course::Tool(ToolCourse::of(&from, via, wanted, turning, ride))
 }
 
-/// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations by continuity. `None` where it
-/// leaves the reach on its way.
+/// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations
+/// by continuity. `None` where it leaves the reach on its way.
 fn follow(
     equipped: &super::arms::Equipped,
     course: &Course,
@@ -662,8 +667,9 @@ fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
 }
 
-/// A path that passes the wrist's singularity so near that the joints beside it would spin goes through it: joint 5 changes its
-/// sign and nothing else moves much. `there` gives the joints behind it on a branch.
+/// A path that passes the wrist's singularity so near that the joints beside it would spin goes
+/// through it: joint 5 changes its sign and nothing else moves much. `there` gives the joints
+/// behind it on a branch.
 fn through_wrist(
     arm: &Arm,
     branch: Branch,

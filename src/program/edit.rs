@@ -9,8 +9,8 @@ pub struct Edits {
     text: Vec<u8>,
 }
 
-/// A replaced range, and where its new text begins in [`Edits::text`]: it ends where that of the next span begins. Files are
-/// smaller than 4 GiB.
+/// A replaced range, and where its new text begins in [`Edits::text`]: it ends where that of the
+/// next span begins. Files are smaller than 4 GiB.
 #[derive(Clone, Copy, Debug)]
 struct Span {
     start: u32,
@@ -23,7 +23,8 @@ fn short(offset: usize) -> u32 {
 }
 
 impl Edits {
-    /// None yet, with room for `spans` replacements by `bytes` of text: lists that grow leave holes in the memory.
+    /// None yet, with room for `spans` replacements by `bytes` of text: lists that grow leave holes
+    /// in the memory.
     #[must_use]
     pub fn with_room(spans: usize, bytes: usize) -> Self {
         Self {

@@ -1,6 +1,7 @@
 //! Why a file cannot be read as a program.
 
-/// A file that is not a program of its language, or a broken one. Places are lines and columns from 1.
+/// A file that is not a program of its language, or a broken one. Places are lines and columns from
+/// 1.
 #[derive(Debug, thiserror::Error, Clone, PartialEq, Eq)]
 pub enum ReadError {
     /// The bytes are no text.

@@ -3,7 +3,8 @@
 use super::{Before, Displacement, Instruction, Motion, Move, Number, Program, Source, Target};
 use std::ops::Range;
 
-/// A target to be put between two of a program: the text of each number, in the order of [`super::Language::roles`].
+/// A target to be put between two of a program: the text of each number, in the order of
+/// [`super::Language::roles`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Between {
     /// The point that an arc to it passes through.
@@ -12,8 +13,8 @@ pub struct Between {
     pub end: Vec<Vec<u8>>,
 }
 
-/// Moves to be put before one of a program's, like it but for their targets. Where the move is an arc, the last entry is the
-/// move itself with another point on its way.
+/// Moves to be put before one of a program's, like it but for their targets. Where the move is an
+/// arc, the last entry is the move itself with another point on its way.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Insertion {
     /// Index of the move in [`super::Program::moves`].
@@ -111,7 +112,8 @@ pub(super) fn with_numbers(
     Some(out)
 }
 
-/// What of a target stands for its external axes: from one target to another they stand still where it is the same.
+/// What of a target stands for its external axes: from one target to another they stand still where
+/// it is the same.
 pub(super) type External = fn(&[Source], &Program, &Target) -> Option<Vec<u8>>;
 
 /// How the moves of a language are written again where their targets stand in them.
@@ -252,8 +254,8 @@ impl<'a> Repeated<'a> {
         })
     }
 
-    /// The instruction for each target, in lines before it; `written` makes a target of its numbers. `None` where one cannot
-    /// be written, or a line becomes too long.
+    /// The instruction for each target, in lines before it; `written` makes a target of its
+    /// numbers. `None` where one cannot be written, or a line becomes too long.
     pub(super) fn insert(
         &self,
         insertion: &Insertion,

@@ -155,8 +155,8 @@ pub(super) fn content_start(bytes: &[u8]) -> usize {
     }
 }
 
-/// The first byte of the line behind the one of `at`; `None` where that is the last and has no end. Lines end with LF, CR LF
-/// or CR.
+/// The first byte of the line behind the one of `at`; `None` where that is the last and has no end.
+/// Lines end with LF, CR LF or CR.
 pub(super) fn line_behind(bytes: &[u8], at: usize) -> Option<usize> {
     let end = at + memchr::memchr2(b'\n', b'\r', &bytes[at..])?;
     let is_pair = bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n');

@@ -38,11 +38,12 @@ pub trait Language: Sync {
         false
     }
 
-    /// Whether the content looks like a program of this language (for files whose ending does not tell).
+    /// Whether the content looks like a program of this language (for files whose ending does not
+    /// tell).
     fn recognises(&self, source: &Source) -> bool;
 
-    /// Translates program files that belong together into statements: data in one may be used in another. The files are
-    /// texts of at most 4 GiB.
+    /// Translates program files that belong together into statements: data in one may be used in
+    /// another. The files are texts of at most 4 GiB.
     ///
     /// # Errors
     /// Where the text is not a program of this language or is broken.
@@ -68,7 +69,8 @@ pub trait Language: Sync {
         }))
     }
 
-    /// Name of the work frame that targets without one stand in: the world unless the command line gives another for it.
+    /// Name of the work frame that targets without one stand in: the world unless the command line
+    /// gives another for it.
     fn frame_of_unframed(&self) -> Option<&'static str> {
         None
     }
@@ -84,15 +86,16 @@ pub trait Language: Sync {
         }
     }
 
-    /// The largest number that a target's orientation can have: beyond it none is meant (1e5 degrees are 278 rotations).
+    /// The largest number that a target's orientation can have: beyond it none is meant (1e5
+    /// degrees are 278 rotations).
     fn most_orientation(&self, layout: Layout) -> f64 {
         let _ = layout;
         1e5
     }
 
-    /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a metre away where it is an
-    /// angle or part of a quaternion. Most languages write millimetres and degrees: a thousandth of a millimetre is 6e-5
-    /// degrees there.
+    /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a
+    /// metre away where it is an angle or part of a quaternion. Most languages write
+    /// millimetres and degrees: a thousandth of a millimetre is 6e-5 degrees there.
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
         match role {
             Role::Position => millimetre_decimals,
@@ -101,8 +104,8 @@ pub trait Language: Sync {
         }
     }
 
-    /// Decimals that a number gets at least, so that rounding stays below a thousandth of a millimetre and of a degree where
-    /// the controller takes as many.
+    /// Decimals that a number gets at least, so that rounding stays below a thousandth of a
+    /// millimetre and of a degree where the controller takes as many.
     fn least_decimals(&self, role: Role) -> usize {
         self.decimals(role, 3)
     }
@@ -110,8 +113,8 @@ pub trait Language: Sync {
     /// The pose of a target's numbers: `frame_from_tool`, metres.
     fn pose_of(&self, layout: Layout, numbers: &[f64]) -> Pose;
 
-    /// Writes a pose into the numbers of a target, which hold the present ones: signs and turns that the pose leaves open
-    /// stay as near to these as they can.
+    /// Writes a pose into the numbers of a target, which hold the present ones: signs and turns
+    /// that the pose leaves open stay as near to these as they can.
     fn write_pose(&self, layout: Layout, pose: &Pose, numbers: &mut [f64]);
 
     /// How many radians one of each joint's numbers is.
@@ -126,8 +129,8 @@ pub trait Language: Sync {
         Configuration::default()
     }
 
-    /// Changes the configuration data among the numbers of a pose where `before` and `after` (the controller's joints for the
-    /// old and the new pose) truly differ in them.
+    /// Changes the configuration data among the numbers of a pose where `before` and `after` (the
+    /// controller's joints for the old and the new pose) truly differ in them.
     fn update_configuration(
         &self,
         layout: Layout,
@@ -155,8 +158,8 @@ pub trait Language: Sync {
         }
     }
 
-    /// Writes `value` into `numbers`, which hold the target's present ones; see [`Self::write_pose`] and
-    /// [`Self::update_configuration`].
+    /// Writes `value` into `numbers`, which hold the target's present ones; see
+    /// [`Self::write_pose`] and [`Self::update_configuration`].
     ///
     /// # Panics
     /// If the value is of another shape than the target.
@@ -184,8 +187,8 @@ pub trait Language: Sync {
         }
     }
 
-    /// Writes one of a target's configuration data, the `index`-th of its numbers, in the manner of the text it replaces.
-    /// Most languages write whole numbers.
+    /// Writes one of a target's configuration data, the `index`-th of its numbers, in the manner of
+    /// the text it replaces. Most languages write whole numbers.
     fn write_configuration(
         &self,
         layout: Layout,
@@ -198,14 +201,16 @@ pub trait Language: Sync {
         out.extend_from_slice(format!("{value}").as_bytes());
     }
 
-    /// What stands before and behind the `index`-th number of a target where it is put into a text that leaves it out.
+    /// What stands before and behind the `index`-th number of a target where it is put into a text
+    /// that leaves it out.
     fn around_missing(&self, layout: Layout, index: usize) -> (&'static str, &'static str) {
         let _ = (layout, index);
         ("", "")
     }
 
-    /// Text that puts moves between those of one file, which is the `file`-th of the sources. A move that cannot be
-    /// repeated, because its text does more than go to its target, is refused; by default all are.
+    /// Text that puts moves between those of one file, which is the `file`-th of the sources. A
+    /// move that cannot be repeated, because its text does more than go to its target, is
+    /// refused; by default all are.
     fn insert(
         &self,
         sources: &[Source],
@@ -217,13 +222,14 @@ pub trait Language: Sync {
         Inserted::none(insertions)
     }
 
-    /// The names of external axes in the order of their offsets, see [`crate::program::ExternalState::offset`].
+    /// The names of external axes in the order of their offsets, see
+    /// [`crate::program::ExternalState::offset`].
     fn external_names(&self) -> [&'static str; 6] {
         ["E1", "E2", "E3", "E4", "E5", "E6"]
     }
 
-    /// A program that drives through configurations; `None` where none can be written in this language, or not with these
-    /// settings.
+    /// A program that drives through configurations; `None` where none can be written in this
+    /// language, or not with these settings.
     fn drive(&self, steps: &[Step], settings: &Settings) -> Option<String> {
         let _ = (steps, settings);
         None

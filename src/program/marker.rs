@@ -26,7 +26,8 @@ pub struct Marker {
     pub profile_sha256: String,
     /// SHA-256 of the file it was made from.
     pub source_sha256: String,
-    /// What was decided against a default, in short words: findings that were accepted, limits that were raised.
+    /// What was decided against a default, in short words: findings that were accepted, limits
+    /// that were raised.
     pub decided: Vec<String>,
 }
 
@@ -43,8 +44,8 @@ impl Marker {
         lines
     }
 
-    /// The marker as lines of at most `WIDEST_COMMENT` characters, for languages whose controllers keep no longer comments: the
-    /// first 24 and 16 digits of the hashes.
+    /// The marker as lines of at most `WIDEST_COMMENT` characters, for languages whose controllers
+    /// keep no longer comments: the first 24 and 16 digits of the hashes.
     #[must_use]
     pub fn short_lines(&self) -> Vec<String> {
         let profile = format!("profile {:.24}", self.profile_sha256);
@@ -62,7 +63,8 @@ impl Marker {
         lines
     }
 
-    /// Offset of a marker in a file, where there is one: any of its lines is enough, in any case and spacing.
+    /// Offset of a marker in a file, where there is one: any of its lines is enough, in any case
+    /// and spacing.
     #[must_use]
     pub fn find(bytes: &[u8]) -> Option<usize> {
         let found = Found::of(bytes);
@@ -152,7 +154,8 @@ fn sentence(bytes: &[u8], at: usize) -> bool {
     at.is_some()
 }
 
-/// Bytes that are neither letters nor digits: blanks, the end of a line and the sign of the next comment.
+/// Bytes that are neither letters nor digits: blanks, the end of a line and the sign of the next
+/// comment.
 fn gap(bytes: &[u8]) -> usize {
     let gap = bytes.iter().take(WIDEST_GAP);
     gap.take_while(|b| !b.is_ascii_alphanumeric()).count()

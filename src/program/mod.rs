@@ -1,8 +1,9 @@
 //! Robot programs as bytes, and the targets in them.
 //!
-//! A [`Language`] reads program files into a [`Program`]: which numbers at which bytes make a target, and which moves drive
-//! to it with which tool in which work frame. It never evaluates kinematics. Writing is the reverse: the new numbers of a
-//! target replace the digits at their spans, in the style of the digits that stood there ([`number`]), and every other byte
+//! A [`Language`] reads program files into a [`Program`]: which numbers at which bytes make a
+//! target, and which moves drive to it with which tool in which work frame. It never evaluates
+//! kinematics. Writing is the reverse: the new numbers of a target replace the digits at their
+//! spans, in the style of the digits that stood there ([`number`]), and every other byte
 //! stays as it was ([`Edits`]).
 //!
 //! # Example
@@ -78,8 +79,8 @@ pub fn has_extension(language: &dyn Language, path: &Path) -> bool {
     extension.is_some_and(|e| language.about().extensions.contains(&e.as_str()))
 }
 
-/// The language of a file: the one whose ending it has and whose content it shows, else the only one whose content it
-/// shows, else the only one whose ending it has.
+/// The language of a file: the one whose ending it has and whose content it shows, else the only
+/// one whose content it shows, else the only one whose ending it has.
 #[must_use]
 pub fn language_of(source: &Source) -> Option<&'static dyn Language> {
     let ends =
@@ -112,7 +113,8 @@ pub enum Shape {
 pub struct Layout {
     /// Pose or joints.
     pub shape: Shape,
-    /// Which of the language's own forms: with or without configuration data, Euler angles or quaternion, degrees or pulses.
+    /// Which of the language's own forms: with or without configuration data, Euler angles or
+    /// quaternion, degrees or pulses.
     pub variant: u8,
 }
 
@@ -130,7 +132,8 @@ pub struct External {
 pub struct ExternalNames {
     /// Those of which it is known what they carry.
     pub listed: Vec<String>,
-    /// Encoder pulses of one millimetre or degree of each of these, for programs that count in pulses.
+    /// Encoder pulses of one millimetre or degree of each of these, for programs that count in
+    /// pulses.
     pub pulses: Vec<Option<f64>>,
     /// Those that carry nothing a pose depends on, and units of such.
     pub ignored: Vec<String>,
@@ -143,7 +146,8 @@ pub struct ExternalNames {
 pub struct ExternalState {
     /// What is added, in the units and the order of the language.
     pub offset: [f64; 6],
-    /// Axes, bit by bit by their index in [`ExternalNames::listed`], that stand elsewhere than targets say.
+    /// Axes, bit by bit by their index in [`ExternalNames::listed`], that stand elsewhere than
+    /// targets say.
     pub off: u16,
     /// Where the program says so: file and byte.
     pub since: Option<(u32, u32)>,
@@ -245,7 +249,8 @@ pub struct Configuration {
     pub joint_5_negative: Option<bool>,
     /// The range `[low, high)` of each of the controller's joint angles, radians.
     pub joints: [Option<(f64, f64)>; 6],
-    /// Which of the three sides above, in their order, are those of the posture before where they are not told.
+    /// Which of the three sides above, in their order, are those of the posture before where they
+    /// are not told.
     pub kept: [bool; 3],
 }
 
@@ -263,9 +268,11 @@ pub struct Posture {
 /// A number at its place in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
-    /// First byte of its field: the sign or first digit, or the blanks before it where the column is kept.
+    /// First byte of its field: the sign or first digit, or the blanks before it where the column
+    /// is kept.
     pub start: u32,
-    /// Bytes of the field; 0 where the text leaves the number out, which then is 0 and would stand there.
+    /// Bytes of the field; 0 where the text leaves the number out, which then is 0 and would stand
+    /// there.
     pub length: u16,
     /// Its value in the file's unit.
     pub value: f64,
@@ -303,8 +310,8 @@ pub struct Target {
     pub end: u32,
     /// Which numbers it has.
     pub layout: Layout,
-    /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`]. None where it is blocked because it has no
-    /// numbers of its own.
+    /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`]. None where it is
+    /// blocked because it has no numbers of its own.
     pub numbers: Range<u32>,
     /// It must stay as it is; a finding says why.
     pub blocked: bool,
@@ -332,7 +339,8 @@ pub enum Displacement {
     By(Box<Shift>),
     /// Something that only the running program knows.
     Unknown,
-    /// The running program puts numbers of its own in the place of some of a copy's: these lose their correction.
+    /// The running program puts numbers of its own in the place of some of a copy's: these lose
+    /// their correction.
     Overwritten,
 }
 
@@ -381,7 +389,8 @@ impl SpeedZone {
     }
 }
 
-/// One use of a target by a move instruction with one tool in one work frame, in the order of the text.
+/// One use of a target by a move instruction with one tool in one work frame, in the order of the
+/// text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
     /// Index of the file in the sources.
@@ -410,7 +419,8 @@ pub struct Move {
     pub tool_written: Option<Place>,
     /// Likewise its work frame.
     pub frame_written: Option<Place>,
-    /// What is done to external axes beside the target: from 1 an index in [`Program::external_states`], 0 is nothing.
+    /// What is done to external axes beside the target: from 1 an index in
+    /// [`Program::external_states`], 0 is nothing.
     pub external_state: u32,
 }
 
@@ -497,7 +507,8 @@ impl Frame {
 /// Where external axes stand at a move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stand {
-    /// By index in [`ExternalNames::listed`], metres and radians; those that no pose of the move depends on are not a number.
+    /// By index in [`ExternalNames::listed`], metres and radians; those that no pose of the move
+    /// depends on are not a number.
     pub values: Box<[f64]>,
     /// Direction in which each moves there: −1, +1, or 0 where it is unknown.
     pub directions: Box<[f64]>,
@@ -559,7 +570,8 @@ impl Program {
         text.near.as_deref()
     }
 
-    /// The moves that may come before a move: each [`Before::Start`], [`Before::Anywhere`] or [`Before::One`].
+    /// The moves that may come before a move: each [`Before::Start`], [`Before::Anywhere`] or
+    /// [`Before::One`].
     pub fn before<'a>(&'a self, motion: &'a Move) -> &'a [Before] {
         match motion.before {
             Before::Several(at) => &self.befores[at as usize],

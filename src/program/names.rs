@@ -1,7 +1,7 @@
 //! Names, and what they mean where they are used.
 //!
-//! Names are case-insensitive. Data of a routine hide those of its module, those of a module hide those of others; LOCAL data
-//! are seen in their own module only.
+//! Names are case-insensitive. Data of a routine hide those of its module, those of a module hide
+//! those of others; LOCAL data are seen in their own module only.
 
 use crate::program::Source;
 use crate::program::script::short;

@@ -1,4 +1,5 @@
-//! How targets are written as numbers, where several languages write them so: poses, and configuration data.
+//! How targets are written as numbers, where several languages write them so: poses, and
+//! configuration data.
 
 use super::{Posture, Role};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -54,9 +55,10 @@ pub(super) fn write_angles(pose: &Pose, beyond_deg: f64, n: &mut [f64]) {
     n[3..6].copy_from_slice(&nearest_angles(&pose.rotation, present, beyond_deg));
 }
 
-/// Angles about x, y, z in degrees, `Rz · Ry · Rx`, as the present ones are written: of the two triples that every rotation
-/// has the one with y beyond a quarter turn only where the present one is; of the turns of each angle that nearest to the
-/// present angle, but within a half turn, and `beyond_deg` that cannot be seen in the file, where the present one is.
+/// Angles about x, y, z in degrees, `Rz · Ry · Rx`, as the present ones are written: of the two
+/// triples that every rotation has the one with y beyond a quarter turn only where the present one
+/// is; of the turns of each angle that nearest to the present angle, but within a half turn, and
+/// `beyond_deg` that cannot be seen in the file, where the present one is.
 pub(super) fn nearest_angles(rotation: &Rotation, present: [f64; 3], beyond_deg: f64) -> [f64; 3] {
     let [z, y, x] = rotation.rzryrx(present[0] * DEG).map(|angle| angle / DEG);
     let near = |angles: [f64; 3]| -> [f64; 3] {
@@ -80,7 +82,8 @@ pub(super) fn nearest_angles(rotation: &Rotation, present: [f64; 3], beyond_deg:
     })
 }
 
-/// The pose of x, y, z in mm and angles in degrees about x, then the new y, then the new z: `Rx · Ry · Rz`.
+/// The pose of x, y, z in mm and angles in degrees about x, then the new y, then the new z: `Rx ·
+/// Ry · Rz`.
 pub(super) fn pose_of_turning_angles(n: [f64; 6]) -> Pose {
     let inverse = Rotation::from_rzryrx([-n[5] * DEG, -n[4] * DEG, -n[3] * DEG]);
     Pose {
@@ -97,8 +100,8 @@ pub(super) fn write_turning_angles(pose: &Pose, n: &mut [f64]) {
     n[3..6].copy_from_slice(&angles.map(|angle| -angle));
 }
 
-/// Whether what configuration data say was `right` of the posture before, and is not of that after. It hangs on one joint,
-/// and near a border of that both sides are right.
+/// Whether what configuration data say was `right` of the posture before, and is not of that after.
+/// It hangs on one joint, and near a border of that both sides are right.
 pub(super) fn truly_changes(
     before: &Posture,
     after: &Posture,
@@ -115,8 +118,8 @@ pub(super) fn truly_changes(
     is_right(before) && !is_right(after)
 }
 
-/// Changes each of the present configuration data that truly changes to that of the posture after; leaves the others. `of`
-/// gives those of a posture, `joints` the joint of each.
+/// Changes each of the present configuration data that truly changes to that of the posture after;
+/// leaves the others. `of` gives those of a posture, `joints` the joint of each.
 pub(super) fn update<const COUNT: usize>(
     of: impl Fn(&Posture) -> [f64; COUNT],
     joints: [usize; COUNT],

@@ -7,7 +7,8 @@ const CONTROLLER_DECIMALS: usize = 6;
 /// Below this a number whose old text had an exponent is written with one again.
 const EXPONENT_BELOW: f64 = 1e-4;
 
-/// The value of a decimal number: `12`, `-.5`, `3.`, `+1.5E-04`. `None` where the text is anything else or not finite.
+/// The value of a decimal number: `12`, `-.5`, `3.`, `+1.5E-04`. `None` where the text is anything
+/// else or not finite.
 #[must_use]
 pub fn parse(text: &[u8]) -> Option<f64> {
     if let Some((value, length)) = parse_start(text)
@@ -28,9 +29,9 @@ const EXACT_POWERS: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// The value and length of the number that `text` starts with, where its digits make a whole number below 2^53 and its power
-/// of ten is at most 22: one exact product or quotient rounds it as well as any longer way does. `None` for all others, and
-/// where no number stands.
+/// The value and length of the number that `text` starts with, where its digits make a whole number
+/// below 2^53 and its power of ten is at most 22: one exact product or quotient rounds it as well
+/// as any longer way does. `None` for all others, and where no number stands.
 ///
 /// # Source
 /// W. D. Clinger, "How to read floating point numbers accurately", PLDI 1990, section 5.
@@ -123,7 +124,8 @@ impl Fraction {
     }
 }
 
-/// How the numbers of one group (the coordinates of one position, the parts of one orientation) are written.
+/// How the numbers of one group (the coordinates of one position, the parts of one orientation) are
+/// written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
     /// Digits after the point.
@@ -133,8 +135,9 @@ pub struct Style {
 }
 
 impl Style {
-    /// The style of a group: as many decimals as its most precise number in fixed notation has, so that a `0` or `500`
-    /// among numbers with decimals is not taken for one that may not have any. `at_least` raises them.
+    /// The style of a group: as many decimals as its most precise number in fixed notation has, so
+    /// that a `0` or `500` among numbers with decimals is not taken for one that may not have
+    /// any. `at_least` raises them.
     pub fn of_group<'a>(
         texts: impl Iterator<Item = &'a [u8]>,
         at_least: usize,
@@ -152,10 +155,12 @@ impl Style {
         Self { decimals, fraction }
     }
 
-    /// Appends `value` in this style, with the sign habit, exponent letter and column width of the text it replaces.
+    /// Appends `value` in this style, with the sign habit, exponent letter and column width of the
+    /// text it replaces.
     ///
-    /// A field that starts with blanks keeps its last column where the new number fits. Zero never gets a minus sign, and
-    /// an exponent is written only where the old text had one and the number is below 1e-4.
+    /// A field that starts with blanks keeps its last column where the new number fits. Zero never
+    /// gets a minus sign, and an exponent is written only where the old text had one and the
+    /// number is below 1e-4.
     pub fn write(self, old: &[u8], value: f64, out: &mut Vec<u8>) {
         let start = out.len();
         let text = trimmed(old);

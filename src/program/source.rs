@@ -11,7 +11,8 @@ pub struct Source {
     pub name: String,
     /// Its content.
     pub bytes: Vec<u8>,
-    /// It is read for what it declares, and stays as it is: others use its tools, frames, targets and routines.
+    /// It is read for what it declares, and stays as it is: others use its tools, frames, targets
+    /// and routines.
     pub is_context: bool,
     /// First byte of each line.
     line_starts: OnceLock<Vec<usize>>,
@@ -52,7 +53,8 @@ impl Source {
         Some(line.strip_suffix(b"\r").unwrap_or(line))
     }
 
-    /// Line and column of a byte, both from 1; lines end with LF, CR LF or CR. The column counts bytes.
+    /// Line and column of a byte, both from 1; lines end with LF, CR LF or CR. The column counts
+    /// bytes.
     #[must_use]
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
         let starts = self.line_starts();

@@ -1,8 +1,10 @@
-//! Joint axes from sweeps of one joint at a time: circles, and from pairs of them the base and the tool.
+//! Joint axes from sweeps of one joint at a time: circles, and from pairs of them the base and the
+//! tool.
 //!
-//! Two skew lines carry a frame: z along the first, x the part of the second's direction across it, the origin where their
-//! common perpendicular meets the first. The frame of the nominal axes 1 and 2 in the base, laid on the same frame of the
-//! measured axes, gives `world_from_base`; axes 6 and 5 give `world_from_flange` and so the measured point in the flange frame.
+//! Two skew lines carry a frame: z along the first, x the part of the second's direction across it,
+//! the origin where their common perpendicular meets the first. The frame of the nominal axes 1 and
+//! 2 in the base, laid on the same frame of the measured axes, gives `world_from_base`; axes 6 and
+//! 5 give `world_from_flange` and so the measured point in the flange frame.
 //!
 //! # Source
 //! A. Nubiola, thesis, sec. 2.3 and table 2.3.
@@ -66,7 +68,8 @@ pub struct Axis {
     pub line: Line,
     /// Radius of the circle, metres.
     pub radius_m: f64,
-    /// Standard deviation of a coordinate off the circle, metres; `None` where three rows leave nothing to tell it by.
+    /// Standard deviation of a coordinate off the circle, metres; `None` where three rows leave
+    /// nothing to tell it by.
     pub noise_m: Option<f64>,
     /// Angle on the circle minus the commanded one, mean taken off, radians.
     pub tangential_rad: Vec<f64>,
@@ -74,7 +77,8 @@ pub struct Axis {
     pub radial_m: Vec<f64>,
     /// Distance from its plane, metres.
     pub axial_m: Vec<f64>,
-    /// Full width of the backlash and its standard uncertainty, radians; where both directions were measured.
+    /// Full width of the backlash and its standard uncertainty, radians; where both directions
+    /// were measured.
     pub backlash_rad: Option<(f64, f64)>,
 }
 
@@ -83,7 +87,8 @@ pub struct Axis {
 pub struct Placed {
     /// Base: `world_from_base`. Tool: `flange_from_tool`.
     pub pose: Pose,
-    /// What the noise of the points does to it, along the axes of the frame mapped into; `None` where the noise is not known.
+    /// What the noise of the points does to it, along the axes of the frame mapped into; `None`
+    /// where the noise is not known.
     pub covariance: Option<PoseCovariance>,
     /// Whether the orientation was measured (a base always is; a tool where rows have poses).
     pub oriented: bool,
@@ -228,7 +233,8 @@ fn fitted(sweep: &Sweep, profile: &Profile) -> Result<Axis, AxesError> {
     })
 }
 
-/// The swept joint's mechanical angles in the controller's sense, after a check that the others stand still.
+/// The swept joint's mechanical angles in the controller's sense, after a check that the others
+/// stand still.
 fn mechanical(sweep: &Sweep, profile: &Profile) -> Result<Vec<f64>, AxesError> {
     let joint = sweep.joint + 1;
     let all: Vec<[f64; 6]> = sweep
@@ -318,7 +324,8 @@ fn tangential(angles: &[f64], turned: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Backlash beside what compliance and eccentricity do smoothly: least squares of `o + (b/2) dir + c cos q + s sin q`.
+/// Backlash beside what compliance and eccentricity do smoothly: least squares of `o + (b/2) dir +
+/// c cos q + s sin q`.
 fn backlash(sweep: &Sweep, left: &[f64], turned: &[f64]) -> Option<(f64, f64)> {
     let directions: Vec<f64> = sweep.rows.iter().map(|row| row.direction).collect();
     let both = [1.0, -1.0].map(|d| directions.iter().filter(|x| **x == d).count());
@@ -449,8 +456,8 @@ pub fn base(first: &Sweep, second: &Sweep, profile: &Profile) -> Result<Placed, 
     placed(base_of, [first, second], &axes, profile, true)
 }
 
-/// The measured point, and the tool's orientation where it was measured, in the flange frame, from the sweeps of joints 5
-/// and 6 made in one posture of the others.
+/// The measured point, and the tool's orientation where it was measured, in the flange frame, from
+/// the sweeps of joints 5 and 6 made in one posture of the others.
 ///
 /// # Errors
 /// As [`axis`]; sweeps in different postures; parallel axes.

@@ -1,4 +1,5 @@
-//! Features from touches: planes, spheres, circles (holes), and what the probe's radius does to them.
+//! Features from touches: planes, spheres, circles (holes), and what the probe's radius does to
+//! them.
 
 use super::kabsch::scatter;
 use super::linear::svd;
@@ -6,7 +7,8 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Vector, add, cross, dot, norm, scale, sub};
 use nalgebra::{DMatrix, DVector};
 
-/// Points in a plane or line whose extent across it is below this part of their length do not fix a feature.
+/// Points in a plane or line whose extent across it is below this part of their length do not fix a
+/// feature.
 const FLAT: f64 = 1e-3;
 /// Largest number of Gauss–Newton steps.
 const STEPS: usize = 50;
@@ -74,7 +76,8 @@ pub struct Round {
     pub residuals_m: Vec<f64>,
     /// Distance of each touch from a circle's plane, metres; empty for a sphere.
     pub axial_m: Vec<f64>,
-    /// Covariance of the centre's coordinates for touches of standard deviation one: times σ² it is in m².
+    /// Covariance of the centre's coordinates for touches of standard deviation one: times σ² it
+    /// is in m².
     pub centre_covariance: [[f64; 3]; 3],
     /// Standard uncertainty of the radius for touches of standard deviation one.
     pub radius_sigma: f64,
@@ -165,7 +168,8 @@ pub fn sphere(points: &[Vector]) -> Result<Round, FeatureError> {
     round("sphere", points)
 }
 
-/// The circle in space through touches: their plane, and in it the circle with the least squared distances.
+/// The circle in space through touches: their plane, and in it the circle with the least squared
+/// distances.
 ///
 /// # Errors
 /// Fewer than three touches, all in a line, or no convergence.
@@ -323,7 +327,8 @@ fn solve(rows: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     &svd.right * along
 }
 
-/// A touched surface point from the centre of the probe's ball, the ball's radius and the surface's outward normal.
+/// A touched surface point from the centre of the probe's ball, the ball's radius and the surface's
+/// outward normal.
 #[must_use]
 pub fn compensated(ball_centre_m: Vector, probe_radius_m: f64, outward: Vector) -> Vector {
     let length = norm(outward);

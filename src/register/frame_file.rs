@@ -9,8 +9,9 @@
 //! provenance: {method: kabsch, from: nominal.csv, to: probed.csv}
 //! ```
 //!
-//! `pose` is written as in profiles (three angles or a quaternion); `sigma` are standard uncertainties of the place of
-//! FROM's origin and of turns about the axes of TO. Only `poseshift` and `pose` are required; unknown keys are errors.
+//! `pose` is written as in profiles (three angles or a quaternion); `sigma` are standard
+//! uncertainties of the place of FROM's origin and of turns about the axes of TO. Only `poseshift`
+//! and `pose` are required; unknown keys are errors.
 
 use super::uncertainty::PoseCovariance;
 use crate::geometry::Pose;
@@ -31,7 +32,8 @@ pub const FORMAT: &str = "frame/1";
 pub struct Frame {
     /// Maps coordinates of the first frame (FROM) into the second (TO).
     pub to_from_from: Pose,
-    /// Standard uncertainties: place of FROM's origin in metres, turns about the axes of TO in radians.
+    /// Standard uncertainties: place of FROM's origin in metres, turns about the axes of TO in
+    /// radians.
     pub sigma: Option<Sigma>,
     /// Root mean square distance of the points, metres.
     pub rmsd_m: Option<f64>,

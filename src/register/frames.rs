@@ -8,7 +8,8 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
-/// A point nearer to a line than this part of the line's length does not say which way a frame turns about it.
+/// A point nearer to a line than this part of the line's length does not say which way a frame
+/// turns about it.
 const BESIDE: f64 = 1e-3;
 
 /// Why touches give no frame.
@@ -86,7 +87,8 @@ fn from_axes(x: Vector, z: Vector, origin: Vector) -> Pose {
     }
 }
 
-/// The frame with its origin at the first point, x toward the second, and the third in the xy plane with y > 0.
+/// The frame with its origin at the first point, x toward the second, and the third in the xy plane
+/// with y > 0.
 ///
 /// # Errors
 /// If two points coincide or the third lies on the x axis.
@@ -103,7 +105,8 @@ pub fn three_points([origin, on_x, in_xy]: [Vector; 3]) -> Result<Pose, FrameErr
 /// Touches of the three datums of a part, centres of the probe's ball, metres.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Datums {
-    /// At least three on the primary plane, the first three counter-clockwise seen from outside: z points out of the part.
+    /// At least three on the primary plane, the first three counter-clockwise seen from outside: z
+    /// points out of the part.
     pub primary_m: Vec<Vector>,
     /// At least two on the secondary plane, in the order of +x; the part lies on its +y side.
     pub secondary_m: Vec<Vector>,
@@ -111,9 +114,9 @@ pub struct Datums {
     pub tertiary_m: Vec<Vector>,
 }
 
-/// The 3-2-1 frame: z is the primary plane's normal, x the direction of the secondary touches in it, the origin where the
-/// three datum planes meet. The probe's ball stands outside the part: above the primary, before the secondary in −y and the
-/// tertiary in −x.
+/// The 3-2-1 frame: z is the primary plane's normal, x the direction of the secondary touches in
+/// it, the origin where the three datum planes meet. The probe's ball stands outside the part:
+/// above the primary, before the secondary in −y and the tertiary in −x.
 ///
 /// # Errors
 /// Too few touches, or touches that leave a direction open.
@@ -174,7 +177,8 @@ pub fn three_two_one(touches: &Datums, probe_radius_m: f64) -> Result<Pose, Fram
 
 /// Carries the noise of touches through a construction by central differences.
 ///
-/// `inputs_m` are the touched points, `sigmas_m` the standard deviation of each one's coordinates; `construct` gives the frame.
+/// `inputs_m` are the touched points, `sigmas_m` the standard deviation of each one's coordinates;
+/// `construct` gives the frame.
 ///
 /// # Errors
 /// As `construct`.
@@ -234,11 +238,13 @@ pub struct FeatureFit {
     pub covariance: PoseCovariance,
 }
 
-/// Fits the motion that carries nominal points to measured ones and nominal planes to their touches, all with the same
-/// standard deviation: Gauss–Newton on `T p − q` and `n·(T⁻¹ q − p) − r` from a closed-form start.
+/// Fits the motion that carries nominal points to measured ones and nominal planes to their
+/// touches, all with the same standard deviation: Gauss–Newton on `T p − q` and `n·(T⁻¹ q − p) − r`
+/// from a closed-form start.
 ///
 /// # Errors
-/// If a plane cannot be fitted or points and planes together leave a motion free; the motion is named.
+/// If a plane cannot be fitted or points and planes together leave a motion free; the motion is
+/// named.
 pub fn points_and_planes(
     points: &[(Vector, Vector)],
     planes: &[TouchedPlane],
@@ -364,7 +370,8 @@ fn refuse_free(svd: &linear::Svd) -> Result<(), FrameError> {
     })
 }
 
-/// Rotation from matched directions (normals, and points from their centre), translation by least squares.
+/// Rotation from matched directions (normals, and points from their centre), translation by least
+/// squares.
 fn start(
     points: &[(Vector, Vector)],
     planes: &[TouchedPlane],

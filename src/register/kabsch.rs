@@ -26,7 +26,8 @@ pub struct Fit {
     pub from_centre_m: Vector,
     /// Weighted centre of the TO points, metres.
     pub to_centre_m: Vector,
-    /// Scale of a similarity fitted to the same points: 1 where both sets have the same units and temperature.
+    /// Scale of a similarity fitted to the same points: 1 where both sets have the same units and
+    /// temperature.
     pub scale: f64,
     /// Number of points with a weight above zero.
     pub count: usize,
@@ -99,18 +100,22 @@ impl Sums {
     }
 }
 
-/// The rotation and translation that carry `from` to `to` with the least sum of weighted squared distances.
+/// The rotation and translation that carry `from` to `to` with the least sum of weighted squared
+/// distances.
 ///
-/// Centroids, `H = Σ w (p − p̄)(q − q̄)ᵀ = U S Vᵀ`, `R = V diag(1, 1, det(V Uᵀ)) Uᵀ`, `t = q̄ − R p̄`. One pass over the points.
+/// Centroids, `H = Σ w (p − p̄)(q − q̄)ᵀ = U S Vᵀ`, `R = V diag(1, 1, det(V Uᵀ)) Uᵀ`, `t = q̄ − R p̄`.
+/// One pass over the points.
 ///
-/// Shapes: as many points in both sets, metres; as many weights (1/σ², any unit), or none for equal ones.
+/// Shapes: as many points in both sets, metres; as many weights (1/σ², any unit), or none for equal
+/// ones.
 ///
 /// # Errors
-/// If the numbers of points differ, a number is not finite, or the sets are fewer than three, coincident, collinear, of
-/// different units, or mirrored; see [`RegisterError`].
+/// If the numbers of points differ, a number is not finite, or the sets are fewer than three,
+/// coincident, collinear, of different units, or mirrored; see [`RegisterError`].
 ///
 /// # Source
-/// W. Kabsch (1976); S. Umeyama, "Least-squares estimation of transformation parameters between two point patterns" (1991).
+/// W. Kabsch (1976); S. Umeyama, "Least-squares estimation of transformation parameters between two
+/// point patterns" (1991).
 pub fn kabsch(
     from: &[Vector],
     to: &[Vector],
@@ -158,7 +163,8 @@ pub fn kabsch(
     if !(1.0 / UNITS..UNITS).contains(&ratio) {
         return Err(RegisterError::Units { ratio });
     }
-    // rank 2 (points in a plane) leaves the third columns open: a right-handed completion is the rotation
+    // rank 2 (points in a plane) leaves the third columns open: a right-handed completion is the
+    // rotation
     let column = |m: &DMatrix<f64>, j: usize| [m[(0, j)], m[(1, j)], m[(2, j)]];
     let handed = |m: &DMatrix<f64>| {
         let (x, y) = (column(m, 0), column(m, 1));
@@ -168,7 +174,8 @@ pub fn kabsch(
     let rotation = Rotation(std::array::from_fn(|i| {
         std::array::from_fn(|j| (0..3).map(|k| v[k][i] * u[k][j]).sum())
     }));
-    // with the third columns completed right-handed, S3 counts negative where the true ones differ in hand
+    // with the third columns completed right-handed, S3 counts negative where the true ones differ
+    // in hand
     let third: f64 = (0..3)
         .flat_map(|i| (0..3).map(move |j| (i, j)))
         .map(|(i, j)| u[2][i] * h[(i, j)] * v[2][j])
@@ -190,7 +197,8 @@ pub fn kabsch(
     })
 }
 
-/// A mirror image fits better than any rotation, by more than noise can make a flat set seem turned over.
+/// A mirror image fits better than any rotation, by more than noise can make a flat set seem turned
+/// over.
 fn refuse_mirrored(
     values: &nalgebra::DVector<f64>,
     third: f64,
@@ -262,7 +270,8 @@ pub(crate) fn scatter(points: &[Vector], weights: Option<&[f64]>) -> (Vector, Ma
 }
 
 impl Fit {
-    /// What is left of each point: its place in TO minus where the motion carries it from FROM, metres.
+    /// What is left of each point: its place in TO minus where the motion carries it from FROM,
+    /// metres.
     #[must_use]
     pub fn residuals_m(&self, from: &[Vector], to: &[Vector]) -> Vec<Vector> {
         let pose = &self.to_from_from;
@@ -283,8 +292,8 @@ impl Fit {
         (sum / total).sqrt()
     }
 
-    /// The covariance of the motion where each coordinate of a point has standard deviation `sigma_m` (FROM and TO together)
-    /// at weight one, metres.
+    /// The covariance of the motion where each coordinate of a point has standard deviation
+    /// `sigma_m` (FROM and TO together) at weight one, metres.
     ///
     /// # Panics
     /// If these are not the points of the fit but others in a line.
@@ -318,8 +327,8 @@ impl Fit {
     }
 }
 
-/// Standard deviation of one coordinate at weight one, from what is left of `count` points after a fit of six numbers,
-/// metres: `√(Σ w |r|² / (3 n − 6))`.
+/// Standard deviation of one coordinate at weight one, from what is left of `count` points after a
+/// fit of six numbers, metres: `√(Σ w |r|² / (3 n − 6))`.
 #[must_use]
 pub fn noise_m(residuals_m: &[Vector], weights: Option<&[f64]>) -> f64 {
     let weight = |i: usize| weights.map_or(1.0, |w| w[i]);

@@ -18,7 +18,8 @@ const SWEEPS: usize = 60;
 
 /// Singular value decomposition of a matrix with at least as many rows as columns.
 ///
-/// One-sided Jacobi: columns are turned in pairs until all are orthogonal. A tall matrix is reduced by QR first.
+/// One-sided Jacobi: columns are turned in pairs until all are orthogonal. A tall matrix is reduced
+/// by QR first.
 ///
 /// # Source
 /// G. Golub, C. Van Loan, "Matrix Computations", sec. 8.6.3 (M. Hestenes 1958).

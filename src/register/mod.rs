@@ -1,4 +1,5 @@
-//! The measuring side of the cell: where the part, the camera and the base frame stand, with what uncertainty.
+//! The measuring side of the cell: where the part, the camera and the base frame stand, with what
+//! uncertainty.
 //!
 //! | module | from | to |
 //! |---|---|---|
@@ -6,8 +7,8 @@
 //! | [`features`], [`frames`] | probe touches | spheres, planes, holes; 3-2-1 and 3-point frames |
 //! | [`uncertainty`] | the noise of points | six standard uncertainties, error ellipsoids |
 //!
-//! Lengths are metres, angles radians. A motion found here maps coordinates of the first set (FROM: the simulation, the
-//! nominal part) into the second (TO: the cell as measured).
+//! Lengths are metres, angles radians. A motion found here maps coordinates of the first set (FROM:
+//! the simulation, the nominal part) into the second (TO: the cell as measured).
 //!
 //! # Example
 //!

@@ -8,9 +8,11 @@ use crate::geometry::{Vector, dot};
 const TRIPLES: usize = 3000;
 /// Median of χ² with three degrees of freedom.
 const MEDIAN_CHI2_3: f64 = 2.366;
-/// A touch is bad if its distance is more than this many standard deviations of a coordinate: χ² of three at 99.97 %.
+/// A touch is bad if its distance is more than this many standard deviations of a coordinate: χ² of
+/// three at 99.97 %.
 pub const LIMIT: f64 = 4.35;
-/// Fewest points from which a bad one can be told: with four, one that is off across the plane of the others tilts them.
+/// Fewest points from which a bad one can be told: with four, one that is off across the plane of
+/// the others tilts them.
 pub const FEWEST: usize = 5;
 
 /// A touch that disagrees with the others.
@@ -39,14 +41,17 @@ pub struct Robust {
 
 /// Fits a rigid motion to the points that agree, and tells which do not.
 ///
-/// Motions through triples of points are judged by the median of the squared distances of all; the best gives the noise
-/// (unless `sigma_m` does) and the points within [`LIMIT`] of it. Fit and choice are repeated until they stay.
+/// Motions through triples of points are judged by the median of the squared distances of all; the
+/// best gives the noise (unless `sigma_m` does) and the points within [`LIMIT`] of it. Fit and
+/// choice are repeated until they stay.
 ///
 /// # Errors
-/// As [`kabsch`]; fewer than [`FEWEST`] points; or no motion that more than half of the points agree with.
+/// As [`kabsch`]; fewer than [`FEWEST`] points; or no motion that more than half of the points
+/// agree with.
 ///
 /// # Source
-/// P. Rousseeuw, "Least median of squares regression" (1984); M. Fischler, R. Bolles (1981) for the choice by triples.
+/// P. Rousseeuw, "Least median of squares regression" (1984); M. Fischler, R. Bolles (1981) for the
+/// choice by triples.
 pub fn robust(
     from: &[Vector],
     to: &[Vector],
@@ -120,7 +125,8 @@ pub fn robust(
     })
 }
 
-/// The faults of whole sets that no choice of points heals; a mirror image may be the work of bad touches.
+/// The faults of whole sets that no choice of points heals; a mirror image may be the work of bad
+/// touches.
 fn kabsch_of_whole(
     from: &[Vector],
     to: &[Vector],

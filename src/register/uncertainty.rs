@@ -3,10 +3,11 @@
 use crate::geometry::{Rotation, Vector, sub};
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 
-/// The covariance of a rigid motion: a small rotation vector ω (radians) and a small displacement τ (metres) of the point
-/// `centre_m`, both along the axes of the frame that the motion maps into.
+/// The covariance of a rigid motion: a small rotation vector ω (radians) and a small displacement τ
+/// (metres) of the point `centre_m`, both along the axes of the frame that the motion maps into.
 ///
-/// A point x of that frame moves by `τ + ω × (x − centre)`, so its error grows with the distance from the centre.
+/// A point x of that frame moves by `τ + ω × (x − centre)`, so its error grows with the distance
+/// from the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseCovariance {
     /// Where τ is told, metres.

@@ -9,8 +9,9 @@ use std::fmt::Write;
 /// Findings of one name that are shown before the rest is only counted.
 const SHOWN: usize = 5;
 
-/// One line a finding, `file:line:column: severity[id]: message`, with its hint once a name. Where `every` is false, notes
-/// are left out and of many findings of one name the first are shown and the rest is counted.
+/// One line a finding, `file:line:column: severity[id]: message`, with its hint once a name. Where
+/// `every` is false, notes are left out and of many findings of one name the first are shown and
+/// the rest is counted.
 #[must_use]
 pub(crate) fn text(findings: &[Finding], every: bool) -> String {
     let mut out = String::new();

@@ -2,8 +2,9 @@
 
 use crate::task::parts::Statistics;
 
-/// Signs that begin and end a colour in a text for people, and what a terminal takes for it. Unicode keeps them for use inside
-/// a program: whatever else steers a terminal can be kept from it.
+/// Signs that begin and end a colour in a text for people, and what a terminal takes for it.
+/// Unicode keeps them for use inside a program: whatever else steers a terminal can be kept from
+/// it.
 const COLOURS: [(char, &str); 4] = [
     (RED, "\x1b[1;31m"),
     (YELLOW, "\x1b[1;33m"),
@@ -33,7 +34,8 @@ fn letters(text: &str) -> usize {
     text.chars().filter(is_seen).count()
 }
 
-/// Where the rest of a broken line begins: below what stands behind its label, else a little further in.
+/// Where the rest of a broken line begins: below what stands behind its label, else a little
+/// further in.
 fn indent_of_rest(line: &str, width: usize) -> usize {
     let indent = line.chars().take_while(|c| *c == ' ').count();
     let letters: Vec<char> = line.chars().collect();
@@ -44,7 +46,8 @@ fn indent_of_rest(line: &str, width: usize) -> usize {
     value.filter(|at| *at <= width / 2).unwrap_or(indent + 2)
 }
 
-/// A line broken at spaces where it is wider than `width`. A space that does not break (U+00A0) is written as a space.
+/// A line broken at spaces where it is wider than `width`. A space that does not break (U+00A0) is
+/// written as a space.
 pub(crate) fn wrapped(line: &str, width: usize) -> String {
     broken(line, width, indent_of_rest(line, width)) + "\n"
 }
@@ -90,8 +93,8 @@ pub(crate) fn wrapped_lines(text: &str, width: usize) -> String {
     text.lines().map(|line| wrapped(line, width)).collect()
 }
 
-/// Columns of text, the first to the left and the others to the right. Columns for which there is no room follow below, again
-/// behind the first.
+/// Columns of text, the first to the left and the others to the right. Columns for which there is
+/// no room follow below, again behind the first.
 pub(crate) fn aligned(rows: &[Vec<String>], width: usize) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let widths: Vec<usize> = (0..count)

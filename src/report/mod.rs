@@ -1,4 +1,5 @@
-//! What people read of results: texts and pages, made of the structures of [`task`](crate::task) whose JSON is for programs.
+//! What people read of results: texts and pages, made of the structures of [`task`](crate::task)
+//! whose JSON is for programs.
 
 pub(crate) mod check;
 pub(crate) mod compensation;
@@ -24,8 +25,8 @@ pub trait Readable: Document {
     /// The text, without the findings.
     fn words(&self) -> String;
 
-    /// The page as one HTML file that needs no network; `None` of a result that there is nothing to look at of. `made` says at
-    /// its foot when and by what it was made.
+    /// The page as one HTML file that needs no network; `None` of a result that there is nothing to
+    /// look at of. `made` says at its foot when and by what it was made.
     fn html(&self, made: &str) -> Option<String>;
 }
 
@@ -100,7 +101,8 @@ pub(crate) trait Report: Document {
 /// Probabilities below this are said to be so: a number may be too small to be held.
 pub(crate) const LEAST_PROBABILITY: f64 = 1e-300;
 
-/// Text between the tags of HTML and XML, or in the quotes of an attribute; signs that neither has are left out.
+/// Text between the tags of HTML and XML, or in the quotes of an attribute; signs that neither has
+/// are left out.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {

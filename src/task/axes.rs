@@ -74,7 +74,8 @@ pub struct Joint {
     pub max_axial_mm: f64,
     /// Each row.
     pub rows: Rows,
-    /// Standard deviation of a coordinate; `null` where three rows leave nothing to estimate it from.
+    /// Standard deviation of a coordinate; `null` where three rows leave nothing to estimate it
+    /// from.
     pub noise_mm: Option<f64>,
 }
 
@@ -95,8 +96,8 @@ pub struct Axes {
     pub tool_sag: Option<Sag>,
     /// Whether the tool's orientation was measured.
     pub tool_oriented: Option<bool>,
-    /// Readings were moved into the controller's world by the profile's `calibration.world_from_device`; else the device's frame is
-    /// the world.
+    /// Readings were moved into the controller's world by the profile's
+    /// `calibration.world_from_device`; else the device's frame is the world.
     pub device_known: bool,
     /// The joints that were swept.
     pub joints: Vec<Joint>,

@@ -130,7 +130,8 @@ pub struct Calibration {
     pub base: Pose,
     /// Whether the measured base replaces the profile's.
     pub base_replaced: bool,
-    /// `world_from_device`: where the device stands in the controller's world, where that was identified.
+    /// `world_from_device`: where the device stands in the controller's world, where that was
+    /// identified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub world_from_device: Option<Pose>,
     /// Standard deviations of its numbers.
@@ -237,7 +238,8 @@ fn worst_row(found: &Found) -> Option<WorstRow> {
 }
 
 impl Calibration {
-    /// The profile with what was found, its statistics and where it comes from; `date` as the user writes it.
+    /// The profile with what was found, its statistics and where it comes from; `date` as the user
+    /// writes it.
     ///
     /// # Errors
     /// The profile's text is laid out so that the place of the calibration cannot be found.

@@ -71,7 +71,8 @@ impl Robot {
         }
     }
 
-    /// Whether every word of a search stands in its name, maker or model, whatever the case and punctuation.
+    /// Whether every word of a search stands in its name, maker or model, whatever the case and
+    /// punctuation.
     fn is_found_by(&self, search: &str) -> bool {
         let all = nearest::plain(&format!("{}{}{}", self.name, self.manufacturer, self.model));
         let mut words = search.split_whitespace().map(nearest::plain);

@@ -19,7 +19,8 @@ use serde::{Serialize, Serializer};
 
 /// What is to be checked.
 pub struct Request<'a> {
-    /// Program files that belong together; those that are read for their declarations only are marked so.
+    /// Program files that belong together; those that are read for their declarations only are
+    /// marked so.
     pub sources: &'a [Source],
     /// The program that says where the tool is wanted; `None` is the program itself.
     pub nominal: Option<&'a [Source]>,
@@ -63,11 +64,12 @@ pub struct Checking<'a> {
     nominal: Vec<String>,
 }
 
-/// Follows programs through the real robot; `hear` is called with how many of how many moves are done.
+/// Follows programs through the real robot; `hear` is called with how many of how many moves are
+/// done.
 ///
 /// # Errors
-/// Programs that are not understood, of several languages, or made from another original; an arm, a tool or a frame that is
-/// not known; a mesh or a cell that cannot be read.
+/// Programs that are not understood, of several languages, or made from another original; an arm, a
+/// tool or a frame that is not known; a mesh or a cell that cannot be read.
 pub fn check<'a>(
     request: &'a Request<'a>,
     hear: &mut dyn FnMut(usize, usize),
@@ -421,7 +423,8 @@ impl Document for Checked<'_> {
 }
 
 impl<'a> Checked<'a> {
-    /// What differs from a stored run, the text of its JSON; differences below `tolerance` in mm and degrees are none.
+    /// What differs from a stored run, the text of its JSON; differences below `tolerance` in mm
+    /// and degrees are none.
     ///
     /// # Errors
     /// A text that is no stored run.

@@ -1,4 +1,5 @@
-//! `compensate`: program files in, program files with fake targets out, and what became of every target.
+//! `compensate`: program files in, program files with fake targets out, and what became of every
+//! target.
 
 use super::parts::{Names, Pose};
 use super::programs::{LeftOut, common_language, explain, refuse_doubtful, refuse_marked};
@@ -20,7 +21,8 @@ const LEAST_PATH_ERROR_MM: f64 = 0.001;
 
 /// What is to be done.
 pub struct Request<'a> {
-    /// Program files that belong together; those that are read for their declarations only are marked so.
+    /// Program files that belong together; those that are read for their declarations only are
+    /// marked so.
     pub sources: &'a [Source],
     /// Their language where the user says it.
     pub language: Option<&'static dyn Language>,
@@ -60,7 +62,8 @@ pub struct Prepared<'a> {
 /// Computes fake targets for programs.
 ///
 /// # Errors
-/// Programs that are not understood, of several languages, or compensated already; an arm, a tool or a frame that is not known.
+/// Programs that are not understood, of several languages, or compensated already; an arm, a tool
+/// or a frame that is not known.
 ///
 /// # Panics
 /// By a fault of poseshift alone: the search for markers fails on no bytes.
@@ -153,8 +156,8 @@ impl Prepared<'_> {
             .collect()
     }
 
-    /// The new files, read again and compared with what was meant. Takes what was computed, so that a long program is not in
-    /// memory twice.
+    /// The new files, read again and compared with what was meant. Takes what was computed, so that
+    /// a long program is not in memory twice.
     ///
     /// # Errors
     /// They would not say what was meant: a fault of this program.
@@ -348,7 +351,8 @@ pub struct Summary {
     pub max_shift_mm: f64,
     /// Largest residual of the search.
     pub max_residual_mm: f64,
-    /// Largest distance of the real tool from the wanted poses with the numbers as they are written.
+    /// Largest distance of the real tool from the wanted poses with the numbers as they are
+    /// written.
     pub max_rounding_mm: f64,
     /// Largest angle likewise.
     pub max_rounding_deg: f64,

@@ -237,7 +237,8 @@ pub struct Compared {
     pub before: SpreadMm,
     /// With them.
     pub after: SpreadMm,
-    /// All that the profile has was fitted again without these rows, for both; else the profile is taken as it is.
+    /// All that the profile has was fitted again without these rows, for both; else the profile is
+    /// taken as it is.
     pub refitted: bool,
     /// Probability that the effects found are better by so much by chance.
     pub p_value: Option<f64>,
@@ -492,7 +493,8 @@ pub fn diagnose(
 }
 
 impl Diagnosis {
-    /// Whether the answer is sure enough to be written: a verdict, or effects that a person asked for.
+    /// Whether the answer is sure enough to be written: a verdict, or effects that a person asked
+    /// for.
     #[must_use]
     pub fn is_sure(&self) -> bool {
         let found = &self.found.found;
@@ -500,7 +502,8 @@ impl Diagnosis {
             || !found.is_empty() && found.iter().all(|f| f.accepted)
     }
 
-    /// Errors on rows not used, step by step from the present model to everything found; none without such rows.
+    /// Errors on rows not used, step by step from the present model to everything found; none
+    /// without such rows.
     #[must_use]
     pub fn steps(&self) -> Vec<(String, SpreadMm)> {
         let (Some(before), Some(after)) = (self.held_out.before, self.held_out.after) else {

@@ -1,4 +1,5 @@
-//! Why a task could not be done, as data: a message, the way out, and the place in a text that is to blame.
+//! Why a task could not be done, as data: a message, the way out, and the place in a text that is
+//! to blame.
 
 use crate::model::profile::ProfileError;
 use crate::printable::name_of;
@@ -38,7 +39,8 @@ pub struct Excerpt {
     pub line: usize,
     /// Column in bytes, from 1.
     pub column: usize,
-    /// The line, or what is around the place in a long one; each byte that is no ASCII is shown as one sign.
+    /// The line, or what is around the place in a long one; each byte that is no ASCII is shown as
+    /// one sign.
     pub text: String,
     /// What in `text` is to blame, in bytes.
     pub span: Range<usize>,
@@ -90,7 +92,8 @@ impl Failure {
         )
     }
 
-    /// A place in a text by line and column, from 1, and its length in bytes; the whole text where the line is 0.
+    /// A place in a text by line and column, from 1, and its length in bytes; the whole text where
+    /// the line is 0.
     pub fn at(
         source: &Source,
         line: usize,

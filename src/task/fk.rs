@@ -53,8 +53,8 @@ impl Document for Poses {
     const KIND: &'static str = "poses/1";
 }
 
-/// The tool's pose for each row of joint angles; directions, forces and the places of external axes are used where the table has
-/// them: without these the base stands at home.
+/// The tool's pose for each row of joint angles; directions, forces and the places of external axes
+/// are used where the table has them: without these the base stands at home.
 ///
 /// # Errors
 /// A table without joints; a tool that the profile does not have.

@@ -1,4 +1,5 @@
-//! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot can measure.
+//! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot
+//! can measure.
 
 use super::Document;
 use super::failure::Failure;
@@ -58,7 +59,8 @@ pub struct Poses {
     /// Rows of the file.
     #[serde(skip)]
     pub rows: usize,
-    /// For each pose how many modes its row has, and the controller's joint angles, degrees, where the file has them.
+    /// For each pose how many modes its row has, and the controller's joint angles, degrees, where
+    /// the file has them.
     #[serde(skip)]
     settings: Vec<(usize, Option<[f64; 6]>)>,
 }
@@ -161,8 +163,8 @@ fn tool_pose(
 }
 
 impl Poses {
-    /// Measurements for `calibrate`: the three tool balls of each row with joints; `world_from_base` says where the base balls
-    /// stand.
+    /// Measurements for `calibrate`: the three tool balls of each row with joints;
+    /// `world_from_base` says where the base balls stand.
     ///
     /// # Errors
     /// A row without joints or with several modes.
@@ -227,7 +229,8 @@ impl Document for Base {
     const KIND: &'static str = "hexapod/1";
 }
 
-/// Finds the frame of the base balls from their taught places and their exact distances B1B2, B2B3, B3B1, metres.
+/// Finds the frame of the base balls from their taught places and their exact distances B1B2, B2B3,
+/// B3B1, metres.
 ///
 /// # Errors
 /// Not three points; distances that are no triangle or contradict the points.
@@ -286,7 +289,8 @@ pub struct Reached {
     pub pose: Pose,
     /// Postures within the joint limits.
     pub postures: Vec<Posture>,
-    /// Largest difference of a leg from the ballbar's nominal length; `null` where the robot does not reach the pose.
+    /// Largest difference of a leg from the ballbar's nominal length; `null` where the robot does
+    /// not reach the pose.
     pub leg_error_mm: Option<f64>,
     /// Whether a posture keeps all legs in the ballbar's range.
     pub measurable: bool,
@@ -306,7 +310,8 @@ pub struct Reach {
     pub leg_mm: f64,
     /// How far from it the ballbar measures, to each side.
     pub range_mm: f64,
-    /// What the page draws: the robot, its tool, the balls B1, B2, B3 in the world (metres), how the frame file is named.
+    /// What the page draws: the robot, its tool, the balls B1, B2, B3 in the world (metres), how
+    /// the frame file is named.
     #[serde(skip)]
     pub drawn: (Profile, Mounted, [Vector; 3], String),
 }
@@ -315,7 +320,8 @@ impl Document for Reach {
     const KIND: &'static str = "hexapod/1";
 }
 
-/// Lists the 72 poses of the device and whether the robot reaches them; `frame` says where the base balls stand.
+/// Lists the 72 poses of the device and whether the robot reaches them; `frame` says where the base
+/// balls stand.
 ///
 /// # Errors
 /// Lengths without a solution, an arm without an inverse.

@@ -29,7 +29,8 @@ pub struct Solution {
     pub id: String,
     /// The branch: 4 behind axis 1, 2 behind the lower arm, 1 joint 5 negative, added.
     pub solution: usize,
-    /// Which of the answers on the branch, from 0, where it may hold several: arms with an offset wrist.
+    /// Which of the answers on the branch, from 0, where it may hold several: arms with an offset
+    /// wrist.
     pub root: Option<u8>,
     /// The controller's joint angles.
     pub joints_deg: [f64; 6],

@@ -166,7 +166,8 @@ impl Rows {
         })
     }
 
-    /// Reads joints and points of two files, joined by `id`, else in their order. Lines are those of the points.
+    /// Reads joints and points of two files, joined by `id`, else in their order. Lines are those
+    /// of the points.
     ///
     /// # Errors
     /// As [`Rows::read`]; rows without a partner.

@@ -34,7 +34,8 @@ impl<'a> Loader<'a> {
         }
     }
 
-    /// Reads the mesh of a shape, if it is one, from next to the file that names it; its name becomes the key of the mesh.
+    /// Reads the mesh of a shape, if it is one, from next to the file that names it; its name
+    /// becomes the key of the mesh.
     ///
     /// # Errors
     /// A file that cannot be read or is no mesh.

@@ -1,8 +1,9 @@
-//! What a command does, without its arguments, its printing, and where its files are: plain options and bytes in, one
-//! structure out. One file a command; whatever shows the result (text, JSON, a page) reads that one structure.
+//! What a command does, without its arguments, its printing, and where its files are: plain options
+//! and bytes in, one structure out. One file a command; whatever shows the result (text, JSON, a
+//! page) reads that one structure.
 //!
-//! A structure is a [`Document`]: it serialises to the JSON of `--json`, and [`schema()`] is the JSON Schema of it. Lengths in
-//! it are mm and angles degrees, as in files.
+//! A structure is a [`Document`]: it serialises to the JSON of `--json`, and [`schema()`] is the
+//! JSON Schema of it. Lengths in it are mm and angles degrees, as in files.
 //!
 //! # Example
 //!

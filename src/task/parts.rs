@@ -1,4 +1,5 @@
-//! What reports of several commands have in common: poses, statistics, uncertainties in the units of files.
+//! What reports of several commands have in common: poses, statistics, uncertainties in the units
+//! of files.
 
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -263,7 +264,8 @@ macro_rules! spread {
 spread!(SpreadMm, "mm", mean_mm std_mm mean_plus_3std_mm rms_mm p95_mm p997_mm max_mm);
 spread!(SpreadDeg, "degrees", mean_deg std_deg mean_plus_3std_deg rms_deg p95_deg p997_deg max_deg);
 
-/// Errors of distances between all pairs of points; of more than 20 000 points, between a fixed sample of them.
+/// Errors of distances between all pairs of points; of more than 20 000 points, between a fixed
+/// sample of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Pairs {
     /// How many.

@@ -1,4 +1,5 @@
-//! Profiles and frame files as they are read: with their hash, and their faults with line and column.
+//! Profiles and frame files as they are read: with their hash, and their faults with line and
+//! column.
 
 use super::failure::Failure;
 use crate::model::profile::{Mounted, Profile, rewritten};

@@ -64,7 +64,8 @@ pub fn acceptance(text: &str) -> Result<Acceptance, Failure> {
 /// The language of all these files, by name and content.
 ///
 /// # Errors
-/// A file of no language, files of several, another language than the profile's controller speaks; no file.
+/// A file of no language, files of several, another language than the profile's controller speaks;
+/// no file.
 pub fn common_language(
     sources: &[Source],
     profile: &Profile,
@@ -155,7 +156,8 @@ pub fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
 /// Digits of a hash that a message shows.
 const SHOWN: usize = 16;
 
-/// That compensated programs were made with this profile from one of these originals, as their markers say.
+/// That compensated programs were made with this profile from one of these originals, as their
+/// markers say.
 ///
 /// # Errors
 /// A marker names another profile or another original.

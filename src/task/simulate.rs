@@ -35,7 +35,8 @@ impl Document for Simulation {
     const KIND: &'static str = "simulation/1";
 }
 
-/// Measures the real arm of a profile in each row's joint angles, every named point of it, in the frame of the profile's device.
+/// Measures the real arm of a profile in each row's joint angles, every named point of it, in the
+/// frame of the profile's device.
 ///
 /// # Errors
 /// A table without joints; a tool that the profile does not have.
@@ -171,8 +172,9 @@ fn refuse_nonsense(session: &Session) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A file of measurements; every number is read back as it is. Directions, forces and tools stand in it where they are asked for,
-/// and where these external axes stood, of those that the rows tell.
+/// A file of measurements; every number is read back as it is. Directions, forces and tools stand
+/// in it where they are asked for, and where these external axes stood, of those that the rows
+/// tell.
 #[must_use]
 pub fn measurements_csv(
     rows: &[Measurement],

@@ -179,7 +179,8 @@ impl Document for Validation {
     const KIND: &'static str = "validation/1";
 }
 
-/// Judges a profile's models by measurements; `hear` is called with how many of how many folds are done.
+/// Judges a profile's models by measurements; `hear` is called with how many of how many folds are
+/// done.
 ///
 /// # Errors
 /// Too few rows, or rows that contradict the robot or themselves.

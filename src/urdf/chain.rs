@@ -1,15 +1,16 @@
 //! Rows of modified Denavit–Hartenberg parameters from six axes.
 //!
-//! Frame i has its z axis on axis i. Its x axis is the common normal of axes i and i + 1, so row i + 1 is the step along
-//! and about it, and row i's θ and d the step about and along axis i from the common normal before. Parallel axes have many
-//! common normals: the one through the foot of the last is taken. The base takes up where axis 1 is, the flange what is behind
-//! axis 6.
+//! Frame i has its z axis on axis i. Its x axis is the common normal of axes i and i + 1, so
+//! row i + 1 is the step along and about it, and row i's θ and d the step about and along axis i
+//! from the common normal before. Parallel axes have many common normals: the one through the foot of the
+//! last is taken. The base takes up where axis 1 is, the flange what is behind axis 6.
 
 use super::{UrdfArm, UrdfError};
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
 use crate::model::Link;
 
-/// Sine of the angle between axes below which they are parallel, and distance below which they meet, metres.
+/// Sine of the angle between axes below which they are parallel, and distance below which they
+/// meet, metres.
 const PARALLEL: f64 = 1e-9;
 const MEETING_M: f64 = 1e-9;
 

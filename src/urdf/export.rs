@@ -16,7 +16,8 @@ pub struct Drawing<'a> {
     pub limits: [[f64; 2]; 6],
     /// Largest speed of each joint where it is known, rad/s.
     pub speeds: [Option<f64>; 6],
-    /// Mass in kg and centre of gravity of what each joint carries up to the next one, in the frame that the joint turns.
+    /// Mass in kg and centre of gravity of what each joint carries up to the next one, in the
+    /// frame that the joint turns.
     pub masses: [Option<(f64, Vector)>; 6],
     /// Tools by name: `flange_from_tool`.
     pub tools: Vec<(&'a str, Pose)>,
@@ -44,8 +45,9 @@ pub(crate) fn yaw_pitch_roll(rotation: &Rotation) -> [f64; 3] {
     [yaw, pitch, roll].map(|angle| angle + 0.0)
 }
 
-/// The text of a URDF: `base_link` and `base` at the world, `link_1` to `link_6` with frames on the joints' axes, `tool0` at the flange, a
-/// link `tool_NAME` for each tool. Numbers have all their digits; a comment says that they are meant so.
+/// The text of a URDF: `base_link` and `base` at the world, `link_1` to `link_6` with frames on the
+/// joints' axes, `tool0` at the flange, a link `tool_NAME` for each tool. Numbers have all their
+/// digits; a comment says that they are meant so.
 #[must_use]
 pub fn urdf_text(drawing: &Drawing) -> String {
     let mut out = String::from("<?xml version=\"1.0\"?>\n<!--\n");

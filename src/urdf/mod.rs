@@ -1,12 +1,13 @@
 //! Profiles from URDF files.
 //!
-//! The reader takes the axes of six turning joints on the way from a base to a tip, in any frames and in any directions, and
-//! derives rows of modified Denavit–Hartenberg parameters from them; base and flange take up what is left. The
-//! profile's text is read again and its chain compared with the URDF's own at random postures.
+//! The reader takes the axes of six turning joints on the way from a base to a tip, in any frames
+//! and in any directions, and derives rows of modified Denavit–Hartenberg parameters from them;
+//! base and flange take up what is left. The profile's text is read again and its chain compared
+//! with the URDF's own at random postures.
 //!
 //! # Source
-//! ROS, "URDF/XML" (joint, link, origin: roll, pitch, yaw about fixed axes); J. J. Craig, "Introduction to Robotics" for the
-//! rows.
+//! ROS, "URDF/XML" (joint, link, origin: roll, pitch, yaw about fixed axes); J. J. Craig,
+//! "Introduction to Robotics" for the rows.
 //!
 //! # Example
 //!
@@ -43,10 +44,11 @@ use std::collections::BTreeSet;
 /// What to take of a URDF.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
-    /// The link where the world is; by default `base`, by convention where the controller counts from, else the one without
-    /// a parent. Only fixed joints may be between it and the arm.
+    /// The link where the world is; by default `base`, by convention where the controller counts
+    /// from, else the one without a parent. Only fixed joints may be between it and the arm.
     pub base: Option<String>,
-    /// The link that the tool is mounted on; by default `tool0`, `fanuc_flange`, `flange`, or the only end.
+    /// The link that the tool is mounted on; by default `tool0`, `fanuc_flange`, `flange`, or the
+    /// only end.
     pub tip: Option<String>,
     /// Take the collision shapes.
     pub shapes: bool,

@@ -9,8 +9,9 @@ use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 
 /// Links of a file: several arms with their grippers have some hundred.
 const MOST_LINKS: usize = 2_000;
-/// Angles of frames that are this near to a multiple of 45° are rounded ones of it, radians: files with four digits write
-/// 1.571 for a right angle, 2.04e-4 off, and none of 348 files of makers means an angle so near to one.
+/// Angles of frames that are this near to a multiple of 45° are rounded ones of it, radians: files
+/// with four digits write 1.571 for a right angle, 2.04e-4 off, and none of 348 files of makers
+/// means an angle so near to one.
 const ROUNDED_RAD: f64 = 3e-4;
 /// Names that a flange has by convention, best first.
 const FLANGES: [&str; 4] = ["tool0", "fanuc_flange", "flange", "ee_link"];
@@ -102,7 +103,8 @@ pub(super) fn read(text: &str, choice: &Choice) -> Result<UrdfArm, UrdfError> {
     Ok(arm)
 }
 
-/// Refuses what no robot is: elements that nest too deep, or too many of them, before anything is built of it.
+/// Refuses what no robot is: elements that nest too deep, or too many of them, before anything is
+/// built of it.
 fn judge_size(text: &str) -> Result<(), UrdfError> {
     let root = xml::read(text).map_err(|error| UrdfError::Unreadable {
         message: error.to_string(),
@@ -144,7 +146,8 @@ fn without_comments(text: &str) -> String {
     out + rest
 }
 
-/// XML without what robots look like: a colour that stands there twice is none of an arm's business.
+/// XML without what robots look like: a colour that stands there twice is none of an arm's
+/// business.
 fn without_looks(code: &str) -> String {
     let mut out = code.to_owned();
     for name in ["visual", "material"] {
@@ -412,7 +415,8 @@ impl<'a> Tree<'a> {
         Ok(arm)
     }
 
-    /// Why there is no way: the tip hangs elsewhere, or a joint that moves is between it and the base's side.
+    /// Why there is no way: the tip hangs elsewhere, or a joint that moves is between it and the
+    /// base's side.
     fn no_way(&self, base: &'a str, tip: &'a str) -> UrdfError {
         let mut above_base = vec![base];
         while let Some(joint) = self.above.get(above_base[above_base.len() - 1]) {
@@ -439,7 +443,8 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Masses and shapes of all links that the six joints, or none of them, move; the foot with the base's view of it.
+    /// Masses and shapes of all links that the six joints, or none of them, move; the foot with the
+    /// base's view of it.
     fn contents(
         &self,
         (foot, base_from_foot): (&str, Pose),

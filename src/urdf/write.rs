@@ -21,7 +21,8 @@ pub type Meshes<'a> = &'a dyn Fn(&str) -> Option<String>;
 pub struct About<'a> {
     /// The URDF's name in the profile's comments.
     pub source: &'a str,
-    /// The maker; where it is not given, the one whose name stands in the robot's or its packages' names.
+    /// The maker; where it is not given, the one whose name stands in the robot's or its packages'
+    /// names.
     pub maker: Option<&'a str>,
     /// The controller's language; where it is not given, the one of the maker's controllers.
     pub language: Option<&'a str>,
@@ -48,7 +49,8 @@ impl<'a> About<'a> {
     }
 }
 
-/// The text of a profile for an arm, its chain compared with the URDF's own, and what is to be known of it.
+/// The text of a profile for an arm, its chain compared with the URDF's own, and what is to be
+/// known of it.
 ///
 /// # Errors
 /// If two axes are one line, a mesh is not found, or the chains differ.

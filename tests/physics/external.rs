@@ -1,4 +1,5 @@
-//! Tracks and positioners, written a second time: matrices, no code of the product. Metres and radians.
+//! Tracks and positioners, written a second time: matrices, no code of the product. Metres and
+//! radians.
 
 use super::matrix::{M4, V3, cross, dot, frame, shift, times, turn_x, turn_y, turn_z};
 
@@ -60,7 +61,8 @@ fn columns(rail: &Rail) -> [V3; 3] {
     [x, y, cross(x, y)]
 }
 
-/// Where the base stands when the rail is at `e` and was moving in `direction`, from where it stands at zero.
+/// Where the base stands when the rail is at `e` and was moving in `direction`, from where it
+/// stands at zero.
 pub fn carried(rail: &Rail, home: &M4, e: f64, direction: f64) -> M4 {
     let middle = f64::midpoint(rail.low, rail.high);
     let d = e - middle;

@@ -1,7 +1,8 @@
 //! A second implementation of the physics: plain numbers, 4 × 4 matrices, no code of the product.
 //!
-//! It states every effect in its full form (a base that tilts is turned about its origin, an arm that grows has longer
-//! lengths), where the product adds up small motions. Metres, radians, newtons. See docs/model.md for the equations.
+//! It states every effect in its full form (a base that tilts is turned about its origin, an arm
+//! that grows has longer lengths), where the product adds up small motions. Metres, radians,
+//! newtons. See docs/model.md for the equations.
 
 pub mod external;
 pub mod matrix;
@@ -94,7 +95,8 @@ pub enum Fault {
     JointCreep(usize, f64, f64),
     /// Displacement in the world, rows.
     BaseCreep(V3, f64),
-    /// Not known to the product: a joint's error by any function of its commanded angles, torques and the moment.
+    /// Not known to the product: a joint's error by any function of its commanded angles, torques
+    /// and the moment.
     Joint(usize, fn(&[f64; 6], &[f64; 6], &Moment) -> f64, f64),
     /// Not known to the product: displacement of the measured point in the world.
     World(fn(&M4, &[f64; 6], &Moment) -> V3, f64),

@@ -1,6 +1,7 @@
 //! One path of the thesis's IRB 120 written in every language: for tests and benchmarks.
 //!
-//! The tool is asked from the command line in all of them (`--tool artifact`), poses are in the robot's base.
+//! The tool is asked from the command line in all of them (`--tool artifact`), poses are in the
+//! robot's base.
 
 use poseshift::geometry::Pose;
 use poseshift::model::Conditions;
@@ -19,7 +20,8 @@ pub const WRITTEN: &[(&str, &str)] = &[
     ("csv", "csv"),
 ];
 
-/// What belongs to the program of that many points beside its first file: the code, where that holds the data alone.
+/// What belongs to the program of that many points beside its first file: the code, where that
+/// holds the data alone.
 pub fn beside(language: &str, count: u32) -> Option<(&'static str, String)> {
     let moves: String = (0..count)
         .map(|n| format!("  movel(pPath[{n}],artifact,mPath)\r\n"))
@@ -42,8 +44,8 @@ pub fn profile(language: &str) -> String {
     )
 }
 
-/// Joints along a smooth path through the work space, wrist and elbow clear of their singularities, no joint across zero
-/// but the first, the fourth and the sixth.
+/// Joints along a smooth path through the work space, wrist and elbow clear of their singularities,
+/// no joint across zero but the first, the fourth and the sixth.
 fn joints(n: u32) -> [f64; 6] {
     let t = f64::from(n) * 1e-3;
     [
@@ -102,7 +104,8 @@ fn numbers(pose: &Pose) -> Numbers {
     }
 }
 
-/// A program with every `every`-th point of the path, `count` of them, straight moves behind one joint move.
+/// A program with every `every`-th point of the path, `count` of them, straight moves behind one
+/// joint move.
 pub fn program(language: &str, count: u32, every: u32) -> String {
     let profile = Profile::from_yaml(&profile(language)).expect("a valid profile");
     let tool = profile.tool("artifact").expect("its tool");

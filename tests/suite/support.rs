@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Says that a test was not made, and why: past the harness, which keeps what a test prints and shows it of failures only.
+/// Says that a test was not made, and why: past the harness, which keeps what a test prints and
+/// shows it of failures only.
 pub fn skipped(why: &str) {
     let thread = std::thread::current();
     let test = thread.name().unwrap_or("a test");
@@ -184,8 +185,8 @@ pub fn run(arguments: &[&str]) -> (i32, String, String) {
     )
 }
 
-/// The files of the repository as git has them, relative to its top: what lies about besides is none of them. Of an archive
-/// without git, every file that is there.
+/// The files of the repository as git has them, relative to its top: what lies about besides is
+/// none of them. Of an archive without git, every file that is there.
 pub fn tracked() -> &'static std::collections::BTreeSet<PathBuf> {
     static FILES: std::sync::OnceLock<std::collections::BTreeSet<PathBuf>> =
         std::sync::OnceLock::new();
@@ -213,8 +214,8 @@ pub fn is_tracked(word: &str) -> bool {
     !word.is_empty() && tracked().iter().any(|file| file.starts_with(path))
 }
 
-/// Arms of `tests/data/inverse_general/arms.csv`, whose axes 4 and 5 meet beside axis 6: name, nominal geometry without a
-/// tool, mechanism.
+/// Arms of `tests/data/inverse_general/arms.csv`, whose axes 4 and 5 meet beside axis 6: name,
+/// nominal geometry without a tool, mechanism.
 pub fn offset_wrist_arms() -> Vec<(
     String,
     poseshift::model::Geometry,

@@ -1,7 +1,9 @@
-//! From a URDF, a tracker's file and the controller's joints to a corrected program, in six commands.
+//! From a URDF, a tracker's file and the controller's joints to a corrected program, in six
+//! commands.
 //!
-//! The real robot is a model of its own: the chain of the URDF as matrices, with every joint a little elsewhere and soft. It shares no
-//! code with the product; `POSESHIFT_BLESS=1` writes the files of `tests/data/walk` from it.
+//! The real robot is a model of its own: the chain of the URDF as matrices, with every joint a
+//! little elsewhere and soft. It shares no code with the product; `POSESHIFT_BLESS=1` writes the
+//! files of `tests/data/walk` from it.
 
 use crate::physics::matrix::{M4, V3, add, cross, dot, frame, point, shift, sub, times};
 use crate::physics::matrix::{turn_x, turn_y, turn_z};
@@ -40,7 +42,8 @@ const LIMITS: [(f64, f64); 6] = [
 ];
 /// The tool on the flange, metres, and its mass.
 const TOOL: (V3, f64) = ([0.05, 0.02, 0.13], 4.0);
-/// What the real robot has beside its drawing: of each joint x, y, z in mm, rx, ry, rz in mrad, and its compliance in µrad/(N m).
+/// What the real robot has beside its drawing: of each joint x, y, z in mm, rx, ry, rz in mrad, and
+/// its compliance in µrad/(N m).
 const FAULTS: [([f64; 6], f64); 6] = [
     ([0.3, -0.2, 0.4, 0.3, -0.4, 0.5], 0.0),
     ([0.8, 0.3, -0.9, 1.4, 2.3, -1.2], 3.0),
@@ -136,7 +139,8 @@ fn cell(number: f64) -> String {
     format!("{number:.7}").replace('.', ",")
 }
 
-/// The tables of the controller and of the tracker, by names that neither of them shares with the product.
+/// The tables of the controller and of the tracker, by names that neither of them shares with the
+/// product.
 fn session(count: usize, seed: u64) -> (String, String) {
     let mut random = StdRng::seed_from_u64(seed);
     let device = world_from_device();
@@ -324,7 +328,8 @@ fn a_urdf_and_a_tracker_file_become_a_program_that_lands_where_it_should() {
         "calibrate --profile arm.yaml --joints @joints.csv --points @tracker.csv \
          --columns id=Pose,id=Punkt,q1=J1,q2=J2,q3=J3,q4=J4,q5=J5,q6=J6,x=X,y=Y,z=Z --units m,rad -o calibrated.yaml",
     );
-    // the base is the controller's; the tracker stands where it stands, but for what of the base cannot be told from it
+    // the base is the controller's; the tracker stands where it stands, but for what of the base
+    // cannot be told from it
     let device = &found["world_from_device"];
     for (key, wanted, near) in [
         ("x_mm", 2100.0, 3.0),

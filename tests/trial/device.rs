@@ -71,7 +71,8 @@ impl Device {
         }
     }
 
-    /// What the robot was calibrated with: the same, but positions where lengths from posts are too few numbers.
+    /// What the robot was calibrated with: the same, but positions where lengths from posts are too
+    /// few numbers.
     pub fn calibrating(&self) -> Self {
         let reads = match self.reads {
             Reads::Distances => Reads::Positions,
@@ -97,7 +98,8 @@ impl Device {
         self.reads == Reads::Positions
     }
 
-    /// The table of what it reads where the tool stands so, and the length of each position's noise in mm.
+    /// The table of what it reads where the tool stands so, and the length of each position's noise
+    /// in mm.
     pub fn table(
         &self,
         q: &[[f64; 6]],

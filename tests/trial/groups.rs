@@ -24,7 +24,8 @@ pub struct Group {
     pub size: (f64, f64),
     /// Heavy tails, gross errors in 3 % of the rows, no column `sigma_mm`.
     pub rough: bool,
-    /// Reflectors, distances, poses, missing columns and unknown noise in turn; else positions with all columns.
+    /// Reflectors, distances, poses, missing columns and unknown noise in turn; else positions
+    /// with all columns.
     pub devices: bool,
     /// Something the registry does not have.
     pub unregistered: bool,

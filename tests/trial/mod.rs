@@ -1,4 +1,5 @@
-//! Seeded cases for `diagnose`: a robot with something hidden in it, measured by one of two implementations of the physics.
+//! Seeded cases for `diagnose`: a robot with something hidden in it, measured by one of two
+//! implementations of the physics.
 
 mod device;
 mod groups;
@@ -36,7 +37,8 @@ pub struct Case {
     pub csv: String,
     /// The answer, as [`label`] writes it, sorted.
     pub answer: Vec<String>,
-    /// What the robot has, but its calibration did not determine: right where it is named, and where not.
+    /// What the robot has, but its calibration did not determine: right where it is named, and
+    /// where not.
     pub undetermined: Vec<String>,
     /// The effects hidden.
     pub effects: Vec<Effect>,
@@ -226,7 +228,8 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
                 continue;
             }
             let mut by = size * noise_m * 3.0_f64.sqrt() / moved;
-            // sizes stay physical, within four typical ones, where this robot and its tool show the effect at all
+            // sizes stay physical, within four typical ones, where this robot and its tool show the
+            // effect at all
             let most = |e: &Effect| {
                 let typical = e
                     .definition()

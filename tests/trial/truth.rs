@@ -1,4 +1,5 @@
-//! The product's effects in the words of the independent physics, and faults the product does not know.
+//! The product's effects in the words of the independent physics, and faults the product does not
+//! know.
 
 use crate::physics::{Fault, Mass, Robot, matrix};
 use poseshift::geometry::Pose;

@@ -34,7 +34,8 @@ const NOMINAL: Told = Told {
 };
 
 impl Job<'_> {
-    /// Clearances of both arms; `first` where the robot only stands at the target, as it comes from an unknown place.
+    /// Clearances of both arms; `first` where the robot only stands at the target, as it comes from
+    /// an unknown place.
     pub(super) fn judge_collisions(
         &self,
         index: usize,

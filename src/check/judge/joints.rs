@@ -1,4 +1,5 @@
-//! What a move asks of the joints: limits, singularities, the posture at its end, turns, and speeds.
+//! What a move asks of the joints: limits, singularities, the posture at its end, turns, and
+//! speeds.
 
 use super::Job;
 use crate::check::limits::Asked;

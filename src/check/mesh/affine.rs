@@ -2,7 +2,8 @@
 
 use crate::geometry::Vector;
 
-/// The upper three rows of a transform of points: columns of turning, scale and shear, then the displacement.
+/// The upper three rows of a transform of points: columns of turning, scale and shear, then the
+/// displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Affine(pub(super) [[f64; 4]; 3]);
 

@@ -1,15 +1,17 @@
 //! The triangles of a COLLADA file, at its true size and upright.
 //!
-//! The geometries that the file's scene shows, with the transforms of its nodes; `unit` makes metres of them, and what
-//! `up_axis` names points along z. Polygons are cut into fans about their first corner: all of their area is covered.
+//! The geometries that the file's scene shows, with the transforms of its nodes; `unit` makes
+//! metres of them, and what `up_axis` names points along z. Polygons are cut into fans about their
+//! first corner: all of their area is covered.
 //!
 //! # Limits
-//! Elements in each other as XML is read, as many nodes in each other through references, 100 000 nodes shown, 20 million
-//! triangles. Skins, splines, `lookat` and `skew` are errors.
+//! Elements in each other as XML is read, as many nodes in each other through references, 100 000
+//! nodes shown, 20 million triangles. Skins, splines, `lookat` and `skew` are errors.
 //!
 //! # Source
-//! Khronos, "COLLADA – Digital Asset Schema Release 1.4.1" (and 1.5.0), chapter 5: `asset`, `node`, `geometry`, `mesh`,
-//! `source`, `accessor`, `triangles`, `polylist`, `polygons`, `tristrips`, `trifans`.
+//! Khronos, "COLLADA – Digital Asset Schema Release 1.4.1" (and 1.5.0), chapter 5: `asset`, `node`,
+//! `geometry`, `mesh`, `source`, `accessor`, `triangles`, `polylist`, `polygons`, `tristrips`,
+//! `trifans`.
 
 use super::affine::Affine;
 use super::{MOST, Triangle, fan};

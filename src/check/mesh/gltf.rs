@@ -1,14 +1,15 @@
 //! The triangles of a glTF 2.0 file, upright.
 //!
-//! What its scene shows, with the transforms of its nodes. Every count, offset and index of the file is compared with what is
-//! there before it is used; a file that requires an extension (compressed meshes) is refused.
+//! What its scene shows, with the transforms of its nodes. Every count, offset and index of the
+//! file is compared with what is there before it is used; a file that requires an extension
+//! (compressed meshes) is refused.
 //!
 //! # Limits
 //! Nodes form a tree, as the format says, of at most 256 levels; 20 million triangles.
 //!
 //! # Source
-//! Khronos, "glTF 2.0 Specification" (ISO/IEC 12113), sections 3.4 (metres, y up), 3.5 (nodes), 3.6 (buffers, accessors),
-//! 3.7 (meshes) and 4 (GLB).
+//! Khronos, "glTF 2.0 Specification" (ISO/IEC 12113), sections 3.4 (metres, y up), 3.5 (nodes), 3.6
+//! (buffers, accessors), 3.7 (meshes) and 4 (GLB).
 
 use super::affine::Affine;
 use super::{MOST, Neighbour, Triangle, fan};

@@ -32,7 +32,8 @@ impl Disk {
         (self.gate)()
     }
 
-    /// A new file that stays when the power goes. It has the mode and the owner of `like`; without it what the umask says.
+    /// A new file that stays when the power goes. It has the mode and the owner of `like`; without
+    /// it what the umask says.
     pub(super) fn create(&self, path: &Path, bytes: &[u8], like: Option<&Path>) -> Result<()> {
         self.step()?;
         let mut options = OpenOptions::new();
@@ -66,7 +67,8 @@ impl Disk {
         fs::create_dir(path)
     }
 
-    /// A second name of a file, or where there is no such thing a copy with its mode, owner and time.
+    /// A second name of a file, or where there is no such thing a copy with its mode, owner and
+    /// time.
     pub(super) fn keep(&self, path: &Path, backup: &Path) -> Result<()> {
         self.step()?;
         if fs::hard_link(path, backup).is_ok() {

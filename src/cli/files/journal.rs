@@ -1,7 +1,8 @@
 //! The journal: what a run is about to put in place, written down in the folder where it does so.
 //!
-//! A run that writes into several folders has its journal in the first of them; those in the others name that folder. The first
-//! line says how far it is. Whoever holds the lock of the first may finish or undo what it lists.
+//! A run that writes into several folders has its journal in the first of them; those in the others
+//! name that folder. The first line says how far it is. Whoever holds the lock of the first may
+//! finish or undo what it lists.
 
 use super::disk::Disk;
 use super::identity::Identity;
@@ -156,7 +157,8 @@ impl Journal {
         (stage.line() + &text + "\n").into_bytes()
     }
 
-    /// What a journal in this folder says; none where it was not written to its end, and so nothing else was.
+    /// What a journal in this folder says; none where it was not written to its end, and so nothing
+    /// else was.
     pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Option<(Stage, Self)>, String> {
         let stage = Stage::ALL
             .into_iter()

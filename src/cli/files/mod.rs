@@ -1,5 +1,5 @@
-//! Files in and out of one run: what was read stays what it was until what is written stands in its place, and nothing is
-//! written over it.
+//! Files in and out of one run: what was read stays what it was until what is written stands in its
+//! place, and nothing is written over it.
 
 mod disk;
 mod identity;
@@ -152,7 +152,8 @@ impl Files {
         Ok(Source::new(name_of(path), self.read(path)?))
     }
 
-    /// The bytes of a mesh, or of a file that a mesh names: of a plain file, as a device has no end.
+    /// The bytes of a mesh, or of a file that a mesh names: of a plain file, as a device has no
+    /// end.
     pub(super) fn mesh(&self, path: &Path) -> io::Result<Vec<u8>> {
         let about = std::fs::metadata(path)?;
         if !about.is_file() {
@@ -189,7 +190,8 @@ impl Files {
         }
     }
 
-    /// Finishes or undoes what a run that was stopped left in the folder of a file, or in a folder; whether there was any.
+    /// Finishes or undoes what a run that was stopped left in the folder of a file, or in a folder;
+    /// whether there was any.
     pub(super) fn settle(&self, path: &Path) -> Result<bool, Failure> {
         let mut was_any = false;
         let linked = || {
@@ -290,8 +292,8 @@ impl Files {
         Ok(places)
     }
 
-    /// An output takes the place of nothing that is read, nor of another output. Asked again when it is written; asked before,
-    /// it spares the work.
+    /// An output takes the place of nothing that is read, nor of another output. Asked again when
+    /// it is written; asked before, it spares the work.
     ///
     /// # Errors
     /// One would, or nothing can be written there.
@@ -328,10 +330,12 @@ impl Files {
         Ok(())
     }
 
-    /// Writes all files, or none: between what can go wrong and putting them into place, `print` is done.
+    /// Writes all files, or none: between what can go wrong and putting them into place, `print` is
+    /// done.
     ///
     /// # Errors
-    /// One cannot be written; what was read has changed; or those of `print`. Nothing is written then.
+    /// One cannot be written; what was read has changed; or those of `print`. Nothing is written
+    /// then.
     pub(super) fn write<E: From<Failure>>(
         &self,
         outputs: &[NewFile],

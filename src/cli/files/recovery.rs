@@ -53,7 +53,8 @@ fn settle(disk: &Disk, folder: &Path, is_main: bool) -> Result<Option<String>, F
         id: journal.id,
         entries: Vec::new(),
     };
-    // what is elsewhere is there only if that folder says so, too: else it is done already, or was never begun
+    // what is elsewhere is there only if that folder says so, too: else it is done already, or was
+    // never begun
     let here = |entry: &Entry| {
         entry.folder() == folder || is_of_run(&journal::of(entry.folder()), &work.id)
     };

@@ -1,5 +1,5 @@
-//! A transaction that is stopped at each of its steps: by a kill, after which nothing is done any more, and by one step that
-//! fails.
+//! A transaction that is stopped at each of its steps: by a kill, after which nothing is done any
+//! more, and by one step that fails.
 
 use super::disk::Disk;
 use super::journal;
@@ -164,7 +164,8 @@ fn a_step_that_fails_changes_nothing_and_leaves_nothing() {
 
 #[test]
 fn a_kill_while_all_is_put_back_is_put_back_by_the_next_run() {
-    // the renames of the second folder fail: from then on two kinds of steps are killed one after another
+    // the renames of the second folder fail: from then on two kinds of steps are killed one after
+    // another
     for last in 0..60 {
         let folder = world();
         let report = folder

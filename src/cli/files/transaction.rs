@@ -1,7 +1,9 @@
-//! Everything that a run writes, put in place as a whole: made and synced next to its places, then renamed.
+//! Everything that a run writes, put in place as a whole: made and synced next to its places, then
+//! renamed.
 //!
-//! At any moment the journal says what is to be done with what is there, so that a run that is killed is finished or undone by
-//! the next: before the journal says `commit` nothing but new names was made; from then on every new file is on disk.
+//! At any moment the journal says what is to be done with what is there, so that a run that is
+//! killed is finished or undone by the next: before the journal says `commit` nothing but new names
+//! was made; from then on every new file is on disk.
 
 use super::disk::Disk;
 use super::journal::{Entry, Held, Journal, Stage};

@@ -1,4 +1,5 @@
-//! The steps between a journal and the files that it lists: forward, backward, and what is removed at the end.
+//! The steps between a journal and the files that it lists: forward, backward, and what is removed
+//! at the end.
 
 use super::disk::Disk;
 use super::journal::{self, Entry, Held, Journal, PREFIX, Stage};

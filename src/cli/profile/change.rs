@@ -39,7 +39,8 @@ impl Target {
         self.output.as_deref().unwrap_or(&self.profile)
     }
 
-    /// Reads the profile, changes it and writes what came out; everything that is not changed stays byte by byte.
+    /// Reads the profile, changes it and writes what came out; everything that is not changed stays
+    /// byte by byte.
     fn change(
         &self,
         files: &Files,
@@ -188,8 +189,8 @@ pub(super) struct AddPositioner {
     target: Target,
     /// Its name in programs: the unit of RAPID, the number of `MACHINE_DEF` of KRL, ST1 of INFORM
     name: String,
-    /// An axis: its name, its frame (z is the axis; a second one in the frame of the first) in mm and degrees, its limits in degrees,
-    /// its sense 1 or -1, and its value at zero
+    /// An axis: its name, its frame (z is the axis; a second one in the frame of the first) in mm
+    /// and degrees, its limits in degrees, its sense 1 or -1, and its value at zero
     #[arg(
         long,
         required = true,

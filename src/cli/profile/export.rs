@@ -10,7 +10,8 @@ use crate::task::profile::{Form, export};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Write the real arm as other programs read it, with what the form does not carry and how large that is
+/// Write the real arm as other programs read it, with what the form does not carry and how large
+/// that is
 #[derive(Args)]
 #[command(
     after_help = "With --json and no form, the JSON has the geometry with what was identified of it, and every effect."

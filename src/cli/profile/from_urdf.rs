@@ -19,13 +19,16 @@ use std::process::Command;
 pub(super) struct FromUrdf {
     /// The URDF, or a xacro file where xacro is installed
     file: PathBuf,
-    /// The link where the world is (default: base, where the controller counts from, else the link without a parent)
+    /// The link where the world is (default: base, where the controller counts from, else the link
+    /// without a parent)
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// The link that tools are mounted on (default: tool0, flange as the maker names it, or the only end)
+    /// The link that tools are mounted on (default: tool0, flange as the maker names it, or the
+    /// only end)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
-    /// The maker (default: the one whose name stands in the file); FANUC's J3 is counted together with J2
+    /// The maker (default: the one whose name stands in the file); FANUC's J3 is counted together
+    /// with J2
     #[arg(long, value_name = "MAKER")]
     maker: Option<String>,
     /// The language of the controller (default: that of the maker's controllers)
@@ -34,14 +37,16 @@ pub(super) struct FromUrdf {
     /// The serial number
     #[arg(long, value_name = "NUMBER")]
     serial: Option<String>,
-    /// A tool on the flange in mm, degrees, kg, and mm of the centre of gravity; several times for several
+    /// A tool on the flange in mm, degrees, kg, and mm of the centre of gravity; several times for
+    /// several
     #[arg(
         long = "tool",
         value_name = "NAME=X,Y,Z,RX,RY,RZ[,KG[,CX,CY,CZ]]",
         allow_hyphen_values = true
     )]
     tools: Vec<String>,
-    /// Take angles near a multiple of 45 degrees as they are written: files with three decimals write 1.571
+    /// Take angles near a multiple of 45 degrees as they are written: files with three decimals
+    /// write 1.571
     #[arg(long)]
     exact_angles: bool,
     /// What xacro is given with a xacro file

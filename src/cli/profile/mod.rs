@@ -61,10 +61,12 @@ enum Sub {
     Export(Export),
 }
 
-/// Put the factory calibration of a Universal Robots arm into its profile, as what the controller computes with
+/// Put the factory calibration of a Universal Robots arm into its profile, as what the controller
+/// computes with
 #[derive(Args)]
 struct ImportUr {
-    /// The controller's calibration.conf, or the `kinematics:` file that the ROS driver's package for it writes
+    /// The controller's calibration.conf, or the `kinematics:` file that the ROS driver's package
+    /// for it writes
     calibration: PathBuf,
     /// The nominal profile of this type of arm
     #[arg(long, value_name = "NOMINAL")]

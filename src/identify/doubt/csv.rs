@@ -50,8 +50,8 @@ pub fn doubled(line: usize, header: &str, first: Option<&str>) -> Option<NotCsv>
     })
 }
 
-/// What makes a file no CSV with commas: it is empty, no UTF-8, has other separators or decimal commas. `None` where none of these
-/// is to be seen.
+/// What makes a file no CSV with commas: it is empty, no UTF-8, has other separators or decimal
+/// commas. `None` where none of these is to be seen.
 #[must_use]
 pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
     if let Err(error) = std::str::from_utf8(bytes) {

@@ -1,7 +1,9 @@
-//! Measurements, and what is made of them, that contradict the robot, the format or themselves: never a confident wrong answer.
+//! Measurements, and what is made of them, that contradict the robot, the format or themselves:
+//! never a confident wrong answer.
 //!
-//! [`csv`] looks at the text, [`screening`] at the rows before anything is believed (`readings` are what else a file may mean),
-//! `plausibility` at a fit, `validation` at a profile judged on rows, [`sweeps`] at sweeps of single joints.
+//! [`csv`] looks at the text, [`screening`] at the rows before anything is believed (`readings` are
+//! what else a file may mean), `plausibility` at a fit, `validation` at a profile judged on rows,
+//! [`sweeps`] at sweeps of single joints.
 
 pub mod csv;
 pub(super) mod plausibility;
@@ -13,7 +15,8 @@ pub(super) mod validation;
 use super::error::IdentifyError;
 use super::line::Line;
 
-/// Another reading of a file must be better by this factor to be suggested; by twice as much where the file as it is may be of an uncalibrated arm.
+/// Another reading of a file must be better by this factor to be suggested; by twice as much where
+/// the file as it is may be of an uncalibrated arm.
 const BETTER: f64 = 4.0;
 /// The way out where nothing fits.
 const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong";

@@ -100,8 +100,8 @@ fn times_sigma(misses: &[Miss]) -> Option<f64> {
     usual(misses.iter().map(|miss| miss.normalised))
 }
 
-/// Doubts touches that miss by far more than the probe's repeatability, where they fit if its ball or a plane is meant otherwise.
-/// `again` gives what the model misses of other measurements.
+/// Doubts touches that miss by far more than the probe's repeatability, where they fit if its ball
+/// or a plane is meant otherwise. `again` gives what the model misses of other measurements.
 ///
 /// # Errors
 /// They fit if the radius is a diameter, or a normal points the other way.

@@ -1,4 +1,5 @@
-//! Other ways in which a file of measurements may be meant: units, order of columns and rows, signs, zeros.
+//! Other ways in which a file of measurements may be meant: units, order of columns and rows,
+//! signs, zeros.
 
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Vector, scale};

@@ -1,4 +1,5 @@
-//! Measurements that contradict the robot, the format or themselves, found before anything is believed.
+//! Measurements that contradict the robot, the format or themselves, found before anything is
+//! believed.
 
 use super::readings::{Reading, readings};
 use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, WHOLE_FILE, remark, suspicious};
@@ -18,16 +19,18 @@ const GOOD_START_M: f64 = 0.003;
 const GOOD_PART: f64 = 0.02;
 /// A first guess that misses by more is of no arm, metres.
 const BAD_START_M: f64 = 0.02;
-/// Another reading of the file must miss by less than this part of the spread, and than [`BAD_START_M`].
+/// Another reading of the file must miss by less than this part of the spread, and than
+/// [`BAD_START_M`].
 const FITS_PART: f64 = 0.1;
 /// Readings that fit as well but for this factor are named as well.
 const AS_WELL: f64 = 1.5;
 /// Orientations further from each other than this are not of one tool, radians.
 const TURNED_RAD: f64 = 3.0 * DEG;
-/// An axis 1 this far from where the profile has it is told, radians: gravity acts along the world's z.
+/// An axis 1 this far from where the profile has it is told, radians: gravity acts along the
+/// world's z.
 const TILTED_RAD: f64 = 3.0 * DEG;
-/// Exchanged columns are sure that leave axis 1 as near as this to where the profile has it, and others farther than
-/// [`TURNED_DEG`], degrees.
+/// Exchanged columns are sure that leave axis 1 as near as this to where the profile has it, and
+/// others farther than [`TURNED_DEG`], degrees.
 const LEVEL_DEG: f64 = 15.0;
 const TURNED_DEG: f64 = 45.0;
 /// Joints that move less than this over all rows stand still, radians.
@@ -61,10 +64,12 @@ pub fn doubt_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark>
     })
 }
 
-/// What can be seen without a model: units of angles, joints that stand still, rows that repeat, points on a line.
+/// What can be seen without a model: units of angles, joints that stand still, rows that repeat,
+/// points on a line.
 ///
 /// # Errors
-/// All poses alike; the same orientation everywhere; a point far from all others; points in one place or on one line.
+/// All poses alike; the same orientation everywhere; a point far from all others; points in one
+/// place or on one line.
 pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark>, IdentifyError> {
     let rows = &measurements.rows;
     let mut remarks = Vec::new();
@@ -251,7 +256,8 @@ impl Fit {
         start.rms_m / start.spread_m.max(1e-9)
     }
 
-    /// Angle between axis 1 and where the profile has it, degrees: devices are level more often than not.
+    /// Angle between axis 1 and where the profile has it, degrees: devices are level more often
+    /// than not.
     fn tilt_deg(&self, profile: &Profile) -> f64 {
         let axis = |rotation: &crate::geometry::Rotation| rotation.axis(2);
         let base = &self.start.world_from_base.rotation;
@@ -260,7 +266,8 @@ impl Fit {
     }
 }
 
-/// Doubts a first guess that misses by far: tries other readings of the file, and says which one fits.
+/// Doubts a first guess that misses by far: tries other readings of the file, and says which one
+/// fits.
 ///
 /// # Errors
 /// Another reading fits much better; orientations that are not of one tool.
@@ -375,7 +382,8 @@ fn doubt_reading(profile: &Profile, measurements: &Measurements) -> Result<(), I
 
 /// What the first of some readings supposes, and what the others do.
 ///
-/// A mirror image is mended by the exchange of any two coordinates: the exchanges differ only in how the base then stands.
+/// A mirror image is mended by the exchange of any two coordinates: the exchanges differ only in
+/// how the base then stands.
 fn told_of(fits: &[Fit], profile: &Profile) -> (String, String) {
     let as_well = |others: &mut dyn Iterator<Item = &Fit>| -> String {
         let others = others.take(2);
@@ -467,8 +475,8 @@ pub fn doubt_fixed_tool(profile: &Profile, start: &Start) -> Result<(), Identify
     ))
 }
 
-/// Doubts measurements from which no fit comes to rest: where even the best base and tool miss by far, they are not of this
-/// robot, and which parameters are identified does not matter.
+/// Doubts measurements from which no fit comes to rest: where even the best base and tool miss by
+/// far, they are not of this robot, and which parameters are identified does not matter.
 pub fn doubt_rest(error: IdentifyError, start: &Start) -> IdentifyError {
     if !matches!(error, IdentifyError::NotConverged { .. }) || start.rms_m < BAD_START_M {
         return error;

@@ -16,9 +16,11 @@ use crate::register::axes::{Axis, Sweep};
 
 /// Base and tool that miss by more are not of this robot, metres.
 const HOPELESS_M: f64 = 0.02;
-/// Base and tool that miss by more are worth a warning: few arms are that far from their drawing, metres.
+/// Base and tool that miss by more are worth a warning: few arms are that far from their drawing,
+/// metres.
 const POOR_M: f64 = 0.005;
-/// Axes that stand otherwise to one another than drawn by more are worth a warning: radians and metres.
+/// Axes that stand otherwise to one another than drawn by more are worth a warning: radians and
+/// metres.
 const UNLIKE: (f64, f64) = (0.5 * DEG, 0.005);
 /// A tool this far from the profile's is worth a note, metres.
 const ELSEWHERE_M: f64 = 0.005;
@@ -39,8 +41,8 @@ pub fn point_on_flange(profile: &Profile, sweeps: &[Sweep], world_from_base: &Po
     scale(1.0 / rows.len().max(1) as f64, sum)
 }
 
-/// Doubts sweeps: whether base and tool explain every row, whether the axes stand to one another as drawn, whether the tool is
-/// that of the profile.
+/// Doubts sweeps: whether base and tool explain every row, whether the axes stand to one another as
+/// drawn, whether the tool is that of the profile.
 ///
 /// # Errors
 /// Base and tool miss by far: another reading of the file that fits, or the robot is another one.
@@ -125,7 +127,8 @@ fn rms(profile: &Profile, sweeps: &[Sweep], base: &Pose, point: Vector) -> f64 {
     (squares / rows.len().max(1) as f64).sqrt()
 }
 
-/// Fails where no base and tool explain the sweeps, with the reading of the file that does if there is one.
+/// Fails where no base and tool explain the sweeps, with the reading of the file that does if there
+/// is one.
 fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(), IdentifyError> {
     let rows: Vec<_> = sweeps.iter().flat_map(|sweep| &sweep.rows).collect();
     let every = rows.len().div_ceil(TRIED_ROWS).max(1);

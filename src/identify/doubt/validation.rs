@@ -9,7 +9,8 @@ use crate::identify::statistics::Quality;
 use crate::identify::validation::Refit;
 use crate::model::profile::Profile;
 
-/// The real model is worse than the nominal arm with fitted frames by this factor where something was moved.
+/// The real model is worse than the nominal arm with fitted frames by this factor where something
+/// was moved.
 const WORSE: f64 = 1.5;
 /// Errors below this are never doubted, mm.
 const SMALL_MM: f64 = 0.1;

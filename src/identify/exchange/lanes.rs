@@ -10,7 +10,8 @@ pub(super) const LANES: usize = 16;
 /// Blocks that one thread takes at a time.
 pub(super) const PORTION: usize = 64;
 
-/// Derivatives of candidates in blocks of [`LANES`]: `[block][row][parameter][candidate of the block]`.
+/// Derivatives of candidates in blocks of [`LANES`]: `[block][row][parameter][candidate of the
+/// block]`.
 pub(super) struct Rows {
     pub(super) height: usize,
     pub(super) width: usize,
@@ -197,7 +198,8 @@ impl Update<'_> {
     }
 }
 
-/// The block `G_c = (J_c U) (J_c U)ᵀ` of every candidate c of some blocks, where `U Uᵀ` is the inverse of the information.
+/// The block `G_c = (J_c U) (J_c U)ᵀ` of every candidate c of some blocks, where `U Uᵀ` is the
+/// inverse of the information.
 pub(super) struct Grams<'a> {
     pub(super) height: usize,
     pub(super) width: usize,
@@ -317,8 +319,8 @@ impl Grams<'_> {
     }
 }
 
-/// `det(1 + G_c)` of every candidate c, or with a sign of −1 `det(1 − G_c)`, by elimination without exchanges of rows, which
-/// these matrices never need.
+/// `det(1 + G_c)` of every candidate c, or with a sign of −1 `det(1 − G_c)`, by elimination without
+/// exchanges of rows, which these matrices never need.
 pub(super) struct Determinants<'a> {
     pub(super) height: usize,
     pub(super) sign: f32,

@@ -1,4 +1,5 @@
-//! Which column of a file is which of the format: by its name, by a mapping, by the layout of an export.
+//! Which column of a file is which of the format: by its name, by a mapping, by the layout of an
+//! export.
 
 use super::euler::Euler;
 use super::exports;
@@ -60,8 +61,9 @@ struct Entry {
 pub type MappingError = (String, String);
 
 impl Mapping {
-    /// Adds pairs of a name of the format and the file's own (`q1`, `J1`). Those of a profile (`required` false) count only where a
-    /// file has such a column, and where no other pair maps the same name.
+    /// Adds pairs of a name of the format and the file's own (`q1`, `J1`). Those of a profile
+    /// (`required` false) count only where a file has such a column, and where no other pair
+    /// maps the same name.
     ///
     /// # Errors
     /// A name that is none of the format; no name of theirs.
@@ -87,7 +89,8 @@ impl Mapping {
                     "name=Their name, and #3 for their third column".into(),
                 ));
             }
-            // what is said now is more than what a profile keeps; of two files each may have its own name
+            // what is said now is more than what a profile keeps; of two files each may have its
+            // own name
             if !required
                 && self
                     .columns
@@ -144,7 +147,8 @@ impl Mapping {
         )
     }
 
-    /// The columns of some files, of which one that is an export with other rows is replaced by its points.
+    /// The columns of some files, of which one that is an export with other rows is replaced by its
+    /// points.
     pub(super) fn columns_of(
         &self,
         grids: &mut [Grid],

@@ -3,7 +3,8 @@
 use crate::geometry::Rotation;
 use crate::nearest;
 
-/// How three angles turn the tool into the device's frame; rotations about moving axes, the first one first.
+/// How three angles turn the tool into the device's frame; rotations about moving axes, the first
+/// one first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Euler {
     /// `Rx(rx) · Ry(ry) · Rz(rz)`.

@@ -1,10 +1,11 @@
 //! What the software of trackers and arms writes as text.
 //!
 //! # Source
-//! `SpatialAnalyzer` User Manual, "Exporting ASCII Formatted Points" (`Collection Group Target x y z`, blanks or commas, `//` comments);
-//! exported files of Leica Tracker Pilot and `SpatialAnalyzer` in public data sets of robot calibrations; the columns of the standard table
-//! of PolyWorks|Inspector (name, control, nominal, measured, tolerance, deviation, test, out of tolerance). Tables of other software are
-//! known by what their columns are called.
+//! `SpatialAnalyzer` User Manual, "Exporting ASCII Formatted Points" (`Collection Group Target x y
+//! z`, blanks or commas, `//` comments); exported files of Leica Tracker Pilot and
+//! `SpatialAnalyzer` in public data sets of robot calibrations; the columns of the standard table
+//! of PolyWorks|Inspector (name, control, nominal, measured, tolerance, deviation, test, out of
+//! tolerance). Tables of other software are known by what their columns are called.
 
 use super::names::meant;
 use super::text::{Grid, Separator};

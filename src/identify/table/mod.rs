@@ -4,7 +4,8 @@
 //! bytes → cells (encoding, separator, decimal sign) → columns of the format (names, units, exports) → joined rows → measurements
 //! ```
 //!
-//! A name that is not of the format means nothing until a mapping or the layout of an export says what: nothing is guessed.
+//! A name that is not of the format means nothing until a mapping or the layout of an export says
+//! what: nothing is guessed.
 
 mod columns;
 mod euler;
@@ -25,7 +26,8 @@ use super::fault::{MeasurementError, MeasurementFault};
 use super::measurements::{DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS};
 use crate::geometry::units::DEG;
 
-/// A joint that moves by less has not moved: a controller's readings differ in their last digits. Radians.
+/// A joint that moves by less has not moved: a controller's readings differ in their last digits.
+/// Radians.
 const STILL_RAD: f64 = 0.005 * DEG;
 
 /// Rows of one file, or of two that are joined, with columns of the format.
@@ -87,7 +89,8 @@ impl Table {
     /// One file of joints and what was measured with them.
     ///
     /// # Errors
-    /// A mapping that names columns the file does not have; columns of one point that are not complete.
+    /// A mapping that names columns the file does not have; columns of one point that are not
+    /// complete.
     pub fn of(grid: Grid, mapping: &Mapping) -> Result<Self, MeasurementError> {
         Self::made(vec![grid], mapping)
     }

@@ -3,7 +3,8 @@
 use super::units::{Unit, in_name};
 use crate::nearest::plain;
 
-/// Columns that hold lengths (an external axis is linear or rotary: without its unit it is linear), by the names that mappings use for them.
+/// Columns that hold lengths (an external axis is linear or rotary: without its unit it is linear),
+/// by the names that mappings use for them.
 const LENGTHS: [&str; 29] = [
     "x", "y", "z", "target_x", "target_y", "target_z", "diff_x", "diff_y", "diff_z", "px", "py",
     "pz", "distance", "from_x", "from_y", "from_z", "sigma", "e1", "e2", "e3", "e4", "e5", "e6",
@@ -61,7 +62,8 @@ const OTHERS: [&str; 42] = [
     "dir_e12",
 ];
 
-/// Names that a mapping may use for columns of the format: without the unit where `--units` tells it.
+/// Names that a mapping may use for columns of the format: without the unit where `--units` tells
+/// it.
 pub fn keys() -> impl Iterator<Item = &'static str> {
     LENGTHS.iter().chain(&ANGLES).chain(&OTHERS).copied()
 }
@@ -77,8 +79,8 @@ pub enum Quantity {
     Other,
 }
 
-/// A column of the format by a name with or without its unit (`x`, `x_mm`, `q1_deg`); of a point on the tool with its name before
-/// (`smr1.x`). `None` where there is no such column.
+/// A column of the format by a name with or without its unit (`x`, `x_mm`, `q1_deg`); of a point on
+/// the tool with its name before (`smr1.x`). `None` where there is no such column.
 #[must_use]
 pub(super) fn column(name: &str) -> Option<(String, Quantity)> {
     let (point, own) = match name.rsplit_once('.') {

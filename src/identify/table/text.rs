@@ -1,4 +1,5 @@
-//! A table's bytes as text, and how its cells are written: encoding, separator, decimal sign, header.
+//! A table's bytes as text, and how its cells are written: encoding, separator, decimal sign,
+//! header.
 
 use crate::identify::doubt::csv::{NotCsv, doubled, empty};
 use std::ops::Range;
@@ -263,7 +264,8 @@ impl Grid {
         (cell.start + blank + 1, text[cell].trim().len())
     }
 
-    /// The number in a cell; `None` where it is none. With decimal commas a point is no decimal sign, and the other way round.
+    /// The number in a cell; `None` where it is none. With decimal commas a point is no decimal
+    /// sign, and the other way round.
     #[must_use]
     pub fn number(&self, text: &str) -> Option<f64> {
         let plain = text.strip_prefix('\u{2212}').map(|rest| format!("-{rest}"));

@@ -89,8 +89,8 @@ impl Unit {
     }
 }
 
-/// The unit that a column's name ends with, in brackets (`X [mm]`, `J1 (rad)`) or behind a blank, and the name without it. The unit
-/// is `None` where what is in brackets is not known.
+/// The unit that a column's name ends with, in brackets (`X [mm]`, `J1 (rad)`) or behind a blank,
+/// and the name without it. The unit is `None` where what is in brackets is not known.
 #[must_use]
 pub(super) fn in_name(name: &str) -> Option<(&str, Option<Unit>)> {
     let name = name.trim();

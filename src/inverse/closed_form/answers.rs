@@ -7,8 +7,8 @@ use crate::inverse::Branch;
 
 /// A posture that no joint leaves by more than this, radians, follows the one before.
 const CLOSE_RAD: f64 = 0.35;
-/// An answer that Newton's method finds from a posture is taken where no joint leaves it by more: near a fold it may be the
-/// other one of two, and all are looked at.
+/// An answer that Newton's method finds from a posture is taken where no joint leaves it by more:
+/// near a fold it may be the other one of two, and all are looked at.
 const BESIDE_RAD: f64 = 0.05;
 /// Answers with no joint farther apart than this, radians, are one.
 const SAME_RAD: f64 = 1e-7;
@@ -19,24 +19,26 @@ const BOTH: [f64; 2] = [1.0, -1.0];
 pub struct Answer {
     /// Its branch.
     pub branch: Branch,
-    /// Which of the answers on this branch, from 0, in the order of the angle of joint 6 in (−π, π]. Always 0 but for arms
-    /// with an offset wrist.
+    /// Which of the answers on this branch, from 0, in the order of the angle of joint 6 in (−π,
+    /// π]. Always 0 but for arms with an offset wrist.
     pub root: u8,
     /// The controller's joint angles, radians.
     pub q: [f64; 6],
 }
 
 impl Arm {
-    /// Whether a branch may hold several answers: axes 4 and 5 meet, and axis 6 passes one of them at a distance.
+    /// Whether a branch may hold several answers: axes 4 and 5 meet, and axis 6 passes one of them
+    /// at a distance.
     #[must_use]
     pub fn has_offset_wrist(&self) -> bool {
         self.wrist == Wrist::Offset
     }
 
-    /// Every posture that brings the nominal tool to `world_from_tool`, by whole turns nearest to `near`, in the order of the
-    /// branches; joint limits are not looked at.
+    /// Every posture that brings the nominal tool to `world_from_tool`, by whole turns nearest to
+    /// `near`, in the order of the branches; joint limits are not looked at.
     ///
-    /// Up to eight, up to sixteen with an offset wrist. None out of reach, or where the pose is not finite.
+    /// Up to eight, up to sixteen with an offset wrist. None out of reach, or where the pose is not
+    /// finite.
     #[must_use]
     pub fn solve_all(&self, world_from_tool: &Pose, near: &[f64; 6]) -> Vec<Answer> {
         let mut answers = Vec::with_capacity(16);
@@ -71,9 +73,9 @@ impl Arm {
         answers
     }
 
-    /// The posture that brings the nominal tool to `world_from_tool` on the track of `near`, by whole turns nearest to it:
-    /// on its branch, or with an offset wrist the nearest answer of all, since such an arm passes from branch to branch
-    /// without a singularity.
+    /// The posture that brings the nominal tool to `world_from_tool` on the track of `near`, by
+    /// whole turns nearest to it: on its branch, or with an offset wrist the nearest answer of
+    /// all, since such an arm passes from branch to branch without a singularity.
     ///
     /// Where nothing is in reach [`Solution::beyond`] is positive, as with [`Arm::solve_branch`].
     #[must_use]
@@ -86,8 +88,8 @@ impl Arm {
         self.solution(&self.offset_follow(world_from_tool, &turns), near)
     }
 
-    /// The posture on a path that runs on one branch: the one on it nearest to `near`, or with an offset wrist the one on the
-    /// track of `near`, wherever that leads.
+    /// The posture on a path that runs on one branch: the one on it nearest to `near`, or with an
+    /// offset wrist the one on the track of `near`, wherever that leads.
     #[must_use]
     pub fn solve_along(&self, world_from_tool: &Pose, branch: Branch, near: &[f64; 6]) -> Solution {
         if self.wrist == Wrist::Offset {
@@ -97,7 +99,8 @@ impl Arm {
         }
     }
 
-    /// Every root of the offset wrist's equation on some of the ways, as turns of the mechanical joints.
+    /// Every root of the offset wrist's equation on some of the ways, as turns of the mechanical
+    /// joints.
     fn each_root(
         &self,
         world_from_tool: &Pose,
@@ -127,8 +130,9 @@ impl Arm {
         })
     }
 
-    /// The answer of an arm with an offset wrist to start from on one branch: that on the track of a posture of this branch,
-    /// wherever that leads, or the one on the branch that is nearest to the posture.
+    /// The answer of an arm with an offset wrist to start from on one branch: that on the track of
+    /// a posture of this branch, wherever that leads, or the one on the branch that is nearest
+    /// to the posture.
     pub(in crate::inverse) fn offset_start(
         &self,
         world_from_tool: &Pose,

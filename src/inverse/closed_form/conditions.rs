@@ -4,10 +4,11 @@ use super::{Arm, Wrist};
 use crate::geometry::{Pose, Rotation, Turn};
 use crate::model::{Chain, Geometry, Link, Mechanism};
 
-/// How far an angle or length of the chain may be from what the closed form needs, radians or metres.
+/// How far an angle or length of the chain may be from what the closed form needs, radians or
+/// metres.
 const TOLERANCE: f64 = 1e-9;
-/// Below this sine of the angle between two axes of an offset wrist they count as parallel: the joints about them cannot be
-/// told apart.
+/// Below this sine of the angle between two axes of an offset wrist they count as parallel: the
+/// joints about them cannot be told apart.
 const LEAST_SINE: f64 = 1e-3;
 
 /// Which condition of the closed forms an arm does not meet.

@@ -1,7 +1,8 @@
 //! The nominal inverse in closed form, from the numbers of the chain.
 //!
-//! All kinds of arm share the shoulder (axis 1 turns the arm's plane) and the planar pair of links; they differ in the
-//! wrist. Every step is written over [`Scalar`] without branches, so that several targets are solved side by side.
+//! All kinds of arm share the shoulder (axis 1 turns the arm's plane) and the planar pair of links;
+//! they differ in the wrist. Every step is written over [`Scalar`] without branches, so that
+//! several targets are solved side by side.
 
 #![allow(
     clippy::needless_range_loop,
@@ -22,30 +23,33 @@ use super::branch::Branch;
 use crate::geometry::{Jet, Pose, Rotation, Scalar, Turn, Vector, add};
 use crate::model::{Chain, Mechanism};
 
-/// Joint 5 of an arm with three parallel axes farther than this from alignment, radians, multiplies an error of the
-/// orientation in joint 6 by seven at most.
+/// Joint 5 of an arm with three parallel axes farther than this from alignment, radians, multiplies
+/// an error of the orientation in joint 6 by seven at most.
 const STEADY_WRIST_RAD: f64 = 0.15;
-/// Below this sine of joint 5 the angles of the two joints beside it cannot be told apart in 64-bit numbers.
+/// Below this sine of joint 5 the angles of the two joints beside it cannot be told apart in 64-bit
+/// numbers.
 const WRIST_SINE: f64 = 1e-12;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wrist {
     /// Axes 4, 5 and 6 meet in one point.
     Spherical,
-    /// Axes 4 and 5 meet; axis 6 passes axis 5 or axis 4 at a distance, or stands slanted on axis 5.
+    /// Axes 4 and 5 meet; axis 6 passes axis 5 or axis 4 at a distance, or stands slanted on axis
+    /// 5.
     Offset,
     /// Axes 2, 3 and 4 are parallel.
     Parallel,
 }
 
-/// An arm whose inverse has a closed form: (a) ortho-parallel base and spherical wrist, with shoulder, lateral and elbow
-/// offsets; (b) the same with axis 6 offset from axis 4 or 5 and wrists bent at any angles, closed but for the angle of joint 6;
-/// (c) three parallel axes.
+/// An arm whose inverse has a closed form: (a) ortho-parallel base and spherical wrist, with
+/// shoulder, lateral and elbow offsets; (b) the same with axis 6 offset from axis 4 or 5 and wrists
+/// bent at any angles, closed but for the angle of joint 6; (c) three parallel axes.
 ///
 /// # Source
-/// Derived here from the rows of the chain. The conditions are those of M. Brandstötter, A. Angerer, M. Hofbaur, "An
-/// analytical solution of the inverse kinematics problem of industrial serial manipulators with an ortho-parallel basis and
-/// a spherical wrist" (2014), with the lateral offsets of every row.
+/// Derived here from the rows of the chain. The conditions are those of M. Brandstötter, A.
+/// Angerer, M. Hofbaur, "An analytical solution of the inverse kinematics problem of industrial
+/// serial manipulators with an ortho-parallel basis and a spherical wrist" (2014), with the lateral
+/// offsets of every row.
 #[derive(Clone, Debug)]
 pub struct Arm {
     wrist: Wrist,
@@ -54,10 +58,12 @@ pub struct Arm {
     /// θ of each row plus the controller's offset.
     home: [Turn; 6],
     sign: [f64; 6],
-    /// From the world to the frame that axis 1 turns, and from the tool to the last row's frame without its d.
+    /// From the world to the frame that axis 1 turns, and from the tool to the last row's frame
+    /// without its d.
     turning_from_world: Pose,
     tool_from_link6: Pose,
-    /// Sines of α2, α5, α6 and cosines of α3, α4: +1 or −1 where the kind of arm needs a right or a straight angle.
+    /// Sines of α2, α5, α6 and cosines of α3, α4: +1 or −1 where the kind of arm needs a right or
+    /// a straight angle.
     e2: f64,
     e5: f64,
     e6: f64,
@@ -90,7 +96,8 @@ pub struct Arm {
 pub struct Solution<S = f64> {
     /// The controller's joint angles, radians.
     pub q: [S; 6],
-    /// Zero where the pose is in reach; else how far it is beyond (squared cosine or relative lengths, not metres).
+    /// Zero where the pose is in reach; else how far it is beyond (squared cosine or relative
+    /// lengths, not metres).
     pub beyond: S,
 }
 
@@ -103,8 +110,8 @@ pub(super) struct Turned<S = f64> {
     pub beyond: S,
 }
 
-/// [`Margins`] with the sign of the side of each singularity: negative behind axis 1, behind the lower arm, and where joint
-/// 5 is negative.
+/// [`Margins`] with the sign of the side of each singularity: negative behind axis 1, behind the
+/// lower arm, and where joint 5 is negative.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stance<S = f64> {
     pub wrist_rad: S,
@@ -165,10 +172,12 @@ impl Arm {
             .forward(&Turn::of_each(&self.mechanism.commanded(q)))
     }
 
-    /// The joint angles on one branch that bring the nominal tool to `world_from_tool`, by whole turns nearest to `near`.
+    /// The joint angles on one branch that bring the nominal tool to `world_from_tool`, by whole
+    /// turns nearest to `near`.
     ///
-    /// Where the pose is out of reach the nearest posture of the stretched or folded arm is returned, and
-    /// [`Solution::beyond`] is positive. Where joint 5 aligns axes 4 and 6, joint 4 (on arms with three parallel axes joint
+    /// Where the pose is out of reach the nearest posture of the stretched or folded arm is
+    /// returned, and [`Solution::beyond`] is positive. Where joint 5 aligns axes 4 and 6, joint
+    /// 4 (on arms with three parallel axes joint
     /// 6) is that of `near`.
     #[inline(always)]
     #[must_use]
@@ -185,8 +194,8 @@ impl Arm {
         }
     }
 
-    /// Enclosures of the joint angles over an interval of a path, `half_width` to either side of the middle, where the
-    /// controller's joints are `middle`.
+    /// Enclosures of the joint angles over an interval of a path, `half_width` to either side of
+    /// the middle, where the controller's joints are `middle`.
     #[must_use]
     pub fn enclose(
         &self,
@@ -242,7 +251,8 @@ impl Arm {
         rows
     }
 
-    /// Mechanical joint angles of these turns, by whole turns nearest to the controller's angles `near`.
+    /// Mechanical joint angles of these turns, by whole turns nearest to the controller's angles
+    /// `near`.
     #[inline(always)]
     pub(super) fn angles<S: Scalar>(&self, turns: &[Turn<S>; 6], near: &[S; 6]) -> [S; 6] {
         let turn = S::constant(std::f64::consts::TAU);
@@ -262,7 +272,8 @@ impl Arm {
         turn.signed(S::constant(self.sign[index])) * self.home[index].cast()
     }
 
-    /// `found` where the wrist is clear of alignment, else the turn of row `index` in the posture `near`.
+    /// `found` where the wrist is clear of alignment, else the turn of row `index` in the posture
+    /// `near`.
     #[inline(always)]
     fn unless_aligned<S: Scalar>(
         &self,
@@ -284,7 +295,8 @@ impl Arm {
 
     /// The solution on one branch for plain numbers.
     ///
-    /// An arm with an offset wrist can have several on a branch ([`Arm::solve_all`]): this is the one nearest to `near`.
+    /// An arm with an offset wrist can have several on a branch ([`Arm::solve_all`]): this is the
+    /// one nearest to `near`.
     #[must_use]
     pub fn solve_branch(
         &self,
@@ -363,8 +375,9 @@ impl Arm {
         (stance.branch(), stance.margins())
     }
 
-    /// Whether a small change of the pose changes little of what the first three joints must reach. With three parallel axes
-    /// that hangs on joint 6, which turns freely where joint 5 aligns the wrist.
+    /// Whether a small change of the pose changes little of what the first three joints must reach.
+    /// With three parallel axes that hangs on joint 6, which turns freely where joint 5 aligns
+    /// the wrist.
     pub(super) fn reach_is_steady(&self, stance: &Stance) -> bool {
         self.wrist != Wrist::Parallel || stance.wrist_rad.abs() > STEADY_WRIST_RAD
     }

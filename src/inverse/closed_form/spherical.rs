@@ -34,7 +34,8 @@ impl Arm {
             cosine: scale * m[0][2],
         };
         let fourth = self.unless_aligned(length, fourth, 3, near);
-        // Rz(−4) · n = M · Rz(6): the first row of M, which has the cosine of row 5, and the last, which has its sine
+        // Rz(−4) · n = M · Rz(6): the first row of M, which has the cosine of row 5, and the last,
+        // which has its sine
         let Turn {
             sine: s4,
             cosine: c4,

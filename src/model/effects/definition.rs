@@ -27,7 +27,8 @@ pub struct Definition {
     pub deflects: bool,
     /// It moves links, the base or the tool with the posture, not only joints.
     pub bends: bool,
-    /// It is an effect of the data, not of the robot: it repairs the analysis of measurements and never enters a profile.
+    /// It is an effect of the data, not of the robot: it repairs the analysis of measurements and
+    /// never enters a profile.
     pub of_data: bool,
 }
 
@@ -183,7 +184,8 @@ impl SiteKey {
         }
     }
 
-    /// Smallest and largest number that a word of the command line may have: letters are counted from x, 1.
+    /// Smallest and largest number that a word of the command line may have: letters are counted
+    /// from x, 1.
     #[must_use]
     pub fn numbers(self) -> Option<(u32, u32)> {
         let of = |letter: Option<char>| {
@@ -225,7 +227,8 @@ pub struct Parameter {
     pub key: &'static str,
     /// Its unit in profiles.
     pub unit: Unit,
-    /// How large it typically is on industrial arms, one standard deviation, in the profile's unit.
+    /// How large it typically is on industrial arms, one standard deviation, in the profile's
+    /// unit.
     pub prior_sigma: f64,
 }
 

@@ -89,7 +89,8 @@ impl EntryError {
     }
 }
 
-/// Angles above this, degrees, lengths above this, mm, and compliances from this on, rad/(N m), are none of an arm's errors.
+/// Angles above this, degrees, lengths above this, mm, and compliances from this on, rad/(N m), are
+/// none of an arm's errors.
 const MOST_DEG: f64 = 2.0;
 const MOST_MM: f64 = 20.0;
 const MOST_RAD_PER_N_M: f64 = 5e-3;
@@ -119,7 +120,8 @@ fn keys(definition: &Definition) -> impl Iterator<Item = &'static str> {
     places.chain(definition.parameters.iter().map(|parameter| parameter.key))
 }
 
-/// Whether an entry may leave out this parameter (it is then zero): an effect's only parameter may not be left out.
+/// Whether an entry may leave out this parameter (it is then zero): an effect's only parameter may
+/// not be left out.
 fn optional(definition: &Definition) -> bool {
     definition.parameters.len() > 1
 }
@@ -128,7 +130,8 @@ impl Effect {
     /// Reads an entry's keys and values.
     ///
     /// # Errors
-    /// An unknown effect, an unknown or missing key, a value of the wrong kind, out of range or not finite.
+    /// An unknown effect, an unknown or missing key, a value of the wrong kind, out of range or not
+    /// finite.
     pub fn from_entry(entry: &Map<String, Value>) -> Result<Self, EntryError> {
         let id = entry.get("effect").ok_or(EntryError::NoEffect)?;
         let kind = id
@@ -205,7 +208,8 @@ impl Effect {
         })
     }
 
-    /// The entry's keys and values in the order of the definition; parameters that are zero and may be left out are.
+    /// The entry's keys and values in the order of the definition; parameters that are zero and may
+    /// be left out are.
     #[must_use]
     pub fn to_entry(&self) -> Vec<(&'static str, Value)> {
         let definition = self.definition();
@@ -240,8 +244,8 @@ impl Effect {
         entry
     }
 
-    /// A parameter beyond what arms usually have, its value and the limit, both in the profile's unit: a profile has to say
-    /// that it means it.
+    /// A parameter beyond what arms usually have, its value and the limit, both in the profile's
+    /// unit: a profile has to say that it means it.
     #[must_use]
     pub fn beyond_usual(&self) -> Option<(&'static Parameter, f64, f64)> {
         let parameters = self.parameters.iter().zip(self.definition().parameters);

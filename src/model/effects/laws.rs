@@ -274,7 +274,8 @@ fn an_entry_written_is_read_as_the_same_effect() {
 /// Rounding of derivatives of poses of some metres.
 const SLOPE_TOLERANCE: f64 = 1e-11;
 
-/// Every effect of the registry at once, none of its parameters zero, and a second compliance that all torques reach.
+/// Every effect of the registry at once, none of its parameters zero, and a second compliance that
+/// all torques reach.
 fn all_effects() -> Vec<Effect> {
     let mut all: Vec<Effect> = of_arm()
         .map(|kind| {
@@ -307,7 +308,8 @@ fn fast_derivatives_agree_with_full_duals() {
     let mut geometry = profile.geometry(&tool());
     geometry.world_from_base = Pose::from_xyz_rxryrz([2.0, -1.0, 0.5, 0.7, -0.4, 2.0]);
     let everything = all_effects();
-    // effects that bend take another way through the derivatives: each with the plain ones, and the plain ones alone
+    // effects that bend take another way through the derivatives: each with the plain ones, and the
+    // plain ones alone
     let plain: Vec<Effect> = everything
         .iter()
         .filter(|effect| !effect.definition().bends)

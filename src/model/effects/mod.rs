@@ -1,8 +1,9 @@
 //! The registry of effects: each physical cause of error is one file that states its equation once.
 //!
-//! An effect's file has a type that implements `Equation`: its [`Definition`] (name, equation, source, parameters with
-//! units and priors, what it needs) and one or both of its two functions. Profile keys, JSON Schema, help, identification,
-//! diagnosis and the law tests follow from the list in [`registry!`](self); nothing else names an effect.
+//! An effect's file has a type that implements `Equation`: its [`Definition`] (name, equation,
+//! source, parameters with units and priors, what it needs) and one or both of its two functions.
+//! Profile keys, JSON Schema, help, identification, diagnosis and the law tests follow from the
+//! list in [`registry!`](self); nothing else names an effect.
 //!
 //! To add one: write the file, add its line to the list.
 
@@ -26,12 +27,14 @@ pub const BASE: usize = 6;
 /// Most parameters an effect has.
 pub const MOST_PARAMETERS: usize = 6;
 
-/// One effect's equation. Both functions take the parameters in SI units, in the order of the definition.
+/// One effect's equation. Both functions take the parameters in SI units, in the order of the
+/// definition.
 trait Equation {
     /// Everything about the effect but its equation.
     const DEFINITION: Definition;
 
-    /// Whether it reads [`State::commanded`]; where no effect does, an inverse need not know the angles on its way.
+    /// Whether it reads [`State::commanded`]; where no effect does, an inverse need not know the
+    /// angles on its way.
     const READS_ANGLES: bool = true;
 
     /// Changes the arm's geometry, before any posture is known.
@@ -69,7 +72,8 @@ trait Equation {
 /// Where an external axis stands.
 #[derive(Clone, Copy, Debug)]
 pub struct AxisState<S> {
-    /// How far from the middle of its limits a linear axis is, metres; the angle of a rotary one from its zero, radians.
+    /// How far from the middle of its limits a linear axis is, metres; the angle of a rotary one
+    /// from its zero, radians.
     pub moved: S,
     /// The same of a linear axis as a part of half its travel: −1 to 1.
     pub part: S,
@@ -239,13 +243,14 @@ impl Kind {
 /// What an effect belongs to. Only what its [`Definition::site`] lists is used.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Site {
-    /// Index of the joint or link, 0 to 5; 6 is the base where an effect may belong to it; or index of the external axis in
-    /// the profile's list.
+    /// Index of the joint or link, 0 to 5; 6 is the base where an effect may belong to it; or
+    /// index of the external axis in the profile's list.
     pub index: usize,
-    /// Index of the joint it leaks from; of an external axis the direction: 0 is x, 1 is y, 2 is z.
+    /// Index of the joint it leaks from; of an external axis the direction: 0 is x, 1 is y, 2 is
+    /// z.
     pub on: usize,
-    /// Thousandths of periods in one turn; the degree of a power; a period in micrometres; or the first row of the measurements,
-    /// from 1, where an effect begins there.
+    /// Thousandths of periods in one turn; the degree of a power; a period in micrometres; or the
+    /// first row of the measurements, from 1, where an effect begins there.
     pub order: u32,
     /// Name of the tool; `None` is every tool.
     pub tool: Option<String>,
@@ -259,7 +264,8 @@ impl Site {
     }
 }
 
-/// One effect with its parameters in SI units, in the order of its definition; unused ones are zero.
+/// One effect with its parameters in SI units, in the order of its definition; unused ones are
+/// zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect<S = f64> {
     /// Which effect.
@@ -311,7 +317,8 @@ pub struct State<'a, S> {
     pub commanded: &'a [S; 6],
     /// Torque about each joint in the controller's sense, N·m; zero unless an effect needs masses.
     pub torques: &'a [S; 6],
-    /// Frames and moments of the links; present where an effect bends links or moves the base or the tool.
+    /// Frames and moments of the links; present where an effect bends links or moves the base or
+    /// the tool.
     pub frames: Option<&'a Frames<S>>,
     /// Direction, force, temperature, time.
     pub conditions: &'a Conditions,
@@ -324,7 +331,8 @@ pub struct Deflection<S = f64> {
     pub joints: [S; 6],
     /// Rotation of each link about its frame's origin and axes, radians.
     pub links: [Vector<S>; 6],
-    /// Motion of the whole arm in the world: metres and radians as [`crate::geometry::Pose::from_xyz_rxryrz`].
+    /// Motion of the whole arm in the world: metres and radians as
+    /// [`crate::geometry::Pose::from_xyz_rxryrz`].
     pub world: [S; 6],
     /// Motion of the tool in its own frame, likewise.
     pub tool: [S; 6],

@@ -8,12 +8,14 @@
 //!              [plate error];  u = sign · (e − zero)
 //! ```
 //!
-//! Without effects these are what the controller computes with. The arm's own models stand where the base is with every axis of
-//! the track at `zero`: a wanted pose is brought into their world by the inverse of the track's motion, and gravity turned along.
+//! Without effects these are what the controller computes with. The arm's own models stand where
+//! the base is with every axis of the track at `zero`: a wanted pose is brought into their world by
+//! the inverse of the track's motion, and gravity turned along.
 //!
 //! # Source
-//! J. Kleinkes, W. Neddermeyer, M. Schnell, "Improved method for highly accurate integration of track motions" (2006), with
-//! powers instead of splines; the positioner is the usual product of rigid motions.
+//! J. Kleinkes, W. Neddermeyer, M. Schnell, "Improved method for highly accurate integration of
+//! track motions" (2006), with powers instead of splines; the positioner is the usual product of
+//! rigid motions.
 
 use super::effects::{AxisError, AxisState, Effect};
 use crate::geometry::{Pose, Rotation, Scalar, Vector, add, cross, norm, scale};
@@ -139,8 +141,8 @@ impl Listed<'_> {
     }
 }
 
-/// Where external axes stand, in the order in which they are listed: metres and radians, and the direction in which each last
-/// moved.
+/// Where external axes stand, in the order in which they are listed: metres and radians, and the
+/// direction in which each last moved.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a, S = f64> {
     /// Their values.
@@ -152,7 +154,8 @@ pub struct At<'a, S = f64> {
 /// Where external axes stand, as [`At`], kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stand {
-    /// Metres and radians in the order in which they are listed; not a number of an axis of which nothing is known.
+    /// Metres and radians in the order in which they are listed; not a number of an axis of which
+    /// nothing is known.
     pub values: Vec<f64>,
     /// −1, +1, or 0 where it is unknown; empty where nothing is known of any.
     pub directions: Vec<f64>,
@@ -191,8 +194,8 @@ pub struct Carried {
     pub stand: Stand,
     /// Where the base stands nominally, metres: carriages turn about it.
     pub origin: Vector,
-    /// Where the base really stands at home, where the track goes along with it: the world is then wherever the base is seen.
-    /// Else the track stands in the world, wherever the base is.
+    /// Where the base really stands at home, where the track goes along with it: the world is then
+    /// wherever the base is seen. Else the track stands in the world, wherever the base is.
     pub home: Option<Pose>,
 }
 
@@ -252,7 +255,8 @@ impl ExternalAxes {
         self.track.len() + before.iter().map(|p| p.axes.len()).sum::<usize>()
     }
 
-    /// Where the controller takes the base to be: the motion in the world from where it stands with every axis at zero.
+    /// Where the controller takes the base to be: the motion in the world from where it stands with
+    /// every axis at zero.
     #[must_use]
     pub fn base_nominal<S: Scalar>(&self, values: &[S]) -> Pose<S> {
         self.travel(values, |_| true)
@@ -276,8 +280,8 @@ impl ExternalAxes {
         motion
     }
 
-    /// Where the base really is: the motion in the world from where it stands with every axis at zero. It is turned about
-    /// `origin`, where the base stands nominally, metres.
+    /// Where the base really is: the motion in the world from where it stands with every axis at
+    /// zero. It is turned about `origin`, where the base stands nominally, metres.
     #[must_use]
     pub fn base_real<S: Scalar>(
         &self,

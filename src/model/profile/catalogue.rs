@@ -1,7 +1,8 @@
 //! The catalogue: nominal arms from public sources, one row of one table an arm.
 //!
-//! The rows of a chain, limits and speeds are those of a file that each row names (repository, commit, path); world and
-//! flange are the controller's where the file has them. Nothing of it was checked on a robot.
+//! The rows of a chain, limits and speeds are those of a file that each row names (repository,
+//! commit, path); world and flange are the controller's where the file has them. Nothing of it was
+//! checked on a robot.
 //!
 //! # Source
 //! `robots/catalogue.csv`; what was checked and where sources disagree is in `robots/README.md`.

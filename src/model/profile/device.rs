@@ -12,7 +12,8 @@ use serde_json::json;
 pub struct DevicePlace {
     /// `world_from_device`: maps what the device gives into the controller's world.
     pub world_from_device: Pose,
-    /// Standard deviations of `x, y, z, rx, ry, rz` of that pose, metres and radians, where they are known.
+    /// Standard deviations of `x, y, z, rx, ry, rz` of that pose, metres and radians, where they
+    /// are known.
     pub sigma: Option<[f64; 6]>,
 }
 

@@ -56,12 +56,12 @@ enum Content {
     Map(bool, Vec<(String, usize, Node)>),
 }
 
-/// The text with the value at a path (`kinematics.joints.3.min_deg`: keys, and numbers from 1 in lists) replaced by YAML of one line,
-/// or put into the map that does not have it yet.
+/// The text with the value at a path (`kinematics.joints.3.min_deg`: keys, and numbers from 1 in
+/// lists) replaced by YAML of one line, or put into the map that does not have it yet.
 ///
 /// # Errors
-/// A path that leads nowhere, a value over several lines, a layout that is not understood: what was made is read again and
-/// compared as data.
+/// A path that leads nowhere, a value over several lines, a layout that is not understood: what was
+/// made is read again and compared as data.
 pub fn with_value(text: &str, path: &str, value: &str) -> Result<String, EditError> {
     let (root, data) = (tree(text)?, data(text)?);
     let steps: Vec<&str> = path.split('.').collect();

@@ -17,18 +17,21 @@ use serde_yaml::{Location, Spanned};
 /// Most linear axes of a track, and rotary axes of a positioner.
 const MOST_TRACK: usize = 3;
 const MOST_ROTARY: usize = 2;
-/// A direction shorter than this, in its own unit, is none; nearer to `up` than this its sides are not known.
+/// A direction shorter than this, in its own unit, is none; nearer to `up` than this its sides are
+/// not known.
 const LEAST: f64 = 1e-6;
 const LEAST_SINE: f64 = 0.1;
 /// No axis is longer, mm, and none goes farther round, degrees.
 const MOST_MM: f64 = 1e6;
 const MOST_DEG: f64 = 1e6;
 
-/// What stands around the arm and moves: a track that carries the base, positioners that carry work pieces.
+/// What stands around the arm and moves: a track that carries the base, positioners that carry work
+/// pieces.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExternalFile {
-    /// Linear axes that carry the base, from the floor up: one of a track, two or three of a gantry.
+    /// Linear axes that carry the base, from the floor up: one of a track, two or three of a
+    /// gantry.
     #[serde(default)]
     #[schemars(with = "Vec<TrackAxisFile>")]
     pub track: Vec<Spanned<TrackAxisFile>>,
@@ -60,7 +63,8 @@ pub struct TrackAxisFile {
     pub min_mm: Number,
     /// Largest value.
     pub max_mm: Number,
-    /// `world`: the controller's poses include the axis; `base`: they do not, and work frames ride along.
+    /// `world`: the controller's poses include the axis; `base`: they do not, and work frames ride
+    /// along.
     #[serde(default)]
     pub coordinates: CoordinatesFile,
     /// Encoder pulses of one millimetre, for programs that count in pulses (INFORM).
@@ -85,7 +89,8 @@ pub enum CoordinatesFile {
 pub struct PositionerFile {
     /// Its name in programs: the unit of RAPID, the machine of KRL or its number, `ST1` of INFORM.
     pub name: String,
-    /// Which work frames it carries: `frame`, those of which the program says so; `always`; `never`.
+    /// Which work frames it carries: `frame`, those of which the program says so; `always`;
+    /// `never`.
     #[serde(default)]
     pub follows: FollowsFile,
     /// Its rotary axes.
@@ -116,7 +121,8 @@ pub enum FollowsFile {
 pub struct RotaryAxisFile {
     /// Its name in programs.
     pub axis: String,
-    /// Where it is: the first in the world, another in the frame of the axis before at its zero; z is the axis.
+    /// Where it is: the first in the world, another in the frame of the axis before at its zero; z
+    /// is the axis.
     #[schemars(with = "PoseFile")]
     pub at: Spanned<PoseFile>,
     /// −1 where the controller counts the other way.
@@ -167,7 +173,8 @@ impl ExternalFile {
     /// What it means.
     ///
     /// # Errors
-    /// A direction that is none, limits the wrong way round, too many axes or none, a name that stands twice.
+    /// A direction that is none, limits the wrong way round, too many axes or none, a name that
+    /// stands twice.
     pub(super) fn read(self) -> Result<ExternalAxes, ProfileError> {
         let mut names: Vec<(String, Location)> = Vec::new();
         let mut track = Vec::new();
@@ -312,7 +319,8 @@ pub fn is_of_profile(effect: &Effect, axes: &ExternalAxes) -> bool {
     check_effect(effect, axes).is_none()
 }
 
-/// What is wrong with an effect of an external axis: there is no such axis, or it is of the other kind.
+/// What is wrong with an effect of an external axis: there is no such axis, or it is of the other
+/// kind.
 pub(super) fn check_effect(effect: &Effect, axes: &ExternalAxes) -> Option<Fault> {
     if !effect.definition().site.contains(&SiteKey::Axis) {
         return None;

@@ -46,7 +46,8 @@ pub struct ProfileFile {
     #[serde(default)]
     #[schemars(with = "Vec<super::shape::LinkShapeFile>")]
     pub shapes: Vec<Spanned<super::shape::LinkShapeFile>>,
-    /// What stands around the arm and moves: a track that carries the base, positioners that carry work pieces.
+    /// What stands around the arm and moves: a track that carries the base, positioners that carry
+    /// work pieces.
     #[serde(default)]
     pub external_axes: super::external::ExternalFile,
     /// Gravity in the world.
@@ -70,7 +71,8 @@ pub struct ProfileFile {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tables {
-    /// Their name of each column of the format, where a file has it: `q1_deg: J1`; several where files differ.
+    /// Their name of each column of the format, where a file has it: `q1_deg: J1`; several where
+    /// files differ.
     #[serde(default)]
     pub columns: BTreeMap<String, Theirs>,
     /// Units of these columns, as `--units` has them.
@@ -96,7 +98,8 @@ pub struct RobotFile {
     /// Serial number.
     #[serde(default)]
     pub serial: Option<String>,
-    /// The largest mass that the flange may carry; without it masses of tools and loads are not checked.
+    /// The largest mass that the flange may carry; without it masses of tools and loads are not
+    /// checked.
     #[serde(default)]
     #[schemars(with = "Option<Number>")]
     pub payload_kg: Option<Spanned<Number>>,
@@ -112,8 +115,9 @@ pub struct ControllerFile {
     pub language: Option<Spanned<String>>,
     /// Whether it computes with the nominal chain or with a calibrated one of its own.
     pub model: ControllerModel,
-    /// What the calibrated chain of the controller has that the nominal one has not (usually `link_geometry`), in the form
-    /// of `calibration.effects`. Where it is absent, a calibrated controller applies the link geometry of the calibration.
+    /// What the calibrated chain of the controller has that the nominal one has not (usually
+    /// `link_geometry`), in the form of `calibration.effects`. Where it is absent, a
+    /// calibrated controller applies the link geometry of the calibration.
     #[serde(default)]
     #[schemars(schema_with = "effects_schema")]
     pub effects: Option<Vec<EffectFile>>,
@@ -128,8 +132,8 @@ pub struct ControllerFile {
 pub enum ControllerModel {
     /// The nominal chain.
     Nominal,
-    /// A calibrated chain: its own where the file gives the controller's effects, else that of the calibration's link
-    /// geometry.
+    /// A calibrated chain: its own where the file gives the controller's effects, else that of the
+    /// calibration's link geometry.
     Calibrated,
 }
 
@@ -249,8 +253,8 @@ pub struct ToolFile {
     pub cog_mm: Option<[Number; 3]>,
 }
 
-/// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them; beside them `large: true` with
-/// a `reason` where a value is beyond the usual.
+/// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them;
+/// beside them `large: true` with a `reason` where a value is beyond the usual.
 pub(crate) type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
 
 /// A name, or several of which each file has one at most.
@@ -293,8 +297,8 @@ pub struct CalibrationFile {
     pub provenance: Option<serde_json::Value>,
 }
 
-/// Where the device's frame was in the controller's world when the calibration was measured. What reads measurements applies
-/// it; `compensate` and `check` do not.
+/// Where the device's frame was in the controller's world when the calibration was measured. What
+/// reads measurements applies it; `compensate` and `check` do not.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceFile {

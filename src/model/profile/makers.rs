@@ -9,8 +9,8 @@ pub struct Maker {
     pub name: &'static str,
     /// The language of its controllers.
     pub language: &'static str,
-    /// Words in names of robots and packages of this maker alone, in lower case: whole, before a number, or at the start of
-    /// a longer word where they have four letters.
+    /// Words in names of robots and packages of this maker alone, in lower case: whole, before a
+    /// number, or at the start of a longer word where they have four letters.
     pub marks: &'static [&'static str],
     /// The joint that its controllers count together with another one.
     pub coupling: Option<Coupling>,
@@ -21,8 +21,9 @@ pub struct Maker {
 /// The makers.
 ///
 /// # Source
-/// FANUC's J3 is counted from the horizontal: ros-industrial/fanuc, `J23_factor` 1 in its launch files, issues 22 and 186
-/// there, also for the collaborative CR arms; of the CRX no document was found. ABB's arms with a rod: ros-industrial/abb_driver, `J23_coupled`.
+/// FANUC's J3 is counted from the horizontal: ros-industrial/fanuc, `J23_factor` 1 in its launch
+/// files, issues 22 and 186 there, also for the collaborative CR arms; of the CRX no document was
+/// found. ABB's arms with a rod: ros-industrial/abb_driver, `J23_coupled`.
 pub const MAKERS: &[Maker] = &[
     Maker {
         remark: "ABB's controllers count axis 3 of arms with a parallel rod (IRB 2400, 4400) together with axis 2: `profile set` with kinematics.coupling=[{joint: 3, \"on\": 2, ratio: -1}]",

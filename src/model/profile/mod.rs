@@ -95,7 +95,8 @@ pub struct Profile {
     pub large: Reasons,
     /// How the columns of measurements are named.
     pub tables: Tables,
-    /// Where the device stood that the calibration was measured with; what reads measurements applies it.
+    /// Where the device stood that the calibration was measured with; what reads measurements
+    /// applies it.
     pub device: Option<DevicePlace>,
     /// Statistics of the calibration, as the file has them.
     pub quality: Option<serde_json::Value>,
@@ -103,7 +104,8 @@ pub struct Profile {
     pub provenance: Option<serde_json::Value>,
 }
 
-/// Why effects of a profile may be beyond the usual (`large: true` with a `reason`), by [`Effect::label`].
+/// Why effects of a profile may be beyond the usual (`large: true` with a `reason`), by
+/// [`Effect::label`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reasons {
     /// Those of the controller's own chain.
@@ -363,8 +365,9 @@ impl Profile {
         }
     }
 
-    /// What carries the base where external axes stand so; `None` without a track, and where nothing is said of them.
-    /// `with_base`: the track goes along with the base, wherever that is seen.
+    /// What carries the base where external axes stand so; `None` without a track, and where
+    /// nothing is said of them. `with_base`: the track goes along with the base, wherever that
+    /// is seen.
     #[must_use]
     pub fn carried(&self, stand: &Stand, with_base: bool) -> Option<Carried> {
         let is_carried = !self.external.track.is_empty() && !stand.values.is_empty();
@@ -376,8 +379,8 @@ impl Profile {
         })
     }
 
-    /// The effects that the controller already applies itself: those of its own calibrated chain; where the profile does
-    /// not give them, the link geometry of the calibration.
+    /// The effects that the controller already applies itself: those of its own calibrated chain;
+    /// where the profile does not give them, the link geometry of the calibration.
     #[must_use]
     pub fn controller_effects(&self) -> Vec<Effect> {
         match (self.controller, &self.own_effects) {
@@ -392,8 +395,8 @@ impl Profile {
         }
     }
 
-    /// The effects of the arm as it really is: those of the calibration. Where there are none, nothing better is known
-    /// than what the controller computes with.
+    /// The effects of the arm as it really is: those of the calibration. Where there are none,
+    /// nothing better is known than what the controller computes with.
     #[must_use]
     pub fn real_effects(&self) -> Vec<Effect> {
         if self.effects.is_empty() {
@@ -523,7 +526,8 @@ fn rows(
     Ok((six.map(|row| row.0), six.map(|row| row.1)))
 }
 
-/// The couplings in an order in which each refers only to joints whose own couplings stand before it.
+/// The couplings in an order in which each refers only to joints whose own couplings stand before
+/// it.
 fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, ProfileError> {
     let mut waiting = Vec::new();
     for entry in entries {
@@ -559,7 +563,8 @@ fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, P
     Ok(ordered)
 }
 
-/// Whether a tool is off the flange, and by less than a millimetre in each coordinate: metres are meant.
+/// Whether a tool is off the flange, and by less than a millimetre in each coordinate: metres are
+/// meant.
 pub(crate) fn is_tiny(flange_from_tool: &Pose) -> bool {
     let off = flange_from_tool.translation.map(f64::abs);
     off.iter().all(|m| *m < TINY_M) && off.iter().any(|m| *m > NO_LENGTH_M)
@@ -612,7 +617,8 @@ pub(crate) fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
     }
 }
 
-/// The effects of a controller's own chain. It knows its masses, but not how the arm came to a posture.
+/// The effects of a controller's own chain. It knows its masses, but not how the arm came to a
+/// posture.
 fn own_effects(
     model: ControllerModel,
     entries: Option<Vec<file::EffectFile>>,

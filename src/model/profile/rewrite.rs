@@ -7,9 +7,11 @@ use crate::model::external::ExternalAxes;
 use crate::printable::{flow, quoted};
 use std::fmt::Write;
 
-/// The text of a profile with a calibrated controller that has these effects; comments and all other blocks stay.
+/// The text of a profile with a calibrated controller that has these effects; comments and all
+/// other blocks stay.
 ///
-/// `None` where the text does not have `controller` as a block of its own, as in one long line: nothing is guessed.
+/// `None` where the text does not have `controller` as a block of its own, as in one long line:
+/// nothing is guessed.
 #[must_use]
 pub fn with_controller(
     text: &str,
@@ -37,7 +39,8 @@ pub fn with_controller(
     out.push_str(&text[..start]);
     out.push_str(&new);
     out.push_str(&text[end..]);
-    // the writer above may not know every way in which YAML can be written: what came out must be what was meant
+    // the writer above may not know every way in which YAML can be written: what came out must be
+    // what was meant
     let meant = Profile {
         controller: ControllerModel::Calibrated,
         own_effects: Some(effects.to_vec()),
@@ -61,8 +64,8 @@ pub fn with_controller(
     (same && rest == meant).then_some(out)
 }
 
-/// The text of a profile with these external axes: their block is written anew, before the calibration where there was none; every
-/// other byte stays.
+/// The text of a profile with these external axes: their block is written anew, before the
+/// calibration where there was none; every other byte stays.
 ///
 /// `None` where what came out is not what was meant, as in one long line: nothing is guessed.
 #[must_use]
@@ -103,7 +106,8 @@ fn block(text: &str, key: &str) -> Option<(usize, usize)> {
                 }
             }
             Some((_, end)) => {
-                // what is indented belongs to the block; blank lines and comments only where more of it follows
+                // what is indented belongs to the block; blank lines and comments only where more
+                // of it follows
                 let indented = line.starts_with([' ', '\t', '-', '}']);
                 if indented && !content.is_empty() && !content.trim_start().starts_with('#') {
                     *end = to;

@@ -98,8 +98,8 @@ pub(crate) fn flow_tool(tool: &super::ToolOfProfile) -> String {
     format!("{{frame: {}{load}}}", flow_pose(&tool.flange_from_tool))
 }
 
-/// The text of a profile without points, calibration and a controller of its own kind, comments above and behind its numbers.
-/// Reading it gives the profile again, its numbers to twelve digits.
+/// The text of a profile without points, calibration and a controller of its own kind, comments
+/// above and behind its numbers. Reading it gives the profile again, its numbers to twelve digits.
 #[must_use]
 pub fn made(profile: &Profile, comments: &Comments) -> String {
     debug_assert!(

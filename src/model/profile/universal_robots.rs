@@ -1,7 +1,7 @@
 //! The factory calibration of Universal Robots arms, as link geometry of a profile.
 //!
-//! Two files tell it. The controller's own `calibration.conf` has differences to the maker's table of standard
-//! Denavit–Hartenberg parameters, metres and radians, joint 1 to 6:
+//! Two files tell it. The controller's own `calibration.conf` has differences to the maker's table
+//! of standard Denavit–Hartenberg parameters, metres and radians, joint 1 to 6:
 //!
 //! ```text
 //! [mounting]
@@ -12,17 +12,19 @@
 //! calibration_status = 2 # 0 == notInitialized / 1 == notLinearised / 2 == Linearised
 //! ```
 //!
-//! Its row i is `Rz(q + θ) · Tz(d) · Tx(a) · Rx(α)`: a and α stand behind the joint, in ours before it, so a and α of its
-//! row i belong to our row i + 1. Axes 2, 3 and 4 are nearly parallel, their common normals lie far away, and d and θ of
-//! the three rows are large and cancel.
+//! Its row i is `Rz(q + θ) · Tz(d) · Tx(a) · Rx(α)`: a and α stand behind the joint, in ours before
+//! it, so a and α of its row i belong to our row i + 1. Axes 2, 3 and 4 are nearly parallel, their
+//! common normals lie far away, and d and θ of the three rows are large and cancel.
 //!
-//! The ROS driver's `ur_calibration` writes the same arm as `kinematics:` with a pose `x y z roll pitch yaw` before each of
-//! the joints `shoulder … wrist_3`.
+//! The ROS driver's `ur_calibration` writes the same arm as `kinematics:` with a pose `x y z roll
+//! pitch yaw` before each of the joints `shoulder … wrist_3`.
 //!
-//! Both become [`Axes`], and these rows with β instead of the large d ([`Axes::rows`]): the same chain for all joint angles.
+//! Both become [`Axes`], and these rows with β instead of the large d ([`Axes::rows`]): the same
+//! chain for all joint angles.
 //!
 //! # Limits
-//! The controller also corrects each joint's encoder (`joint_selftest_data`); that happens before its joint angles.
+//! The controller also corrects each joint's encoder (`joint_selftest_data`); that happens before
+//! its joint angles.
 
 use super::Profile;
 use super::file::Number;

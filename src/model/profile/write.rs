@@ -1,4 +1,5 @@
-//! A profile file with another calibration: everything else stays as a person wrote it, comments included.
+//! A profile file with another calibration: everything else stays as a person wrote it, comments
+//! included.
 
 use super::text::gravity;
 use super::{Profile, ProfileError, Theirs};
@@ -198,7 +199,8 @@ fn measurement(profile: &Profile) -> String {
     out
 }
 
-/// The text of a profile file with the base, points and calibration of `profile`; every other section is `text`'s.
+/// The text of a profile file with the base, points and calibration of `profile`; every other
+/// section is `text`'s.
 ///
 /// # Errors
 /// The text's layout does not allow it: what was made is read back and compared.

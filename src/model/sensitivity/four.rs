@@ -32,7 +32,8 @@ impl FourMotions {
     }
 }
 
-/// A model and its derivatives for four postures under the same conditions; links do not bend and no force acts.
+/// A model and its derivatives for four postures under the same conditions; links do not bend and
+/// no force acts.
 #[derive(Clone, Debug)]
 pub(crate) struct FourSensitivities<'a> {
     one: &'a Sensitivity,

@@ -1,7 +1,8 @@
 //! Poses or joints as CSV, for controllers without a language here.
 //!
-//! A header names the columns, in any order: `x_mm,y_mm,z_mm,qw,qx,qy,qz` for poses, `q1_deg … q6_deg` for joints. Each row is a
-//! target and a move to it: a line to a pose, joints interpolated to joints. Optional columns:
+//! A header names the columns, in any order: `x_mm,y_mm,z_mm,qw,qx,qy,qz` for poses, `q1_deg …
+//! q6_deg` for joints. Each row is a target and a move to it: a line to a pose, joints interpolated
+//! to joints. Optional columns:
 //!
 //! | column | meaning |
 //! |---|---|
@@ -11,13 +12,15 @@
 //! | `tool` | the tool's name; without it the tool is the nameless one |
 //! | `frame` | the work frame's name; `world` is the world |
 //!
-//! Without `frame`, or where its cell is empty, poses are in the frame that `--frame` gives, and in the world without it.
+//! Without `frame`, or where its cell is empty, poses are in the frame that `--frame` gives, and in
+//! the world without it.
 //!
 //! Other columns are kept. `#` starts a comment line.
 //!
 //! # Limits
-//! Cells are separated by commas, and numbers have a point. `GOTO` lines of APT and CL files are not read: they give a
-//! position and the axis of the tool, and a robot's pose has one turn more, on which the joints depend.
+//! Cells are separated by commas, and numbers have a point. `GOTO` lines of APT and CL files are
+//! not read: they give a position and the axis of the tool, and a robot's pose has one turn more,
+//! on which the joints depend.
 
 mod header;
 mod records;
@@ -90,7 +93,8 @@ impl Language for Csv {
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
         match role {
             Role::Position => millimetre_decimals,
-            // a thousandth of a millimetre is a millionth of a quaternion part at one metre, 6e-5 degrees
+            // a thousandth of a millimetre is a millionth of a quaternion part at one metre, 6e-5
+            // degrees
             Role::Orientation => millimetre_decimals + 3,
             Role::Joint => millimetre_decimals + 2,
             Role::Configuration => 0,

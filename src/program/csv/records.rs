@@ -1,7 +1,8 @@
 //! Records and cells of a table, as places in its bytes.
 //!
-//! Cells are separated by commas; a cell in double quotes may hold commas and line ends, and a quote as two. Blanks around a
-//! cell do not belong to it. Lines end with LF, CR LF or CR; empty ones and those that start with `#` are passed over.
+//! Cells are separated by commas; a cell in double quotes may hold commas and line ends, and a
+//! quote as two. Blanks around a cell do not belong to it. Lines end with LF, CR LF or CR; empty
+//! ones and those that start with `#` are passed over.
 
 use crate::program::kit::content_start;
 

@@ -1,4 +1,5 @@
-//! Configuration data: `CONFIG : 'N U T, 0, 0, 0'` of a robot with six joints and a spherical wrist.
+//! Configuration data: `CONFIG : 'N U T, 0, 0, 0'` of a robot with six joints and a spherical
+//! wrist.
 //!
 //! | place | written | is | number |
 //! |---|---|---|---|
@@ -7,18 +8,20 @@
 //! | 3 | `T`, `B` | the wrist centre lies before axis 1, or behind it | 0, 1 |
 //! | 4 to 6 | a whole number | `floor((q + 180°) / 360°)` of joints 1, 4 and 6 | itself |
 //!
-//! `U` and `D` are the two sides of the stretched arm, on whichever side of axis 1 the wrist is: an arm that leans back until
-//! its wrist has passed over axis 1 goes from `U T` to `U B`, as it does not pass the stretched position on the way. In the
-//! frame of such an arm the elbow of `U B` lies below the line from shoulder to wrist.
+//! `U` and `D` are the two sides of the stretched arm, on whichever side of axis 1 the wrist is: an
+//! arm that leans back until its wrist has passed over axis 1 goes from `U T` to `U B`, as it does
+//! not pass the stretched position on the way. In the frame of such an arm the elbow of `U B` lies
+//! below the line from shoulder to wrist.
 //!
 //! # Limits
 //! Palletisers, robots with parallel links and SCARAs have other letters; they are not read.
 //!
 //! # Source
-//! Signs and turns: 2466 points of 26 controllers whose tools are known (51 turns of joint 4 and 174 of joint 6 are explained
-//! by `N` = negative, none by the opposite); "The perils of six-axis robots" (ONE Robotics, 2013), joints of an
-//! R-2000iB/165F that a controller shows: `N U T, 0, 0, 0` at J5 = -51.975. `U`: a controller's `F U B` points next to a
-//! joint point J2 = -42.883, J3 = 70.004, J5 = 20, whose wrist is behind axis 1 and before the lower arm on any arm of FANUC's
+//! Signs and turns: 2466 points of 26 controllers whose tools are known (51 turns of joint 4 and
+//! 174 of joint 6 are explained by `N` = negative, none by the opposite); "The perils of six-axis
+//! robots" (ONE Robotics, 2013), joints of an R-2000iB/165F that a controller shows: `N U T, 0, 0,
+//! 0` at J5 = -51.975. `U`: a controller's `F U B` points next to a joint point J2 = -42.883, J3 =
+//! 70.004, J5 = 20, whose wrist is behind axis 1 and before the lower arm on any arm of FANUC's
 //! proportions; and in public backups `U B` is common, where `D T` does not occur.
 
 use crate::program::{Configuration, Posture};

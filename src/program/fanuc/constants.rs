@@ -1,4 +1,5 @@
-//! Numbers of position registers that a program has just written: `PR[9,1]=(-30)` to `PR[9,6]=0`, then `UTOOL[9]=PR[9]`.
+//! Numbers of position registers that a program has just written: `PR[9,1]=(-30)` to `PR[9,6]=0`,
+//! then `UTOOL[9]=PR[9]`.
 
 use super::words::{assigned, behind_group, concerns_group_1, register, whole, word_length};
 use crate::geometry::Pose;
@@ -6,7 +7,8 @@ use crate::program::notation::pose_of_angles;
 use crate::program::number;
 use std::collections::BTreeMap;
 
-/// Instructions behind which what was written is still there: neither branches nor calls, and they write no other register.
+/// Instructions behind which what was written is still there: neither branches nor calls, and they
+/// write no other register.
 const PLAIN: &[&[u8]] = &[
     b"R",
     b"DO",

@@ -1,4 +1,5 @@
-//! What programs of one controller share: tools, user frames, position registers, and states that last until they change.
+//! What programs of one controller share: tools, user frames, position registers, and states that
+//! last until they change.
 
 use super::frames::Frames;
 use super::words::words;
@@ -293,7 +294,8 @@ impl Controller {
         Expr::Value(*value.or_insert_with(|| script.value(Held::Number(i64::from(number)))))
     }
 
-    /// The controller stops at moves to points where other numbers are selected than the points were taught with.
+    /// The controller stops at moves to points where other numbers are selected than the points
+    /// were taught with.
     pub(super) fn expected(
         &mut self,
         script: &mut Script,
@@ -356,8 +358,8 @@ impl Controller {
         })
     }
 
-    /// The mode that `Touch Offset PR[1]`, `Search Start[1] PR[1]`, `Track TAST[1]` and their ends switch: its variable, and
-    /// what it holds then.
+    /// The mode that `Touch Offset PR[1]`, `Search Start[1] PR[1]`, `Track TAST[1]` and their ends
+    /// switch: its variable, and what it holds then.
     pub(super) fn mode(&self, name: &[u8], rest: &[u8]) -> Option<(Mode, VariableId, Expr)> {
         let mut words = words(rest);
         let mode = match name {

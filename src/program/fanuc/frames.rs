@@ -18,7 +18,8 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// Takes in the frames of another file: those of variables are exact and go before those of a list.
+    /// Takes in the frames of another file: those of variables are exact and go before those of a
+    /// list.
     pub(super) fn add(&mut self, mut other: Self) {
         if !other.rounded {
             std::mem::swap(self, &mut other);
@@ -109,7 +110,8 @@ enum Section {
     Other,
 }
 
-/// `[*SYSTEM*]$MNUTOOL … ARRAY[1,10] OF POSITION`, then for each element `[1,2] =`, `X: … Y: … Z: …`, `W: … P: … R: …`.
+/// `[*SYSTEM*]$MNUTOOL … ARRAY[1,10] OF POSITION`, then for each element `[1,2] =`, `X: … Y: … Z:
+/// …`, `W: … P: … R: …`.
 fn variables(bytes: &[u8]) -> Result<Frames, BadNumber> {
     let mut frames = Frames::default();
     let mut section = Section::Other;
@@ -186,7 +188,8 @@ fn coordinates(text: &[u8], start: usize, values: &mut [Option<f64>; 6]) -> Resu
     Ok(())
 }
 
-/// `Tool Frame`, `Jog Frame`, `User Frame`, then a row of six numbers and a comment for each; rows count from 1.
+/// `Tool Frame`, `Jog Frame`, `User Frame`, then a row of six numbers and a comment for each; rows
+/// count from 1.
 fn list(bytes: &[u8]) -> Frames {
     let mut frames = Frames {
         rounded: true,

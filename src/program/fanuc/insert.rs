@@ -1,7 +1,7 @@
 //! Moves between those of a program: the instruction again, to a new point below `/POS`.
 //!
-//! New lines have a colon and no number: controllers number the lines of a listing themselves when they load it, and all
-//! other lines stay as they are.
+//! New lines have a colon and no number: controllers number the lines of a listing themselves when
+//! they load it, and all other lines stay as they are.
 
 use super::points::Points;
 use super::sections::{Sections, line_end};
@@ -24,7 +24,8 @@ fn head(bytes: &[u8], offset: usize) -> Option<Range<usize>> {
     (starts_alone && digits.iter().all(u8::is_ascii_digit)).then_some(start..offset)
 }
 
-/// The points of a move as they stand in its instruction; `None` where its text does more than go there.
+/// The points of a move as they stand in its instruction; `None` where its text does more than go
+/// there.
 fn points(program: &Program, index: usize) -> Option<Vec<Range<usize>>> {
     let both = match program.instructions[index].motion {
         Motion::ArcVia => index..index + 2,

@@ -33,7 +33,8 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The first byte of what stands behind blanks, empty lines, line number and colon, and whether there was a number.
+    /// The first byte of what stands behind blanks, empty lines, line number and colon, and whether
+    /// there was a number.
     fn line_start(&self) -> Option<(usize, bool)> {
         let bytes = &self.bytes[..self.end];
         let mut at = self.at;
@@ -61,7 +62,8 @@ impl<'a> Lines<'a> {
         (at < bytes.len()).then_some((at, colon && digits > 0))
     }
 
-    /// Goes on to the `;`. A line with a number of its own, or that starts a move, is another instruction.
+    /// Goes on to the `;`. A line with a number of its own, or that starts a move, is another
+    /// instruction.
     fn collect(&mut self, start: usize) -> Line {
         loop {
             let line = line_end(self.bytes, self.at).min(self.end);

@@ -1,8 +1,9 @@
 //! The marker: remarks at the end of `/MN`.
 //!
-//! A listing has no comments but remarks in numbered lines, and COMMENT of 16 characters in `/ATTR`, which is the user's. So
-//! the marker stands behind the last instruction, where it renumbers nothing, as three remarks of at most 32 characters (what
-//! a controller keeps). `LINE_COUNT` stays: controllers count the lines themselves when they load a listing, and
+//! A listing has no comments but remarks in numbered lines, and COMMENT of 16 characters in
+//! `/ATTR`, which is the user's. So the marker stands behind the last instruction, where it
+//! renumbers nothing, as three remarks of at most 32 characters (what a controller keeps).
+//! `LINE_COUNT` stays: controllers count the lines themselves when they load a listing, and
 //! post-processors write any number there. Of the hashes the first 24 and 16 of 64 digits fit.
 
 use super::sections::{Sections, line_end};
@@ -30,7 +31,8 @@ pub fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     (at, text)
 }
 
-/// The number of the last line; `None` where lines have no numbers. Blocks inside moves number their own lines.
+/// The number of the last line; `None` where lines have no numbers. Blocks inside moves number
+/// their own lines.
 fn last_number(lines: &[u8]) -> Option<u64> {
     let (mut at, mut last, mut block) = (0, Some(0), false);
     while at < lines.len() {

@@ -1,35 +1,41 @@
-//! FANUC TP: program listings (.LS), with the tools and user frames of SYSFRAME.VA or FRAME.DG where these are given too.
+//! FANUC TP: program listings (.LS), with the tools and user frames of SYSFRAME.VA or FRAME.DG
+//! where these are given too.
 //!
-//! A point is `P[n]{ GP1: UF : f, UT : t, CONFIG : '…', X = …, … W = …, P = …, R = … };`, mm and degrees, `Rz(R)·Ry(P)·Rx(W)`;
-//! or J1 to J6 in degrees. It is the pose of tool t in user frame f; both are numbers, and 0 is the flange and the world.
-//! `F` for a number is the one that `UTOOL_NUM` and `UFRAME_NUM` select; where the program selects none before, the tool or frame
-//! is called `F`, and the user says where it is. Only group 1 is read and written; J3 of joint points is
-//! FANUC's, measured from the horizontal (the profile's coupling). Listings of any dictionary are read: UF, UT and the names
-//! of coordinates are in all of them, the configuration data are the only string in a group.
+//! A point is `P[n]{ GP1: UF : f, UT : t, CONFIG : '…', X = …, … W = …, P = …, R = … };`, mm and
+//! degrees, `Rz(R)·Ry(P)·Rx(W)`; or J1 to J6 in degrees. It is the pose of tool t in user frame f;
+//! both are numbers, and 0 is the flange and the world. `F` for a number is the one that
+//! `UTOOL_NUM` and `UFRAME_NUM` select; where the program selects none before, the tool or frame is
+//! called `F`, and the user says where it is. Only group 1 is read and written; J3 of joint points
+//! is FANUC's, measured from the horizontal (the profile's coupling). Listings of any dictionary
+//! are read: UF, UT and the names of coordinates are in all of them, the configuration data are the
+//! only string in a group.
 //!
-//! Numbers stand in fields of a fixed width; a new number keeps the field's last column. The remarks that mark a
-//! compensated program are explained in [`mark`].
+//! Numbers stand in fields of a fixed width; a new number keeps the field's last column. The
+//! remarks that mark a compensated program are explained in [`mark`].
 //!
 //! # Statements
 //!
-//! Each program is a routine. `CALL` and `RUN` bind to the programs in the files; `LBL`, `JMP`, `IF`, `SELECT`, `FOR`, `Skip,LBL` and
-//! `TIMEOUT,LBL` are its flow; a word that nobody knows is a macro, which may select another tool. Tools, user frames, the numbers that
-//! select them and position registers are variables that the controller keeps. A move to `PR[n]` goes with the active tool and
-//! frame; where `PR[n]` is a copy of a point it goes to that point, beside it where something was added or one number changed. The
-//! controller goes to a point only where the numbers are selected that it was taught with (else MOTN-018), so that
-//! behind such a move they are the active ones.
+//! Each program is a routine. `CALL` and `RUN` bind to the programs in the files; `LBL`, `JMP`,
+//! `IF`, `SELECT`, `FOR`, `Skip,LBL` and `TIMEOUT,LBL` are its flow; a word that nobody knows is a
+//! macro, which may select another tool. Tools, user frames, the numbers that select them and
+//! position registers are variables that the controller keeps. A move to `PR[n]` goes with the
+//! active tool and frame; where `PR[n]` is a copy of a point it goes to that point, beside it where
+//! something was added or one number changed. The controller goes to a point only where the numbers
+//! are selected that it was taught with (else MOTN-018), so that behind such a move they are the
+//! active ones.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
-//! A move with `Offset`, `Tool_Offset` or `VOFFSET` goes to a point that only the running program knows: it takes the
-//! correction of its point along, which is told as `displacement-unknown`. Where the robot stands behind a move that `Skip` or
-//! `Search[…]` ended is unknown.
+//! A move with `Offset`, `Tool_Offset` or `VOFFSET` goes to a point that only the running program
+//! knows: it takes the correction of its point along, which is told as `displacement-unknown`.
+//! Where the robot stands behind a move that `Skip` or `Search[…]` ended is unknown.
 //!
 //! # Limits
 //!
-//! Registers `R[n]` are not followed: what they select is unknown. A program that a local condition of a move (TB, TA) calls is
-//! taken to run behind the move. `PAYLOAD` is not read: a tool's load is the profile's. A translated INC, RTCP, COORD, IF or CALL is
-//! known in German only. That moves other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
+//! Registers `R[n]` are not followed: what they select is unknown. A program that a local condition
+//! of a move (TB, TA) calls is taken to run behind the move. `PAYLOAD` is not read: a tool's load
+//! is the profile's. A translated INC, RTCP, COORD, IF or CALL is known in German only. That moves
+//! other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
 //! MOTN-018, are *not verified on a controller*.
 
 mod config;

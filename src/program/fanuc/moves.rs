@@ -139,7 +139,8 @@ impl Reader<'_> {
         }
     }
 
-    /// What stands behind the positions of a move: a label, a write, the name of a program that is called.
+    /// What stands behind the positions of a move: a label, a write, the name of a program that is
+    /// called.
     fn then(&mut self, text: &[u8]) {
         let word = &text[..word_length(text)];
         if is_label(word) {

@@ -37,11 +37,13 @@ pub(super) struct Point {
     pub content: Option<Content>,
     /// Its numbers among those of its listing.
     pub numbers: Range<usize>,
-    /// Its work frame, `UF : 2`; none where that is the one that is active when the robot goes there, `UF : F`.
+    /// Its work frame, `UF : 2`; none where that is the one that is active when the robot goes
+    /// there, `UF : F`.
     pub frame: Option<u32>,
     /// Its tool, likewise.
     pub tool: Option<u32>,
-    /// Axes beside the six of the arm, of other groups as `G2J1`, and their values; not a number where they were never taught.
+    /// Axes beside the six of the arm, of other groups as `G2J1`, and their values; not a number
+    /// where they were never taught.
     pub external: Vec<(String, f64)>,
 }
 
@@ -338,7 +340,8 @@ impl<'a> Points<'a> {
             first.external.push((name, value.unwrap_or(f64::NAN)));
         }
         if within {
-            // the field keeps its last column where blanks stand before the number; a tab is none of its
+            // the field keeps its last column where blanks stand before the number; a tab is none
+            // of its
             let blanks = self.bytes[field..digits].iter().rev();
             let blanks = blanks.take_while(|&&b| b == b' ').count();
             let start = digits - blanks.min(WIDEST_FIELD);
@@ -371,7 +374,8 @@ struct Group {
     uninitialised: bool,
     remote: bool,
     other: bool,
-    /// Axes beside the six that stand somewhere: name and value, not a number where it was never taught.
+    /// Axes beside the six that stand somewhere: name and value, not a number where it was never
+    /// taught.
     external: Vec<(String, f64)>,
     pose: [Option<Number>; 6],
     joints: [Option<Number>; 6],

@@ -186,7 +186,8 @@ fn listing(
     Ok(listing)
 }
 
-/// Lists a point. Indices stay those of the text: points without group 1 are of another robot and have no target.
+/// Lists a point. Indices stay those of the text: points without group 1 are of another robot and
+/// have no target.
 fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &ExternalNames) {
     let index = short(listing.points.len());
     let target = point.content.map(|content| {

@@ -69,7 +69,8 @@ fn keyword(bytes: &[u8], at: usize, word: &[u8]) -> Option<usize> {
     (stands && ends).then_some(behind)
 }
 
-/// The first `/` at or behind `at` with nothing but blanks before it in its line; `at` starts a line or is inside one.
+/// The first `/` at or behind `at` with nothing but blanks before it in its line; `at` starts a
+/// line or is inside one.
 fn slash_at_line_start(bytes: &[u8], at: usize) -> Option<usize> {
     let slashes = memchr::memchr_iter(b'/', &bytes[at..]);
     slashes.map(|k| at + k).find(|&slash| {

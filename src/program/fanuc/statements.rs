@@ -1,4 +1,5 @@
-//! Instructions as statements: calls, jumps, blocks, and writes of tools, frames, registers and points.
+//! Instructions as statements: calls, jumps, blocks, and writes of tools, frames, registers and
+//! points.
 
 use super::constants::Constants;
 use super::controller::{Kind, Mode, Which, frame, kinds};
@@ -207,7 +208,8 @@ impl Reader<'_> {
         }
     }
 
-    /// An instruction of which only its name is known, such as a macro: a call, which is given the points that it names.
+    /// An instruction of which only its name is known, such as a macro: a call, which is given the
+    /// points that it names.
     fn unknown(&mut self, text: &[u8], given: &[Named]) {
         let first = short(self.builder.script.arguments.len());
         for named in given {
@@ -281,7 +283,8 @@ impl Reader<'_> {
         }
     }
 
-    /// A number that selects a tool or frame: written out, or an argument of the program's call, `AR[1]`.
+    /// A number that selects a tool or frame: written out, or an argument of the program's call,
+    /// `AR[1]`.
     fn selection(&mut self, which: Which, text: &[u8]) -> Expr {
         if let Some(number) = whole(text) {
             return self
@@ -416,7 +419,8 @@ impl Reader<'_> {
         self.write(Written::One(register), how);
     }
 
-    /// The position that a value is: a point, another register, where the robot is, or what is computed of these.
+    /// The position that a value is: a point, another register, where the robot is, or what is
+    /// computed of these.
     fn position_value(&mut self, value: &[u8]) -> Expr {
         if matches!(value, b"LPOS" | b"JPOS") {
             return Expr::Value(self.controller.actual);
@@ -498,8 +502,8 @@ fn is_data(name: &[u8]) -> bool {
     is_one_of(name, "R AR SR VR DO RO GO AO DI RI GI AI F M TIMER")
 }
 
-/// Whether an instruction may be a macro of the user's, which is a call: words of the language, and those with an index or
-/// an assignment, are none.
+/// Whether an instruction may be a macro of the user's, which is a call: words of the language, and
+/// those with an index or an assignment, are none.
 fn is_macro(name: &[u8], text: &[u8]) -> bool {
     let known = "ABORT ABBRUCH ARC BREAK CASE COL CONTINUE DEFAULT ENABLE END ENDE IF WENN JOINT_MAX_SPEED LINEAR_MAX_SPEED \
         LOCK MOVE OFFSET OVERRIDE PAUSE RESET RESUME_PROG RETURN_PATH_DSBL SEMAPHORE SKIP STOP TIMER TOOL_OFFSET UALM \

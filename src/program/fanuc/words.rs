@@ -105,7 +105,8 @@ pub(super) fn whole(text: &[u8]) -> Option<u32> {
     (rest.is_empty() || rest[0] == b':').then_some(number)
 }
 
-/// The number between the brackets behind a word: 2 of `LBL[2:name]`; `None` where something else says it.
+/// The number between the brackets behind a word: 2 of `LBL[2:name]`; `None` where something else
+/// says it.
 #[allow(clippy::option_option)]
 pub(super) fn indexed(text: &[u8]) -> Option<Option<u32>> {
     let inside = text.trim_ascii_start().strip_prefix(b"[")?;

@@ -1,7 +1,9 @@
-//! Condition files of a controller backup: TOOL.CND and UFRAME.CND. They are read and never changed.
+//! Condition files of a controller backup: TOOL.CND and UFRAME.CND. They are read and never
+//! changed.
 //!
-//! A tool is `//TOOL n`, its name, `x,y,z,Rx,Ry,Rz` on the flange, the centre of gravity, the mass. A user frame is
-//! `//UFRAME n` and, among the positions it was taught with, `BUSER x,y,z,Rx,Ry,Rz` in the base frame.
+//! A tool is `//TOOL n`, its name, `x,y,z,Rx,Ry,Rz` on the flange, the centre of gravity, the mass.
+//! A user frame is `//UFRAME n` and, among the positions it was taught with, `BUSER x,y,z,Rx,Ry,Rz`
+//! in the base frame.
 
 use super::lines::{Lines, after, numbers, unexpected, words};
 use crate::geometry::Pose;

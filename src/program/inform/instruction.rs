@@ -104,7 +104,8 @@ pub(super) enum Effect {
 
 /// Instructions with a position variable in front.
 ///
-/// Source: Yaskawa, FS100 instructions, "INFORM explanation", operating, control and shift instructions.
+/// Source: Yaskawa, FS100 instructions, "INFORM explanation", operating, control and shift
+/// instructions.
 const EFFECTS: &[(&[u8], Effect)] = &[
     (b"SET", Effect::Copy),
     (b"CNVRT", Effect::Copy),
@@ -131,8 +132,8 @@ pub(super) fn effect(word: &[u8]) -> Effect {
     known.map_or(Effect::Perhaps, |(_, effect)| *effect)
 }
 
-/// System variables that hold where the robot is: `$PX000` in pulses, `$PX001` in coordinates. The others are results of
-/// searches.
+/// System variables that hold where the robot is: `$PX000` in pulses, `$PX001` in coordinates. The
+/// others are results of searches.
 pub(super) fn is_actual(word: &[u8]) -> bool {
     let number = word
         .strip_prefix(b"$PX")

@@ -1,8 +1,9 @@
 //! Reads the positions of jobs: the state machine of their header, and the positions under it.
 //!
-//! `///USER`, `///TOOL`, `///POSTYPE`, `///PULSE`, `///RECTAN`, `///ANGLE` and `///RCONF` hold for all positions below them until
-//! they are set anew. What a position's numbers are is told by the last of PULSE, RECTAN and ANGLE; POSTYPE tells the frame
-//! of rectangular ones. (Some posts write `POSTYPE BASE` behind pulse positions.)
+//! `///USER`, `///TOOL`, `///POSTYPE`, `///PULSE`, `///RECTAN`, `///ANGLE` and `///RCONF` hold for
+//! all positions below them until they are set anew. What a position's numbers are is told by the
+//! last of PULSE, RECTAN and ANGLE; POSTYPE tells the frame of rectangular ones. (Some posts write
+//! `POSTYPE BASE` behind pulse positions.)
 
 use super::lines::{Line, Lines, add_numbers, after, unexpected, words};
 use super::{DEGREES, PULSES, rconf};
@@ -13,7 +14,8 @@ use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use memchr::memmem;
 use std::ops::Range;
 
-/// How a post names itself in `///COMM` that writes rear, lower arm, flip where flip, lower arm, rear belong.
+/// How a post names itself in `///COMM` that writes rear, lower arm, flip where flip, lower arm,
+/// rear belong.
 const POST: &[u8] = b"RoboDK";
 
 /// What the numbers of a position are.

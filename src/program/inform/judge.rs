@@ -142,7 +142,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Jobs that no other calls begin where nobody knows: a pose without its wrist may be reached in two ways.
+    /// Jobs that no other calls begin where nobody knows: a pose without its wrist may be reached
+    /// in two ways.
     pub(super) fn say_starts(&mut self) {
         for (routine, place) in std::mem::take(&mut self.starts) {
             if self.called.contains(&routine) {

@@ -1,26 +1,30 @@
 //! Yaskawa INFORM: jobs (.JBI), with TOOL.CND and UFRAME.CND of a backup.
 //!
-//! A position is `C00000=x,y,z,Rx,Ry,Rz`, mm and degrees, with `R = Rz · Ry · Rx`, or six axes S, L, U, R, B, T in encoder pulses
-//! or degrees. Tool, frame and form stand in header lines above it (`job`). C positions belong to their job, P
-//! positions are variables of the controller. External axes (`BC`, `EC`, `BP`, `EX`), elbow angles and RCONF stay as
-//! they are.
+//! A position is `C00000=x,y,z,Rx,Ry,Rz`, mm and degrees, with `R = Rz · Ry · Rx`, or six axes S,
+//! L, U, R, B, T in encoder pulses or degrees. Tool, frame and form stand in header lines above it
+//! (`job`). C positions belong to their job, P positions are variables of the controller. External
+//! axes (`BC`, `EC`, `BP`, `EX`), elbow angles and RCONF stay as they are.
 //!
-//! A tool's or user frame's name is its number. `BASE` and `ROBOT` coordinates are those of the robot's base.
+//! A tool's or user frame's name is its number. `BASE` and `ROBOT` coordinates are those of the
+//! robot's base.
 //!
-//! Each job is a routine: CALL JOB goes to jobs of the files and comes back, JUMP JOB does not; PSTART runs beside. What a P
-//! variable holds, which frame MFRAME and which tool SETTOOL made, and whether a shift is on is followed through them. A move to
-//! a place where the robot itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running program
-//! computes stays, and is told.
+//! Each job is a routine: CALL JOB goes to jobs of the files and comes back, JUMP JOB does not;
+//! PSTART runs beside. What a P variable holds, which frame MFRAME and which tool SETTOOL made, and
+//! whether a shift is on is followed through them. A move to a place where the robot itself stood
+//! (`GETS PX001 $PX001`) is right as it is; one to a place that the running program computes stays,
+//! and is told.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
-//! Shifts that a job switches on which is not given or not called by name (macros) are not seen. The first of
-//! successive MOVC is taken for a line, the others for arcs through each two; MOVS for lines. Robots with seven axes
-//! are refused in pulses; the elbow angle of their rectangular positions is left. BASE and ROBOT are the world of the profile:
-//! its base has to stand at zero. Pulses are taken to be proportional to the joint of their own; on arms whose wrist motors
-//! are coupled (turning B moves T) PULSE positions come out wrong. The unit of base and station axes is not known.
+//! Shifts that a job switches on which is not given or not called by name (macros) are not seen.
+//! The first of successive MOVC is taken for a line, the others for arcs through each two; MOVS for
+//! lines. Robots with seven axes are refused in pulses; the elbow angle of their rectangular
+//! positions is left. BASE and ROBOT are the world of the profile: its base has to stand at zero.
+//! Pulses are taken to be proportional to the joint of their own; on arms whose wrist motors
+//! are coupled (turning B moves T) PULSE positions come out wrong. The unit of base and station
+//! axes is not known.
 
 mod cnd;
 mod drive;

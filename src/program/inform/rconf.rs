@@ -1,23 +1,26 @@
 //! `///RCONF l,m,n,o,p,q,...`: which of the inverse's solutions a rectangular position means.
 //!
-//! l flip, m lower arm, n wrist centre behind axis S, o, p, q: whether R, T, S stand at 180° or beyond. One RCONF line is for
-//! all positions below it, so it is read and never rewritten. Of its data those are used whose meaning is known: n, m where
-//! n is front (the elbow above or below the line from axis L to the wrist), and o, p, q where they are 0: the axis stands
-//! within ±180°. (1 is two ranges: beyond +180° or below −180°.)
+//! l flip, m lower arm, n wrist centre behind axis S, o, p, q: whether R, T, S stand at 180° or
+//! beyond. One RCONF line is for all positions below it, so it is read and never rewritten. Of its
+//! data those are used whose meaning is known: n, m where n is front (the elbow above or below the
+//! line from axis L to the wrist), and o, p, q where they are 0: the axis stands within ±180°. (1
+//! is two ranges: beyond +180° or below −180°.)
 //!
 //! The flip is told by controllers of two generations:
 //!
-//! - DX100 and later write 24 fields. No flip is B below zero: `1,0,0,0,…` is what they write for arms with R near zero and
-//!   the tool bent down, also on arms whose R cannot stand beyond ±150°. *Not verified on a controller.*
-//! - The NX100 and earlier write 8. Their manual has flip where R stands within ±90°; no flip is two ranges, and is left open.
+//! - DX100 and later write 24 fields. No flip is B below zero: `1,0,0,0,…` is what they write for
+//!   arms with R near zero and the tool bent down, also on arms whose R cannot stand beyond ±150°.
+//!   *Not verified on a controller.*
+//! - The NX100 and earlier write 8. Their manual has flip where R stands within ±90°; no flip is
+//!   two ranges, and is left open.
 //!
 //! # Limits
-//! A correction that takes R, S or T of a MOVJ across ±180° would need another RCONF; such a target is refused
-//! (`configuration-kept`).
+//! A correction that takes R, S or T of a MOVJ across ±180° would need another RCONF; such a target
+//! is refused (`configuration-kept`).
 //!
 //! # Source
-//! Yaskawa, NX100 data transmission manual, page 4-5, and operator's manual, "Manipulator Types"; DX100 data transmission
-//! manual, page 4-5.
+//! Yaskawa, NX100 data transmission manual, page 4-5, and operator's manual, "Manipulator Types";
+//! DX100 data transmission manual, page 4-5.
 
 use super::lines::words;
 use crate::program::Configuration;

@@ -111,7 +111,8 @@ pub(super) struct Reader<'a> {
     external_names: &'a ExternalNames,
 }
 
-/// Whether the head of a job says that its user frame turns with a station: `///ATTR SC,RW,RJ` with a group `ST1`.
+/// Whether the head of a job says that its user frame turns with a station: `///ATTR SC,RW,RJ` with
+/// a group `ST1`.
 fn is_relative(job: &[u8]) -> bool {
     let head = || {
         job.split(|b| *b == b'\n')
@@ -434,8 +435,9 @@ impl<'a> Reader<'a> {
         self.write(line, written, How::Whole(unknown));
     }
 
-    /// Notes where the axes of the base or of a station stand at the present move. Why positions of the job must stay: the first
-    /// of these axes that does not stand at zero and of which nobody knows what it carries.
+    /// Notes where the axes of the base or of a station stand at the present move. Why positions of
+    /// the job must stay: the first of these axes that does not stand at zero and of which
+    /// nobody knows what it carries.
     pub(super) fn external(&mut self, name: &[u8]) -> Option<VariableId> {
         let is_station = name.starts_with(b"E") || name.starts_with(b"LE");
         let known = &self.positions.jobs[self.here.job].external;
@@ -480,7 +482,8 @@ impl<'a> Reader<'a> {
         Some(*reason.get_or_insert_with(|| always(builder, remark)))
     }
 
-    /// How much a value that counts in pulses is of one millimetre or degree; not a number where nobody knows.
+    /// How much a value that counts in pulses is of one millimetre or degree; not a number where
+    /// nobody knows.
     fn pulses_of(&self, axis: u8, counts: bool) -> f64 {
         let pulses = self.external_names.pulses.get(usize::from(axis));
         match pulses.copied().flatten() {
@@ -509,7 +512,8 @@ fn first_word(text: &[u8]) -> &[u8] {
     words(text).next().unwrap_or_default()
 }
 
-/// A label's name as a number: FNV-1a. Two names of one job with the same would be one label; at 64 bits there are none.
+/// A label's name as a number: FNV-1a. Two names of one job with the same would be one label; at 64
+/// bits there are none.
 fn key(name: &[u8]) -> u64 {
     name.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)

@@ -112,7 +112,8 @@ impl Cause {
         }
     }
 
-    /// An error, but for what the running program computes: that the move stays is right or not, and said.
+    /// An error, but for what the running program computes: that the move stays is right or not,
+    /// and said.
     pub(super) fn remark(self) -> Remark {
         let (id, text, hint) = self.words();
         Remark {

@@ -36,7 +36,8 @@ fn points(count: usize) -> String {
     (0..count).map(|i| format!("C{i:05}={P6}\n")).collect()
 }
 
-/// The ids of all findings but the one that most jobs here have: they start with a rectangular position.
+/// The ids of all findings but the one that most jobs here have: they start with a rectangular
+/// position.
 fn ids(program: &Program) -> Vec<&str> {
     let all = program.findings.iter().map(|f| f.id);
     all.filter(|id| *id != "wrist-not-told").collect()

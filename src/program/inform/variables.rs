@@ -1,4 +1,5 @@
-//! What a running program writes: position variables, tools and user frames, shifts; and constant reasons against moves.
+//! What a running program writes: position variables, tools and user frames, shifts; and constant
+//! reasons against moves.
 
 use super::cnd::Conditions;
 use super::job::{Letter, Origin, Positions};
@@ -44,7 +45,8 @@ fn table(builder: &mut Builder, name: &str) -> TableId {
     short(builder.script.tables.len() - 1)
 }
 
-/// An entry of a table; where there is none yet it is a variable of the controller, kept from run to run, or a job's own.
+/// An entry of a table; where there is none yet it is a variable of the controller, kept from run
+/// to run, or a job's own.
 fn entry(
     builder: &mut Builder,
     table: TableId,

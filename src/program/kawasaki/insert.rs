@@ -62,7 +62,8 @@ fn plain<'p>(
     Some((span, instruction.target_span.range()?, target))
 }
 
-/// `C1MOVE` and `C2MOVE` once more for each part of an arc but the last, which is the arc's own with another point on its way.
+/// `C1MOVE` and `C2MOVE` once more for each part of an arc but the last, which is the arc's own
+/// with another point on its way.
 fn arc(sources: &[Source], program: &Program, insertion: &Insertion) -> Option<Replacements> {
     let through = insertion.motion.checked_sub(1)?;
     let source = &sources[program.moves[insertion.motion].file as usize];

@@ -1,22 +1,25 @@
 //! Kawasaki AS: saves of a controller (.as) and programs (.pg).
 //!
-//! A transformation is x, y, z in mm and O, A, T in degrees, `R = Rz(O) · Ry(A) · Rz(T)`; joints are `#` values, degrees. They
-//! stand in `.TRANS` and `.JOINTS`, or are written out: `TRANS(…)`, `#[…]`. The target of a move is the pose of TOOL in BASE, which
-//! statements set; what they are before is not in the files. `a+b` is b in the axes of a. Numbers of other sections carry
+//! A transformation is x, y, z in mm and O, A, T in degrees, `R = Rz(O) · Ry(A) · Rz(T)`; joints
+//! are `#` values, degrees. They stand in `.TRANS` and `.JOINTS`, or are written out: `TRANS(…)`,
+//! `#[…]`. The target of a move is the pose of TOOL in BASE, which statements set; what they are
+//! before is not in the files. `a+b` is b in the axes of a. Numbers of other sections carry
 //! checksums and are never touched.
 //!
-//! Poses tell no configuration: joint moves keep that of the posture before, straight moves and arcs keep to their path. Begin
-//! with joints. Where words (`LEFTY`, `UWRIST`, …) switch it, poses are refused until the next joint target.
+//! Poses tell no configuration: joint moves keep that of the posture before, straight moves and
+//! arcs keep to their path. Begin with joints. Where words (`LEFTY`, `UWRIST`, …) switch it, poses
+//! are refused until the next joint target.
 //!
-//! Zero of joint 1 points along y, and it counts clockwise from above; joint 3 is that of the profile: arms with parallel rods
-//! count it otherwise (`coupling`). *Not verified on a controller*; see docs/languages.md.
+//! Zero of joint 1 points along y, and it counts clockwise from above; joint 3 is that of the
+//! profile: arms with parallel rods count it otherwise (`coupling`). *Not verified on a
+//! controller*; see docs/languages.md.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
-//! Whether BASE NULL lies at the foot or at axis 2 is not known: `kinematics.base` of the profile says. Sensors, conveyors and
-//! weaving are not seen.
+//! Whether BASE NULL lies at the foot or at axis 2 is not known: `kinematics.base` of the profile
+//! says. Sensors, conveyors and weaving are not seen.
 
 mod insert;
 mod moves;
@@ -170,8 +173,8 @@ fn pose_of_turns([x, y, z]: [f64; 3]) -> Pose {
 /// Below this sine of A only the sum or difference of O and T counts.
 const SINGULAR: f64 = 1e-9;
 
-/// O, A, T in degrees: of the two triples that every rotation has the one nearer to the present, each angle by whole
-/// rotations; where A is 0 or 180 O stays as it is.
+/// O, A, T in degrees: of the two triples that every rotation has the one nearer to the present,
+/// each angle by whole rotations; where A is 0 or 180 O stays as it is.
 fn nearest_angles(rotation: &Rotation, present: [f64; 3]) -> [f64; 3] {
     let m = rotation.0;
     let sine = m[0][2].hypot(m[1][2]);

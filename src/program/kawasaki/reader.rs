@@ -51,7 +51,8 @@ pub(super) struct Reader<'a> {
     parameters: Vec<Vec<Vec<u8>>>,
     pub tool: VariableId,
     pub base: VariableId,
-    /// Holds a reason where the arm's configuration was switched, and the index of that in the script's guards.
+    /// Holds a reason where the arm's configuration was switched, and the index of that in the
+    /// script's guards.
     switched: VariableId,
     pub switches: u32,
     /// Configuration data count.
@@ -131,7 +132,8 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
     script
 }
 
-/// A label as a number: FNV-1a. Two labels of one program with the same would be one; at 64 bits there are none.
+/// A label as a number: FNV-1a. Two labels of one program with the same would be one; at 64 bits
+/// there are none.
 fn key(label: &[u8]) -> u64 {
     let first = 0xcbf2_9ce4_8422_2325_u64;
     label.iter().fold(first, |hash, byte| {

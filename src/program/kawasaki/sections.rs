@@ -1,7 +1,8 @@
-//! The sections of a file: programs, transformations (`.TRANS`), joints (`.JOINTS`). Others are passed over.
+//! The sections of a file: programs, transformations (`.TRANS`), joints (`.JOINTS`). Others are
+//! passed over.
 //!
-//! A section begins with its keyword in the first column and ends with `.END`. Names of a program's own begin with a dot, too:
-//! only known keywords in capitals open a section.
+//! A section begins with its keyword in the first column and ends with `.END`. Names of a program's
+//! own begin with a dot, too: only known keywords in capitals open a section.
 
 use super::words::{Part, Word, words};
 use crate::program::kit::{Fault, content_start};

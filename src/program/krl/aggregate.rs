@@ -1,4 +1,5 @@
-//! Aggregates: `{X 1.0,Y 2.0,Z 3.0,A 0,B 90,C 0,S 2,T 35}`, `{E6AXIS: A1 0,...}`, keys in any case and order.
+//! Aggregates: `{X 1.0,Y 2.0,Z 3.0,A 0,B 90,C 0,S 2,T 35}`, `{E6AXIS: A1 0,...}`, keys in any case
+//! and order.
 
 use super::tokens::{Cursor, Kind, Token, bits_value, capitals};
 use crate::program::kit::Fault;
@@ -27,7 +28,8 @@ pub(super) enum Field {
     Other,
 }
 
-/// Reads an aggregate: calls `visit` with each key in capitals and its value. Returns the type in front of the colon.
+/// Reads an aggregate: calls `visit` with each key in capitals and its value. Returns the type in
+/// front of the colon.
 ///
 /// # Errors
 /// Where the aggregate is broken or `visit` says so.
@@ -69,7 +71,8 @@ pub(super) fn each(
     }
 }
 
-/// The value in front and the sign behind it, a comma or the closing brace, both taken; `None` where the line ends.
+/// The value in front and the sign behind it, a comma or the closing brace, both taken; `None`
+/// where the line ends.
 fn value(cursor: &mut Cursor) -> Option<(Field, u8)> {
     let first = cursor.blanks();
     let start = cursor.at;
@@ -184,7 +187,8 @@ impl Aggregate {
         whole.then(|| std::array::from_fn(|i| self.position[i]))
     }
 
-    /// The external axes that are driven, and where to: absent and 9E+09 are axes that are not used.
+    /// The external axes that are driven, and where to: absent and 9E+09 are axes that are not
+    /// used.
     pub(super) fn driven(&self) -> impl Iterator<Item = (&'static str, f64)> {
         let axes = EXTERNAL.into_iter().zip(self.external);
         axes.filter_map(|(name, value)| Some((name, value.filter(|v| v.is_nan() || *v < UNUSED)?)))

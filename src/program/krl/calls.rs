@@ -23,8 +23,9 @@ enum Known {
 /// Routines of the controller and its packages that change neither tool nor base.
 ///
 /// # Source
-/// KUKA System Software, Operating and Programming Instructions for System Integrators ("Standard functions", "String
-/// functions", "Message programming"); KUKA, CREAD/CWRITE; KUKA.Ethernet KRL, "Functions".
+/// KUKA System Software, Operating and Programming Instructions for System Integrators ("Standard
+/// functions", "String functions", "Message programming"); KUKA, CREAD/CWRITE; KUKA.Ethernet KRL,
+/// "Functions".
 fn known(word: &[u8]) -> Option<Known> {
     Some(match word {
         b"ABS"
@@ -353,7 +354,8 @@ impl Reader {
         }
     }
 
-    /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO routine()`: the routine runs at any time.
+    /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO routine()`: the routine runs
+    /// at any time.
     pub(super) fn concurrent(&mut self, mut cursor: Cursor) {
         loop {
             let token = cursor.next();

@@ -1,4 +1,5 @@
-//! What data lists and declarations give: targets, numbers, FDAT, entries of the controller's tables.
+//! What data lists and declarations give: targets, numbers, FDAT, entries of the controller's
+//! tables.
 
 use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
 use super::frames::Table;

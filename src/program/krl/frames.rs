@@ -1,4 +1,5 @@
-//! Tools, bases, loads and modes: `$TOOL`, `$BASE`, `$LOAD`, `$IPO_MODE`, the tables they are taken from, BAS and FDAT.
+//! Tools, bases, loads and modes: `$TOOL`, `$BASE`, `$LOAD`, `$IPO_MODE`, the tables they are taken
+//! from, BAS and FDAT.
 
 use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
@@ -154,7 +155,8 @@ pub(super) struct States {
     pub on: ValueId,
     off: ValueId,
     external: ValueId,
-    /// Indices in the script's guards: by `$IPO_MODE` and `$LOAD`, by it and an angle, by a fixed tool, by an unknown mode.
+    /// Indices in the script's guards: by `$IPO_MODE` and `$LOAD`, by it and an angle, by a fixed
+    /// tool, by an unknown mode.
     pub guards: u32,
     pub angle_guards: u32,
     fixed_guards: u32,

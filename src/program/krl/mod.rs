@@ -1,21 +1,25 @@
 //! KUKA KRL: programs (.src), data lists (.dat), submit programs (.sub).
 //!
-//! A position is `{X ..,Y ..,Z ..,A ..,B ..,C ..,S ..,T ..,E1 ..}`, mm and degrees, `R = Rz(A) · Ry(B) · Rx(C)`; S and T tell
-//! the inverse solution (`status`) where the move is a PTP. Axes are `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes
-//! stay as they are, and are not understood where they are in use. The pose is that of $TOOL in $BASE. Both are variables of
-//! the controller, as are $LOAD, `$IPO_MODE`, what `FDAT_ACT` holds, and the entries of `TOOL_DATA`, `BASE_DATA`, `LOAD_DATA`
-//! (`frames`); `$TOOL=`, BAS, inline forms and WITH write them (`states`). Positions that a statement writes, or that are
-//! parameters, are variables too (`targets`); what of it reaches a move is worked out in [`crate::motion`].
+//! A position is `{X ..,Y ..,Z ..,A ..,B ..,C ..,S ..,T ..,E1 ..}`, mm and degrees, `R = Rz(A) ·
+//! Ry(B) · Rx(C)`; S and T tell the inverse solution (`status`) where the move is a PTP. Axes are
+//! `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes stay as they are, and are not understood where
+//! they are in use. The pose is that of $TOOL in $BASE. Both are variables of the controller, as
+//! are $LOAD, `$IPO_MODE`, what `FDAT_ACT` holds, and the entries of `TOOL_DATA`, `BASE_DATA`,
+//! `LOAD_DATA` (`frames`); `$TOOL=`, BAS, inline forms and WITH write them (`states`). Positions
+//! that a statement writes, or that are parameters, are variables too (`targets`); what of it
+//! reaches a move is worked out in [`crate::motion`].
 //!
-//! Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere. Of a data list everything keeps its
-//! value from one run to the next. Routines of interrupts and triggers, and submit programs, run at any time.
+//! Files of one name are one module; `$config.dat` and GLOBAL data are seen everywhere. Of a data
+//! list everything keeps its value from one run to the next. Routines of interrupts and triggers,
+//! and submit programs, run at any time.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
-//! Positions in structures and sensor corrections are not followed. A routine outside the files is taken to change tool or
-//! base only where moves use more than one. An arc to an angle (CA) is refused.
+//! Positions in structures and sensor corrections are not followed. A routine outside the files is
+//! taken to change tool or base only where moves use more than one. An arc to an angle (CA) is
+//! refused.
 
 mod aggregate;
 mod calls;

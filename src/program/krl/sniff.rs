@@ -11,8 +11,8 @@ const LOOKED_AT: usize = 1 << 16;
 
 /// Whether the bytes look like KRL.
 ///
-/// A header line such as `&ACCESS`, a data list, a declaration of a position or a move says so; `DEF name(...)` alone is
-/// other languages' too, so something else of KRL's has to come with it.
+/// A header line such as `&ACCESS`, a data list, a declaration of a position or a move says so;
+/// `DEF name(...)` alone is other languages' too, so something else of KRL's has to come with it.
 pub(super) fn recognises(bytes: &[u8]) -> bool {
     let bytes = &bytes[..bytes.len().min(LOOKED_AT)];
     if memchr::memchr(0, bytes).is_some() {
@@ -81,7 +81,8 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     false
 }
 
-/// Where the marker goes, and its text: behind the line that opens the first routine or the data list, else at the top.
+/// Where the marker goes, and its text: behind the line that opens the first routine or the data
+/// list, else at the top.
 pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
     let text = comments(source, marker, "; ");

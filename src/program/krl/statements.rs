@@ -71,8 +71,8 @@ impl Reader {
         }
     }
 
-    /// Names between brackets may be written by the routine that they are handed to; those in brackets behind a table choose
-    /// its entry.
+    /// Names between brackets may be written by the routine that they are handed to; those in
+    /// brackets behind a table choose its entry.
     fn note_arguments(&mut self, mut cursor: Cursor) {
         let mut fresh = false;
         loop {

@@ -133,7 +133,8 @@ impl Reader {
         self.fdat_of(name, at)?.is_external
     }
 
-    /// A tool or base up to a comma or the end of the line; one that is written out is called `name`.
+    /// A tool or base up to a comma or the end of the line; one that is written out is called
+    /// `name`.
     pub(super) fn frame(&mut self, table: Table, name: &str, cursor: &mut Cursor) -> Read<Expr> {
         let found = self.plain_frame(table, name, cursor)?;
         match cursor.blanks() {

@@ -1,15 +1,18 @@
 //! S (status) and T (turn).
 //!
-//! T has a bit for each axis, set where its angle is negative. S: bit 0 the wrist centre lies behind axis 1 (overhead),
-//! bit 1 the forearm is bent forward of the stretched arm, bit 2 axis 5 is negative; bit 3 is not used, bit 4 marks points
-//! of an absolutely accurate robot. Bits of external axes in T, and bits 3 and up of S, are never changed.
+//! T has a bit for each axis, set where its angle is negative. S: bit 0 the wrist centre lies
+//! behind axis 1 (overhead), bit 1 the forearm is bent forward of the stretched arm, bit 2 axis 5
+//! is negative; bit 3 is not used, bit 4 marks points of an absolutely accurate robot. Bits of
+//! external axes in T, and bits 3 and up of S, are never changed.
 //!
-//! The arm is stretched where the wrist centre lies on the line through axes 2 and 3: at `A3 = φ = atan(a / d)` with the
-//! offset a and the length d of the forearm. Forward of it the wrist centre is in front of the lower arm, so bit 1 is the
-//! opposite of "behind the lower arm" for every A3 that the axis reaches.
+//! The arm is stretched where the wrist centre lies on the line through axes 2 and 3: at `A3 = φ =
+//! atan(a / d)` with the offset a and the length d of the forearm. Forward of it the wrist centre
+//! is in front of the lower arm, so bit 1 is the opposite of "behind the lower arm" for every A3
+//! that the axis reaches.
 //!
 //! # Source
-//! KUKA, KUKA System Software, Operating and Programming Instructions for System Integrators, "Status" and "Turn".
+//! KUKA, KUKA System Software, Operating and Programming Instructions for System Integrators,
+//! "Status" and "Turn".
 
 use crate::program::notation::truly_changes;
 use crate::program::{Configuration, Posture};
@@ -141,7 +144,8 @@ mod tests {
     fn only_bits_that_truly_change_are_changed() {
         let before = posture([0.05, -90.0, 90.0, -0.05, 30.0, 10.0]);
         let after = posture([-0.05, -90.1, 90.0, 0.005, 30.0, 10.0]);
-        // A1 crosses; A4 stays at the border; the bit of A6 was wrong before; bit 7 is an external axis
+        // A1 crosses; A4 stays at the border; the bit of A6 was wrong before; bit 7 is an external
+        // axis
         let present = 0b1010_1010;
         assert_eq!(update_turn(&before, &after, present), 0b1010_1011);
         assert_eq!(update_status(&before, &after, 0b1_0010), 0b1_0010);

@@ -169,8 +169,8 @@ impl Reader {
         found
     }
 
-    /// Refuses all elements of a long array, where which of them a statement concerns is not known; whether it is one. Those of
-    /// a short one are followed each.
+    /// Refuses all elements of a long array, where which of them a statement concerns is not known;
+    /// whether it is one. Those of a short one are followed each.
     pub(super) fn refuse_array(&mut self, owner: Owner, remark: fn() -> Remark) -> bool {
         let Owner::Datum(datum) = owner else {
             return false;
@@ -263,7 +263,8 @@ impl Reader {
         let mut kept = named_targets(&mut script);
         accurate_targets(&mut script, &kept, settings, sources);
         long_lines(sources, &mut script, &kept);
-        // points that are taught are targets, used or not; those of the controller and frames are where moves use them
+        // points that are taught are targets, used or not; those of the controller and frames are
+        // where moves use them
         for &(datum, _, value) in &names.values {
             let datum = &names.data[datum as usize];
             let module = &names.modules[datum.context.module as usize];

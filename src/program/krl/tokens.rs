@@ -1,7 +1,8 @@
 //! KRL text as lines of tokens over bytes.
 //!
-//! A statement is one line; nothing goes on to the next. Nothing is decoded or copied. Bytes of 0x80 and above count as
-//! letters, so Latin-1 and UTF-8 both pass. A line may end with LF, CR LF or CR.
+//! A statement is one line; nothing goes on to the next. Nothing is decoded or copied. Bytes of
+//! 0x80 and above count as letters, so Latin-1 and UTF-8 both pass. A line may end with LF, CR LF
+//! or CR.
 
 use crate::program::kit::Fault;
 use crate::program::script::short;
@@ -14,7 +15,8 @@ pub(super) type Read<T> = Result<T, Fault>;
 pub(super) enum Kind {
     /// A name or keyword, `$` included.
     Name,
-    /// Something that starts like a number, with everything that clings to it: `12`, `.5`, `1.5E-12`, `12.3.4`.
+    /// Something that starts like a number, with everything that clings to it: `12`, `.5`,
+    /// `1.5E-12`, `12.3.4`.
     Number,
     /// `'B0101'` or `'HFF'`, quotes included.
     Bits,
@@ -104,7 +106,8 @@ impl<'a> Cursor<'a> {
         0
     }
 
-    /// Skips an expression, up to a comma or colon outside brackets, a bracket that closes, or the end of the line.
+    /// Skips an expression, up to a comma or colon outside brackets, a bracket that closes, or the
+    /// end of the line.
     pub(super) fn skip(&mut self) {
         let mut depth = 0_u32;
         loop {
@@ -278,7 +281,8 @@ pub(super) fn bits_value(text: &[u8]) -> Option<u32> {
     u32::from_str_radix(std::str::from_utf8(digits).ok()?, radix).ok()
 }
 
-/// The lines of a file: first byte and the byte behind the last, line end not included. Empty ones may be left out.
+/// The lines of a file: first byte and the byte behind the last, line end not included. Empty ones
+/// may be left out.
 pub(super) fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = (usize, usize)> {
     let mut at = start;
     let mut ends = memchr::memchr2_iter(b'\n', b'\r', &bytes[start.min(bytes.len())..]);

@@ -1,7 +1,8 @@
 //! Values in brackets, read against a template of their type.
 //!
-//! A template is a text of brackets and leaves: `n` a number, `b` TRUE or FALSE, `s` a string. Where the program has something
-//! else in the place of a leaf or of a whole bracket, those leaves are [`Leaf::Computed`].
+//! A template is a text of brackets and leaves: `n` a number, `b` TRUE or FALSE, `s` a string.
+//! Where the program has something else in the place of a leaf or of a whole bracket, those leaves
+//! are [`Leaf::Computed`].
 
 use super::reader::Reader;
 use super::tokens::{Fault, Kind, Token};
@@ -231,8 +232,8 @@ impl Reader<'_> {
     }
 }
 
-/// The leaves of a value of numbers with nothing but blanks between them, and the byte behind it. `None` for all others: the
-/// way by tokens knows what is wrong with them, if anything is.
+/// The leaves of a value of numbers with nothing but blanks between them, and the byte behind it.
+/// `None` for all others: the way by tokens knows what is wrong with them, if anything is.
 fn plain_numbers(
     bytes: &[u8],
     start: usize,

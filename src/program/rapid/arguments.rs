@@ -23,7 +23,8 @@ const POSE_NUMBERS: usize = 11;
 const JOINT_NUMBERS: usize = 6;
 
 impl Reader<'_> {
-    /// Reads one argument; for the positional ones of an instruction its verb and position are known.
+    /// Reads one argument; for the positional ones of an instruction its verb and position are
+    /// known.
     pub(super) fn argument(&mut self, of: Option<(Verb, usize)>) -> Result<Expression, Fault> {
         let first = self.token;
         if first.kind == Kind::Text {
@@ -79,7 +80,8 @@ impl Reader<'_> {
         )
     }
 
-    /// A name, a target, or Offs and `RelTool` of one. `None` where it is something else; then the place is lost.
+    /// A name, a target, or Offs and `RelTool` of one. `None` where it is something else; then the
+    /// place is lost.
     fn point(&mut self, of: Option<(Verb, usize)>, depth: usize) -> Result<Option<Written>, Fault> {
         let first = self.token;
         if first.is(b'[') {
@@ -114,7 +116,8 @@ impl Reader<'_> {
         Ok(Some(Written::Base(Base::Named { name, index })))
     }
 
-    /// `Offs(point, x, y, z)` or `RelTool(point, x, y, z \Rx:=a \Ry:=b \Rz:=c)`; the present token is the bracket.
+    /// `Offs(point, x, y, z)` or `RelTool(point, x, y, z \Rx:=a \Ry:=b \Rz:=c)`; the present token
+    /// is the bracket.
     fn displaced(
         &mut self,
         of: Option<(Verb, usize)>,
@@ -282,7 +285,8 @@ impl Reader<'_> {
         )))
     }
 
-    /// Parsed a target with its numbers. One with expressions in it has none; the names in them begin at `mentions`.
+    /// Parsed a target with its numbers. One with expressions in it has none; the names in them
+    /// begin at `mentions`.
     pub(super) fn target(
         &mut self,
         shape: Shape,

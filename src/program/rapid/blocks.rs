@@ -139,7 +139,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `condition THEN`, `1,2:` and their like, without the statements behind; whether a word or colon ends it.
+    /// `condition THEN`, `1,2:` and their like, without the statements behind; whether a word or
+    /// colon ends it.
     fn condition(&mut self) -> Result<bool, Fault> {
         loop {
             self.expression()?;

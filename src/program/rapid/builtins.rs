@@ -1,8 +1,8 @@
 //! What the instructions and functions of the language write, and those that write nothing.
 //!
 //! # Source
-//! ABB, Technical reference manual RAPID Instructions, Functions and Data types: the arguments that are described as `VAR`,
-//! `INOUT` or `PERS` and take a result.
+//! ABB, Technical reference manual RAPID Instructions, Functions and Data types: the arguments that
+//! are described as `VAR`, `INOUT` or `PERS` and take a result.
 
 use super::syntax::Verb;
 
@@ -92,7 +92,8 @@ fn position(list: &[(&str, u8)], name: &str) -> Option<u8> {
     found.next().map(|(_, position)| *position)
 }
 
-/// What an instruction of the language writes; `None` where the name, in lower case, is none that is known.
+/// What an instruction of the language writes; `None` where the name, in lower case, is none that
+/// is known.
 pub(super) fn instruction(name: &str) -> Option<Verb> {
     if let Some(at) = position(WRITERS, name) {
         return Some(Verb::Writes(at));

@@ -1,4 +1,5 @@
-//! Calls: routines of the files with their parameters, others, and instructions that write their arguments.
+//! Calls: routines of the files with their parameters, others, and instructions that write their
+//! arguments.
 
 use super::builtins::Known;
 use super::resolved::{Callees, Entity, named};
@@ -161,7 +162,8 @@ impl Translator<'_> {
         }
     }
 
-    /// The variable that holds what a function of the files gives; `None` where it gives no target or frame.
+    /// The variable that holds what a function of the files gives; `None` where it gives no target
+    /// or frame.
     pub(super) fn result_of(&mut self, function: u32) -> Option<VariableId> {
         if let Some(&apart) = self.kept_results.get(&function) {
             return Some(apart);
@@ -311,7 +313,8 @@ impl Translator<'_> {
         }
     }
 
-    /// Arrays that a routine writes through its parameter: which elements is known at run time only.
+    /// Arrays that a routine writes through its parameter: which elements is known at run time
+    /// only.
     fn written_arrays(&mut self, routine: u32, all: &[Argument]) {
         let resolved = self.resolved;
         for (datum, argument) in resolved.parameters(routine, all) {

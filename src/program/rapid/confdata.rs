@@ -7,7 +7,8 @@
 //! Robots with parallel rods, a linear first axis or seven joints use other rules.
 //!
 //! # Source
-//! ABB, Technical reference manual RAPID, confdata. Checked against 209 of 214 targets of programs whose robot is known.
+//! ABB, Technical reference manual RAPID, confdata. Checked against 209 of 214 targets of programs
+//! whose robot is known.
 
 use crate::program::{Configuration, Posture};
 use std::f64::consts::FRAC_PI_2;

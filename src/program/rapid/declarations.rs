@@ -18,7 +18,8 @@ use crate::program::script::{Place, short};
 const DIMENSIONS: usize = 3;
 
 impl Reader<'_> {
-    /// `CONST type name{sizes} := value;`, the present token is CONST, PERS or VAR. Whether it is data that robots use.
+    /// `CONST type name{sizes} := value;`, the present token is CONST, PERS or VAR. Whether it is
+    /// data that robots use.
     pub(super) fn declaration(
         &mut self,
         start: u32,

@@ -15,7 +15,8 @@ const OPERATORS: [&[u8]; 9] = [
 ];
 
 impl Reader<'_> {
-    /// Ends a statement behind its last operand: at its semicolon, or before a name where that is forgotten.
+    /// Ends a statement behind its last operand: at its semicolon, or before a name where that is
+    /// forgotten.
     pub(super) fn end_statement(&mut self) -> Result<(), Fault> {
         match self.token.kind {
             Kind::Sign(b';') => self.advance(),
@@ -108,8 +109,8 @@ impl Reader<'_> {
         Ok((short(start), short(self.parsed.arguments.len())))
     }
 
-    /// Whether the present word starts a statement: the semicolon before it is missing. Data may be called like a move; what
-    /// follows the name tells them apart.
+    /// Whether the present word starts a statement: the semicolon before it is missing. Data may be
+    /// called like a move; what follows the name tells them apart.
     pub(super) fn at_statement(&self, first_argument: bool) -> bool {
         let (start, end) = (self.token.start as usize, self.token.end as usize);
         let next = self.bytes[end..].iter().find(|b| !b.is_ascii_whitespace());
@@ -132,8 +133,8 @@ impl Reader<'_> {
             || BLOCK_WORDS.contains(&word)
     }
 
-    /// Passes over an expression, to what ends it or to a name that follows an operand; parsed the names in it and the
-    /// functions that it calls.
+    /// Passes over an expression, to what ends it or to a name that follows an operand; parsed the
+    /// names in it and the functions that it calls.
     pub(super) fn expression(&mut self) -> Result<Part, Fault> {
         let start = short(self.parsed.mentions.len());
         self.brackets.clear();

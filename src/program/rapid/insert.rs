@@ -10,8 +10,9 @@ pub(super) const MANNER: Manner = Manner {
     longest: usize::MAX,
 };
 
-/// Instructions that do nothing but go to their target, or go on with their process on the way. Others switch outputs, count
-/// distances or call procedures at their target, and would do so again at each new one.
+/// Instructions that do nothing but go to their target, or go on with their process on the way.
+/// Others switch outputs, count distances or call procedures at their target, and would do so again
+/// at each new one.
 const REPEATED: &[&str] = &[
     "movej", "movel", "movec", "arcl", "arcc", "displ", "dispc", "paintl", "paintc",
 ];

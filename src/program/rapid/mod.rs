@@ -1,14 +1,16 @@
 //! ABB RAPID: modules (.mod, .modx, .prg) and system modules (.sys, .sysx).
 //!
-//! A robtarget is `[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [external axes]]`, mm and a unit quaternion with its
-//! scalar first; a jointtarget is `[[six joints], [external axes]]`, degrees. External axes stay as they are. The pose is that
-//! of the tool in `uframe · oframe` of the work object of the move, not of the declaration.
+//! A robtarget is `[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [external axes]]`, mm and a
+//! unit quaternion with its scalar first; a jointtarget is `[[six joints], [external axes]]`,
+//! degrees. External axes stay as they are. The pose is that of the tool in `uframe · oframe` of
+//! the work object of the move, not of the declaration.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
-//! Targets inside records, Load at run time of modules that are not given, and functions that move are not followed.
+//! Targets inside records, Load at run time of modules that are not given, and functions that move
+//! are not followed.
 
 mod aggregate;
 mod arguments;
@@ -99,7 +101,8 @@ impl Language for Rapid {
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
         match role {
             Role::Position => millimetre_decimals,
-            // a thousandth of a millimetre is a millionth of a quaternion part at one metre, 6e-5 degrees
+            // a thousandth of a millimetre is a millionth of a quaternion part at one metre, 6e-5
+            // degrees
             Role::Orientation => millimetre_decimals + 3,
             Role::Joint => millimetre_decimals + 2,
             Role::Configuration => 0,

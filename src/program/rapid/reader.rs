@@ -1,7 +1,8 @@
 //! Reads the statements of one file.
 //!
-//! A statement ends at its semicolon, or where a name follows an operand: some posts forget semicolons, and a short IF has its
-//! statement behind its condition. Nothing here recurses on the text's brackets.
+//! A statement ends at its semicolon, or where a name follows an operand: some posts forget
+//! semicolons, and a short IF has its statement behind its condition. Nothing here recurses on the
+//! text's brackets.
 
 use super::blocks::BLOCK_WORDS;
 use super::expressions::OpenCall;
@@ -229,7 +230,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What follows `LOCAL`, or a declaration or routine without it; whether it is of the language, where anything is.
+    /// What follows `LOCAL`, or a declaration or routine without it; whether it is of the language,
+    /// where anything is.
     fn routine_or_data(&mut self, start: u32, local: bool) -> Result<Option<bool>, Fault> {
         if self.is_word(b"task") {
             self.advance()?;

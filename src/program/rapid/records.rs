@@ -1,4 +1,5 @@
-//! Tools, work objects and loads of their parts (see [`super::aggregate::TOOLDATA`], [`super::aggregate::WOBJDATA`]).
+//! Tools, work objects and loads of their parts (see [`super::aggregate::TOOLDATA`],
+//! [`super::aggregate::WOBJDATA`]).
 
 use super::aggregate::{Leaf, UNIT_LIMIT};
 use super::arguments::{LARGEST, is_unit};
@@ -98,7 +99,8 @@ impl Parts<'_> {
         Ok(Ok(Some(Pose::from_parts(translation, rotation))))
     }
 
-    /// The mechanical unit that carries a work object: its user frame is not fixed (`ufprog` FALSE) and `ufmec` names the unit.
+    /// The mechanical unit that carries a work object: its user frame is not fixed (`ufprog` FALSE)
+    /// and `ufmec` names the unit.
     fn unit(&self) -> Result<Option<Box<str>>, Remark> {
         let fixed = match self.value(1) {
             PartValue::Flag(fixed) => fixed,

@@ -227,7 +227,8 @@ impl<'a> Resolved<'a> {
         changed
     }
 
-    /// Whether arguments are given to functions or instructions in [`Parsed::given`] or [`Parsed::arguments`].
+    /// Whether arguments are given to functions or instructions in [`Parsed::given`] or
+    /// [`Parsed::arguments`].
     fn list(&self, of_function: bool) -> &[Argument] {
         if of_function {
             &self.parsed.given
@@ -374,7 +375,8 @@ impl<'a> Resolved<'a> {
         changed
     }
 
-    /// Whether the value that a target is declared with is written over, so that it may be anything.
+    /// Whether the value that a target is declared with is written over, so that it may be
+    /// anything.
     pub(super) fn is_written_target(&self, target: usize) -> bool {
         let declares = |datum: &Datum| match datum.value {
             Stored::Elements { elements, .. } => self.parsed.elements[indices(elements)]

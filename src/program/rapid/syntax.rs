@@ -52,8 +52,8 @@ pub(super) struct Parsed {
 pub(super) struct Lengths([usize; 12]);
 
 impl Parsed {
-    /// Makes room for what a file of this size may hold, so that lists need not move while they grow: a target with its
-    /// numbers takes some 150 bytes, a statement 40.
+    /// Makes room for what a file of this size may hold, so that lists need not move while they
+    /// grow: a target with its numbers takes some 150 bytes, a statement 40.
     pub(super) fn reserve(&mut self, bytes: usize) {
         self.targets.reserve(bytes / 150);
         self.numbers.reserve(bytes / 14);
@@ -194,7 +194,8 @@ pub(super) enum Storage {
     Persistent,
     /// VAR.
     Variable,
-    /// A parameter, with what its caller gives; what is written into it is written back where `by_reference`.
+    /// A parameter, with what its caller gives; what is written into it is written back where
+    /// `by_reference`.
     Parameter { by_reference: bool, optional: bool },
 }
 
@@ -215,7 +216,8 @@ pub(super) struct Datum {
 pub(super) enum Stored {
     /// No value.
     Nothing,
-    /// Targets: a single one where `sizes` is all zero, else an array; part of [`Parsed::elements`].
+    /// Targets: a single one where `sizes` is all zero, else an array; part of
+    /// [`Parsed::elements`].
     Elements { elements: Part, sizes: [u32; 3] },
     /// A tool, frame or load, part of [`Parsed::leaves`].
     Leaves(Part),
@@ -254,12 +256,13 @@ pub(super) enum Index {
 pub(super) enum Expression {
     /// Nothing: an option without value.
     Nothing,
-    /// A name, a target written out or what a function gives, displaced by `steps` from the innermost out: part of
-    /// [`Parsed::steps`].
+    /// A name, a target written out or what a function gives, displaced by `steps` from the
+    /// innermost out: part of [`Parsed::steps`].
     Point { base: Base, steps: Part },
     /// A component of data.
     Member { name: Symbol, index: u32 },
-    /// A target some of whose parts are expressions, with the names in it: part of [`Parsed::mentions`].
+    /// A target some of whose parts are expressions, with the names in it: part of
+    /// [`Parsed::mentions`].
     Composed(Part),
     /// Anything else, with the names in it: part of [`Parsed::mentions`].
     Computed(Part),

@@ -649,7 +649,8 @@ fn work_pieces_in_hand_and_moving_frames_are_refused() {
         let program = path(&format!("{declaration}\nMoveL p1,v5,z5,t\\WObj:=x;"));
         assert_eq!((ids(&program), blocked(&program)), (vec![id], vec!["p1"]));
     }
-    // on a unit the frame is that of the unit, and the user frame of the file is not used; a fixed one is fixed whatever is named
+    // on a unit the frame is that of the unit, and the user frame of the file is not used; a fixed
+    // one is fixed whatever is named
     for (fixed, on, x) in [("FALSE", 1, 0.002), ("TRUE", 0, 0.003)] {
         let wobj = format!(
             "PERS wobjdata x:=[FALSE,{fixed},\"STN1\",[[1,0,0],[1,0,0,0]],[[2,0,0],[1,0,0,0]]];"

@@ -1,7 +1,7 @@
 //! RAPID text as tokens over bytes.
 //!
-//! A token is a kind and a span; nothing is decoded or copied. Bytes of 0x80 and above count as letters, so Latin-1 and
-//! UTF-8 both pass. A line may end with LF, CR LF or CR.
+//! A token is a kind and a span; nothing is decoded or copied. Bytes of 0x80 and above count as
+//! letters, so Latin-1 and UTF-8 both pass. A line may end with LF, CR LF or CR.
 
 pub(super) use crate::program::kit::Fault;
 
@@ -10,7 +10,8 @@ pub(super) use crate::program::kit::Fault;
 pub(super) enum Kind {
     /// A name or keyword.
     Name,
-    /// Something that starts like a number, with everything that clings to it: `12`, `.5`, `9E+09`, `1.#QNAN`.
+    /// Something that starts like a number, with everything that clings to it: `12`, `.5`, `9E+09`,
+    /// `1.#QNAN`.
     Number,
     /// A string with its quotes.
     Text,
@@ -140,7 +141,8 @@ fn name_end(bytes: &[u8], start: usize) -> usize {
     start + rest.iter().position(|b| !more(b)).unwrap_or(rest.len())
 }
 
-/// Digits, point, exponent, and what clings to them without a blank, so that `1.#QNAN` is one wrong number.
+/// Digits, point, exponent, and what clings to them without a blank, so that `1.#QNAN` is one wrong
+/// number.
 fn number_end(bytes: &[u8], start: usize) -> usize {
     let mut at = start;
     while let Some(&byte) = bytes.get(at) {

@@ -37,13 +37,15 @@ pub(super) struct Modes {
     pub wrist: VariableId,
     program_displacement: VariableId,
     external_offset: VariableId,
-    /// The guards of moves that a displacement concerns, and of those whose target's name is ambiguous.
+    /// The guards of moves that a displacement concerns, and of those whose target's name is
+    /// ambiguous.
     pub guards: u32,
     pub ambiguous_guards: u32,
     /// Those of moves to joints, which only external axes concern, and of those without an offset.
     pub absolute_guards: u32,
     pub unshifted_guards: u32,
-    /// Units that the program switches, whose axes matter: name, whether it follows targets, and what holds where it does not.
+    /// Units that the program switches, whose axes matter: name, whether it follows targets, and
+    /// what holds where it does not.
     units: Vec<(String, VariableId, ValueId)>,
     on: ValueId,
     off: ValueId,
@@ -88,7 +90,8 @@ pub(super) struct Translator<'a> {
     pub ambiguous: bool,
 }
 
-/// The script of what was noted. `dead` are targets that are written over and have no numbers of their own.
+/// The script of what was noted. `dead` are targets that are written over and have no numbers of
+/// their own.
 pub(super) fn translate(
     resolved: &Resolved,
     script: Script,
@@ -626,7 +629,8 @@ impl Translator<'_> {
         }
     }
 
-    /// External axes say where the robot or the work piece is carried: the profile knows what, or that they carry nothing.
+    /// External axes say where the robot or the work piece is carried: the profile knows what, or
+    /// that they carry nothing.
     fn external_axes(&mut self, names: &ExternalNames) {
         let parsed = &self.resolved.parsed;
         let moving = parsed
@@ -672,7 +676,8 @@ impl Translator<'_> {
             if found.layout.shape == Shape::Joints {
                 continue;
             }
-            // an arm with seven joints has the seventh here, and data of its configuration that no other has
+            // an arm with seven joints has the seventh here, and data of its configuration that no
+            // other has
             let numbers = &script.numbers[found.numbers.start as usize..found.numbers.end as usize];
             let seven = axis == 0 && numbers.last().is_some_and(|cfx| cfx.value >= 100.0);
             let remarks = &mut script.remarks;

@@ -499,8 +499,8 @@ impl Translator<'_> {
 
     // ---- displacements
 
-    /// What these steps add; Offs shifts in the work object and `RelTool` in the tool, so their order among each other does
-    /// not matter.
+    /// What these steps add; Offs shifts in the work object and `RelTool` in the tool, so their
+    /// order among each other does not matter.
     fn displacement(&mut self, steps: Part) -> DisplacementId {
         if steps.0 == steps.1 {
             return NOT_DISPLACED;

@@ -8,8 +8,9 @@ use foldhash::HashMap;
 
 /// Adds the statements of routines to a script, one routine after another.
 ///
-/// What does not fit together (an end without a beginning, a block left open) is passed over: readers say what is wrong with
-/// the text, and the flow then is that of the text without the lone word.
+/// What does not fit together (an end without a beginning, a block left open) is passed over:
+/// readers say what is wrong with the text, and the flow then is that of the text without the lone
+/// word.
 #[derive(Debug, Default)]
 pub struct Builder {
     /// What is put together.
@@ -173,7 +174,8 @@ impl Builder {
         }
     }
 
-    /// Begins a loop. `may_pass`: its statements may be passed over (`WHILE`, `FOR`; not `REPEAT`, `LOOP`).
+    /// Begins a loop. `may_pass`: its statements may be passed over (`WHILE`, `FOR`; not `REPEAT`,
+    /// `LOOP`).
     pub fn begin_loop(&mut self, may_pass: bool) {
         let (top, end) = (self.new_label(), self.new_label());
         self.put(top);

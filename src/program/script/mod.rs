@@ -1,8 +1,10 @@
-//! What program files say, statement by statement and in no language: what readers hand to [`crate::motion`].
+//! What program files say, statement by statement and in no language: what readers hand to
+//! [`crate::motion`].
 //!
-//! A reader translates; it does not follow. It says *here is a move to this with that*, *here this variable is written*, *here
-//! a block may be passed over*, *here that routine is called with these arguments*. Which tool a variable holds at a move and
-//! from where the robot comes there is worked out in [`crate::motion`], once for all languages.
+//! A reader translates; it does not follow. It says *here is a move to this with that*, *here this
+//! variable is written*, *here a block may be passed over*, *here that routine is called with these
+//! arguments*. Which tool a variable holds at a move and from where the robot comes there is worked
+//! out in [`crate::motion`], once for all languages.
 
 mod builder;
 mod order;
@@ -48,7 +50,8 @@ pub const DISPLACED_SOMEHOW: DisplacementId = 1;
 /// [`Displacement::Overwritten`] in [`Script::displacements`].
 pub const OVERWRITTEN: DisplacementId = 2;
 
-/// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly alternate with few others.
+/// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly
+/// alternate with few others.
 const MODALS_LOOKED_AT: usize = 8;
 
 /// The statements of all files.
@@ -150,7 +153,8 @@ pub struct Variable {
     pub declared: Expr,
     /// The controller keeps it from run to run.
     pub kept: bool,
-    /// It is a state of the controller that any routine may set: after one that is not in the files it is in doubt.
+    /// It is a state of the controller that any routine may set: after one that is not in the
+    /// files it is in doubt.
     pub shared: bool,
     /// The routine it belongs to; parameters and local data.
     pub routine: Option<RoutineId>,
@@ -185,7 +189,8 @@ pub struct Table {
 pub enum Held {
     /// A tool or a work frame.
     Frame(NamedFrame),
-    /// A tool or a work frame whose parts may be written one by one; [`super::Language::frame_of`] understands it.
+    /// A tool or a work frame whose parts may be written one by one; [`super::Language::frame_of`]
+    /// understands it.
     Record {
         /// Its name in the program.
         name: Box<str>,
@@ -200,13 +205,15 @@ pub enum Held {
     Number(i64),
     /// On or off.
     Flag(bool),
-    /// As long as this holds there is something to say of each move; it is refused where the remark is an error.
+    /// As long as this holds there is something to say of each move; it is refused where the remark
+    /// is an error.
     Remark(RemarkId),
     /// Where the robot is when the statement runs.
     Actual,
     /// What is added to external axes, in the units and the order of the language.
     ExternalOffset(Box<[f64; 6]>),
-    /// As long as this holds these external axes, bit by bit as listed, stand elsewhere than targets say.
+    /// As long as this holds these external axes, bit by bit as listed, stand elsewhere than
+    /// targets say.
     AxesOff(u16),
 }
 
@@ -217,7 +224,8 @@ pub struct NamedFrame {
     pub name: Box<str>,
     /// `flange_from_tool` or `world_from_frame`; `None` where the files do not tell.
     pub pose: Option<Pose>,
-    /// The mechanical unit that carries a work frame, by all its names: the pose is then on the unit. None where it stands still.
+    /// The mechanical unit that carries a work frame, by all its names: the pose is then on the
+    /// unit. None where it stands still.
     pub on: Box<[Box<str>]>,
     /// Of a tool: its load, where the files give one.
     pub load: Option<Load>,
@@ -313,7 +321,8 @@ impl Remark {
         }
     }
 
-    /// Why a target is refused whose external axis nobody knows; a value that is not a number is an expression.
+    /// Why a target is refused whose external axis nobody knows; a value that is not a number is an
+    /// expression.
     #[must_use]
     pub fn external_unknown(name: &str, value: f64) -> Self {
         let to = if value.is_nan() {
@@ -364,7 +373,8 @@ pub enum Statement {
     Write(u32),
     /// Index in [`Script::calls`].
     Call(u32),
-    /// Starts routines that then run beside this one ([`Start::Concurrent`]): index in [`Script::calls`].
+    /// Starts routines that then run beside this one ([`Start::Concurrent`]): index in
+    /// [`Script::calls`].
     Start(u32),
     /// Statements come here.
     Label(Label),
@@ -395,7 +405,8 @@ impl Span {
     }
 }
 
-/// A move. An arc is two: one to the point it passes through and one to its end, with the same span.
+/// A move. An arc is two: one to the point it passes through and one to its end, with the same
+/// span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instruction {
     /// File and first byte.
@@ -442,7 +453,8 @@ impl Instruction {
     }
 }
 
-/// With what a move runs: mostly with the same as the one before it, so that it stands once for both.
+/// With what a move runs: mostly with the same as the one before it, so that it stands once for
+/// both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modal {
     /// With which tool.
@@ -515,7 +527,8 @@ pub enum Written {
 pub enum How {
     /// As a whole.
     Whole(Expr),
-    /// Some parts of a record or of a position: those from `first` on become these [`Script::parts`].
+    /// Some parts of a record or of a position: those from `first` on become these
+    /// [`Script::parts`].
     Parts {
         /// Index of the first part in the record.
         first: u32,
@@ -535,7 +548,8 @@ pub struct Call {
     pub place: Place,
     /// The routines that it may call; none where it is not in the files.
     pub callees: Box<[RoutineId]>,
-    /// It may also be one that is not in the files, which then may write what it is given, and what is shared.
+    /// It may also be one that is not in the files, which then may write what it is given, and
+    /// what is shared.
     pub foreign: bool,
     /// What is called, for messages.
     pub name: Box<str>,
@@ -555,7 +569,8 @@ pub struct Argument {
 }
 
 impl How {
-    /// A part of a position becomes what a text says: a number, or what the running program computes.
+    /// A part of a position becomes what a text says: a number, or what the running program
+    /// computes.
     #[must_use]
     pub fn part(text: &[u8], remark: RemarkId) -> Self {
         let text = text.trim_ascii();

@@ -1,7 +1,8 @@
-//! Poses with expressions in them: `p[x, y, z + 0.1, 0, 0, 0]`, `p[a[0], a[1], a[2] + 0.1, a[3], a[4], a[5]]`.
+//! Poses with expressions in them: `p[x, y, z + 0.1, 0, 0, 0]`, `p[a[0], a[1], a[2] + 0.1, a[3],
+//! a[4], a[5]]`.
 //!
-//! Their moves stay as they are. Where numbers of a rewritten target flow into one, it takes the correction along: it is that
-//! target, displaced by what the text tells or by something.
+//! Their moves stay as they are. Where numbers of a rewritten target flow into one, it takes the
+//! correction along: it is that target, displaced by what the text tells or by something.
 
 use super::goals::{Feature, Goal, Goals};
 use super::reader::Reader;

@@ -54,8 +54,8 @@ impl Reader<'_> {
         self.elements(open, None).map(|_| ())
     }
 
-    /// To the bracket that closes `open`; how many elements are between its commas, and which where they are asked for.
-    /// Calls are noted on the way.
+    /// To the bracket that closes `open`; how many elements are between its commas, and which where
+    /// they are asked for. Calls are noted on the way.
     fn elements(&mut self, open: Token, mut values: Option<&mut Vec<ExprId>>) -> Read<u32> {
         let mut waiting: Vec<(u8, usize)> = vec![(closing(open.kind), open.start)];
         let mut elements = 1;
@@ -176,7 +176,8 @@ impl Reader<'_> {
         }
     }
 
-    /// One value: a literal, a name, a call. `statement` is where an assignment starts whose value it is.
+    /// One value: a literal, a name, a call. `statement` is where an assignment starts whose value
+    /// it is.
     pub(super) fn operand(&mut self, statement: Option<usize>) -> Read<ExprId> {
         let token = self.scanner.peek();
         match token.kind {
@@ -259,7 +260,8 @@ impl Reader<'_> {
         Ok(self.parsed.add(Expr::List(list)))
     }
 
-    /// A literal of six numbers behind a bracket that was just read; nothing more is read where it is none.
+    /// A literal of six numbers behind a bracket that was just read; nothing more is read where it
+    /// is none.
     fn six(&mut self, open: Token, start: usize, pose: bool) -> Read<Option<ExprId>> {
         let first = short(self.parsed.numbers.len());
         let bytes = self.scanner.bytes;

@@ -191,7 +191,8 @@ pub(super) struct Goals<'m, 'n, 'a> {
     pub targets: Vec<Option<TargetId>>,
     /// Names that the file does not assign.
     pub unknown: HashMap<Symbol, RemarkId>,
-    /// Since this was last looked at, joints that an inverse starts from were none that the text tells.
+    /// Since this was last looked at, joints that an inverse starts from were none that the text
+    /// tells.
     pub lost_start: bool,
     /// Targets that are offsets of others too, and the offset's first byte.
     pub offsets: Vec<(TargetId, u32)>,

@@ -23,8 +23,8 @@ fn blanks(bytes: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// Reads six numbers from the byte behind the opening bracket into `numbers`, which stays as it was where they are not
-/// six.
+/// Reads six numbers from the byte behind the opening bracket into `numbers`, which stays as it was
+/// where they are not six.
 pub(super) fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Number>) -> Found {
     let first = numbers.len();
     let mut degrees = [false; 6];

@@ -1,16 +1,18 @@
 //! Universal Robots `URScript`: .script, .urscript.
 //!
-//! A pose is `p[x, y, z, rx, ry, rz]`, metres and a rotation vector in radians; joints are `[q0, …, q5]`, radians, or
-//! `d2r(…)` of degrees. The pose is that of the tool of the last `set_tcp` in the controller's base; `pose_trans(feature,
-//! pose)` puts it in a feature. A variable that is assigned once stands for its value; each literal that is assigned to one
-//! with several is a target of its own. Parameters are what calls give them, results what functions return, an element of a
+//! A pose is `p[x, y, z, rx, ry, rz]`, metres and a rotation vector in radians; joints are `[q0, …,
+//! q5]`, radians, or `d2r(…)` of degrees. The pose is that of the tool of the last `set_tcp` in the
+//! controller's base; `pose_trans(feature, pose)` puts it in a feature. A variable that is assigned
+//! once stands for its value; each literal that is assigned to one with several is a target of its
+//! own. Parameters are what calls give them, results what functions return, an element of a
 //! list any of its poses or, by a number in a list that is written once, the one.
 //!
-//! `get_inverse_kin(pose, qnear=joints)`: the pose is the target, the joints tell which of its solutions is meant and stay.
-//! Joints that are computed so keep the tool that is set where they are computed.
-//! `p[a[0], a[1], a[2] + 0.1, a[3], a[4], a[5]]` of a target a that moves go to is a displacement of it, too, and what is
-//! computed from targets in another manner stands beside them by something.
-//! `pose_trans(target, offset)` of a target that other moves go to, and `pose_add`, are displacements of it.
+//! `get_inverse_kin(pose, qnear=joints)`: the pose is the target, the joints tell which of its
+//! solutions is meant and stay. Joints that are computed so keep the tool that is set where they
+//! are computed. `p[a[0], a[1], a[2] + 0.1, a[3], a[4], a[5]]` of a target a that moves go to is a
+//! displacement of it, too, and what is computed from targets in another manner stands beside them
+//! by something. `pose_trans(target, offset)` of a target that other moves go to, and `pose_add`,
+//! are displacements of it.
 //!
 //! ```text
 //! text → tokens → reader (statements, values: syntax) → variables, uses (what names and literals are) → translate
@@ -20,11 +22,12 @@
 //!
 //! # Limits
 //!
-//! Each file stands for itself. The pendant opens .urp, not .script: a compensated script is sent or run as a script.
-//! A literal that is given to a function outside the file alone is no target: nothing tells whether it moves there. A
-//! variable that moves go to is, and is refused (`target-passed-to-routine`), unless the function is one of the language or
-//! of a server (`server.name()`): those move nothing. What `qnear` holds is read where it is a literal or a variable that
-//! is assigned once.
+//! Each file stands for itself. The pendant opens .urp, not .script: a compensated script is sent
+//! or run as a script. A literal that is given to a function outside the file alone is no target:
+//! nothing tells whether it moves there. A variable that moves go to is, and is refused
+//! (`target-passed-to-routine`), unless the function is one of the language or of a server
+//! (`server.name()`): those move nothing. What `qnear` holds is read where it is a literal or a
+//! variable that is assigned once.
 
 mod calls;
 mod composed;
@@ -121,7 +124,8 @@ impl Language for UrScript {
 
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
         match role {
-            // metres; and radians, of which a millionth is a thousandth of a millimetre at one metre
+            // metres; and radians, of which a millionth is a thousandth of a millimetre at one
+            // metre
             Role::Position | Role::Orientation | Role::Joint => millimetre_decimals + 3,
             Role::Configuration => 0,
         }

@@ -57,7 +57,8 @@ impl<'a> Reader<'a> {
     /// Reads the whole file.
     ///
     /// # Errors
-    /// Where a block, bracket or text is not closed, or something else stands where the language wants one thing.
+    /// Where a block, bracket or text is not closed, or something else stands where the language
+    /// wants one thing.
     pub(super) fn read(mut self) -> Read<Self> {
         loop {
             let token = self.next()?;

@@ -1,7 +1,7 @@
 //! Poses as `p[x, y, z, rx, ry, rz]`: metres and a rotation vector.
 //!
-//! The vector's direction is the axis, its length the angle; lengths that differ by whole turns are the same rotation, and
-//! so is the opposite direction with the complement of the angle.
+//! The vector's direction is the axis, its length the angle; lengths that differ by whole turns are
+//! the same rotation, and so is the opposite direction with the complement of the angle.
 
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion, Vector, dot, norm, scale};

@@ -83,7 +83,8 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     }
 }
 
-/// Where the marker goes, and its text: behind the line that opens the first function, else at the top.
+/// Where the marker goes, and its text: behind the line that opens the first function, else at the
+/// top.
 pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;
     let text = comments(source, marker, "  # ");

@@ -1,6 +1,7 @@
 //! Words, numbers and signs of `URScript`; comments, annotations and blanks are passed over.
 //!
-//! A line end ends a statement except inside brackets. A line that starts with `$` is an annotation of the pendant: no code.
+//! A line end ends a statement except inside brackets. A line that starts with `$` is an annotation
+//! of the pendant: no code.
 
 use crate::program::kit::content_start;
 

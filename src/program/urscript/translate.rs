@@ -268,7 +268,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
     }
 
-    /// The first target that is assigned to a variable: what is written of it in parts is that target's.
+    /// The first target that is assigned to a variable: what is written of it in parts is that
+    /// target's.
     fn first_target(&self, variable: VarId) -> Option<script::Expr> {
         let mut sources = self.goals.variables.sources(variable);
         sources.find_map(|source| match self.goals.parsed.expression(source.value) {
@@ -417,8 +418,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         found
     }
 
-    /// The tool of a position in a variable that also holds joints computed from poses: these have the tool that is set
-    /// where they are computed, a pose that of its move.
+    /// The tool of a position in a variable that also holds joints computed from poses: these have
+    /// the tool that is set where they are computed, a pose that of its move.
     fn tool_of(&self, value: ExprId, function: FunctionId) -> script::Expr {
         let is_computed = matches!(
             self.goals.variables.follow(value, function).0,

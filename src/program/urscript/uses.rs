@@ -1,8 +1,8 @@
 //! What literals and variables are used for.
 //!
-//! Poses of targets, features, offsets and tools look alike. What a literal is follows from where it goes: to a move it is
-//! a target. In `pose_trans(a, b)` a is a target and b its offset where other moves go to a; else a is a feature and b the
-//! target in it.
+//! Poses of targets, features, offsets and tools look alike. What a literal is follows from where
+//! it goes: to a move it is a target. In `pose_trans(a, b)` a is a target and b its offset where
+//! other moves go to a; else a is a feature and b the target in it.
 
 use super::syntax::{Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
@@ -99,8 +99,8 @@ impl Variables<'_, '_> {
         (list.elements.len() == 6 && list.elements.iter().all(is_plain)).then_some(list.literal)
     }
 
-    /// What an element of a list may be: by its number where the list is written out once, else any. `None` where the
-    /// text does not tell them all.
+    /// What an element of a list may be: by its number where the list is written out once, else
+    /// any. `None` where the text does not tell them all.
     pub(super) fn elements(
         &self,
         name: Symbol,
@@ -166,7 +166,8 @@ impl Variables<'_, '_> {
         }
     }
 
-    /// Whether a value is where the robot is, or displaced from there: what stands in it is no target.
+    /// Whether a value is where the robot is, or displaced from there: what stands in it is no
+    /// target.
     pub(super) fn is_actual(&self, value: ExprId, function: FunctionId) -> bool {
         self.comes_from_actual(value, function, MOST_STEPS)
     }
@@ -189,7 +190,8 @@ impl Variables<'_, '_> {
         }
     }
 
-    /// Finds the variables that are features and tools, and those whose positions have some of their own.
+    /// Finds the variables that are features and tools, and those whose positions have some of
+    /// their own.
     pub(super) fn find_frames(&mut self) {
         let parsed = self.parsed;
         let mut open = Vec::new();

@@ -1,7 +1,7 @@
 //! Which variable a name means, and whether its value is one that the text tells.
 //!
-//! A `global` is one in the whole file, a `local` and what a function alone assigns belong to that function; what a function
-//! and one around it assign is taken for one variable.
+//! A `global` is one in the whole file, a `local` and what a function alone assigns belong to that
+//! function; what a function and one around it assign is taken for one variable.
 
 use super::syntax::{Assignment, Called, Event, Expr, ExprId, FunctionId, Parsed, Reach, Symbol};
 use crate::geometry::Pose;
@@ -85,7 +85,8 @@ pub(super) struct Variables<'n, 'a> {
     /// What functions return.
     results: HashMap<FunctionId, VarId>,
     functions: HashMap<Symbol, Vec<FunctionId>>,
-    /// The tool is set somewhere: a position whose joints are computed keeps the one of that place.
+    /// The tool is set somewhere: a position whose joints are computed keeps the one of that
+    /// place.
     pub sets_tool: bool,
     /// Variables in whose assignments others are named, with those.
     pub(super) mentioned: HashMap<VarId, Vec<VarId>>,

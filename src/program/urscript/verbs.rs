@@ -1,8 +1,8 @@
 //! What functions of the language do, by their names.
 //!
 //! # Source
-//! Universal Robots, "The `URScript` Programming Language", the chapters on its modules (motion, internals, urmath, interfaces,
-//! dynamic force control, process path).
+//! Universal Robots, "The `URScript` Programming Language", the chapters on its modules (motion,
+//! internals, urmath, interfaces, dynamic force control, process path).
 
 use crate::program::Motion;
 
@@ -124,7 +124,8 @@ pub(super) fn verb(name: &[u8]) -> Verb {
     }
 }
 
-/// Whether a function that the file does not define is one of the language that takes the robot nowhere and sets no tool.
+/// Whether a function that the file does not define is one of the language that takes the robot
+/// nowhere and sets no tool.
 pub(super) fn is_of_language(name: &[u8]) -> bool {
     let is_known = KNOWN.split(' ').any(|known| known.as_bytes() == name);
     is_known

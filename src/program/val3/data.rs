@@ -1,8 +1,9 @@
 //! Data files (.dtx) of both generations: what is declared, and where its numbers stand.
 //!
-//! Since s7 a value is `<Value key="0" x=".." … fatherId="fPart[0]" />` in a `<Data name type>`; before, `<valuePoint index>` with
-//! `<tpValue x=".." … />` and `<cpValue … />` in a `<point name>` whose father has a tag of its own. Numbers that are left
-//! out are zero; sides of the arm that are left out stay as they are.
+//! Since s7 a value is `<Value key="0" x=".." … fatherId="fPart[0]" />` in a `<Data name type>`;
+//! before, `<valuePoint index>` with `<tpValue x=".." … />` and `<cpValue … />` in a `<point name>`
+//! whose father has a tag of its own. Numbers that are left out are zero; sides of the arm that are
+//! left out stay as they are.
 
 use super::xml::{Attribute, Node, Nodes, Tag};
 use crate::geometry::units::MM;
@@ -48,7 +49,8 @@ impl Kind {
 /// Attributes of a pose and of joints, in the order of the format.
 pub(super) const POSE: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 pub(super) const JOINTS: [&str; 6] = ["j1", "j2", "j3", "j4", "j5", "j6"];
-/// Attributes of the arm's sides, and what they are called: the first is 0, the second 1. Others leave the side open.
+/// Attributes of the arm's sides, and what they are called: the first is 0, the second 1. Others
+/// leave the side open.
 pub(super) const SIDES: [(&str, [&str; 2]); 3] = [
     ("shoulder", ["lefty", "righty"]),
     ("elbow", ["epositive", "enegative"]),
@@ -174,7 +176,8 @@ fn twice(tag: &Tag) -> Fault {
     Fault::unexpected(tag.at..tag.end, "one tag with the numbers of a value")
 }
 
-/// Speed and corner of a motion descriptor: the tool's speed where it is limited, and where the path is left.
+/// Speed and corner of a motion descriptor: the tool's speed where it is limited, and where the
+/// path is left.
 fn speed_zone<'a, 'b: 'a>(
     of: &impl Fn(&str) -> Option<&'a Attribute<'b>>,
 ) -> Result<SpeedZone, Fault> {

@@ -97,8 +97,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Where a frame is in the world, or a tool on the flange: the product of its fathers and itself; `None` where the files do
-    /// not tell.
+    /// Where a frame is in the world, or a tool on the flange: the product of its fathers and
+    /// itself; `None` where the files do not tell.
     fn chain(
         &self,
         project: u32,

@@ -1,20 +1,23 @@
 //! Staubli VAL 3: project folders of project (.pjx), data (.dtx) and programs (.pgx).
 //!
-//! Targets stand in the data, moves in the programs. A point is x, y, z in mm and rx, ry, rz in degrees, `R = Rx · Ry · Rz`, in
-//! its frame, which has fathers up to `world`; tools hang on `flange` or on other tools. Of both generations of XML, before s7
-//! and since. Numbers that a value leaves out are zero: where a correction needs them they are put in, in the order of the format,
-//! and reported. `world` is the crossing of axes 1 and 2: `kinematics.base` of the profile places the arm there.
+//! Targets stand in the data, moves in the programs. A point is x, y, z in mm and rx, ry, rz in
+//! degrees, `R = Rx · Ry · Rz`, in its frame, which has fathers up to `world`; tools hang on
+//! `flange` or on other tools. Of both generations of XML, before s7 and since. Numbers that a
+//! value leaves out are zero: where a correction needs them they are put in, in the order of the
+//! format, and reported. `world` is the crossing of axes 1 and 2: `kinematics.base` of the profile
+//! places the arm there.
 //!
-//! Shoulder, elbow and wrist tell the posture of joint moves: `lefty` is the wrist centre in front of axis 1, `epositive` j3 ≥ 0,
-//! `wpositive` j5 ≥ 0. What is left out or `same` stays as it is in the posture before; `free` may be either. Straight moves
-//! and arcs keep the posture. There are no data of rotations: each joint is taken near the present one.
+//! Shoulder, elbow and wrist tell the posture of joint moves: `lefty` is the wrist centre in front
+//! of axis 1, `epositive` j3 ≥ 0, `wpositive` j5 ≥ 0. What is left out or `same` stays as it is in
+//! the posture before; `free` may be either. Straight moves and arcs keep the posture. There are no
+//! data of rotations: each joint is taken near the present one.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! # Limits
 //!
-//! A frame that the running program changes anywhere is unknown everywhere. Fields of structures of the user's own are not
-//! followed. Arrays handed over with all values are followed in their first.
+//! A frame that the running program changes anywhere is unknown everywhere. Fields of structures of
+//! the user's own are not followed. Arrays handed over with all values are followed in their first.
 
 mod data;
 mod drive;

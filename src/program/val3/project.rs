@@ -1,4 +1,5 @@
-//! What belongs together: project files (.pjx), the data and programs that they name, their libraries.
+//! What belongs together: project files (.pjx), the data and programs that they name, their
+//! libraries.
 
 use super::data::{self, DataFile, Datum, Kind};
 use super::xml::{Node, Nodes};

@@ -16,8 +16,8 @@ use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 /// Built-in instructions, and which of their arguments they write.
 ///
 /// # Source
-/// Staubli, "VAL 3 Reference Manual", version 7, chapters on points, joints, frames, tools and on collections. *Not verified on a
-/// controller.*
+/// Staubli, "VAL 3 Reference Manual", version 7, chapters on points, joints, frames, tools and on
+/// collections. *Not verified on a controller.*
 const WRITES: &[(&[u8], usize)] = &[
     (b"pointToJoint", 3),
     (b"setFrame", 3),
@@ -58,7 +58,8 @@ pub(super) struct Reader<'a> {
     pub world: World<'a>,
     pub builder: Builder,
     pub variables: Variables<'a>,
-    /// Frames, transformations, descriptors and tools that the running program changes, by index in [`World::data`].
+    /// Frames, transformations, descriptors and tools that the running program changes, by index
+    /// in [`World::data`].
     pub assigned: HashSet<u32>,
     /// What each variable may be a copy of.
     pub copies: HashMap<VariableId, Vec<VariableId>>,
@@ -166,7 +167,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The program that a call at a word calls, and its name; the program is `None` where the files do not have it.
+    /// The program that a call at a word calls, and its name; the program is `None` where the files
+    /// do not have it.
     fn callee(&self, line: &Line<'a, '_>, at: usize) -> Option<(Option<RoutineId>, &'a [u8])> {
         let (project, first) = if at >= 2 && line.is(at - 1, b':') {
             (

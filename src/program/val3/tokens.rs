@@ -1,6 +1,7 @@
 //! Words of the code of a program, one statement at a time.
 //!
-//! A statement is a line; one with a bracket open goes on. Before s7 quotes and signs are entities (`&quot;`, `&lt;`).
+//! A statement is a line; one with a bracket open goes on. Before s7 quotes and signs are entities
+//! (`&quot;`, `&lt;`).
 
 /// What a word is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

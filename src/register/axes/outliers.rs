@@ -7,8 +7,8 @@ use crate::register::features;
 
 /// Sweeps with fewer rows keep all: the others could not tell which one is wrong.
 pub const FEWEST: usize = 6;
-/// A row counts as wrong where, without it, the mean square of what is left falls by more than this many times itself a
-/// coordinate: beyond six standard deviations of the others.
+/// A row counts as wrong where, without it, the mean square of what is left falls by more than this
+/// many times itself a coordinate: beyond six standard deviations of the others.
 const LIMIT: f64 = 40.0;
 /// Rows nearer to the circle of the others than this are never left out, metres.
 const NEAR_M: f64 = 3e-5;
@@ -60,7 +60,8 @@ fn off(axis: &Axis, sweep: &Sweep, row: usize, profile: &Profile) -> Result<f64,
     Ok(norm([axial, radial, along]))
 }
 
-/// The sweep without rows that are on no circle with the others, and these. At most a fifth is left out, one at a time.
+/// The sweep without rows that are on no circle with the others, and these. At most a fifth is left
+/// out, one at a time.
 ///
 /// # Errors
 /// As [`super::axis`].

@@ -1,4 +1,5 @@
-//! What the arm's own weight does to frames from sweeps: the arm bends while it sweeps, and a circle fit takes that for geometry.
+//! What the arm's own weight does to frames from sweeps: the arm bends while it sweeps, and a
+//! circle fit takes that for geometry.
 
 use super::{AxesError, Construction, Placed, Sweep, base_of, points_of, tool_of};
 use crate::geometry::{Pose, Vector, sub};
@@ -101,8 +102,9 @@ fn compliance(profile: &Profile, arm: &Arm, sweeps: [&Sweep; 2]) -> (bool, Vec<V
     (true, each.collect())
 }
 
-/// The share of the arm's sag in a frame's uncertainty: how far the frame moves if the sag is taken off the points. It is not
-/// taken off the frame itself, which is that of the points as they were measured. `None` where nothing weighs.
+/// The share of the arm's sag in a frame's uncertainty: how far the frame moves if the sag is taken
+/// off the points. It is not taken off the frame itself, which is that of the points as they were
+/// measured. `None` where nothing weighs.
 ///
 /// # Errors
 /// As [`super::axis`].

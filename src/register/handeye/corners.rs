@@ -25,9 +25,11 @@ pub struct Corners {
     pub covariance: PoseCovariance,
 }
 
-/// Fits `T_icp` to matched corners by Kabsch and accepts `T_icp · T_init` only if corners left out of the fit come nearer.
+/// Fits `T_icp` to matched corners by Kabsch and accepts `T_icp · T_init` only if corners left out
+/// of the fit come nearer.
 ///
-/// `seen_m`: corners in the camera's frame; `touched_m`: the same in the frame that the camera's pose maps into. Metres.
+/// `seen_m`: corners in the camera's frame; `touched_m`: the same in the frame that the camera's
+/// pose maps into. Metres.
 ///
 /// # Errors
 /// As [`kabsch`]; at least four corners are needed, so that three remain when one is left out.

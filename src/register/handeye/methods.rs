@@ -29,11 +29,12 @@ fn rodrigues(rotation: &Rotation) -> Vector {
     [2.0 * x, 2.0 * y, 2.0 * z]
 }
 
-/// Rotations outside these say little about the axis, or too much where noise turns half a turn over; radians.
+/// Rotations outside these say little about the axis, or too much where noise turns half a turn
+/// over; radians.
 const TSAI_RANGE_RAD: std::ops::RangeInclusive<f64> = 0.261_8..=2.879_8;
 
-/// Tsai and Lenz: `(P_A + P_B) × P' = P_B − P_A` over pairs that turn neither little nor about half a turn, then the
-/// translation over all. Where too few pairs are left, all are taken.
+/// Tsai and Lenz: `(P_A + P_B) × P' = P_B − P_A` over pairs that turn neither little nor about half
+/// a turn, then the translation over all. Where too few pairs are left, all are taken.
 pub(super) fn tsai(motions: &[Motion]) -> Option<Pose> {
     let good = |m: &&Motion| {
         [m.a, m.b]
@@ -106,7 +107,8 @@ fn dual(pose: &Pose, real: [f64; 4]) -> [f64; 4] {
     product([0.0, x, y, z], real)
 }
 
-/// Daniilidis: the two directions that `T (q, q') = 0` leaves open, combined so that the dual quaternion is one of a motion.
+/// Daniilidis: the two directions that `T (q, q') = 0` leaves open, combined so that the dual
+/// quaternion is one of a motion.
 pub(super) fn daniilidis(motions: &[Motion]) -> Option<Pose> {
     let mut t = DMatrix::zeros(6 * motions.len(), 8);
     for (index, motion) in motions.iter().enumerate() {

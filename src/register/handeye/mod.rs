@@ -1,11 +1,13 @@
-//! Hand-eye calibration: where a camera is, from poses of the robot and of a board that the camera sees.
+//! Hand-eye calibration: where a camera is, from poses of the robot and of a board that the camera
+//! sees.
 //!
-//! Eye in hand: `base_from_board = base_from_flange · X · camera_from_board` stays, `X = flange_from_camera`. Eye to hand:
-//! `flange_from_board = base_from_flange⁻¹ · X · camera_from_board` stays, `X = base_from_camera`. With
-//! `A = base_from_flange` or its inverse both are `Y = A_i X B_i`, and pairs of rows give `A X = X B`.
+//! Eye in hand: `base_from_board = base_from_flange · X · camera_from_board` stays, `X =
+//! flange_from_camera`. Eye to hand: `flange_from_board = base_from_flange⁻¹ · X ·
+//! camera_from_board` stays, `X = base_from_camera`. With `A = base_from_flange` or its inverse
+//! both are `Y = A_i X B_i`, and pairs of rows give `A X = X B`.
 //!
-//! Four closed forms ([`Method`]) give the start; [`refined`](HandEye::refined) fits X and Y to all rows together, with
-//! covariance. The work is linear in the number of poses.
+//! Four closed forms ([`Method`]) give the start; [`refined`](HandEye::refined) fits X and Y to all
+//! rows together, with covariance. The work is linear in the number of poses.
 
 mod corners;
 mod methods;
@@ -20,18 +22,22 @@ use nalgebra::Matrix3;
 /// Where the camera is mounted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setup {
-    /// The camera stands in the cell, the board is on the flange: X is `base_from_camera`, Y `flange_from_board`.
+    /// The camera stands in the cell, the board is on the flange: X is `base_from_camera`, Y
+    /// `flange_from_board`.
     EyeToHand,
-    /// The camera is on the flange, the board stands in the cell: X is `flange_from_camera`, Y `base_from_board`.
+    /// The camera is on the flange, the board stands in the cell: X is `flange_from_camera`, Y
+    /// `base_from_board`.
     EyeInHand,
 }
 
 /// A closed form for `A X = X B`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// R. Tsai, R. Lenz, "A new technique for fully autonomous and efficient 3D robotics hand/eye calibration" (1989).
+    /// R. Tsai, R. Lenz, "A new technique for fully autonomous and efficient 3D robotics hand/eye
+    /// calibration" (1989).
     Tsai,
-    /// F. Park, B. Martin, "Robot sensor calibration: solving AX = XB on the Euclidean group" (1994).
+    /// F. Park, B. Martin, "Robot sensor calibration: solving AX = XB on the Euclidean group"
+    /// (1994).
     Park,
     /// R. Horaud, F. Dornaika, "Hand-eye calibration" (1995), with whole quaternions.
     Horaud,
@@ -55,7 +61,8 @@ impl Method {
     }
 }
 
-/// Rows whose rotations about the second strongest direction stay below this give no camera pose, radians.
+/// Rows whose rotations about the second strongest direction stay below this give no camera pose,
+/// radians.
 const REFUSED_RAD: f64 = 0.01;
 /// Below this they give a poor one, radians.
 pub const WEAK_RAD: f64 = 0.17;
@@ -270,7 +277,8 @@ impl HandEye {
     }
 }
 
-/// Pairs of rows: all of few; of many each with its next ones and some far away, so that their number stays linear.
+/// Pairs of rows: all of few; of many each with its next ones and some far away, so that their
+/// number stays linear.
 fn motions(a: &[Pose], b: &[Pose]) -> Vec<Motion> {
     let n = a.len();
     let motion = |i: usize, j: usize| Motion {

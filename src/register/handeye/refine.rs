@@ -9,7 +9,8 @@ const STEPS: usize = 30;
 /// Standard deviations below these are rounding: radians, metres.
 const FLOOR: [f64; 2] = [1e-12, 1e-12];
 
-/// What is left of one row: rotation (radians) and distance (metres) of the board from where the others say it is.
+/// What is left of one row: rotation (radians) and distance (metres) of the board from where the
+/// others say it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseResidual {
     /// In the fit.
@@ -49,8 +50,8 @@ pub struct Refined {
 
 type Jacobian = SMatrix<f64, 6, 12>;
 
-/// `log(Y⁻¹ A X B)` as rotation vector and translation in the board's frame, and its derivative by small motions of X and Y
-/// behind each.
+/// `log(Y⁻¹ A X B)` as rotation vector and translation in the board's frame, and its derivative by
+/// small motions of X and Y behind each.
 fn residual(a: &Pose, b: &Pose, camera: &Pose, board_back: &Pose) -> (Vector6<f64>, Jacobian) {
     let e = *board_back * *a * *camera * *b;
     let (r, t) = (e.rotation.vector(), e.translation);
@@ -76,8 +77,8 @@ fn moved(pose: &Pose, step: &[f64]) -> Pose {
         }
 }
 
-/// Gauss–Newton from X; Y starts at the mean of what the rows say. Rotations and positions are weighted by their own noise,
-/// which comes from what is left of them.
+/// Gauss–Newton from X; Y starts at the mean of what the rows say. Rotations and positions are
+/// weighted by their own noise, which comes from what is left of them.
 pub(super) fn refine(a: &[Pose], b: &[Pose], start: Pose) -> Refined {
     let n = a.len();
     let mut camera = start;
@@ -185,7 +186,8 @@ fn finish(
     }
 }
 
-/// A covariance of small motions behind a pose, told along the axes of the frame that the pose maps into.
+/// A covariance of small motions behind a pose, told along the axes of the frame that the pose maps
+/// into.
 fn along_world(block: &Matrix6<f64>, pose: &Pose) -> PoseCovariance {
     let turn = nalgebra::Matrix3::from_fn(|i, j| pose.rotation.0[i][j]);
     let mut both = Matrix6::zeros();

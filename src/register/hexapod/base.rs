@@ -19,8 +19,9 @@ pub struct BaseFrame {
     pub rms_m: f64,
 }
 
-/// Lays the triangle with the exact distances on the three taught points: in the plane through them, with the least sum of
-/// squares. The robot's small errors of position average out, and the distances stay exact.
+/// Lays the triangle with the exact distances on the three taught points: in the plane through
+/// them, with the least sum of squares. The robot's small errors of position average out, and the
+/// distances stay exact.
 ///
 /// # Errors
 /// If the distances are no triangle, the points are in a line, or they contradict the distances.

@@ -1,7 +1,8 @@
 //! The ballbar hexapod: six lengths between three base balls and three tool balls give a pose.
 //!
-//! Legs B1T1, B2T1, B3T1, B1T2, B2T2, B2T3 (design 1₁₂2₁₂₃3₁), after the balls are renamed by a permutation of the base and
-//! one of the tool. The tool points follow one after the other by trilateration:
+//! Legs B1T1, B2T1, B3T1, B1T2, B2T2, B2T3 (design 1₁₂2₁₂₃3₁), after the balls are renamed by a
+//! permutation of the base and one of the tool. The tool points follow one after the other by
+//! trilateration:
 //!
 //! ```text
 //! T1 = Tri(B1, B2, B3; ρ11, ρ21, ρ31)     the solution above the base
@@ -9,8 +10,9 @@
 //! T3 = Tri(T2, B2, T1; t23, ρ23, t31)     two solutions each: four assembly modes
 //! ```
 //!
-//! Coordinates: origin B1, x to B2, B3 in the xy plane with y > 0 (the balls' own names); the tool stands at z > 0. The tool's
-//! frame has its origin at T1, x to T2, and T3 in the xy plane with y > 0. Lengths are metres.
+//! Coordinates: origin B1, x to B2, B3 in the xy plane with y > 0 (the balls' own names); the tool
+//! stands at z > 0. The tool's frame has its origin at T1, x to T2, and T3 in the xy plane with
+//! y > 0. Lengths are metres.
 //!
 //! # Source
 //! A. Nubiola, thesis, chapter 3; M. Slamani, A. Nubiola, I. Bonev for the device.
@@ -28,7 +30,8 @@ pub const NAMES: [&str; 12] = [
     "b12", "b23", "b31", "t12", "t23", "t31", "r11", "r21", "r31", "r12", "r22", "r23",
 ];
 
-/// The twelve lengths of one setting, metres: base and tool by the balls' own names, legs by their names in the design.
+/// The twelve lengths of one setting, metres: base and tool by the balls' own names, legs by their
+/// names in the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lengths {
     /// B1B2, B2B3, B3B1.
@@ -169,7 +172,8 @@ pub enum HexapodError {
         point: &'static str,
         /// The lengths in it.
         lengths: Vec<&'static str>,
-        /// What each length alone would have to change by to give a solution, mm, the smallest first.
+        /// What each length alone would have to change by to give a solution, mm, the smallest
+        /// first.
         changes: Vec<(&'static str, f64)>,
     },
     /// No mode of this number.

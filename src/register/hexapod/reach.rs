@@ -35,10 +35,12 @@ pub struct Reached {
     pub design: Design,
     /// The nominal pose.
     pub solved: Solved,
-    /// Branch and the controller's joint angles (radians) of every posture within the joint limits.
+    /// Branch and the controller's joint angles (radians) of every posture within the joint
+    /// limits.
     pub postures: Vec<(Branch, [f64; 6])>,
-    /// Largest difference of a leg of the real arm from the ballbar's nominal length in the first posture that is in range,
-    /// or the least of all, metres; none where the robot does not reach the pose.
+    /// Largest difference of a leg of the real arm from the ballbar's nominal length in the first
+    /// posture that is in range, or the least of all, metres; none where the robot does not
+    /// reach the pose.
     pub leg_error_m: Option<f64>,
     /// Whether a posture within the joint limits keeps all legs in the ballbar's range.
     pub measurable: bool,
@@ -67,10 +69,11 @@ pub fn measurable(device: &Device) -> Result<Vec<(Design, Solved)>, HexapodError
     Ok(poses)
 }
 
-/// Which of the measurable poses a robot reaches: all joints within their limits, and the real arm's legs in range when the
-/// controller goes to the nominal pose.
+/// Which of the measurable poses a robot reaches: all joints within their limits, and the real
+/// arm's legs in range when the controller goes to the nominal pose.
 ///
-/// `world_from_device` is where the base balls stand, `tool` the triangle of tool balls (its frame as in [`super`]).
+/// `world_from_device` is where the base balls stand, `tool` the triangle of tool balls (its frame
+/// as in [`super`]).
 ///
 /// # Errors
 /// If the arm has no closed-form inverse; a device without solutions has no poses.

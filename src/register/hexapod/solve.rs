@@ -20,12 +20,13 @@ pub struct Solved {
 pub struct Spread {
     /// Standard deviations of the tool points' coordinates in multiples of σ.
     pub points: [[f64; 3]; 3],
-    /// Covariance of the pose in multiples of σ²: rotation (rad/m) and position of T1, along the axes of the base.
+    /// Covariance of the pose in multiples of σ²: rotation (rad/m) and position of T1, along the
+    /// axes of the base.
     pub pose: [[f64; 6]; 6],
 }
 
-/// The point at given distances from three: `side` chooses on which side of their plane. The second value is the squared
-/// height above the plane, below zero where the spheres do not meet.
+/// The point at given distances from three: `side` chooses on which side of their plane. The second
+/// value is the squared height above the plane, below zero where the spheres do not meet.
 #[inline(always)]
 fn meet<S: Scalar>(p: [Vector<S>; 3], r: [S; 3], side: f64) -> (Vector<S>, S) {
     let along = sub(p[1], p[0]);
@@ -64,8 +65,8 @@ fn between<S: Scalar>(sides: &[S; 3], a: usize, b: usize) -> S {
     sides[[0, 2, 1][a + b - 1]]
 }
 
-/// The four solutions share their beginnings: T1, then two T2, then two T3 each. Points in the names of the design, and the
-/// squared heights of the three steps.
+/// The four solutions share their beginnings: T1, then two T2, then two T3 each. Points in the
+/// names of the design, and the squared heights of the three steps.
 #[inline(always)]
 fn build<S: Scalar>(l: &[S; 12], design: &Design, mode: usize) -> ([Vector<S>; 3], [S; 4]) {
     let (balls, base_height) = base_points([l[0], l[1], l[2]]);
@@ -84,7 +85,8 @@ fn build<S: Scalar>(l: &[S; 12], design: &Design, mode: usize) -> ([Vector<S>; 3
 /// On which side T2 and T3 lie in modes 1 to 4, in the order of table 3.1 of the thesis.
 const SIDES: [(f64, f64); 4] = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
 
-/// The frame with its origin at the first point, x toward the second, the third in the xy plane with y > 0.
+/// The frame with its origin at the first point, x toward the second, the third in the xy plane
+/// with y > 0.
 #[inline(always)]
 fn frame<S: Scalar>(p: [Vector<S>; 3]) -> Pose<S> {
     let along = sub(p[1], p[0]);
@@ -116,7 +118,8 @@ fn own_names<S: Scalar>(points: [Vector<S>; 3], design: &Design) -> [Vector<S>; 
 /// The pose of one assembly mode, 1 to 4.
 ///
 /// # Errors
-/// Lengths that are none, sides that make no triangle, or spheres that do not meet; with the length that is likely wrong.
+/// Lengths that are none, sides that make no triangle, or spheres that do not meet; with the length
+/// that is likely wrong.
 pub fn solve(lengths: &Lengths, design: &Design, mode: usize) -> Result<Solved, HexapodError> {
     #[allow(clippy::cast_precision_loss)]
     let found = mode as f64;
@@ -179,8 +182,8 @@ pub fn near(lengths: &Lengths, design: &Design, rough: &Pose) -> Result<Solved, 
     }
 }
 
-/// What the noise of the lengths does to the tool points and the pose of a mode that [`solve`] has found: exact derivatives
-/// by all twelve lengths (JCGM 100, "GUM", sec. 5.1).
+/// What the noise of the lengths does to the tool points and the pose of a mode that [`solve`] has
+/// found: exact derivatives by all twelve lengths (JCGM 100, "GUM", sec. 5.1).
 #[must_use]
 pub fn spread(lengths: &Lengths, design: &Design, mode: usize) -> Spread {
     let all = lengths.all();
@@ -267,7 +270,8 @@ fn fault(all: &[f64; 12], design: &Design, mode: usize) -> HexapodError {
     }
 }
 
-/// The smallest change of one length, mm, with which all spheres meet; none short of the whole of it.
+/// The smallest change of one length, mm, with which all spheres meet; none short of the whole of
+/// it.
 fn smallest_change(all: &[f64; 12], design: &Design, mode: usize, k: usize) -> Option<f64> {
     let works = |by: f64| {
         let mut lengths = *all;

@@ -1,12 +1,14 @@
 //! Registration of point clouds without known correspondence: iterative closest point.
 //!
-//! Nearest neighbours come from a k-d tree on TO. Coarse starts (the given one, or turns of the main axes) run on a thin
-//! sample; the best goes on with more points and ends with all. Pairs beyond the trimmed share are left out in every step.
-//! A result is called success only if its residual is that of the surfaces' own roughness, enough of FROM lies on TO, no
-//! motion is left free, and no other start ends as well elsewhere.
+//! Nearest neighbours come from a k-d tree on TO. Coarse starts (the given one, or turns of the
+//! main axes) run on a thin sample; the best goes on with more points and ends with all. Pairs
+//! beyond the trimmed share are left out in every step. A result is called success only if its
+//! residual is that of the surfaces' own roughness, enough of FROM lies on TO, no motion is left
+//! free, and no other start ends as well elsewhere.
 //!
 //! # Source
-//! P. Besl, N. `McKay` (1992); Y. Chen, G. Medioni (1992) for the tangent planes; D. Chetverikov et al. (2002) for trimming.
+//! P. Besl, N. `McKay` (1992); Y. Chen, G. Medioni (1992) for the tangent planes; D. Chetverikov et
+//! al. (2002) for trimming.
 
 mod pairs;
 mod search;
@@ -57,7 +59,8 @@ pub struct Options {
     pub kept: f64,
     /// Share of FROM that must lie on TO.
     pub min_overlap: f64,
-    /// Standard deviation of a point off its surface, both sets together, metres; none: from the roughness.
+    /// Standard deviation of a point off its surface, both sets together, metres; none: from the
+    /// roughness.
     pub sigma_m: Option<f64>,
 }
 
@@ -159,7 +162,8 @@ pub struct PointResidual {
     pub index: usize,
     /// Where it lies in TO, metres.
     pub at_m: Vector,
-    /// From there to the nearest point of TO or, with [`Metric::PointToPlane`], to the plane there, metres.
+    /// From there to the nearest point of TO or, with [`Metric::PointToPlane`], to the plane
+    /// there, metres.
     pub left_m: Vector,
     /// Whether it is among the nearest that are kept.
     pub kept: bool,
@@ -167,11 +171,12 @@ pub struct PointResidual {
 
 /// Finds the motion that lays FROM on TO.
 ///
-/// `normals` are unit normals of TO, if they are known. Points in metres, any number from 50 on each side.
+/// `normals` are unit normals of TO, if they are known. Points in metres, any number from 50 on
+/// each side.
 ///
 /// # Errors
-/// If a set is too small, not finite, coincident, or of other units than the other. A result that is found but doubtful
-/// is returned with its concerns.
+/// If a set is too small, not finite, coincident, or of other units than the other. A result that
+/// is found but doubtful is returned with its concerns.
 pub fn icp(
     from: &[Vector],
     to: &[Vector],
@@ -214,8 +219,9 @@ pub fn icp(
                 moved_m,
             });
             pose = better;
-            // where clouds are noisy partners change places for ever: well below what the noise does to the pose is enough,
-            // and so is just below it where it goes on for long
+            // where clouds are noisy partners change places for ever: well below what the noise
+            // does to the pose is enough, and so is just below it where it goes on for
+            // long
             let noise = rms_m / (points.len() as f64).sqrt();
             let share = if round < PATIENT { 0.2 } else { 4.0 };
             let fine = extent.1 * if is_last { 1e-7 } else { 1e-5 };

@@ -93,7 +93,8 @@ pub(super) fn step(
     Some((better, before))
 }
 
-/// Kabsch where many of FROM meet few of TO in the first steps: a ratio of extents says nothing yet.
+/// Kabsch where many of FROM meet few of TO in the first steps: a ratio of extents says nothing
+/// yet.
 fn kabsch_any_size(from: &[Vector], to: &[Vector]) -> Option<Pose> {
     match kabsch(from, to, None) {
         Ok(fit) => Some(fit.to_from_from),
@@ -105,8 +106,8 @@ fn kabsch_any_size(from: &[Vector], to: &[Vector]) -> Option<Pose> {
     }
 }
 
-/// Derivatives of a pair's distance from the tangent plane by a turn (times `size`) about `centre` and a shift, and that
-/// distance.
+/// Derivatives of a pair's distance from the tangent plane by a turn (times `size`) about `centre`
+/// and a shift, and that distance.
 pub(super) fn line(
     pair: &Pairing,
     surface: &Surface,
@@ -120,7 +121,8 @@ pub(super) fn line(
     (row, left)
 }
 
-/// Normal equations of a small motion about the middle of the pairs, turns scaled to the size of the cloud.
+/// Normal equations of a small motion about the middle of the pairs, turns scaled to the size of
+/// the cloud.
 pub(super) fn information(
     pairs: &[Pairing],
     surface: &Surface,

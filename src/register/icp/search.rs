@@ -16,8 +16,8 @@ const FINALISTS: usize = 4;
 /// Steps of those.
 const MORE_STEPS: usize = 15;
 
-/// Runs from turned main axes and from where the files stand; the best, how many there were, and the best of those that end
-/// elsewhere.
+/// Runs from turned main axes and from where the files stand; the best, how many there were, and
+/// the best of those that end elsewhere.
 pub(super) fn coarse_search(
     from: &[Vector],
     coarse: &[Vector],

@@ -22,7 +22,8 @@ pub(super) struct Surface {
     pub(super) tilt: f64,
 }
 
-/// Positions in the order of a space-filling curve (Z order): neighbours in space are neighbours in memory.
+/// Positions in the order of a space-filling curve (Z order): neighbours in space are neighbours in
+/// memory.
 pub(super) fn along_curve(points: &[Vector]) -> Vec<usize> {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
@@ -138,7 +139,8 @@ fn tangent_plane(
     (normal, deviation, fourth, tilt)
 }
 
-/// Eigenvalues, least first, of the symmetric matrix `[xx, xy, xz, yy, yz, zz]`, and the direction of the least.
+/// Eigenvalues, least first, of the symmetric matrix `[xx, xy, xz, yy, yz, zz]`, and the direction
+/// of the least.
 ///
 /// # Source
 /// O. K. Smith, "Eigenvalues of a symmetric 3×3 matrix" (1961).

@@ -111,10 +111,11 @@ pub(super) fn judge(
     }
 }
 
-/// How many times the variance of independent noise the residuals of neighbouring points make, 1 or more.
+/// How many times the variance of independent noise the residuals of neighbouring points make, 1 or
+/// more.
 ///
-/// Neighbours share tangent planes, and these are off where the surface is curved or has steps. The sum of `Jᵀr` over groups of
-/// neighbours scatters as they do.
+/// Neighbours share tangent planes, and these are off where the surface is curved or has steps. The
+/// sum of `Jᵀr` over groups of neighbours scatters as they do.
 ///
 /// # Source
 /// K.-Y. Liang, S. L. Zeger (1986): the covariance of clustered observations.
@@ -144,8 +145,9 @@ fn scattered(
     (ratio * groups as f64 / (groups as f64 - 1.0)).max(1.0)
 }
 
-/// The same from a match the other way round, whose tangent planes are those of FROM: both are off by what planes make of the
-/// surface, not in the same way. Only of clouds that are coarse enough for it to matter.
+/// The same from a match the other way round, whose tangent planes are those of FROM: both are off
+/// by what planes make of the surface, not in the same way. Only of clouds that are coarse enough
+/// for it to matter.
 fn mirrored(
     from: &[Vector],
     surface: &Surface,

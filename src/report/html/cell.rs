@@ -1,4 +1,5 @@
-//! The view in space: a robot, bodies, items that can be chosen, and paths with deviations. Lengths in mm, angles in degrees.
+//! The view in space: a robot, bodies, items that can be chosen, and paths with deviations. Lengths
+//! in mm, angles in degrees.
 
 use super::numbers::{Number, fixed};
 use super::page::Tone;
@@ -288,7 +289,8 @@ impl Solid {
     }
 }
 
-/// The corners of triangles, in mm; many triangles are coarsened by moving corners to a grid and dropping those that vanish.
+/// The corners of triangles, in mm; many triangles are coarsened by moving corners to a grid and
+/// dropping those that vanish.
 fn coarse(triangles: &[[Vector; 3]]) -> Vec<Number> {
     let mut kept: Vec<[Vector; 3]> = triangles.to_vec();
     let corners = || triangles.iter().flatten();

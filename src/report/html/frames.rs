@@ -219,7 +219,8 @@ fn worst_fact<'a>(points: impl Iterator<Item = &'a Residual>) -> Option<(String,
     (worst.distance_mm > 0.0).then(|| (label, format!("{:.4} mm", worst.distance_mm)))
 }
 
-/// The page of `register`: residuals where points are known, ellipsoids where they were asked for and at FROM's origin.
+/// The page of `register`: residuals where points are known, ellipsoids where they were asked for
+/// and at FROM's origin.
 #[must_use]
 pub(crate) fn registration_page(found: &Registration) -> Page {
     let mut facts = Vec::new();

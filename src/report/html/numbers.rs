@@ -4,7 +4,8 @@ use crate::report::LEAST_PROBABILITY;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
-/// A number for a page: what is not finite becomes `null`, what is whole is written without a point.
+/// A number for a page: what is not finite becomes `null`, what is whole is written without a
+/// point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Number(pub f64);
 
@@ -32,7 +33,8 @@ pub(crate) fn fixed(value: f64, decimals: i32) -> Number {
     Number((value * scale).round() / scale)
 }
 
-/// Significant digits of a number whose column has decimals of its own: none that is shown is made up.
+/// Significant digits of a number whose column has decimals of its own: none that is shown is made
+/// up.
 pub(crate) const DIGITS: usize = 7;
 
 /// Rounded to so many significant digits.
@@ -131,7 +133,8 @@ impl Column {
         Self::new(label, unit, Values::Numbers(values.map(finite).collect()))
     }
 
-    /// A column of probabilities: one that no number can hold is said to be below the least that can.
+    /// A column of probabilities: one that no number can hold is said to be below the least that
+    /// can.
     #[must_use]
     pub(crate) fn probabilities(
         label: &str,
@@ -238,8 +241,8 @@ impl Table {
 /// Medians of several that are so many times apart are counted on an axis of powers of ten.
 const FAR_APART: f64 = 10.0;
 
-/// Bars on one axis and how many values of each series are in them, and whether the axis is one of powers of ten: about the
-/// square root of their number of bars, at most 60.
+/// Bars on one axis and how many values of each series are in them, and whether the axis is one of
+/// powers of ten: about the square root of their number of bars, at most 60.
 #[must_use]
 pub(crate) fn histogram(
     label: &str,
@@ -305,7 +308,8 @@ pub(crate) fn histogram(
     (Table { columns }, log)
 }
 
-/// A width of bars that is 1, 2 or 5 times a power of ten, not below `rough` nor below what differs at this size.
+/// A width of bars that is 1, 2 or 5 times a power of ten, not below `rough` nor below what differs
+/// at this size.
 fn round_width(rough: f64, size: f64) -> f64 {
     let rough = rough.max(size * 1e-6);
     let rough = if rough > 0.0 { rough } else { 1.0 };

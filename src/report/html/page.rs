@@ -323,7 +323,8 @@ impl Page {
         }));
     }
 
-    /// A histogram of the values of one series, or of several on one axis, with its table; none of no values.
+    /// A histogram of the values of one series, or of several on one axis, with its table; none of
+    /// no values.
     pub(crate) fn histogram(
         &mut self,
         name: &str,
@@ -348,7 +349,8 @@ impl Page {
         self.sections.push(Section::Chart(chart));
     }
 
-    /// Findings: those that say the same of one file once with their number, errors before warnings before notes.
+    /// Findings: those that say the same of one file once with their number, errors before warnings
+    /// before notes.
     pub(crate) fn findings(&mut self, findings: &[Finding]) {
         if findings.is_empty() {
             return;
@@ -449,7 +451,8 @@ impl Page {
         )
     }
 
-    /// What is read without a script: files, the answer, the numbers that stand first, the table that stands first.
+    /// What is read without a script: files, the answer, the numbers that stand first, the table
+    /// that stands first.
     fn header(&self) -> String {
         let mut out = String::new();
         for line in &self.lead {

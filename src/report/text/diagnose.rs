@@ -95,7 +95,8 @@ fn probability(p: Option<f64>) -> String {
     }
 }
 
-/// Labels of effects with those of one kind together: `joint_harmonic joint 1 order 4, joint 2 order 1`.
+/// Labels of effects with those of one kind together: `joint_harmonic joint 1 order 4, joint 2
+/// order 1`.
 pub(in crate::report) fn together<'a>(effects: impl IntoIterator<Item = &'a Effect>) -> String {
     let mut words: Vec<String> = Vec::new();
     let mut last = None;

@@ -1,11 +1,13 @@
-//! Programs that drive to measuring configurations, every joint arriving from below so that backlash shows on one side.
+//! Programs that drive to measuring configurations, every joint arriving from below so that
+//! backlash shows on one side.
 //!
 //! # Source
 //! A. Nubiola, thesis, sec. 2.5: each configuration is approached from 5° less on every joint.
 
 use crate::program::{LANGUAGES, Language, Settings, Step};
 
-/// A configuration and the poses that the arm goes over before it comes to where it is approached from; joints in radians.
+/// A configuration and the poses that the arm goes over before it comes to where it is approached
+/// from; joints in radians.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stop {
     /// What it goes over.
@@ -14,7 +16,8 @@ pub(super) struct Stop {
     pub q: [f64; 6],
 }
 
-/// The moves of all configurations: what they go over, where they are approached from, the configuration.
+/// The moves of all configurations: what they go over, where they are approached from, the
+/// configuration.
 fn steps(stops: &[Stop], approach_rad: f64) -> Vec<Step> {
     let mut steps = Vec::new();
     for (i, stop) in stops.iter().enumerate() {

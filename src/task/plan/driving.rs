@@ -1,4 +1,5 @@
-//! The path of a measuring program: which configurations the arm may stand in, in which order, and what its moves meet.
+//! The path of a measuring program: which configurations the arm may stand in, in which order, and
+//! what its moves meet.
 
 use super::approach::Stop;
 use crate::check::passage::Passage;
@@ -70,7 +71,8 @@ impl<'a> Driving<'a> {
         touching(&self.scene, &self.arm, q).is_none()
     }
 
-    /// Whether the arm comes to this configuration from where it is approached from, and touches nothing on that path.
+    /// Whether the arm comes to this configuration from where it is approached from, and touches
+    /// nothing on that path.
     pub(super) fn admits(&self, q: &[f64; 6]) -> bool {
         self.stands(q) && self.is_free(&self.constraints.approach(q), q)
     }
@@ -98,7 +100,8 @@ impl<'a> Driving<'a> {
         })
     }
 
-    /// Whether a move meets nothing: everywhere on its path, not only at samples, where the arm's programs can be followed.
+    /// Whether a move meets nothing: everywhere on its path, not only at samples, where the arm's
+    /// programs can be followed.
     fn is_free(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
         self.guard.keeps(from, to)
             && match &self.passage {
@@ -115,8 +118,8 @@ impl<'a> Driving<'a> {
         })
     }
 
-    /// Poses that the arm goes over before it comes to where each configuration is approached from: none where the straight path of
-    /// the joints is free, or where no path was found.
+    /// Poses that the arm goes over before it comes to where each configuration is approached from:
+    /// none where the straight path of the joints is free, or where no path was found.
     pub(super) fn over(&self, joints: &[[f64; 6]]) -> Vec<Vec<[f64; 6]>> {
         let zero = self
             .profile
@@ -133,7 +136,8 @@ impl<'a> Driving<'a> {
         std::iter::once(Vec::new()).chain(over).collect()
     }
 
-    /// What the moves of a program meet: what each configuration is come to over, its approach, then the configuration.
+    /// What the moves of a program meet: what each configuration is come to over, its approach,
+    /// then the configuration.
     pub(super) fn findings(
         &self,
         language: &str,

@@ -103,7 +103,8 @@ impl Document for Plan {
     const KIND: &'static str = "plan/1";
 }
 
-/// Rows of joint angles that are in the set already, radians, and where external axes stand there; nothing without a track.
+/// Rows of joint angles that are in the set already, radians, and where external axes stand there;
+/// nothing without a track.
 ///
 /// # Errors
 /// A table without joints, or without a track's places.
@@ -121,10 +122,12 @@ pub fn given(source: &Source, profile: &Profile) -> Result<(Vec<[f64; 6]>, Vec<S
     Ok((joints, stands.collect::<Result<_, _>>()?))
 }
 
-/// Chooses configurations by observability; `read` reads meshes, `hear` is called with how many of how many starts are done.
+/// Chooses configurations by observability; `read` reads meshes, `hear` is called with how many of
+/// how many starts are done.
 ///
 /// # Errors
-/// Constraints that cannot be met, fewer numbers than parameters, a language that no program is written in.
+/// Constraints that cannot be met, fewer numbers than parameters, a language that no program is
+/// written in.
 pub fn plan(
     file: &ProfileFile,
     tool: Option<&str>,
@@ -287,7 +290,8 @@ fn not_determined(found: &Found) -> Vec<NotDetermined> {
 }
 
 impl Plan {
-    /// Joint angles and, where each configuration is approached from below, the directions that the joints arrive in.
+    /// Joint angles and, where each configuration is approached from below, the directions that the
+    /// joints arrive in.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut header = vec!["id"];

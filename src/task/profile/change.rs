@@ -30,7 +30,8 @@ impl Document for Changed {
 /// A profile with values set: `kinematics.joints.3.min_deg=-70`, `robot.serial=120-500123`.
 ///
 /// # Errors
-/// A path that leads nowhere, a value that the format does not allow, a layout that cannot be changed in place.
+/// A path that leads nowhere, a value that the format does not allow, a layout that cannot be
+/// changed in place.
 pub fn set(file: &ProfileFile, values: &[String], output: &str) -> Result<Changed, Failure> {
     let mut text = file.text.clone();
     for given in values {

@@ -65,7 +65,8 @@ pub struct Coupled {
 pub struct ExportedChain {
     /// `world_from_base`.
     pub base: parts::Pose,
-    /// `Rot(x, α) · Trans(a, 0, 0) · Rot(y, β) · Rot(z, θ + sign · q) · Trans(0, 0, d)`, joint 1 to 6.
+    /// `Rot(x, α) · Trans(a, 0, 0) · Rot(y, β) · Rot(z, θ + sign · q) · Trans(0, 0, d)`, joint 1
+    /// to 6.
     pub rows: Vec<Row>,
     /// Joints that are counted together.
     pub coupling: Vec<Coupled>,
@@ -426,7 +427,8 @@ fn ur_kinematics(profile: &Profile, exported: &Geometry, comments: &[String]) ->
         ..exported.clone()
     };
     let Axes { mut steps, last } = Chain::of(&flange, &profile.mechanism).axes();
-    // a shift along axis 6, and nothing else, is left behind joint 6: it changes places with the joint's rotation
+    // a shift along axis 6, and nothing else, is left behind joint 6: it changes places with the
+    // joint's rotation
     steps[5] = steps[5]
         * Pose {
             rotation: Rotation::identity(),

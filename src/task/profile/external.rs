@@ -1,4 +1,5 @@
-//! `profile add-track`, `add-positioner`, `import-moc`, `import-krc`: external axes put into a profile's text.
+//! `profile add-track`, `add-positioner`, `import-moc`, `import-krc`: external axes put into a
+//! profile's text.
 
 use super::change::{Changed, changed};
 use super::krc;
@@ -43,11 +44,12 @@ pub fn add_positioner(
     written(file, &file.text, &axes, Vec::new(), output)
 }
 
-/// A profile with the base frame, track and stations of an ABB controller's `MOC.cfg`: of the robot of this name, its only one without;
-/// `axis` is the track's axis where the file does not say it.
+/// A profile with the base frame, track and stations of an ABB controller's `MOC.cfg`: of the robot
+/// of this name, its only one without; `axis` is the track's axis where the file does not say it.
 ///
 /// # Errors
-/// A file without such a robot or its numbers, a profile that has external axes already, a layout that cannot be changed in place.
+/// A file without such a robot or its numbers, a profile that has external axes already, a layout
+/// that cannot be changed in place.
 pub fn import_moc(
     moc: &Source,
     file: &ProfileFile,
@@ -57,7 +59,8 @@ pub fn import_moc(
     imported(file, moc::read(moc, robot, axis)?, output)
 }
 
-/// A profile with the base frame, track and positioners of a KUKA controller's `$machine.dat` and `$config.dat`.
+/// A profile with the base frame, track and positioners of a KUKA controller's `$machine.dat` and
+/// `$config.dat`.
 ///
 /// # Errors
 /// As [`import_moc`].

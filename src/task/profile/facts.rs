@@ -148,7 +148,8 @@ fn external(profile: &Profile, fact: &mut impl FnMut(String, String)) {
     }
 }
 
-/// Mean and largest distance between the real and the controller's tool over an even grid of postures.
+/// Mean and largest distance between the real and the controller's tool over an even grid of
+/// postures.
 #[must_use]
 pub(super) fn typical_deviation(profile: &Profile) -> Deviation {
     let (tool, conditions) = (first_tool(profile), Conditions::default());
@@ -160,7 +161,8 @@ pub(super) fn typical_deviation(profile: &Profile) -> Deviation {
     )
 }
 
-/// Mean and largest distance between the tools of two controllers of one type of arm over an even grid of postures.
+/// Mean and largest distance between the tools of two controllers of one type of arm over an even
+/// grid of postures.
 #[must_use]
 pub(super) fn typical_deviation_of(a: &Profile, b: &Profile) -> Deviation {
     let tool = first_tool(a);

@@ -30,7 +30,8 @@ impl Document for Imported {
     const KIND: &'static str = "import-ur/1";
 }
 
-/// Puts a factory calibration into a nominal profile of this type of arm; `output` is how the new profile is named.
+/// Puts a factory calibration into a nominal profile of this type of arm; `output` is how the new
+/// profile is named.
 ///
 /// # Errors
 /// A file that is no such calibration; a profile whose own calibration would undo the controller's.

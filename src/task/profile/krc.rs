@@ -1,4 +1,5 @@
-//! `$machine.dat` and `$config.dat` of a KUKA controller: what carries the base, and what carries the part.
+//! `$machine.dat` and `$config.dat` of a KUKA controller: what carries the base, and what carries
+//! the part.
 //!
 //! ```text
 //! ET(e) = TA1KR · M1 · TA2A1 · M2 · TA3A2 · M3 · TFLA3        M: along or about z of its frame
@@ -6,7 +7,8 @@
 //! ```
 //!
 //! # Source
-//! KUKA, KR C2 "Machine data" 2.1.9; the chain from users who computed with it. Not verified on a controller.
+//! KUKA, KR C2 "Machine data" 2.1.9; the chain from users who computed with it. Not verified on a
+//! controller.
 
 use super::external::Read;
 use crate::geometry::units::{DEG, m_from_mm};
@@ -153,8 +155,8 @@ fn axis_number(text: &str) -> Option<usize> {
 /// Reads what carries the base and the part.
 ///
 /// # Errors
-/// Data that are missing or no numbers, a turntable under the robot, more than two axes of a positioner, a machine that stands on
-/// another one, by file and line.
+/// Data that are missing or no numbers, a turntable under the robot, more than two axes of a
+/// positioner, a machine that stands on another one, by file and line.
 pub(super) fn read(sources: &[Source]) -> Result<Read, Failure> {
     let data = Data::read(sources)?;
     let kinds = data.get("$EX_KIN")?;

@@ -4,7 +4,8 @@
 //! base(e) = base frame of the ROBOT, moved by e along x of the base frame of the SINGLE that `base_frame_coordinated` names
 //! ```
 //!
-//! Lengths are metres, angles radians, orientations quaternions; what is left out is 0, and 1 for `u0`.
+//! Lengths are metres, angles radians, orientations quaternions; what is left out is 0, and 1 for
+//! `u0`.
 
 use super::external::Read;
 use crate::geometry::{Pose, Quaternion};

@@ -34,7 +34,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct NewProfile {
     /// Its name, as `poseshift robots` lists it.
     pub robot: String,
-    /// Where its numbers are from, and what is to be set in it: nothing of a profile that was put together by hand.
+    /// Where its numbers are from, and what is to be set in it: nothing of a profile that was put
+    /// together by hand.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     /// Its text, where it is not written to a file.
@@ -191,7 +192,8 @@ pub fn diff(a: &Profile, b: &Profile) -> Diff {
     }
 }
 
-/// What a calibrated profile says of where its effects come from and what they are worth, a line each.
+/// What a calibrated profile says of where its effects come from and what they are worth, a line
+/// each.
 fn worth(profile: &Profile) -> Vec<String> {
     let mut lines = Vec::new();
     let said = |key: &str| profile.provenance.as_ref()?.get(key);

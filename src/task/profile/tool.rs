@@ -10,9 +10,9 @@ const MOST_ANGLE_DEG: f64 = 720.0;
 /// A centre of gravity farther from the flange is in another unit.
 const MOST_M: f64 = 10.0;
 
-/// A tool `NAME=X,Y,Z,RX,RY,RZ[,KG[,CX,CY,CZ]]`: its frame on the flange in mm and degrees as profiles have it
-/// (`Trans · Rx · Ry · Rz`), its mass, and its centre of gravity in the flange's frame in mm; without that the mass counts at
-/// the flange, as in profiles.
+/// A tool `NAME=X,Y,Z,RX,RY,RZ[,KG[,CX,CY,CZ]]`: its frame on the flange in mm and degrees as
+/// profiles have it (`Trans · Rx · Ry · Rz`), its mass, and its centre of gravity in the flange's
+/// frame in mm; without that the mass counts at the flange, as in profiles.
 ///
 /// # Errors
 /// A text that is none, an angle or length in another unit, a mass that is none.

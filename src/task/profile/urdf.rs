@@ -37,7 +37,8 @@ pub struct FromUrdf {
     pub tip: String,
     /// Whether and how the arm has an inverse.
     pub inverse: String,
-    /// What was taken differently from what stands in the URDF, what was added, and what is missing.
+    /// What was taken differently from what stands in the URDF, what was added, and what is
+    /// missing.
     pub notes: Vec<String>,
     /// The profile's text.
     pub profile: String,

@@ -25,7 +25,8 @@ use std::collections::BTreeMap;
 /// How to register; lengths in metres.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Standard deviation of one coordinate of a point, both sets together; `None`: from the residuals.
+    /// Standard deviation of one coordinate of a point, both sets together; `None`: from the
+    /// residuals.
     pub sigma_m: Option<f64>,
     /// Leave out touches that disagree with the others.
     pub robust: bool,

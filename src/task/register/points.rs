@@ -117,8 +117,8 @@ pub(crate) struct Pair<'a> {
     pub to: Vec<&'a PointRow>,
 }
 
-/// Matches by `id` where both tables have one, else by order. Rows without a partner are an error unless `drop` allows them;
-/// then their ids are returned.
+/// Matches by `id` where both tables have one, else by order. Rows without a partner are an error
+/// unless `drop` allows them; then their ids are returned.
 pub(crate) fn matched<'a>(
     from: &'a Points,
     to: &'a Points,

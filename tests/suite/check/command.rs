@@ -337,7 +337,8 @@ fn inserted_targets_are_not_shifted_beyond_the_limit() {
     let at = |name: &str| folder.path().join(name).display().to_string();
     let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
     let plain = &plain[..plain.find("calibration:").expect("a list of effects")];
-    // joint 1 is right at 45 degrees to both sides and off between: 0.35 mm a quarter of the path on
+    // joint 1 is right at 45 degrees to both sides and off between: 0.35 mm a quarter of the path
+    // on
     let effects =
         "calibration: {effects: [{effect: joint_harmonic, joint: 1, order: 2, cos_deg: 0.1}]}\n";
     std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");

@@ -1,4 +1,5 @@
-//! What a check says of single moves: singularities, configurations, turns, reach; how sure it is; whole circles.
+//! What a check says of single moves: singularities, configurations, turns, reach; how sure it is;
+//! whole circles.
 
 use super::{THESIS, joint_move, part, profile, rapid, run};
 use crate::support::{poseshift, repository, scratch};
@@ -100,7 +101,8 @@ fn a_straight_move_past_axis_1_leaves_the_limits_though_both_ends_are_inside() {
 
 #[test]
 fn a_straight_move_through_the_shoulder_is_out_of_reach_though_both_ends_are_not() {
-    // the wrist at the height of axis 2, 0.2 m before it, and as far behind it; elbow and forearm differ by 40 mm, and 7 of 16 parts of the way are looked at first
+    // the wrist at the height of axis 2, 0.2 m before it, and as far behind it; elbow and forearm
+    // differ by 40 mm, and 7 of 16 parts of the way are looked at first
     let from = [90.0, 10.0, 62.1, 0.0, 30.0, 0.0];
     let lines = joint_move(from) + "    ConfL\\Off;\n";
     let through =

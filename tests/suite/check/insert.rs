@@ -1,5 +1,6 @@
-//! Targets between those of a program, in every language that has them: what is written reads back as the same program with
-//! more moves, each like the one it stands before, and the path is within the limit.
+//! Targets between those of a program, in every language that has them: what is written reads back
+//! as the same program with more moves, each like the one it stands before, and the path is within
+//! the limit.
 
 use crate::support::{poseshift, repository, scratch};
 use serde_json::Value;
@@ -10,7 +11,8 @@ struct Case {
     language: &'static str,
     /// Names and texts of its files; the first holds the moves.
     files: &'static [(&'static str, &'static str)],
-    /// What every line of a straight move to a new target has, and how many lines have it at first.
+    /// What every line of a straight move to a new target has, and how many lines have it at
+    /// first.
     straight: &'static [&'static str],
     /// Likewise of arcs.
     arc: &'static [&'static str],
@@ -331,7 +333,8 @@ fn try_case(case: &Case) {
         assert!(few > 0 && many > few, "{}: {new}", case.language);
     }
     assert!(is > was, "{}", case.language);
-    // every line that was there is there still, in its order, but for numbers; those of positions are compared above
+    // every line that was there is there still, in its order, but for numbers; those of positions
+    // are compared above
     let crlf = first.contains("\r\n");
     assert_eq!(
         new.matches('\n').count(),

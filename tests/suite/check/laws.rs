@@ -196,7 +196,8 @@ fn least(f: &dyn Fn(f64) -> f64) -> f64 {
     f(0.5 * (low + high)).min(f(0.0)).min(f(1.0))
 }
 
-/// Least distance of the arm from the cell's bodies and of its far links from each other, at one posture, metres.
+/// Least distance of the arm from the cell's bodies and of its far links from each other, at one
+/// posture, metres.
 fn clearance(profile: &Profile, cell: &Cell, model: &Model, q: &[f64; 6]) -> f64 {
     let frames = model.link_frames(q, &Conditions::default()).map(isometry);
     let rods: Vec<(usize, Point3<f64>, Point3<f64>, f64)> = profile

@@ -107,7 +107,8 @@ fn same(world: [f64; 3]) -> [f64; 3] {
     world
 }
 
-/// Coordinates in a file whose y points up: z of the world is y, and its y goes away from the viewer.
+/// Coordinates in a file whose y points up: z of the world is y, and its y goes away from the
+/// viewer.
 fn y_up([x, y, z]: [f64; 3]) -> [f64; 3] {
     [x, z, -y]
 }

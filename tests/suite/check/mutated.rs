@@ -1,5 +1,6 @@
-//! Readers of meshes, URDFs, profiles, cells and measurements, on files that were damaged at random: an answer or an error, and
-//! nothing else. The same in every run; `fuzz/run.sh` looks longer.
+//! Readers of meshes, URDFs, profiles, cells and measurements, on files that were damaged at
+//! random: an answer or an error, and nothing else. The same in every run; `fuzz/run.sh` looks
+//! longer.
 
 use crate::support::{files_below, repository};
 use poseshift::check::cell::Cell;

@@ -140,7 +140,8 @@ fn the_urdf_that_ros_would_compute_is_the_one_that_is_read() {
     let (arm, _) = convert(&urdf(&usual(), "")).expect("a chain");
     let q = [std::f64::consts::FRAC_PI_2, 0.0, 0.0, 0.0, 0.0, 0.0];
     let pose = arm.forward(&q);
-    // at zero the flange is at x 0.1 + 0.4 + 0.1 + 0.1, y 0 (0.02 turned up by the last frame), z 1.1 + 0.02
+    // at zero the flange is at x 0.1 + 0.4 + 0.1 + 0.1, y 0 (0.02 turned up by the last frame), z
+    // 1.1 + 0.02
     let expected = [0.0, 0.7, 1.12];
     for (a, b) in pose.translation.iter().zip(expected) {
         assert!((a - b).abs() < 1e-12, "{pose:?}");

@@ -27,7 +27,8 @@ fn with_sample() -> tempfile::TempDir {
     folder
 }
 
-/// Asserts the status and that the folder holds these files only; returns standard error and output.
+/// Asserts the status and that the folder holds these files only; returns standard error and
+/// output.
 fn refused(folder: &Path, arguments: &[&str], status: i32, files: &[&str]) -> String {
     let output = run(folder, arguments);
     let told = String::from_utf8_lossy(&output.stderr).into_owned()

@@ -23,7 +23,8 @@ fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, Value, String) {
     )
 }
 
-/// A folder with the measurements `m.csv` of 40 planned configurations, and these as cells; the first row is the header.
+/// A folder with the measurements `m.csv` of 40 planned configurations, and these as cells; the
+/// first row is the header.
 fn measured() -> (tempfile::TempDir, Vec<Vec<String>>) {
     let folder = scratch();
     for arguments in [
@@ -188,7 +189,8 @@ fn what_is_found_in_one_of_several_files_names_it() {
     );
 }
 
-/// Numbers that no arm has, given to commands that compute without measurements: refused with the number, or said in words.
+/// Numbers that no arm has, given to commands that compute without measurements: refused with the
+/// number, or said in words.
 #[test]
 fn what_is_no_finite_number_is_never_an_answer() {
     let folder = scratch();

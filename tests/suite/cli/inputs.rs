@@ -1,4 +1,5 @@
-//! Nothing that is read is written over, whatever it is called; and nothing is written of what has changed since it was read.
+//! Nothing that is read is written over, whatever it is called; and nothing is written of what has
+//! changed since it was read.
 
 use crate::support::{poseshift, repository, scratch};
 use std::io::Read;

@@ -1,4 +1,5 @@
-//! `compensate` on INFORM jobs and CSV: tools and frames of the command line, turns that a header cannot follow, sniffing.
+//! `compensate` on INFORM jobs and CSV: tools and frames of the command line, turns that a header
+//! cannot follow, sniffing.
 
 use crate::support::{poseshift, repository, scratch};
 use std::process::Output;

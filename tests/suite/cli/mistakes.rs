@@ -1,6 +1,8 @@
-//! What people get wrong first: each ends with the file, the line where there is one, what was meant, and the way out.
+//! What people get wrong first: each ends with the file, the line where there is one, what was
+//! meant, and the way out.
 //!
-//! The cases are in `tests/data/mistakes.txt`: what is changed in files that are right, the command, and what must be said.
+//! The cases are in `tests/data/mistakes.txt`: what is changed in files that are right, the
+//! command, and what must be said.
 
 use crate::support::{poseshift, repository, scratch, text};
 use std::fmt::Write;
@@ -63,8 +65,9 @@ fn world(folder: &Path) {
     }
 }
 
-/// Changes a file: `edit FILE LINE old => new`, `scale FILE COLUMNS FACTOR`, `roll FILE COLUMNS` (one row down), `drop FILE LINE`,
-/// `repeat FILE LINE`, `append FILE text` (to every line), `write FILE text`.
+/// Changes a file: `edit FILE LINE old => new`, `scale FILE COLUMNS FACTOR`, `roll FILE COLUMNS`
+/// (one row down), `drop FILE LINE`, `repeat FILE LINE`, `append FILE text` (to every line), `write
+/// FILE text`.
 fn change(folder: &Path, words: &str) {
     let mut parts = words.splitn(3, ' ');
     let (what, file) = (parts.next().expect("a verb"), parts.next().expect("a file"));

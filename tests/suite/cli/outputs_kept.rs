@@ -1,4 +1,5 @@
-//! Where an output goes: through links to the real file, whose mode and owner stay; never to a device.
+//! Where an output goes: through links to the real file, whose mode and owner stay; never to a
+//! device.
 #![cfg(unix)]
 
 use crate::support::{poseshift, repository, scratch};

@@ -1,4 +1,5 @@
-//! `plan`: what holds for a configuration holds where it is approached from, and what the moves between meet is told.
+//! `plan`: what holds for a configuration holds where it is approached from, and what the moves
+//! between meet is told.
 
 use crate::support::{poseshift, repository, scratch};
 use poseshift::model::Conditions;

@@ -3,7 +3,8 @@
 use crate::support::{poseshift, repository, scratch};
 use std::path::Path;
 
-/// Commands in an order in which each finds what it needs, their status, and the kind of their report. `@` is the repository.
+/// Commands in an order in which each finds what it needs, their status, and the kind of their
+/// report. `@` is the repository.
 pub const COMMANDS: &[(&str, i32, &str)] = &[
     (
         "plan --profile @robots/abb_irb120_thesis.yaml --count 40 -o joints.csv",

@@ -508,7 +508,8 @@ fn values_are_set_and_tools_added_without_touching_anything_else() {
     }
 }
 
-/// Where the flange is by the numbers of an exported table, joint angles of the controller in radians.
+/// Where the flange is by the numbers of an exported table, joint angles of the controller in
+/// radians.
 fn by_table(rows: &[Row], ends: [&Pose; 2], classic: bool, q: &[f64; 6]) -> Pose {
     let x = |row: &Row| Pose {
         rotation: Rotation::about_x(row.number("alpha_deg").to_radians()),
@@ -554,7 +555,8 @@ fn commented(text: &str, what: &str) -> Pose {
     ])
 }
 
-/// A profile with every number of the geometry off, and with effects that no chain of fixed numbers has.
+/// A profile with every number of the geometry off, and with effects that no chain of fixed numbers
+/// has.
 fn calibrated(nominal: &str, folder: &Path) -> Profile {
     let mut text = std::fs::read_to_string(repository(nominal)).expect("a profile");
     let mut effects =

@@ -1,4 +1,5 @@
-//! Standard input and output: a program in and out, and a report that could not be printed is no success.
+//! Standard input and output: a program in and out, and a report that could not be printed is no
+//! success.
 #![cfg(unix)]
 
 use crate::support::{files_below, repository, scratch};

@@ -1,4 +1,5 @@
-//! What a run writes appears whole or not at all: whatever stops it, at the latest the next run in that folder sees to it.
+//! What a run writes appears whole or not at all: whatever stops it, at the latest the next run in
+//! that folder sees to it.
 
 use crate::support::{files_below, poseshift, repository, scratch, skipped};
 use rand::rngs::StdRng;

@@ -366,7 +366,8 @@ fn another_tool_is_called_a_tool_or_nothing() {
 
 #[test]
 fn without_a_noise_to_judge_by_nothing_is_named() {
-    // a drawing: frames, geometry and compliance take nearly all that 14 rows say, and there is no sigma_mm
+    // a drawing: frames, geometry and compliance take nearly all that 14 rows say, and there is no
+    // sigma_mm
     let case = without_sigma(case(group("nominal"), 0, 3, 14));
     let (status, out, error) = diagnosed(&case, &[]);
     assert_eq!((status, out.as_str()), (2, ""));

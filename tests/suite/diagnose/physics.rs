@@ -9,7 +9,8 @@ use poseshift::model::profile::Mounted;
 use poseshift::model::{Conditions, Model};
 use rand::{RngExt, SeedableRng};
 
-/// The product adds small motions up, the other turns one after another: they differ by products of small angles.
+/// The product adds small motions up, the other turns one after another: they differ by products of
+/// small angles.
 const SECOND_ORDER_M: f64 = 2e-7;
 /// Rounding of poses of some metres.
 const ROUNDING_M: f64 = 1e-12;
@@ -28,7 +29,8 @@ fn every_effect_is_the_same_in_two_implementations() {
         };
         let robot = robot_of(&profile, &tool);
         let geometry = profile.geometry(&tool);
-        // heavy and long arms bend less by the same torque: what is tested is the equation, not its second order
+        // heavy and long arms bend less by the same torque: what is tested is the equation, not its
+        // second order
         let reach: f64 = profile
             .links
             .iter()

@@ -3,7 +3,8 @@
 use crate::support::{poseshift, repository, scratch, skipped};
 use serde_json::Value;
 
-/// The report on a robot whose geometry was calibrated first; `None` where its measurements are not there.
+/// The report on a robot whose geometry was calibrated first; `None` where its measurements are not
+/// there.
 fn diagnosed(robot: &str) -> Option<Value> {
     let folder = repository("../shared/data/real").join(robot);
     let (profile, csv) = (folder.join("profile.yaml"), folder.join("fit.csv"));
@@ -32,7 +33,8 @@ fn diagnosed(robot: &str) -> Option<Value> {
     Some(report)
 }
 
-/// Every other configuration of a file, the even ones or the odd, with how far the joints moved last.
+/// Every other configuration of a file, the even ones or the odd, with how far the joints moved
+/// last.
 fn half(csv: &str, odd: bool) -> String {
     let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
     let header = lines.next().expect("a header");
@@ -58,8 +60,9 @@ fn half(csv: &str, odd: bool) -> String {
     out
 }
 
-/// Calibrated and diagnosed with every other configuration: what the profile written misses the others by, over what the one
-/// calibrated alone misses, for both halves. `None` where nothing was written, and of the whole where the measurements are not there.
+/// Calibrated and diagnosed with every other configuration: what the profile written misses the
+/// others by, over what the one calibrated alone misses, for both halves. `None` where nothing was
+/// written, and of the whole where the measurements are not there.
 fn other_half(robot: &str) -> Option<Vec<Option<f64>>> {
     let folder = repository("../shared/data/real").join(robot);
     let (profile, csv) = (folder.join("profile.yaml"), folder.join("fit.csv"));

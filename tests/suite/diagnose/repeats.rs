@@ -46,8 +46,8 @@ fn normal(random: &mut StdRng) -> f64 {
     (0..12).map(|_| random.random_range(-0.5..0.5)).sum()
 }
 
-/// What repeated poses say of residuals that are given, in a session of one pose measured `times` times, then another, and so
-/// on, or of all poses once, then all again.
+/// What repeated poses say of residuals that are given, in a session of one pose measured `times`
+/// times, then another, and so on, or of all poses once, then all again.
 fn noise_of(
     in_turn: bool,
     change: impl Fn(&mut Problem),
@@ -95,7 +95,8 @@ fn noise_is_found_from_successive_repetitions() {
         |row, random| wrong(row) + 2.0 * normal(random),
     );
     let found = found.expect("enough repetitions");
-    // two successive differences of three numbers tell as much as 1.6; some are not near in temperature
+    // two successive differences of three numbers tell as much as 1.6; some are not near in
+    // temperature
     let all = (3 * SESSION.0) as f64 * 1.6;
     assert!(
         found.freedom > 0.7 * all && found.freedom <= all,

@@ -1,7 +1,8 @@
 //! Every command of the documents runs, in their order, and prints what stands below it.
 //!
-//! Blocks `sh` and `console` hold commands; where they begin with `$ `, the other lines are printed by the command above them. A
-//! command whose files have names in capitals (`ROBOT.yaml`, `FOLDER/fit.csv`) is a pattern: its options are checked, no more.
+//! Blocks `sh` and `console` hold commands; where they begin with `$ `, the other lines are printed
+//! by the command above them. A command whose files have names in capitals (`ROBOT.yaml`,
+//! `FOLDER/fit.csv`) is a pattern: its options are checked, no more.
 
 use super::documents;
 use crate::support::{poseshift, repository, scratch, text};
@@ -81,7 +82,8 @@ fn run(folder: &Path, command: &str) -> (Option<i32>, String) {
     (output.status.code(), printed.into_owned())
 }
 
-/// Runs a document's commands in a folder that looks like the repository; how many ran, and how many printed lines were found.
+/// Runs a document's commands in a folder that looks like the repository; how many ran, and how
+/// many printed lines were found.
 fn run_all(document: &str, folder: &Path) -> (usize, usize) {
     for part in ["docs", "programs", "robots", "tests"] {
         std::os::unix::fs::symlink(repository(part), folder.join(part)).expect("scratch");

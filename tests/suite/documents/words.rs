@@ -1,4 +1,5 @@
-//! One word for a thing, that of the field, and British spelling: in the documents and in what commands print.
+//! One word for a thing, that of the field, and British spelling: in the documents and in what
+//! commands print.
 
 use crate::support::{files_below, repository, text};
 

@@ -203,7 +203,8 @@ enum Said {
     Inform,
 }
 
-/// One target: joints to come from, the numbers of the pose, the values of the axes in mm and degrees.
+/// One target: joints to come from, the numbers of the pose, the values of the axes in mm and
+/// degrees.
 struct Line {
     q_deg: [f64; 6],
     numbers: Vec<f64>,
@@ -456,7 +457,8 @@ fn missing(is: &M4, wanted: &M4) -> Vector6<f64> {
     )
 }
 
-/// The joints with which the controller's arm brings its tool to a pose: Newton with central differences.
+/// The joints with which the controller's arm brings its tool to a pose: Newton with central
+/// differences.
 fn joints(robot: &Robot, wanted: &M4, near: &[f64; 6]) -> [f64; 6] {
     let of = |q: &[f64; 6]| missing(&tool_pose(robot, &[], q, &Moment::default()), wanted);
     let mut q = *near;

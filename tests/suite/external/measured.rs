@@ -56,7 +56,8 @@ fn with_tool(external: &str, effects: &[&str]) -> String {
     text.replace("tools: {}", &own)
 }
 
-/// What a device sees of the real tool at random postures all along the rail, with the arm's own errors.
+/// What a device sees of the real tool at random postures all along the rail, with the arm's own
+/// errors.
 fn measured(rail: &Rail, count: usize, noise_mm: f64, seed: u64) -> String {
     let nominal = Profile::from_yaml(&with_tool(TRACK, &[])).expect("a profile");
     let (_, faults) = arm();

@@ -1,4 +1,5 @@
-//! Tracks and positioners: where the real tool lands on the real part, by a reference that shares no code with the product.
+//! Tracks and positioners: where the real tool lands on the real part, by a reference that shares
+//! no code with the product.
 
 mod landing;
 mod measured;

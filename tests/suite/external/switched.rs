@@ -1,4 +1,5 @@
-//! Units that are switched off and axes that move beside the program: their values in targets do not count.
+//! Units that are switched off and axes that move beside the program: their values in targets do
+//! not count.
 
 use super::{errors, profile, rapid, run};
 use poseshift::model::profile::Profile;

@@ -18,7 +18,8 @@ use std::path::Path;
 /// What the search may leave.
 const TOLERANCE_MM: f64 = 1e-6;
 
-/// Joints that bring the controller's model to `wanted`: Newton with central differences, from joints nearby.
+/// Joints that bring the controller's model to `wanted`: Newton with central differences, from
+/// joints nearby.
 fn search(controller: &Model, wanted: &Pose, near: [f64; 6]) -> [f64; 6] {
     let missing = |q: &[f64; 6]| {
         let is = controller.forward(q, &Conditions::default());

@@ -1,6 +1,7 @@
 //! Sample programs: each folder `programs/<language>/<case>` has `in/`, `out/` and `case.yaml`.
 //!
-//! `POSESHIFT_BLESS=1 cargo test golden` writes the present output into `out/`: look at the difference before it is kept.
+//! `POSESHIFT_BLESS=1 cargo test golden` writes the present output into `out/`: look at the
+//! difference before it is kept.
 
 mod agree;
 mod landing;
@@ -147,7 +148,8 @@ fn without_effects(profile: &str) -> String {
     format!("{}calibration: {{effects: []}}\n", &profile[..start])
 }
 
-/// The file without its marker: what stands where its language puts one, as many bytes as it has grown by.
+/// The file without its marker: what stands where its language puts one, as many bytes as it has
+/// grown by.
 fn unmarked(after: &[u8], before: &[u8], file: &Path) -> Vec<u8> {
     let source = Source::new(file.display().to_string(), before.to_vec());
     let language = program::language_of(&source).expect("a known language");

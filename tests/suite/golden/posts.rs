@@ -1,7 +1,8 @@
-//! Programs written by independent post-processors from known joints: the command reads those joints back, and with a
-//! profile without effects writes every byte back.
+//! Programs written by independent post-processors from known joints: the command reads those
+//! joints back, and with a profile without effects writes every byte back.
 //!
-//! The files lie next to the repository (`../shared/data/programs`); without them the tests say that they are skipped.
+//! The files lie next to the repository (`../shared/data/programs`); without them the tests say
+//! that they are skipped.
 
 use super::unmarked;
 use crate::support::{poseshift, repository, scratch, skipped, text};
@@ -18,7 +19,8 @@ struct Post {
     profile: (&'static str, &'static str),
     /// Sense of the profile's joint 5.
     joint_5: f64,
-    /// What the post's decimals are worth in a joint, 0.4 deg from the wrist's singularity, degrees.
+    /// What the post's decimals are worth in a joint, 0.4 deg from the wrist's singularity,
+    /// degrees.
     tolerance_deg: f64,
     /// Points of the path in the order of the targets in the files.
     points: fn() -> Vec<usize>,

@@ -1,4 +1,5 @@
-//! Every six-axis arm has an inverse: all answers, the one on a track, and the posture it came from.
+//! Every six-axis arm has an inverse: all answers, the one on a track, and the posture it came
+//! from.
 
 use crate::support::{offset_wrist_arms, shipped_profiles};
 use poseshift::geometry::{Pose, wrap};
@@ -10,7 +11,8 @@ use rand::{RngExt, SeedableRng};
 
 /// Random postures an arm.
 const POSES: usize = 500;
-/// Rounding of an arm of three metres; beside an edge of the reach the last steps of joint 6 are coarser.
+/// Rounding of an arm of three metres; beside an edge of the reach the last steps of joint 6 are
+/// coarser.
 const POSITION_M: f64 = 1e-10;
 const ANGLE_RAD: f64 = 1e-10;
 /// An answer beside a fold moves by the root of the rounding.

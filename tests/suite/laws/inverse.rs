@@ -15,7 +15,8 @@ const POSES: usize = 10_000;
 /// Rounding of an arm of three metres, amplified at most a thousand times near singularities.
 const POSITION_M: f64 = 1e-11;
 const ANGLE_RAD: f64 = 1e-11;
-/// An offset wrist's equation is solved to this where the elbow is nearer to straight than the other, radians.
+/// An offset wrist's equation is solved to this where the elbow is nearer to straight than the
+/// other, radians.
 const AT_EDGE_RAD: f64 = 1e-10;
 const EDGE_RAD: f64 = 1e-4;
 
@@ -152,7 +153,8 @@ fn thesis() -> (Profile, Inverse) {
     )
 }
 
-/// Targets that the real robot reaches within its limits: made by the real model from random joints.
+/// Targets that the real robot reaches within its limits: made by the real model from random
+/// joints.
 fn reachable(
     profile: &Profile,
     inverse: &Inverse,

@@ -1,5 +1,5 @@
-//! What the user decides: accepted errors, targets split, ways past a singularity, files for their declarations only, good
-//! programs beside refused ones.
+//! What the user decides: accepted errors, targets split, ways past a singularity, files for their
+//! declarations only, good programs beside refused ones.
 
 use super::{BACKLASH, P, PLAIN, errors, given, message, profile, rapid, try_with};
 use poseshift::compensate::{AtSingularity, Compensation, Options, compensate};
@@ -24,7 +24,8 @@ fn written(done: Compensation, files: &[(&str, &str)]) -> Vec<String> {
     written.sources.into_iter().map(text).collect()
 }
 
-/// A target that a joint with backlash comes to from both sides, in each language that holds targets by name.
+/// A target that a joint with backlash comes to from both sides, in each language that holds
+/// targets by name.
 fn from_both_sides() -> Vec<(&'static str, String)> {
     let joints = |q2: &str| format!("[[0,{q2},0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]]");
     let rapid = rapid(
@@ -146,7 +147,8 @@ fn the_marker_of_a_file_names_what_was_accepted() {
 
 #[test]
 fn at_the_singularity_of_the_wrist_the_user_chooses_a_way_out() {
-    // joint 5 a hundredth of a degree from zero, joint 4 near its limit: the small correction asks it to turn far
+    // joint 5 a hundredth of a degree from zero, joint 4 near its limit: the small correction asks
+    // it to turn far
 
     let effects = ["{effect: link_geometry, link: 5, alpha_deg: 0.05}"];
     let profile = profile(&effects);

@@ -1,4 +1,5 @@
-//! KRL programs whose thin reading lands beside: what each means, or that it is refused with both places.
+//! KRL programs whose thin reading lands beside: what each means, or that it is refused with both
+//! places.
 
 use super::{BACKLASH, PLAIN, done, errors, message};
 use poseshift::compensate::Compensation;
@@ -69,7 +70,8 @@ fn a_routine_that_is_called_in_two_postures_is_judged_in_both() {
     assert!(told.contains("2 ways"), "{told}");
 }
 
-/// How far the tool lands from where it is wanted without correction, mm, with a tool and load set so; and what is found.
+/// How far the tool lands from where it is wanted without correction, mm, with a tool and load set
+/// so; and what is found.
 fn sagging(set: &str) -> (f64, Vec<(Severity, usize)>) {
     let config = "DEFDAT $CONFIG\nFRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0,Y 0,Z 50,A 0,B 0,C 0}\nLOAD LOAD_DATA[16]\n\
         LOAD_DATA[1]={M 3.0,CM {X 0,Y 0,Z 40,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\n\
@@ -218,7 +220,8 @@ fn arcs_to_an_angle_are_refused() {
 
 #[test]
 fn a_move_to_axes_that_nobody_knows_is_a_move() {
-    // row n: the posture before it is none of the move behind it, nor is the side from which the joints came
+    // row n: the posture before it is none of the move behind it, nor is the side from which the
+    // joints came
     for unknown in ["PTP XHOME", "PTP_REL {A5 140}", "PTP $AXIS_RET"] {
         let done = plain(&format!("{FLIPPED}{unknown}\n{NEAR}"));
         assert_eq!(errors(&done), [""; 0]);

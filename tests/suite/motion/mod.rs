@@ -1,4 +1,5 @@
-//! What a program makes the robot do: where straight moves end, from which side joints come, which tool holds.
+//! What a program makes the robot do: where straight moves end, from which side joints come, which
+//! tool holds.
 
 mod decided;
 mod krl;
@@ -78,7 +79,8 @@ fn rapid(data: &str, body: &str) -> String {
 
 const P: &str = "[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
 
-/// The farthest that a written program lands from where the original wants the tool at targets that are poses, mm.
+/// The farthest that a written program lands from where the original wants the tool at targets that
+/// are poses, mm.
 fn landings(effects: &[&str], written: &[(&str, &str)], original: &[(&str, &str)]) -> f64 {
     let read = |files: &[(&str, &str)]| -> Vec<Source> {
         files

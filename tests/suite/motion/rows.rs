@@ -1,4 +1,5 @@
-//! Small programs whose thin reading lands beside: what each means, or that it is refused with both places.
+//! Small programs whose thin reading lands beside: what each means, or that it is refused with both
+//! places.
 
 use super::{BACKLASH, P, PLAIN, done, errors, given, message, profile_of, rapid, try_with};
 use poseshift::compensate::{CompensateError, Options, compensate};
@@ -29,7 +30,8 @@ fn a_target_reached_twice_in_one_way_has_one_fake_target() {
 
 #[test]
 fn a_straight_move_keeps_the_branch_of_its_path() {
-    // row d: the nearest largest joint change is on the other side of the stretched elbow, a3 = atan(35 / 420)
+    // row d: the nearest largest joint change is on the other side of the stretched elbow, a3 =
+    // atan(35 / 420)
     let program = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 0,A2 -20,A3 40,A4 0,A5 70,A6 -60}\n\
                    LIN {X 859.202,Y 0,Z 364.860,A -160,B 0,C 180}\nEND\n";
     let kr6 = profile_of(
@@ -304,7 +306,8 @@ fn read(files: &[(&str, &str)]) -> program::Program {
 
 #[test]
 fn whole_rotations_of_a_joint_move_are_those_of_config() {
-    // row e: behind J6 = -290 the rotation nearest to the joints before is another than CONFIG gives
+    // row e: behind J6 = -290 the rotation nearest to the joints before is another than CONFIG
+    // gives
     let profile = super::profile(&[PLAIN]);
     let controller = profile.controller_model(&poseshift::model::profile::Mounted::flange());
     let q = [0.0, -10.0, 20.0, 10.0, 50.0, 179.95_f64].map(f64::to_radians);

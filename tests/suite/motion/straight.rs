@@ -1,7 +1,8 @@
-//! Straight moves, walked by an independent inverse along the path between fake targets: the real tool must end where it is wanted.
+//! Straight moves, walked by an independent inverse along the path between fake targets: the real
+//! tool must end where it is wanted.
 //!
-//! Nothing here is the product's but the program that it writes: kinematics are those of `rs-opw-kinematics`, the real arm is that
-//! of `tests/physics`, rotations are nalgebra's.
+//! Nothing here is the product's but the program that it writes: kinematics are those of
+//! `rs-opw-kinematics`, the real arm is that of `tests/physics`, rotations are nalgebra's.
 
 mod forms;
 
@@ -22,13 +23,16 @@ use rs_opw_kinematics::pose::Pose as PeerPose;
 
 /// Moves that land in each language.
 const CASES: usize = 500;
-/// Moves that are tried: on some a joint nearly stands at the end of the path between fake targets, and these are left out.
+/// Moves that are tried: on some a joint nearly stands at the end of the path between fake targets,
+/// and these are left out.
 const TRIED: usize = CASES + 20;
 /// Steps in which a path is walked.
 const STEPS: usize = 400;
-/// Decimals of the file (0.0005 mm, 0.0005 deg at some 0.1 m from the last axes) and second-order terms of the two models.
+/// Decimals of the file (0.0005 mm, 0.0005 deg at some 0.1 m from the last axes) and second-order
+/// terms of the two models.
 const TOLERANCE_M: f64 = 4e-6;
-/// Rates nearer to zero than this at the end (rad/m) are left out: which way such a joint comes is a matter of rounding.
+/// Rates nearer to zero than this at the end (rad/m) are left out: which way such a joint comes is
+/// a matter of rounding.
 const CLEAR_RATE: f64 = 0.01;
 
 /// Backlash of joints 1 to 3 and an error of link 3: degrees and millimetres.
@@ -50,7 +54,8 @@ fn faults() -> Vec<Fault> {
     ]
 }
 
-/// The nominal IRB 120 in modified Denavit-Hartenberg rows (alpha, a, beta, theta, d), without masses.
+/// The nominal IRB 120 in modified Denavit-Hartenberg rows (alpha, a, beta, theta, d), without
+/// masses.
 fn robot() -> Robot {
     let quarter = std::f64::consts::FRAC_PI_2;
     Robot {
@@ -124,8 +129,8 @@ impl Peer {
         all.min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
-    /// The joints at the end of a straight path and their rates there (rad/m); `None` where a joint leaps or the path
-    /// leaves the reach, the limits, or comes near a singularity.
+    /// The joints at the end of a straight path and their rates there (rad/m); `None` where a joint
+    /// leaps or the path leaves the reach, the limits, or comes near a singularity.
     fn walk(&self, from: &At, to: &At, start: &[f64; 6]) -> Option<([f64; 6], [f64; 6])> {
         let limits = [165.0, 110.0, 70.0, 160.0, 120.0, 400.0_f64].map(f64::to_radians);
         let mut q = *start;
@@ -200,8 +205,8 @@ impl Case {
         clear.then_some(Self { start, from, to })
     }
 
-    /// The solution of the inverse that the start is, as CSV has it: 4 behind axis 1, 1 joint 5 negative. The elbow never
-    /// bends the other way: the wrist is not behind the lower arm.
+    /// The solution of the inverse that the start is, as CSV has it: 4 behind axis 1, 1 joint 5
+    /// negative. The elbow never bends the other way: the wrist is not behind the lower arm.
     fn branch(&self) -> u8 {
         let centre = self.from.position - self.from.rotation * Vector3::new(0.072, 0.0, 0.0);
         let ahead = centre.x * self.start[0].cos() + centre.y * self.start[0].sin();

@@ -1,4 +1,5 @@
-//! Every row of the catalogue: the chain by a plain computation from the row's own numbers, and its inverse.
+//! Every row of the catalogue: the chain by a plain computation from the row's own numbers, and its
+//! inverse.
 
 use crate::support::{Row, table, text};
 use poseshift::geometry::{Pose, wrap};

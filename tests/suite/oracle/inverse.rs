@@ -75,7 +75,8 @@ fn calibrated_joints_and_fake_targets_agree_with_the_oracle() {
     }
 }
 
-/// Ortho-parallel parameters of the same robots in the convention of the independent crate, lengths from the makers' drawings.
+/// Ortho-parallel parameters of the same robots in the convention of the independent crate, lengths
+/// from the makers' drawings.
 fn peers() -> [(&'static str, Parameters); 3] {
     let abb = |a1, a2, c1, c2, c3, c4| Parameters {
         a1,

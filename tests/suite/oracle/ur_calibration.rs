@@ -1,4 +1,5 @@
-//! Imported factory calibrations against an independent standard Denavit–Hartenberg model (`tests/data/ur_calibration`).
+//! Imported factory calibrations against an independent standard Denavit–Hartenberg model
+//! (`tests/data/ur_calibration`).
 
 use crate::support::{gap, numbers_of, poseshift, random_joints, repository, scratch, table, text};
 use poseshift::inverse::{Arm, Inverse, Status};
@@ -10,7 +11,8 @@ use rand::SeedableRng;
 const FOLDER: &str = "tests/data/ur_calibration";
 const POSE: [&str; 7] = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"];
 
-/// Case, its nominal profile, and rounding of sums of lengths that cancel: 1e-16 of the longest, a few times.
+/// Case, its nominal profile, and rounding of sums of lengths that cancel: 1e-16 of the longest, a
+/// few times.
 const CASES: [(&str, &str, f64); 3] = [
     ("ur5_usual", "universal_robots_ur5", 2e-9),
     ("ur10_far", "universal_robots_ur10", 5e-8),
@@ -117,7 +119,8 @@ fn the_inverse_of_a_calibrated_controller_converges_from_the_nominal_closed_form
     let (mut tried, mut spent, mut most) = (0_u32, 0_u32, 0_u32);
     for (case, robot, _) in CASES {
         let nominal = nominal(robot);
-        // with β and small numbers as imported, and with the hundreds of metres as the file has them
+        // with β and small numbers as imported, and with the hundreds of metres as the file has
+        // them
         for profile in [
             calibrated(case, "calibration.conf", &nominal),
             as_printed(case, &nominal),

@@ -1,4 +1,5 @@
-//! A probe's ball touches spheres, planes and points: what it touched and the arm that touched it must be found again.
+//! A probe's ball touches spheres, planes and points: what it touched and the arm that touched it
+//! must be found again.
 
 use crate::support::{poseshift, random_joints, repository, scratch};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
@@ -30,7 +31,8 @@ fn nominal() -> Profile {
     profile
 }
 
-/// The arm with errors of up to 0.5 mm and 0.05° in a complete and minimal set, its base out of place by as much.
+/// The arm with errors of up to 0.5 mm and 0.05° in a complete and minimal set, its base out of
+/// place by as much.
 fn hidden(random: &mut StdRng) -> Profile {
     let mut profile = nominal();
     let mut even = |size: f64| size * random.random_range(-1.0..1.0);

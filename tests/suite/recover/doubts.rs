@@ -1,4 +1,5 @@
-//! Files that are not what they seem, and robots that are not those of the profile: never a confident wrong answer.
+//! Files that are not what they seem, and robots that are not those of the profile: never a
+//! confident wrong answer.
 
 use super::identify::{DEG, MM, commands, effect, hidden, measure, nominal, worst_mm};
 use crate::support::repository;

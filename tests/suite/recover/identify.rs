@@ -1,4 +1,5 @@
-//! Robots with known errors, measured with noise: identification must find the errors within its own uncertainty.
+//! Robots with known errors, measured with noise: identification must find the errors within its
+//! own uncertainty.
 
 use crate::support::{random_joints, repository};
 use poseshift::geometry::{Pose, norm, sub};
@@ -235,7 +236,8 @@ fn a_device_anywhere_and_an_unknown_tool_do_not_matter() {
         let found = calibrate(&nominal(), &seen, &options).expect("an answer");
         assert!(found.base_replaced);
         let (_, max) = worst_mm(&found.profile(), &truth, 200);
-        // angle and length of link 6 stand in the points instead, but not in where the tool's weight pulls
+        // angle and length of link 6 stand in the points instead, but not in where the tool's
+        // weight pulls
         assert!(max < 3e-3, "{pose:?}: {max} mm");
     }
 }
@@ -262,7 +264,8 @@ fn a_device_that_stands_tilted_leaves_the_base_and_gravity_to_the_controller() {
         let found = calibrate(&nominal(), &seen, &options).expect("an answer");
         let profile = found.profile();
         assert_eq!(profile.world_from_base, nominal().world_from_base);
-        // without noise the device is where it is, and the arm is found though the device hangs askew
+        // without noise the device is where it is, and the arm is found though the device hangs
+        // askew
         let gap = profile.world_from_device().separation(&device);
         assert!(gap.distance_m < 1e-8 && gap.angle_rad < 1e-8, "{gap:?}");
         // and what reads measurements applies it

@@ -69,7 +69,8 @@ fn unknown_directions_are_no_direction_and_distances_are_those_worked_out_by_han
     let apart = |a: Vector, b: Vector| norm(sub(a, b)) / MM;
     let [pa, pb] = [&a, &b].map(|row| row.observed.point_m().expect("a position"));
     let along = scale(1.0 / norm(sub(pb, pa)), sub(pb, pa));
-    // the first cycle tells no direction and is far off; the second pose is 0.1, 0.2, 0.3 mm too far
+    // the first cycle tells no direction and is far off; the second pose is 0.1, 0.2, 0.3 mm too
+    // far
     let mut line = 100;
     for cycle in 0..3 {
         for (row, far) in [(&a, 0.0), (&b, 0.1 * f64::from(cycle + 1))] {

@@ -116,7 +116,8 @@ fn priors_help_where_rows_are_few_and_bound_the_uncertainty() {
     assert!(with < 0.9 * without, "{with} {without}");
 }
 
-/// Elbow, wrist centre of the IRB 120 with base at the origin, metres: from its drawing, not from the model.
+/// Elbow, wrist centre of the IRB 120 with base at the origin, metres: from its drawing, not from
+/// the model.
 fn elbow_and_wrist(q: &[f64; 6]) -> [Vector; 2] {
     let (s1, c1) = q[0].sin_cos();
     let (s2, c2) = q[1].sin_cos();

@@ -1,4 +1,5 @@
-//! Real measurements, where the folder with them is there: held-out errors must meet the reference figures.
+//! Real measurements, where the folder with them is there: held-out errors must meet the reference
+//! figures.
 
 use crate::support::{repository, skipped};
 use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
@@ -26,7 +27,8 @@ fn read(set: &str, file: &str) -> Option<(Profile, Measurements)> {
     ))
 }
 
-/// Mean position errors in mm of the rows for validation: with the frames alone, and with a level identified from the others.
+/// Mean position errors in mm of the rows for validation: with the frames alone, and with a level
+/// identified from the others.
 fn held_out(profile: &Profile, measurements: &Measurements, level: Level) -> (f64, f64) {
     let options = Options {
         selection: Selection::level(level),
@@ -73,7 +75,8 @@ fn mean(quality: &Quality) -> f64 {
 
 #[test]
 fn held_out_errors_meet_the_reference() {
-    // mm; an independent fit of the same rows is within half a micrometre more, except the last of the MA1400
+    // mm; an independent fit of the same rows is within half a micrometre more, except the last of
+    // the MA1400
     for (set, every, limits) in [
         ("irb120_faro", 2, [0.729, 0.192, 0.105]),
         ("irb120_faro", 12, [0.734, 0.192, 0.109]),

@@ -101,7 +101,8 @@ fn hand_eye_methods_are_those_of_opencv() {
     for method in Method::ALL {
         let mine = problem.by(method).expect("a solution");
         let gap = mine.separation(&pose(&all["handeye"][method.id()]));
-        // OpenCV 4.13 leaves pairs out of Tsai's equations by a rule of its own: the same to the noise of the data only
+        // OpenCV 4.13 leaves pairs out of Tsai's equations by a rule of its own: the same to the
+        // noise of the data only
         let (metres, radians) = match method {
             Method::Tsai => (1.5e-4, 1e-4),
             _ => (1e-8, 1e-8),
@@ -151,8 +152,9 @@ fn the_other_setup_is_the_same_problem_with_the_robot_inverted() {
     }
 }
 
-/// Thesis, table 3.1, with base and legs 300 mm and tool 150 mm. Its values for T1 and T2 are printed; for T3 its equations
-/// give other numbers than it prints (3.179, 3.054, 2.853, 3.180), which are not reproducible from them.
+/// Thesis, table 3.1, with base and legs 300 mm and tool 150 mm. Its values for T1 and T2 are
+/// printed; for T3 its equations give other numbers than it prints (3.179, 3.054, 2.853, 3.180),
+/// which are not reproducible from them.
 #[test]
 fn uncertainties_of_tool_points_are_those_of_table_3_1() {
     let lengths = Lengths {

@@ -1,4 +1,5 @@
-//! A part that stands elsewhere than in the simulation: probed, registered, compensated, and the real tool lands on it.
+//! A part that stands elsewhere than in the simulation: probed, registered, compensated, and the
+//! real tool lands on it.
 
 use super::{noisy, seeded};
 use crate::support::{poseshift, repository, scratch};

@@ -1,5 +1,6 @@
-//! The thesis's procedure on a LR Mate, by command: the ballbar hexapod is set up with three taught points, 46 poses that need
-//! jogging give a first calibration, and this one drives to 61 poses without; an arm seen nowhere else must come out of them.
+//! The thesis's procedure on a LR Mate, by command: the ballbar hexapod is set up with three taught
+//! points, 46 poses that need jogging give a first calibration, and this one drives to 61 poses
+//! without; an arm seen nowhere else must come out of them.
 
 use super::{noisy, normal, seeded};
 use crate::support::{poseshift, scratch, text};
@@ -178,7 +179,8 @@ impl Cell {
         }
     }
 
-    /// Joint angles (degrees) with which an arm of this profile has its tool at these poses, where its limits let it.
+    /// Joint angles (degrees) with which an arm of this profile has its tool at these poses, where
+    /// its limits let it.
     fn joints(folder: &Path, profile: &str, poses: &[(Pose, u64)]) -> Vec<Option<[f64; 6]>> {
         let mut text = String::from("x_mm,y_mm,z_mm,qw,qx,qy,qz,branch\n");
         for (pose, branch) in poses {
@@ -201,7 +203,8 @@ impl Cell {
         rows.collect()
     }
 
-    /// Where three taught points have the base balls: what the controller shows when the real arm touches them.
+    /// Where three taught points have the base balls: what the controller shows when the real arm
+    /// touches them.
     fn teach(&mut self, folder: &Path) {
         let [b12, b23, b31] = BASE_MM.map(|b| b * MM);
         let x = (b12 * b12 + b31 * b31 - b23 * b23) / (2.0 * b12);
@@ -259,7 +262,8 @@ impl Cell {
         );
     }
 
-    /// Sends the arm to each pose and measures its six lengths; the largest distance of one from 300 mm, mm.
+    /// Sends the arm to each pose and measures its six lengths; the largest distance of one from
+    /// 300 mm, mm.
     fn measure(
         &mut self,
         folder: &Path,
@@ -333,7 +337,8 @@ fn a_ballbar_hexapod_calibrates_a_small_arm_in_two_steps() {
     let mut first = settings(at, "nominal.yaml", &[0, 1]);
     assert!(first.len() >= 46, "{}", first.len());
     first.truncate(46);
-    // as the controller would go there the bars do not reach: they are jogged until they do, somewhere in their range
+    // as the controller would go there the bars do not reach: they are jogged until they do,
+    // somewhere in their range
     let programmed: Vec<(Pose, u64)> = first
         .iter()
         .map(|s| {

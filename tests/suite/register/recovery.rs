@@ -235,7 +235,8 @@ fn left_is_what_the_pose_leaves(found: &Found, from: &[Vector], to: &[Vector], m
 #[test]
 fn errors_of_fine_and_of_coarse_clouds_are_as_large_as_reported() {
     let mut random = seeded(24);
-    // points of FROM and TO, noise: fine against the noise, and so coarse that the tangent planes are off by more than it
+    // points of FROM and TO, noise: fine against the noise, and so coarse that the tangent planes
+    // are off by more than it
     for (from_count, to_count, sigma) in [(4000, 5000, 5e-4), (1500, 2000, 5e-5)] {
         let mut all = Vec::new();
         for _ in 0..40 {

@@ -139,7 +139,8 @@ fn the_sag_of_the_arm_is_in_the_sigma_and_three_rows_have_none() {
 fn a_device_that_the_profile_knows_is_taken_into_account() {
     let (_, plain, _) = axes(PROFILE, |_, _| ());
     assert_eq!(plain["device_known"], false);
-    // a tracker at (2100, -3400, 700) mm, rotated by 90 deg about the vertical: what it sees is turned back
+    // a tracker at (2100, -3400, 700) mm, rotated by 90 deg about the vertical: what it sees is
+    // turned back
     let folder = scratch();
     let text = std::fs::read_to_string(repository(PROFILE)).expect("a profile");
     let placed = "calibration:\n  world_from_device:\n    \

@@ -1,4 +1,5 @@
-//! The three forms of every result: text, JSON and page tell the same numbers, and the JSON is what its schema says.
+//! The three forms of every result: text, JSON and page tell the same numbers, and the JSON is what
+//! its schema says.
 
 use super::data;
 use super::schema::faults;
@@ -64,7 +65,8 @@ impl Known {
         }
     }
 
-    /// Whether a number as it is written, in the document's unit, in thousandths or in per cent of it, stands in it.
+    /// Whether a number as it is written, in the document's unit, in thousandths or in per cent of
+    /// it, stands in it.
     fn has(&self, written: &str) -> bool {
         let digits = written.trim_start_matches(['+', '-']);
         if self.texts.contains(digits) {

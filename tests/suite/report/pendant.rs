@@ -1,4 +1,5 @@
-//! `--convention`: frames as a maker's teach pendant shows them, against the quaternion of the JSON.
+//! `--convention`: frames as a maker's teach pendant shows them, against the quaternion of the
+//! JSON.
 
 use super::{data, name};
 use crate::support::{run, scratch};

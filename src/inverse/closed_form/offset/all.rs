@@ -1,16 +1,17 @@
 //! All answers of an arm with an offset wrist.
 //!
-//! Each of the four ways exists where the meeting point is within reach. Where it leaves the reach of the stretched or folded
-//! arm, or comes too near to axis 1, the equation goes over into that of another way with a square root's vertical slope. So
-//! each stretch of joint 6 between two such edges is counted by t with `q6 = middle − half cos t`, in which the equation is
-//! smooth up to its ends, and its roots are searched there: a pair of them beside an edge is one on either way.
+//! Each of the four ways exists where the meeting point is within reach. Where it leaves the reach
+//! of the stretched or folded arm, or comes too near to axis 1, the equation goes over into that of
+//! another way with a square root's vertical slope. So each stretch of joint 6 between two such
+//! edges is counted by t with `q6 = middle − half cos t`, in which the equation is smooth up to its
+//! ends, and its roots are searched there: a pair of them beside an edge is one on either way.
 
 use super::{Arm, Circle, LONGEST_RAD, MISSED_RAD, MOST_STEPS, Reached, SETTLED_RAD};
 use crate::geometry::{Pose, Turn, roots};
 use std::f64::consts::{PI, TAU};
 
-/// Cells in which edges are searched, a whole turn of joint 6 or a stretch of it: waves of the second order, and a square
-/// root's of the shoulder.
+/// Cells in which edges are searched, a whole turn of joint 6 or a stretch of it: waves of the
+/// second order, and a square root's of the shoulder.
 const EDGE_CELLS: u32 = 16;
 /// Cells in which roots are searched, a whole turn of joint 6 or a stretch of it.
 const ROOT_CELLS: u32 = 24;
@@ -20,7 +21,8 @@ const PINCHED: f64 = 0.1;
 const PINCH_STEPS: u32 = 13;
 /// The last step to the least that a target out of reach is missed by.
 const LEAST_STEP_RAD: f64 = 1e-4;
-/// Left out beside an edge, in t: there the slope is a quotient of two zeros. A root in it is within 1e-10 rad of the edge.
+/// Left out beside an edge, in t: there the slope is a quotient of two zeros. A root in it is
+/// within 1e-10 rad of the edge.
 const BESIDE_EDGE: f64 = 2e-5;
 
 /// A stretch of joint 6 by a parameter.
@@ -51,7 +53,8 @@ impl Stretch {
         }
     }
 
-    /// The parts on which `room` is not negative, by parameters, divided where it is little: `None` for the whole.
+    /// The parts on which `room` is not negative, by parameters, divided where it is little: `None`
+    /// for the whole.
     fn parts(
         self,
         mut room: impl FnMut(f64) -> (f64, f64),
@@ -84,7 +87,8 @@ impl Stretch {
     }
 }
 
-/// Where a function has a minimum that is little above zero, appended to `found`: the joints turn fast there, as at an edge.
+/// Where a function has a minimum that is little above zero, appended to `found`: the joints turn
+/// fast there, as at an edge.
 fn pinches(room: &mut impl FnMut(f64) -> (f64, f64), [from, to]: [f64; 2], found: &mut Vec<f64>) {
     let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(EDGE_CELLS);
     let samples: [(f64, f64); EDGE_CELLS as usize + 1] =
@@ -120,7 +124,8 @@ fn pinches(room: &mut impl FnMut(f64) -> (f64, f64), [from, to]: [f64; 2], found
 pub(in super::super) type ArmSigns = [f64; 2];
 
 impl Arm {
-    /// The rows at every root on the ways whose front sign is among `fronts` and whose elbow sign is among `befores`, handed to `each`.
+    /// The rows at every root on the ways whose front sign is among `fronts` and whose elbow sign
+    /// is among `befores`, handed to `each`.
     pub(in super::super) fn offset_roots(
         &self,
         target: &Pose,
@@ -171,7 +176,8 @@ impl Arm {
         parts.into_iter().map(stretch).collect()
     }
 
-    /// Squared distance of the meeting point from the nearest place that the shoulder's offset allows, m², and its slope.
+    /// Squared distance of the meeting point from the nearest place that the shoulder's offset
+    /// allows, m², and its slope.
     fn shoulder_room(&self, circle: &Circle<f64>, angle: f64) -> (f64, f64) {
         let sixth = Turn::of(angle);
         let ([x, y, _], [dx, dy, _]) = (circle.at(sixth).point, circle.slope(sixth).point);
@@ -234,8 +240,8 @@ impl Arm {
         }
     }
 
-    /// The root that Newton's method reaches from row 6 at `sixth` on one way, with how far row 6 turned; `None` where it
-    /// leaves the way or does not settle.
+    /// The root that Newton's method reaches from row 6 at `sixth` on one way, with how far row 6
+    /// turned; `None` where it leaves the way or does not settle.
     pub(in super::super) fn offset_root_near(
         &self,
         target: &Pose,
@@ -261,8 +267,8 @@ impl Arm {
         None
     }
 
-    /// Where no root is: the rows on one way that miss the target least of some samples, with how far they are beyond reach
-    /// or how much the equation misses.
+    /// Where no root is: the rows on one way that miss the target least of some samples, with how
+    /// far they are beyond reach or how much the equation misses.
     pub(in super::super) fn offset_least(
         &self,
         target: &Pose,

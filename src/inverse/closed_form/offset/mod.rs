@@ -1,18 +1,20 @@
-//! Axes 4 and 5 meet, and axis 6 passes either of them at a distance: most cobots with one motor beside the next, and many
-//! arc welding arms.
+//! Axes 4 and 5 meet, and axis 6 passes either of them at a distance: most cobots with one motor
+//! beside the next, and many arc welding arms.
 //!
-//! With joint 6 given, the point where axes 4 and 5 meet and the direction of axis 5 are known, and the arm in front of that
-//! point is the shoulder and the planar pair of the other kinds: four ways, in front of or behind axis 1 with either elbow.
-//! What is left is one equation in one unknown a way, that axis 4 stands at its angle to axis 5:
+//! With joint 6 given, the point where axes 4 and 5 meet and the direction of axis 5 are known, and
+//! the arm in front of that point is the shoulder and the planar pair of the other kinds: four
+//! ways, in front of or behind axis 1 with either elbow. What is left is one equation in one
+//! unknown a way, that axis 4 stands at its angle to axis 5:
 //!
 //! ```text
 //! f(q6) = z4(q1, q2, q3) · z5(q6) − cos α5 = 0
 //! ```
 //!
 //! # Source
-//! Derived here. The general 6R arm has up to sixteen solutions (M. Raghavan, B. Roth, "Inverse kinematics of the general 6R
-//! manipulator and related linkages", 1993), and so have these. Searching one joint for the roots of what the others leave is
-//! that of A. Elias, J. Wen, "IK-Geo" (arXiv 2211.05737).
+//! Derived here. The general 6R arm has up to sixteen solutions (M. Raghavan, B. Roth, "Inverse
+//! kinematics of the general 6R manipulator and related linkages", 1993), and so have these.
+//! Searching one joint for the roots of what the others leave is that of A. Elias, J. Wen, "IK-Geo"
+//! (arXiv 2211.05737).
 
 mod all;
 
@@ -32,17 +34,18 @@ const MOST_STEPS: u32 = 12;
 const LONGEST_RAD: f64 = 0.25;
 /// Below this, radians, a step of joint 6 changes nothing any more.
 const SETTLED_RAD: f64 = 1e-13;
-/// Farther than this from the borders of the branches an arm with axis 6 beside axis 5 alone has one solution mostly, by a
-/// search over all angles of joint 6 of 1500 random postures of the Motoman MA1400 (two of the 1061 that lie so far away had
-/// another).
+/// Farther than this from the borders of the branches an arm with axis 6 beside axis 5 alone has
+/// one solution mostly, by a search over all angles of joint 6 of 1500 random postures of the
+/// Motoman MA1400 (two of the 1061 that lie so far away had another).
 const ONE_SOLUTION: Margins = Margins {
     wrist_rad: 10.0 * DEG,
     elbow_rad: 10.0 * DEG,
     shoulder_m: 100.0 * MM,
 };
 
-/// What turns as joint 6 does, with the tool held: the point where axes 4 and 5 meet and the direction of axis 5, in the frame
-/// that axis 1 turns. Each is `fixed + cosine · across + sine · along`.
+/// What turns as joint 6 does, with the tool held: the point where axes 4 and 5 meet and the
+/// direction of axis 5, in the frame that axis 1 turns. Each is `fixed + cosine · across + sine ·
+/// along`.
 #[derive(Clone, Copy, Debug)]
 struct Circle<S> {
     point: [Vector<S>; 3],
@@ -171,7 +174,8 @@ impl Arm {
         let (dr, first) = self.shoulder_slope([x, y], [dx, dy], here.r);
         let (du, dv) = (dr, k(self.e2) * dz);
         let (fore, upper) = (k(self.forearm_m), k(self.a3_m));
-        // the elbow from the law of cosines, row 2 from the direction of the meeting point less that of the bent pair
+        // the elbow from the law of cosines, row 2 from the direction of the meeting point less
+        // that of the bent pair
         let elbow = -(here.u * du + here.v * dv) / (upper * fore * here.elbow.sine);
         let squared = here.u * here.u + here.v * here.v;
         let pair = elbow * fore * (upper * here.elbow.cosine + fore);
@@ -277,7 +281,8 @@ impl Arm {
         let circle = self.circle(&middle);
         let at = circle.at(given);
         let here = self.reached(&at, front.value.middle, before.value.middle);
-        // Newton's map with the slope of the middle: what it leaves of a step is small throughout a short interval
+        // Newton's map with the slope of the middle: what it leaves of a step is small throughout a
+        // short interval
         let inverse = Jet::constant(self.slope(&here, &at, &circle.slope(given)).recip());
         let turned = |beside: Jet| given.cast() * Turn::of(beside);
         let back = |target: &Pose<Jet>, beside: Jet| {
@@ -299,8 +304,9 @@ impl Arm {
         (self.rows_at(target, sixth, &here), here.beyond)
     }
 
-    /// How far a posture of an arm with an offset wrist is from a fold, where two answers meet: the angle whose sine is the
-    /// slope of the equation, radians, as joint 5's angle is that of a spherical wrist. `None` for other arms.
+    /// How far a posture of an arm with an offset wrist is from a fold, where two answers meet: the
+    /// angle whose sine is the slope of the equation, radians, as joint 5's angle is that of a
+    /// spherical wrist. `None` for other arms.
     ///
     /// Such an arm passes from one branch to the next without a fold, and folds within a branch.
     #[must_use]
@@ -319,8 +325,9 @@ impl Arm {
         Some(sine.abs().min(1.0).asin())
     }
 
-    /// Whether a posture is the only one of its branch that reaches its pose, as far as can be told from how far it is from
-    /// the branch's borders. Where axis 6 passes axis 4 at a distance that cannot be told: [`Arm::solve_all`] counts them.
+    /// Whether a posture is the only one of its branch that reaches its pose, as far as can be told
+    /// from how far it is from the branch's borders. Where axis 6 passes axis 4 at a distance
+    /// that cannot be told: [`Arm::solve_all`] counts them.
     #[must_use]
     pub fn is_only_posture(&self, margins: &Margins) -> bool {
         self.wrist != Wrist::Offset

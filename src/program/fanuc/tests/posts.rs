@@ -1,7 +1,8 @@
 //! Outputs of post-processors, compared with the trajectory they were made from.
 //!
-//! The trajectory's arm counts joint 5 from the other side than FANUC does: its flip (q5 < 0) is FANUC's `F` (J5 >= 0), and
-//! the posts write it so. The joints of the joint points are the trajectory's own, which the posts do not turn.
+//! The trajectory's arm counts joint 5 from the other side than FANUC does: its flip (q5 < 0) is
+//! FANUC's `F` (J5 >= 0), and the posts write it so. The joints of the joint points are the
+//! trajectory's own, which the posts do not turn.
 
 use super::*;
 use crate::compensate::{Given, Options, compensate};

@@ -67,7 +67,8 @@ fn a_register_that_is_a_copy_of_a_point_is_that_point() {
     let indirect = read(&copied.replace("L PR[4]", "L PR[R[1]]"), &two());
     assert!(to(&indirect).contains(&(Some("P[2]"), false)));
     assert_eq!(ids(&indirect), ["computed-target"]);
-    // one number of it is changed, or something is added: beside the point by what only the running program knows
+    // one number of it is changed, or something is added: beside the point by what only the running
+    // program knows
     for line in [
         "PR[4,3]=PR[4,3]-R[1] ;",
         "PR[4]=P[2]+PR[3] ;",
@@ -181,7 +182,8 @@ fn a_frame_is_what_the_program_has_just_written() {
     let pose = known.expect("the tool");
     assert!((pose.translation[0] + 0.03).abs() < 1e-12 && found.is_empty());
     assert!((pose.rotation.angle() - 60_f64.to_radians()).abs() < 1e-12);
-    // behind a label, a call, a condition; another register, one from elsewhere, one that is not whole
+    // behind a label, a call, a condition; another register, one from elsewhere, one that is not
+    // whole
     for line in [
         "LBL[1] ;",
         "CALL OTHER ;",

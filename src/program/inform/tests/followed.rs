@@ -1,4 +1,5 @@
-//! What is followed through instructions and jobs: what moves go to, with what, from where, and what is said of it.
+//! What is followed through instructions and jobs: what moves go to, with what, from where, and
+//! what is said of it.
 
 use super::*;
 use crate::program::Before;
@@ -361,7 +362,8 @@ fn variables_belong_to_all_jobs() {
         .iter()
         .filter(|f| f.id == "target-name-ambiguous");
     assert_eq!(ambiguous.count(), 2);
-    // the same value in a job that does not go there: whichever is loaded last counts, so both are targets
+    // the same value in a job that does not go there: whichever is loaded last counts, so both are
+    // targets
     let copy = job(&format!("{USER}P00018={P6}"), "").replace("//NAME A", "//NAME C");
     let program = read_files(&[&holder, &user, &copy], &Settings::default()).expect("jobs");
     let files: Vec<_> = program.targets.iter().map(|t| t.file).collect();

@@ -1,8 +1,8 @@
 //! Outputs of post-processors, compared with the trajectory they were made from.
 //!
-//! Known to be wrong in them: the joint start is in degrees where pulses belong (the post had no pulse ratios), RCONF has
-//! another order of fields than the manual's and a turn where 0 or 1 belongs. Frame BASE is right: the post wrote the poses
-//! in the base frame.
+//! Known to be wrong in them: the joint start is in degrees where pulses belong (the post had no
+//! pulse ratios), RCONF has another order of fields than the manual's and a turn where 0 or 1
+//! belongs. Frame BASE is right: the post wrote the poses in the base frame.
 
 use super::*;
 

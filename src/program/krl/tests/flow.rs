@@ -3,7 +3,8 @@
 use super::*;
 use crate::program::Before;
 
-/// For each move where it goes, and the moves that come before it, by index; `None` is the start or anywhere.
+/// For each move where it goes, and the moves that come before it, by index; `None` is the start or
+/// anywhere.
 fn chain(program: &Program) -> Vec<(&str, Vec<Option<u32>>)> {
     let before = |motion| {
         let before = program.before(motion).iter();

@@ -1,8 +1,8 @@
 //! Outputs of post-processors, compared with the trajectory they were made from.
 //!
-//! The outputs have no frame of their own: poses are in the base, so the work frame's pose is the truth's frame times its
-//! pose. They are of one robot that is no UR; only targets and tools are compared. The post that writes joints leaves the
-//! arcs out: it has 52 of the 60 points.
+//! The outputs have no frame of their own: poses are in the base, so the work frame's pose is the
+//! truth's frame times its pose. They are of one robot that is no UR; only targets and tools are
+//! compared. The post that writes joints leaves the arcs out: it has 52 of the 60 points.
 
 use super::*;
 

@@ -1,4 +1,5 @@
-//! The page of `diagnose`: the gap shrinking step by step, and for each step what gave the effect away.
+//! The page of `diagnose`: the gap shrinking step by step, and for each step what gave the effect
+//! away.
 
 mod lists;
 
@@ -16,7 +17,8 @@ use crate::report::text::fixed as decimals;
 use crate::task::diagnose::{Diagnosis, FoundEffect};
 use crate::task::parts::Statistics;
 
-/// A joint whose rotation moves the measured point by less than this, metres a radian, shows nothing of its angle.
+/// A joint whose rotation moves the measured point by less than this, metres a radian, shows
+/// nothing of its angle.
 const ARM_M: f64 = 0.05;
 /// A rotation by which the motion of a point is found, radians.
 const STEP_RAD: f64 = 1e-6;

@@ -18,7 +18,8 @@ use crate::identify::statistics::Miss;
 use crate::model::profile::Profile;
 use crate::task::parts::{Quality, Statistics, WorstRow};
 
-/// A model whose errors are so many times those of the best two is not shown before it is asked for: it would hide them.
+/// A model whose errors are so many times those of the best two is not shown before it is asked
+/// for: it would hide them.
 const FAR_OFF: f64 = 20.0;
 /// Points whose distances are compared; of more every so many.
 const MOST_POINTS: usize = 500;
@@ -62,7 +63,8 @@ fn sizes(judged: &Judged) -> Vec<f64> {
         .collect()
 }
 
-/// The table of rows; its columns in order: line, id, distance from the middle, then one error for each model.
+/// The table of rows; its columns in order: line, id, distance from the middle, then one error for
+/// each model.
 fn row_table(rows: &Rows, places: &[Vector]) -> (Table, usize) {
     let of = |row: &crate::identify::problem::Row| &rows.measurements.rows[row.measurement];
     let all = &rows.problem.rows;

@@ -1,4 +1,5 @@
-//! The page of `compensate` while it is made: a program is read again, once as it was and once as it is written.
+//! The page of `compensate` while it is made: a program is read again, once as it was and once as
+//! it is written.
 
 use super::{Compensated, SAMPLES, Scenery, add_written, compensate_page};
 use crate::check::trace::{Traced, trace};

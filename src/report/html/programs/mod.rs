@@ -1,4 +1,5 @@
-//! The pages of `compensate` and `check`: a program, where the real tool goes with it, and what should be looked at.
+//! The pages of `compensate` and `check`: a program, where the real tool goes with it, and what
+//! should be looked at.
 
 mod check;
 mod compensate;
@@ -62,7 +63,8 @@ impl Lines<'_> {
     }
 }
 
-/// The rows to keep of those that there are: all, or the ones of the largest measure in their order.
+/// The rows to keep of those that there are: all, or the ones of the largest measure in their
+/// order.
 fn kept(count: usize, measure: &dyn Fn(usize) -> f64) -> Vec<usize> {
     let mut rows: Vec<usize> = (0..count).collect();
     if count > MOST_ITEMS {
@@ -93,7 +95,8 @@ fn moved(offset: Option<&Pose>, wanted_m: Vector) -> Vector {
     offset.map_or(wanted_m, |offset| offset.transform(wanted_m))
 }
 
-/// The deviations of a program's path from the wanted one. `item` is the row of a move's target; `offset` moves what is wanted.
+/// The deviations of a program's path from the wanted one. `item` is the row of a move's target;
+/// `offset` moves what is wanted.
 fn path(
     name: &str,
     tone: Tone,

@@ -8,7 +8,8 @@ use std::fmt::Write;
 /// Where a straight move begins, where that is a target, too, and where it ends.
 type Ends = (Option<At>, At);
 
-/// One way to write joint moves with a straight move behind each, and to read the straight moves again.
+/// One way to write joint moves with a straight move behind each, and to read the straight moves
+/// again.
 pub(super) struct Form {
     /// The files of a program.
     pub files: fn(&[Case]) -> Vec<Source>,
@@ -215,7 +216,8 @@ pub(super) const FORMS: [Form; 6] = [
             lines.map(of).collect()
         },
     },
-    // a table has no joint moves between poses: each pair is a table of its own, which begins with a pose
+    // a table has no joint moves between poses: each pair is a table of its own, which begins with
+    // a pose
     Form {
         files: |cases| {
             let row = |at: &At, branch: u8| {
