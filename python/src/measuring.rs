@@ -26,7 +26,7 @@ use pyo3::prelude::*;
 
 /// Tables of measurements and what is said of their columns: files, columns, units, euler, driven
 /// in order, and whether the two files are joints and points to be joined.
-type Tables = (
+pub(crate) type Tables = (
     Files,
     Option<String>,
     Option<String>,

@@ -2,9 +2,8 @@
 
 use crate::arrays::{Array, Numbers, array, column};
 use crate::errors::Kind;
-use crate::measuring::{options, read, selection};
+use crate::measuring::{Tables, options, read, selection};
 use crate::profile::Profile;
-use crate::programs::Files;
 use crate::threads::long;
 use poseshift::identify::residuals::Residuals;
 use poseshift::task::{self, Failure};
@@ -40,14 +39,7 @@ impl Problem {
     fn new(
         py: Python<'_>,
         profile: &Profile,
-        tables: (
-            Files,
-            Option<String>,
-            Option<String>,
-            Option<String>,
-            bool,
-            bool,
-        ),
+        tables: Tables,
         level: &str,
         identify: &str,
         fix: &str,

@@ -77,7 +77,6 @@ pub use crate::program::meaning;
 use crate::program::{Edits, Language, ReadError, Source, sha256};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::thread;
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
@@ -227,11 +226,11 @@ pub fn compensate(
 ) -> Result<Compensation, CompensateError> {
     let settings = external::settings_of(profile, options.accept_absolutely_accurate);
     // the files are hashed while they are read
-    let (read, source_sha256) = thread::scope(|scope| {
-        let hash = || sources.iter().map(|source| sha256(&source.bytes)).collect();
-        let hashes = scope.spawn(hash);
-        let read = crate::motion::read(language, sources, &settings);
-        (read, hashes.join().expect("hashing cannot fail"))
+    let mut source_sha256 = Vec::new();
+    let read = rayon::in_place_scope(|scope| {
+        let hashes = sources.iter().map(|source| sha256(&source.bytes));
+        scope.spawn(|_| source_sha256 = hashes.collect());
+        crate::motion::read(language, sources, &settings)
     });
     let mut program = read?;
     program.shrink_to_fit();

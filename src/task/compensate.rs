@@ -14,7 +14,6 @@ use crate::program::{Language, Source, Value};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
-use std::thread;
 
 /// The smallest path error that can be asked for, mm.
 const LEAST_PATH_ERROR_MM: f64 = 0.001;
@@ -78,17 +77,14 @@ pub fn prepare<'a>(request: &'a Request<'a>) -> Result<Prepared<'a>, Failure> {
     options.accept_absolutely_accurate = request.force;
     options.each_for_itself = request.despite_errors == DespiteErrors::Good;
     // markers are looked for while the programs are compensated
-    let (marked, compensation) = thread::scope(|scope| {
-        let marked = scope.spawn(|| {
-            if request.force {
-                return Ok(());
-            }
-            refuse_marked(sources)
-        });
-        let compensation = compensate(language, sources, &profile.profile, &options);
-        (marked.join(), compensation)
+    let mut marked = Ok(());
+    let compensation = rayon::in_place_scope(|scope| {
+        if !request.force {
+            scope.spawn(|_| marked = refuse_marked(sources));
+        }
+        compensate(language, sources, &profile.profile, &options)
     });
-    marked.expect("looking for markers cannot fail")?;
+    marked?;
     let mut compensation = compensation.map_err(|error| explain(&error, sources))?;
     if let Some(limit) = request.max_path_error_mm {
         keep_path(request, language, limit, &mut compensation)?;
