@@ -22,8 +22,8 @@ fn read_and_write(criterion: &mut Criterion) {
         let text = path::program(id, TARGETS, 1).into_bytes();
         group.throughput(Throughput::Bytes(text.len() as u64));
         let mut sources = vec![Source::new(format!("path.{ending}"), text)];
-        let beside = path::beside(id, TARGETS);
-        sources.extend(beside.map(|(name, text)| Source::new(name, text.into_bytes())));
+        let given = path::given(id, TARGETS);
+        sources.extend(given.map(|(name, text)| Source::new(name, text.into_bytes())));
         let profile = Profile::from_yaml(&path::profile(id)).expect("a valid profile");
         let settings = Settings {
             pulses_per_deg: profile.pulses_per_deg,
@@ -64,8 +64,8 @@ fn command(criterion: &mut Criterion) {
         let profile = folder.join(format!("{id}.yaml"));
         std::fs::create_dir_all(&input).expect("the target folder is writable");
         let own = (format!("path.{ending}"), path::program(id, TARGETS, 1));
-        let beside = path::beside(id, TARGETS).map(|(name, text)| (name.to_owned(), text));
-        for (name, text) in [own].into_iter().chain(beside) {
+        let given = path::given(id, TARGETS).map(|(name, text)| (name.to_owned(), text));
+        for (name, text) in [own].into_iter().chain(given) {
             std::fs::write(input.join(name), text).expect("the target folder is writable");
         }
         std::fs::write(&profile, path::profile(id)).expect("the target folder is writable");

@@ -154,20 +154,20 @@ fn offset_wrist(criterion: &mut Criterion) {
     let mut random = StdRng::seed_from_u64(2);
     let mut joints = || std::array::from_fn(|_| random.random_range(-PI..PI));
     let postures: Vec<[f64; 6]> = (0..COUNT).map(|_| joints()).collect();
-    let beside: Vec<[f64; 6]> = postures.iter().map(|q| q.map(|q| q + 0.01)).collect();
+    let given: Vec<[f64; 6]> = postures.iter().map(|q| q.map(|q| q + 0.01)).collect();
     let wanted: Vec<Pose> = postures.iter().map(|q| arm.forward(q)).collect();
     let mut group = criterion.benchmark_group("4096 targets, CRX-10iA");
     group.throughput(Throughput::Elements(COUNT as u64));
     group.bench_function("nominal inverse, all answers", |b| {
         b.iter(|| {
-            for (wanted, near) in wanted.iter().zip(&beside) {
+            for (wanted, near) in wanted.iter().zip(&given) {
                 black_box(arm.solve_all(wanted, near));
             }
         });
     });
     group.bench_function("nominal inverse, on the track", |b| {
         b.iter(|| {
-            for (wanted, near) in wanted.iter().zip(&beside) {
+            for (wanted, near) in wanted.iter().zip(&given) {
                 black_box(arm.solve_near(wanted, near));
             }
         });

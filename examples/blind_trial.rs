@@ -60,7 +60,7 @@ fn at_least_one(text: &str) -> Result<usize, String> {
     }
 }
 
-struct Told {
+struct Reported {
     what: String,
     size: f64,
     independent: bool,
@@ -80,7 +80,7 @@ struct Told {
     number: usize,
 }
 
-impl Told {
+impl Reported {
     fn right(&self, group: &Group) -> bool {
         if group.unregistered {
             // on a robot that was calibrated from measurements no effect may be certain, either
@@ -129,7 +129,7 @@ fn floor_of(found: &Diagnosis, group: &Group, case: &Case) -> Option<f64> {
     })
 }
 
-fn run(group: &Group, number: usize, seed: u64, rows: usize, oracle: bool) -> Told {
+fn run(group: &Group, number: usize, seed: u64, rows: usize, oracle: bool) -> Reported {
     let case = case(group, number, seed, rows);
     let start = Instant::now();
     let asked =
@@ -138,7 +138,7 @@ fn run(group: &Group, number: usize, seed: u64, rows: usize, oracle: bool) -> To
     let seconds = start.elapsed().as_secs_f64();
     let known = (oracle && !group.unregistered).then(|| asked(&only(&case.effects)));
     let known = known.and_then(Result::ok);
-    let mut told = Told {
+    let mut reported = Reported {
         oracle: known.and_then(|found| floor_of(&found, group, &case)),
         what: case.what.clone(),
         size: case.size,
@@ -160,19 +160,19 @@ fn run(group: &Group, number: usize, seed: u64, rows: usize, oracle: bool) -> To
                 case.answer.contains(&name) || !case.undetermined.contains(&name)
             };
             let all = || found.found.iter().filter(counts);
-            told.named = all().map(|f| label(&f.effect)).collect();
-            told.named.sort();
-            told.named.dedup();
+            reported.named = all().map(|f| label(&f.effect)).collect();
+            reported.named.sort();
+            reported.named.dedup();
             let is_certain = |f: &&Found| f.standing == Standing::Certain;
-            told.certain = all().filter(is_certain).count();
-            told.more = found.found.len() > all().count();
-            told.verdict = Some(found.verdict);
-            told.reason = found.reasons.join("; ");
-            told.floor = floor_of(&found, group, &case);
+            reported.certain = all().filter(is_certain).count();
+            reported.more = found.found.len() > all().count();
+            reported.verdict = Some(found.verdict);
+            reported.reason = found.reasons.join("; ");
+            reported.floor = floor_of(&found, group, &case);
         }
-        Err(error) => told.reason = error.to_string(),
+        Err(error) => reported.reason = error.to_string(),
     }
-    told
+    reported
 }
 
 /// Median, and what 90 % stay below.
@@ -184,17 +184,18 @@ fn middle_and_tail(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// One line: answer, size of what is left, time.
-fn print_case(group: &Group, told: &Told) {
+fn print_case(group: &Group, reported: &Reported) {
     println!(
         "  {} #{}: {} [{}] {:.3}{} {:.2} s",
         group.name,
-        told.number,
-        told.named.join(" + "),
-        told.verdict.map_or("error", Verdict::id),
-        told.floor.unwrap_or(0.0),
-        told.oracle
+        reported.number,
+        reported.named.join(" + "),
+        reported.verdict.map_or("error", Verdict::id),
+        reported.floor.unwrap_or(0.0),
+        reported
+            .oracle
             .map_or(String::new(), |o| format!(" oracle {o:.3}")),
-        told.seconds
+        reported.seconds
     );
 }
 
@@ -206,14 +207,14 @@ fn main() {
             continue;
         }
         let one = |n| run(group, n, asked.seed, asked.rows, asked.oracle);
-        let all: Vec<Told> = if asked.in_turn {
+        let all: Vec<Reported> = if asked.in_turn {
             cases.clone().map(one).collect()
         } else {
             cases.clone().into_par_iter().map(one).collect()
         };
         if asked.cases {
-            for told in &all {
-                print_case(group, told);
+            for reported in &all {
+                print_case(group, reported);
             }
         }
         let right = all.iter().filter(|t| t.right(group)).count();
@@ -249,10 +250,10 @@ fn main() {
             "              undetermined {undetermined}, errors {failed}; from the independent simulator {second_right} of {second}"
         );
         let mut table: BTreeMap<&str, (usize, usize, BTreeMap<String, usize>)> = BTreeMap::new();
-        for told in &all {
-            let row = table.entry(&told.what).or_default();
+        for reported in &all {
+            let row = table.entry(&reported.what).or_default();
             row.1 += 1;
-            if told.right(group) {
+            if reported.right(group) {
                 row.0 += 1;
             } else {
                 let plain = |labels: &[String]| {
@@ -262,9 +263,11 @@ fn main() {
                         .collect();
                     names.join("+")
                 };
-                let words = match told.verdict {
-                    Some(Verdict::Undetermined) => format!("undetermined ({})", plain(&told.named)),
-                    Some(v) => format!("{} ({})", v.id(), plain(&told.named)),
+                let words = match reported.verdict {
+                    Some(Verdict::Undetermined) => {
+                        format!("undetermined ({})", plain(&reported.named))
+                    }
+                    Some(v) => format!("{} ({})", v.id(), plain(&reported.named)),
                     None => "error".into(),
                 };
                 *row.2.entry(words).or_default() += 1;
@@ -279,7 +282,7 @@ fn main() {
         if group.hidden == 1 {
             let edges = [0.5, 0.75, 1.0, 2.0, 4.0, 8.0, 16.0];
             for pair in edges.windows(2) {
-                let inside: Vec<&Told> = all
+                let inside: Vec<&Reported> = all
                     .iter()
                     .filter(|t| t.size >= pair[0] && t.size < pair[1])
                     .collect();
@@ -295,20 +298,20 @@ fn main() {
             }
         }
         if asked.list {
-            for told in all.iter().filter(|t| !t.right(group)) {
+            for reported in all.iter().filter(|t| !t.right(group)) {
                 println!(
                     "  #{:3} {:.1} x {}{}: named {} [{}] {}",
-                    told.number,
-                    told.size,
-                    told.answer.join(" + "),
-                    if told.independent {
+                    reported.number,
+                    reported.size,
+                    reported.answer.join(" + "),
+                    if reported.independent {
                         " (independent)"
                     } else {
                         ""
                     },
-                    told.named.join(" + "),
-                    told.verdict.map_or("error", Verdict::id),
-                    told.reason
+                    reported.named.join(" + "),
+                    reported.verdict.map_or("error", Verdict::id),
+                    reported.reason
                 );
             }
         }

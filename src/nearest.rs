@@ -55,7 +55,7 @@ pub(crate) fn hint<'a>(
     known: impl IntoIterator<Item = &'a str>,
 ) -> String {
     let known: Vec<&str> = known.into_iter().collect();
-    let mut told = Vec::new();
+    let mut sentences = Vec::new();
     let near: Vec<String> = nearest(wanted, known.iter().copied())
         .iter()
         .map(|name| format!("`{name}`"))
@@ -63,14 +63,14 @@ pub(crate) fn hint<'a>(
     if let Some((last, before)) = near.split_last() {
         let before = before.join(", ");
         let or = if before.is_empty() { "" } else { " or " };
-        told.push(format!("did you mean {before}{or}{last}?"));
+        sentences.push(format!("did you mean {before}{or}{last}?"));
     }
     if known.is_empty() {
-        told.push(format!("there are no {what}"));
+        sentences.push(format!("there are no {what}"));
     } else if known.len() <= MOST_LISTED {
-        told.push(format!("{what}: {}", known.join(", ")));
+        sentences.push(format!("{what}: {}", known.join(", ")));
     }
-    told.join(" ")
+    sentences.join(" ")
 }
 
 #[cfg(test)]
@@ -96,9 +96,9 @@ mod tests {
 
     #[test]
     fn the_hint_proposes_and_lists() {
-        let told = hint("gripr", "tools of the profile", ["gripper", "torch"]);
+        let sentences = hint("gripr", "tools of the profile", ["gripper", "torch"]);
         assert_eq!(
-            told,
+            sentences,
             "did you mean `gripper`? tools of the profile: gripper, torch"
         );
         assert_eq!(

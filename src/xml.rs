@@ -169,7 +169,7 @@ pub(crate) fn read(text: &str) -> Result<Element<'_>, XmlError> {
     match (document.children.len(), document.text.trim()) {
         (1, "") => Ok(document.children.remove(0)),
         (0, _) => Err(document.fault("there is no element")),
-        _ => Err(document.fault("more than one element, or text beside it")),
+        _ => Err(document.fault("more than one element, or text next to it")),
     }
 }
 

@@ -106,7 +106,7 @@ pub fn check(id: &str, bytes: &[u8]) {
     }
 }
 
-/// Reads a mesh in the format of this ending, nothing beside it.
+/// Reads a mesh in the format of this ending, nothing next to it.
 ///
 /// # Panics
 /// Where something does not hold.

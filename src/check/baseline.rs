@@ -157,7 +157,7 @@ pub fn compare(before: &Value, now: &Value, tolerances: Tolerances) -> Compariso
             before: old.len().into(),
             now: new.len().into(),
         };
-        // the line that is told is the first that the other run has not
+        // the line that is reported is the first that the other run has not
         let extra = |some: &[u64], other: &[u64]| some.iter().find(|l| !other.contains(l)).copied();
         if new.len() > old.len() {
             let line = extra(&new, &old);
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn worse_and_better_are_told_with_their_line_and_small_changes_are_not() {
+    fn worse_and_better_are_reported_with_their_line_and_small_changes_are_not() {
         let base = run(0.1, 5.0, 1.0, 0);
         let compare = |now: &Value| compare(&base, now, Tolerances::default());
         assert_eq!(compare(&run(0.1002, 4.9998, 1.0, 0)).same, 1);

@@ -272,7 +272,7 @@ pairs: [{a: gun, b: wall, clearance_mm: 0}, {a: link0, b: floor, allow: true}]
     }
 
     #[test]
-    fn faults_are_told_with_their_line() {
+    fn faults_are_reported_with_their_line() {
         let cases = [
             ("box_mm: [1,", "box_mm: [0,", 4, "above 0"),
             ("name: floor", "name: wall", 5, "two bodies"),

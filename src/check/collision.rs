@@ -10,7 +10,7 @@
 //! ```
 //!
 //! The interval with the least bound is halved until it is within a tolerance of the nearest
-//! sample; pairs that cannot be the nearest are dropped on the way. What is told is the bound:
+//! sample; pairs that cannot be the nearest are dropped on the way. What is reported is the bound:
 //! never more than the true clearance.
 //!
 //! # Source
@@ -30,7 +30,7 @@ use std::collections::BinaryHeap;
 const CLOSE_M: f64 = 5e-6;
 /// Intervals are not halved below this part of the move.
 const SHORTEST: f64 = 1e-7;
-/// Intervals looked at in one move before its bound is told as it is.
+/// Intervals looked at in one move before its bound is reported as it is.
 const MOST: usize = 20_000;
 /// More triangles than this stay in their tree.
 const FEW: usize = 48;

@@ -3,7 +3,7 @@
 //! Between two samples at a and b a function e with |e''| ≤ B is within B (b − a)² / 8 of the
 //! straight line between its values there. With e the difference of the real tool's pose and the
 //! wanted one, B from [`Jet`]s over the whole interval, and halving where the bound is not yet near
-//! the largest sample, the bound that is told holds everywhere, and is near.
+//! the largest sample, the bound that is reported holds everywhere, and is near.
 //!
 //! The pose's difference has twelve components: three of the position, and nine of the rotation
 //! matrices, whose Frobenius norm is `2√2 sin(φ/2)` at an angle φ.
@@ -17,7 +17,7 @@ const CLOSE_M: f64 = 1e-6;
 const CLOSE_RAD: f64 = 2e-6;
 /// … or within this part of it.
 const CLOSE_PART: f64 = 0.01;
-/// Intervals are halved at most so often; what remains open is told by its bound.
+/// Intervals are halved at most so often; what remains open is reported with its bound.
 const DEEPEST: u32 = 12;
 /// … and so often where the joints' rates have no bound, so that there are only samples.
 const SAMPLED: u32 = 5;

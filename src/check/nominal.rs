@@ -1,7 +1,7 @@
 //! Which move of the original program each move of a compensated one is, or is a part of.
 //!
 //! A refined program has targets between those of the original. A move belongs to the original's
-//! next move whose end its own landing is at; what comes before it on the same way are parts of
+//! next move whose end its own landing is at; what comes before it on the same path are parts of
 //! that move.
 
 use super::walk::Walk;

@@ -1,4 +1,4 @@
-//! Moves of joints that no program describes: whether the arm is clear everywhere on its way.
+//! Moves of joints that no program describes: whether the arm is clear everywhere on its path.
 
 use super::collision::clearance;
 use super::scene::Scene;

@@ -2,8 +2,8 @@
 //!
 //! Segments with a radius (capsules, spheres) are met in closed form; everything else by the
 //! algorithm of Gilbert, Johnson and Keerthi. What the latter finds is only used as a direction:
-//! the distance that is told is the width of the gap between two parallel planes that separate the
-//! bodies, which never is more than their distance, however well the search converged.
+//! the distance that is reported is the width of the gap between two parallel planes that separate
+//! the bodies, which never is more than their distance, however well the search converged.
 //!
 //! # Source
 //! C. Ericson, "Real-Time Collision Detection" (2005), 5.1.9 (segments); E. Gilbert, D. Johnson, S.

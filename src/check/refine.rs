@@ -27,7 +27,7 @@ const ROOM: f64 = 0.96;
 /// Decimals of a millimetre that new targets have at least.
 const DECIMALS: usize = 3;
 
-/// A pose on the way, as the controller is told it.
+/// A pose on the path, as commanded.
 #[derive(Clone, Copy)]
 struct Point {
     s: f64,
@@ -101,7 +101,7 @@ pub fn refine(
 /// What a move needs.
 struct Change {
     file: usize,
-    /// How far its path is beside the wanted one, metres.
+    /// How far its path is from the wanted one, metres.
     whole_m: f64,
     what: What,
 }
@@ -169,17 +169,17 @@ impl Job<'_> {
         };
         let failed = |why| change(What::Said(self.failed(index, whole, why)));
         // a joint target that stays as it is: no target between helps at the end itself
-        let beside = |point: &Point| {
+        let gap = |point: &Point| {
             let nominal = leg.joints(point.s, &leg.start);
             let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
             let wanted = leg.real_from_nominal(point.s, wanted);
             let landed = arms.plain.real.forward(&point.q, &leg.conditions);
             landed.separation(&wanted).distance_m
         };
-        let ends = beside(&first).max(beside(&last));
+        let ends = gap(&first).max(gap(&last));
         if ends > self.limit_m {
             let message = format!(
-                "this move begins or ends {:.3} mm beside its wanted path, at a target that stays as it is: no targets are inserted",
+                "this move begins or ends {:.3} mm off its wanted path, at a target that stays as it is: no targets are inserted",
                 mm_from_m(ends)
             );
             let hint = "--joint-targets correct shifts joint targets, too";
@@ -206,7 +206,7 @@ impl Job<'_> {
         }
         let mut points = vec![first];
         if !self.split(&leg, index, &first, &last, 0, &mut points) {
-            return failed("the way passes a singularity or leaves the reach");
+            return failed("the path passes a singularity or leaves the reach");
         }
         points.remove(0);
         points.pop();
@@ -254,7 +254,7 @@ impl Job<'_> {
     /// No targets can be inserted where they are needed.
     fn failed(&self, motion: usize, whole_m: f64, why: &str) -> Finding {
         let message = format!(
-            "the path of this move is up to {:.3} mm beside the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
+            "the path of this move is up to {:.3} mm off the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
             mm_from_m(whole_m),
             mm_from_m(self.limit_m)
         );

@@ -174,7 +174,7 @@ impl Scene {
             scene.names.push(body.name.clone());
         }
         scene.watch(cell);
-        scene.findings = super::sizes::doubted(profile, cell, meshes);
+        scene.findings = super::sizes::unlikely(profile, cell, meshes);
         Ok(scene)
     }
 

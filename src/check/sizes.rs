@@ -1,4 +1,4 @@
-//! Meshes whose unit nobody says, beside bodies whose size is known: an STL in metres, taken as
+//! Meshes whose unit nobody says, next to bodies whose size is known: an STL in metres, taken as
 //! millimetres, is a crumb that nothing ever touches.
 
 use super::Meshes;
@@ -13,8 +13,8 @@ use crate::model::shape::{Form, Shape};
 /// unit.
 const SMALLER: f64 = 100.0;
 
-/// Errors of meshes that are too small beside the largest body or the arm.
-pub(super) fn doubted(profile: &Profile, cell: &Cell, meshes: &Meshes) -> Vec<Finding> {
+/// Errors of meshes that are too small compared with the largest body or the arm.
+pub(super) fn unlikely(profile: &Profile, cell: &Cell, meshes: &Meshes) -> Vec<Finding> {
     let links = profile.shapes.iter().map(|s| (LINKS[s.link], &s.shape));
     let carried = cell.attached.iter().map(|b| (b.name.as_str(), &b.shape));
     let standing = cell.bodies.iter().map(|b| (b.name.as_str(), &b.shape));
@@ -28,7 +28,7 @@ pub(super) fn doubted(profile: &Profile, cell: &Cell, meshes: &Meshes) -> Vec<Fi
     });
     let arm = (format!("the arm reaches over {} mm", mm(arm_m)), arm_m);
     let largest = sizes.chain([arm]).max_by(|a, b| a.1.total_cmp(&b.1));
-    let (told, largest_m) = largest.expect("the arm, at least");
+    let (described, largest_m) = largest.expect("the arm, at least");
     let mut found = Vec::new();
     for (name, shape) in &bodies {
         let Form::Mesh { file, .. } = &shape.form else {
@@ -42,11 +42,11 @@ pub(super) fn doubted(profile: &Profile, cell: &Cell, meshes: &Meshes) -> Vec<Fi
             continue;
         }
         let message = format!(
-            "the mesh of `{name}` is {} mm long if its unit is a millimetre, and {told}: at most {SMALLER} times as much is \
+            "the mesh of `{name}` is {} mm long if its unit is a millimetre, and {described}: at most {SMALLER} times as much is \
              believed",
             mm(long_m)
         );
-        let hint = "`scale: 1000` beside `mesh` says that the file is in metres, `scale: 1` that it is in millimetres";
+        let hint = "`scale: 1000` next to `mesh` says that the file is in metres, `scale: 1` that it is in millimetres";
         found.push(Finding::of_file("mesh-unit", Severity::Error, &mesh.file, message).hint(hint));
     }
     found

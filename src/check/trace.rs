@@ -1,4 +1,4 @@
-//! The way of the real tool beside the wanted one, move by move, in samples to draw: nothing is
+//! The path of the real tool and the wanted one, move by move, in samples to draw: nothing is
 //! judged and nothing bounded.
 
 use super::deviation::Wanted;

@@ -13,9 +13,9 @@ use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
 use crate::motion::arms::Equipped;
 use crate::motion::course::{Course, Leg, ToolCourse, Turning};
-use crate::motion::doubt;
 use crate::motion::external::{self, Placed};
 use crate::motion::ground::Ground;
+use crate::motion::plausibility;
 use crate::motion::ride::Ride;
 use crate::motion::setting::Setting;
 use crate::motion::walk::{self, Arrival, WalkOptions};
@@ -178,7 +178,7 @@ impl Walk {
             &options.given,
             has_numbers,
         )?;
-        doubt::units(&ground, Severity::Warning, &mut findings);
+        plausibility::units(&ground, Severity::Warning, &mut findings);
         let walk_options = WalkOptions {
             start_joints: options.start_joints,
             exact: true,
@@ -331,7 +331,7 @@ impl Walk {
         (self.motion(before).motion == Motion::ArcVia).then_some(before)
     }
 
-    /// The stop where the move to a stop begins; of an arc that before the point on its way.
+    /// The stop where the move to a stop begins; of an arc that before the point on its path.
     pub(super) fn start(&self, stop: usize) -> Option<usize> {
         let last = self.via(stop).unwrap_or(stop);
         self.stops.before(last)

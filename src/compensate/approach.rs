@@ -1,4 +1,4 @@
-//! In which ways the robot comes to each target: with which tool, in which work frame, from where.
+//! From where the robot comes to each target: with which tool, in which work frame, from where.
 
 use super::Job;
 use crate::finding::{Finding, Severity};
@@ -12,7 +12,7 @@ use crate::program::{Displacement, Move, Shape, TargetId, Value};
 /// Joints that differ by less are the same, radians.
 pub(super) const SAME_RAD: f64 = 1e-7;
 
-/// A way to come to a target.
+/// An approach of a target.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach {
     /// The controller's joints at the wanted pose.

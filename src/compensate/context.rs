@@ -9,7 +9,7 @@ pub(super) fn leave(program: &mut Program, sources: &[Source], findings: &mut Ve
     if !sources.iter().any(|source| source.is_context) {
         return;
     }
-    let mut told: HashSet<(u32, u32)> = HashSet::new();
+    let mut reported: HashSet<(u32, u32)> = HashSet::new();
     for motion in &program.moves {
         let source = &sources[motion.file as usize];
         let Some(target) = program.target_of(motion) else {
@@ -17,7 +17,7 @@ pub(super) fn leave(program: &mut Program, sources: &[Source], findings: &mut Ve
         };
         let declared = &sources[target.file as usize];
         let stays = !declared.is_context || target.blocked || target.layout.shape == Shape::Joints;
-        if source.is_context || stays || !told.insert((motion.file, motion.offset)) {
+        if source.is_context || stays || !reported.insert((motion.file, motion.offset)) {
             continue;
         }
         let (line, _) = declared.line_column(target.offset as usize);

@@ -1,5 +1,5 @@
 //! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction
-//! along; here is told how far from their own wanted poses they land.
+//! along; here is found how far from their own wanted poses they land.
 
 use super::approach::Approach;
 use super::{Job, LIMIT_DERIVED_M};

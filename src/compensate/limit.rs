@@ -110,9 +110,9 @@ fn usual(ground: &Ground, equipped: &Equipped) -> Separation {
             ..equipped.inverse.conditions
         };
         let real = equipped.inverse.real.forward(&q, &conditions);
-        let told = equipped.controller.forward(&q, &Conditions::default());
+        let commanded = equipped.controller.forward(&q, &Conditions::default());
         let [real_base, nominal_base] = external::bases(ground.profile, || random.draw());
-        gaps.push((real_base * real).separation(&(nominal_base * told)));
+        gaps.push((real_base * real).separation(&(nominal_base * commanded)));
     }
     let mut counts = |part: fn(&Separation) -> f64| {
         gaps.sort_unstable_by(|a, b| part(a).total_cmp(&part(b)));
@@ -190,12 +190,12 @@ pub(super) fn not_finite_finding(job: &Job, approach: &Approach, what: &str) -> 
 
 /// Tools with which the arm's models give no finite pose, each at the first move that has it.
 pub(super) fn check_models(ground: &Ground, findings: &mut Vec<Finding>) {
-    let mut told = vec![false; ground.arms.len()];
+    let mut reported = vec![false; ground.arms.len()];
     for motion in &ground.program.moves {
         let Some(equipped) = ground.equipped(motion.tool) else {
             continue;
         };
-        if std::mem::replace(&mut told[motion.tool], true) {
+        if std::mem::replace(&mut reported[motion.tool], true) {
             continue;
         }
         let q = std::array::from_fn(|i| {

@@ -14,12 +14,12 @@
 //! poses are then those that an arm with its base at home sees.
 //!
 //! Each step is one file. [`crate::motion`] says with what and in which posture the robot comes to
-//! each target; `approach` lists the ways to come there, `solve` finds the joints (`singular` at
-//! the wrist's singularity), `shared` one set of numbers for all ways, `limit` what a correction
-//! may be; `rewrite` puts the new numbers in the place of the old ones, `added` new targets between
-//! them, `displaced` says what a correction does to points that the program derives from a target;
-//! `written` puts it all into the files and reads them again. `context` and `refused` say which
-//! files stay.
+//! each target; `approach` lists the approaches, `solve` finds the joints (`singular` at
+//! the wrist's singularity), `shared` one set of numbers for all approaches, `limit` what a
+//! correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new
+//! targets between them, `displaced` says what a correction does to points that the program derives
+//! from a target; `written` puts it all into the files and reads them again. `context` and
+//! `refused` say which files stay.
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
@@ -72,7 +72,7 @@ use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
-use crate::motion::{doubt, external, setting};
+use crate::motion::{external, plausibility, setting};
 pub use crate::program::meaning;
 use crate::program::{Edits, Language, ReadError, Source, sha256};
 use rayon::prelude::*;
@@ -199,7 +199,7 @@ pub enum CompensateError {
     },
 }
 
-/// Where fewer targets than this are all out of reach, each is told on its own.
+/// Where fewer targets than this are all out of reach, each is reported on its own.
 const FEW: usize = 3;
 
 /// What every step looks at.
@@ -271,7 +271,7 @@ pub fn compensate(
     if let Some(offset) = &options.work_offset {
         ground.move_part(offset);
     }
-    doubt::units(&ground, Severity::Error, &mut findings);
+    plausibility::units(&ground, Severity::Error, &mut findings);
     limit::check_models(&ground, &mut findings);
     let limits = Limits::new(&ground, options.max_shift);
     let job = Job {
@@ -310,7 +310,7 @@ pub fn compensate(
         tally,
         fakes,
         mut splits,
-        mut told,
+        mut meant,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
     displaced::check(&job, &approaches, &fakes, &mut findings);
     drop((approaches, outcomes));
@@ -318,7 +318,7 @@ pub fn compensate(
     let (compensated, summary) = tally.finish();
     let shift_limits = job.limits.asked_for();
     splits.sort_unstable_by_key(|split| split.insertion.motion);
-    told.sort_unstable_by_key(|(index, _)| *index);
+    meant.sort_unstable_by_key(|(index, _)| *index);
     let mut compensation = Compensation {
         program,
         settings,
@@ -334,7 +334,7 @@ pub fn compensate(
         inserted: BTreeMap::new(),
         own_joints: BTreeMap::new(),
         shift_limits,
-        told,
+        meant,
         decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
         summary,
     };
@@ -480,7 +480,7 @@ struct Rewritten {
     /// Moves that are to get a target of their own.
     splits: Vec<Split>,
     /// Configuration data that change: index in the program's numbers, and the value.
-    told: Vec<(u32, f64)>,
+    meant: Vec<(u32, f64)>,
 }
 
 /// Puts the fake targets into edits, on all processors.
@@ -525,7 +525,7 @@ fn rewrite_all(
         tally: Tally::new(job),
         fakes: BTreeMap::new(),
         splits: Vec::new(),
-        told: Vec::new(),
+        meant: Vec::new(),
     };
     let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
     // a few chunks for each thread at a time: what they return is not in memory twice for a long
@@ -547,7 +547,7 @@ fn rewrite_all(
             }
             findings.extend(portion.findings);
             all.splits.extend(portion.splits);
-            all.told.extend(portion.told);
+            all.meant.extend(portion.meant);
         }
     }
     all

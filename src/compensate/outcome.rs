@@ -41,7 +41,7 @@ pub struct Compensation {
     /// How far targets with each tool may be shifted; none for tools without a target that is.
     pub(crate) shift_limits: Vec<Option<Separation>>,
     /// Configuration data that were written: index in the program's numbers, and the value.
-    pub told: Vec<(u32, f64)>,
+    pub meant: Vec<(u32, f64)>,
     /// What was decided against a default, for the marker.
     pub decided: Vec<String>,
     /// The numbers of the whole.
@@ -119,7 +119,7 @@ pub struct TargetReport {
     pub shift: Separation,
     /// How far from the wanted pose the real tool lands with the target as it was.
     pub before: Separation,
-    /// What the search left.
+    /// The residual of the search.
     pub residual: Separation,
     /// How far from the wanted pose the real tool lands with the numbers as written.
     pub rounding: Separation,

@@ -21,7 +21,7 @@ const NO_SHIFT: Separation = Separation {
     distance_m: 1e-9,
     angle_rad: 1e-9,
 };
-/// More than this may not be left by rounding.
+/// More than this may not remain after rounding.
 const ROUNDING_LIMIT: Separation = Separation {
     distance_m: 0.01 * MM,
     angle_rad: 0.01 * DEG,
@@ -40,7 +40,7 @@ pub(super) struct Portion<'a> {
     pub splits: Vec<Split>,
     /// Configuration data that change, and numbers that are put in: index in the program's
     /// numbers, and the value.
-    pub told: Vec<(u32, f64)>,
+    pub meant: Vec<(u32, f64)>,
 }
 
 /// A move that is to get a target of its own, and what is said where its text cannot have one.
@@ -79,7 +79,7 @@ impl<'a> Portion<'a> {
             edits: BTreeMap::new(),
             findings: Vec::new(),
             splits: Vec::new(),
-            told: Vec::new(),
+            meant: Vec::new(),
         }
     }
 
@@ -110,7 +110,7 @@ impl<'a> Portion<'a> {
                 Err((finding, mean)) => {
                     let takes = |acceptance: &Acceptance| acceptance.takes(&finding);
                     if job.options.accepted.iter().any(takes) {
-                        // the numbers that miss least on all ways
+                        // the numbers that miss least in all approaches
                         self.add_converged(job, group, &mean, fractions, &mut report);
                         self.findings
                             .retain(|other| other.id != "rounding" || other.line != finding.line);
@@ -257,7 +257,7 @@ impl<'a> Portion<'a> {
             report.fake = None;
         } else {
             report.changed = written.changed;
-            self.told.extend(written.told);
+            self.meant.extend(written.meant);
             self.findings.extend(written.findings);
             let edits = self
                 .edits
@@ -270,7 +270,7 @@ impl<'a> Portion<'a> {
             }
         }
         let left = report.rounding;
-        // what the search itself could not reach is told by itself
+        // what the search itself could not reach is reported on its own
         if left.distance_m > report.residual.distance_m + ROUNDING_LIMIT.distance_m
             || left.angle_rad > report.residual.angle_rad + ROUNDING_LIMIT.angle_rad
         {
@@ -366,7 +366,7 @@ impl<'a> Portion<'a> {
                 }
                 if is_missing || roles[index] == Role::Configuration {
                     let number = target.numbers.start + small(index);
-                    written.told.push((number, new[index]));
+                    written.meant.push((number, new[index]));
                 }
                 written.texts.push((
                     index,
@@ -391,8 +391,8 @@ struct Written {
     digits: Vec<u8>,
     /// Index of the number, bytes of the file, and in `digits` what replaces them.
     texts: Vec<(usize, Range<usize>, Range<usize>)>,
-    /// See [`Portion::told`].
-    told: Vec<(u32, f64)>,
+    /// See [`Portion::meant`].
+    meant: Vec<(u32, f64)>,
     findings: Vec<Finding>,
 }
 

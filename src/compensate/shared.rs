@@ -1,4 +1,4 @@
-//! One set of numbers for all the ways in which the robot comes to a target.
+//! One set of numbers for all approaches of a target.
 
 use super::Job;
 use super::approach::{Approach, Solved};

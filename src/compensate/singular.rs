@@ -14,13 +14,13 @@ use crate::inverse::{Branch, Inverse, Outcome, Status};
 const NEAR_RAD: f64 = 0.1 * DEG;
 const JOINT_4: usize = 3;
 
-/// What either way gives, where it gives anything.
-struct Ways {
+/// What either of them gives, where it gives anything.
+struct Answers {
     flip: Option<(Branch, Outcome)>,
     nearest: Option<Outcome>,
 }
 
-fn ways(job: &Job, approach: &Approach) -> Option<Ways> {
+fn answers(job: &Job, approach: &Approach) -> Option<Answers> {
     let ground = &job.ground;
     let equipped = ground.arm_with(approach.tool as usize);
     let margins = equipped.arm.posture(&approach.nominal_q).1;
@@ -39,7 +39,7 @@ fn ways(job: &Job, approach: &Approach) -> Option<Ways> {
     let lands = |outcome: &Outcome| outcome.status == Status::Converged;
     let flip = inverse.solve_by(job.options.methods, &wanted, other, &approach.nominal_q);
     let nearest = inverse.solve_held(&wanted, &approach.nominal_q, JOINT_4);
-    Some(Ways {
+    Some(Answers {
         flip: Some((other, flip)).filter(|(_, outcome)| lands(outcome)),
         nearest: Some(nearest).filter(lands),
     })
@@ -47,16 +47,16 @@ fn ways(job: &Job, approach: &Approach) -> Option<Ways> {
 
 /// What the two ways out would give, for the message of a target that is refused.
 pub(super) fn offers(job: &Job, approach: &Approach) -> Option<String> {
-    let ways = ways(job, approach)?;
+    let answers = answers(job, approach)?;
     let mut offers = Vec::new();
-    if let Some((_, outcome)) = &ways.flip {
+    if let Some((_, outcome)) = &answers.flip {
         offers.push(format!(
             "--at-singularity flip: it lands with joint 5 at {:.3} deg and joint 4 turned by {:.1} deg",
             outcome.q[4] / DEG,
             (outcome.q[JOINT_4] - approach.nominal_q[JOINT_4]).abs() / DEG
         ));
     }
-    if let Some(outcome) = &ways.nearest {
+    if let Some(outcome) = &answers.nearest {
         offers.push(format!(
             "--at-singularity nearest: the tip lands, the orientation is {:.4} deg off",
             outcome.residual.angle_rad / DEG
@@ -79,17 +79,17 @@ pub(super) fn settle(
         if outcome.status == Status::Converged {
             continue;
         }
-        let Some(ways) = ways(job, approach) else {
+        let Some(answers) = answers(job, approach) else {
             continue;
         };
         let how = match job.options.at_singularity {
             AtSingularity::Refuse => continue,
-            AtSingularity::Flip => ways.flip.map(|(branch, flipped)| {
+            AtSingularity::Flip => answers.flip.map(|(branch, flipped)| {
                 approach.branch = branch;
                 *outcome = flipped;
                 format!("joint 5 passes zero to {:.3} deg", flipped.q[4] / DEG)
             }),
-            AtSingularity::Nearest => ways.nearest.map(|nearest| {
+            AtSingularity::Nearest => answers.nearest.map(|nearest| {
                 let arm = &job.ground.arm_with(approach.tool as usize).arm;
                 approach.branch = arm.posture(&nearest.q).0;
                 *outcome = nearest;

@@ -150,16 +150,16 @@ impl Meant {
         let freed = &compensation.added.freed;
         let freed: Vec<&Range<u32>> = freed.iter().map(|t| &program.targets[*t].numbers).collect();
         let is_freed = |index: u32| freed.iter().any(|numbers| numbers.contains(&index));
-        let told = |index: u32| {
+        let computed = |index: u32| {
             let at = compensation
-                .told
+                .meant
                 .binary_search_by_key(&index, |(index, _)| *index);
-            at.ok().map(|at| compensation.told[at].1)
+            at.ok().map(|at| compensation.meant[at].1)
         };
-        // what is told of a number counts where the file is written
+        // what is reported of a number counts where the file is written
         let kept = |index: u32| {
             let number = &program.numbers[index as usize];
-            let put_in = told(index).filter(|_| number.length == 0 && !edits.is_empty());
+            let put_in = computed(index).filter(|_| number.length == 0 && !edits.is_empty());
             put_in.unwrap_or(number.value)
         };
         let (mut behind, mut before) = (0, 0);
@@ -187,7 +187,7 @@ impl Meant {
             let at = span.start + behind - before;
             if let Some(index) = here.filter(|_| !span.is_empty()) {
                 next.next();
-                let value = told(index).or_else(|| number::parse(text.trim_ascii_start()));
+                let value = computed(index).or_else(|| number::parse(text.trim_ascii_start()));
                 // what is no number equals none
                 meant.numbers.push(value.unwrap_or(f64::NAN));
             } else {

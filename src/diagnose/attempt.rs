@@ -1,9 +1,10 @@
-//! One search on one set of assumptions about the profile, and what of its outcome must be doubted.
+//! One search on one set of assumptions about the profile, and what of its outcome must be
+//! questioned.
 
-use super::beside::{Beside, Kept};
 use super::chances::{chi_squared_tail, normal_tail};
 use super::diagnosis::Options;
 use super::fit::Fit;
+use super::given::{Given, Kept};
 use super::noise::{Repeats, of_repeats};
 use super::refit::{Refit, refit, shrink};
 use super::search::{Chosen, World};
@@ -11,7 +12,7 @@ use super::session::{Session, Trust, for_choice, session};
 use super::table::Column;
 use super::unknown::{Library, Likeness, Unknown, chance, likeness};
 use crate::identify::IdentifyError;
-use crate::identify::doubt::Remark;
+use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
 use crate::model::effects::{Effect, Kind, SiteKey};
@@ -21,7 +22,7 @@ use crate::model::profile::Profile;
 const UNKNOWN_BETTER: f64 = 14.0;
 /// And this part: an effect's torque or time constant is known to a grid only.
 const UNKNOWN_PART: f64 = 0.01;
-/// Searches, with values of lists nearer to those found and waves of what is left in between.
+/// Searches, with values of lists nearer to those found and waves of the residual in between.
 const ROUNDS: usize = 4;
 /// Neighbours are alike where that is less likely by chance.
 pub(super) const ALIKE: f64 = 2e-4;
@@ -36,16 +37,16 @@ pub(super) struct Attempt {
     pub session: Session,
     pub chosen: Vec<Chosen>,
     pub refit: Refit,
-    /// Functions outside the registry that explain what is left.
+    /// Functions outside the registry that explain the residual.
     pub unknown: Vec<Unknown>,
     /// Functions outside the registry that explain more than the effect with this index.
-    pub rivalled: Vec<(usize, Unknown)>,
+    pub outdone: Vec<(usize, Unknown)>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
-    /// What is left over the noise that is stated or repeated poses show, where that is beyond
+    /// The residual over the noise that is stated or repeated poses show, where that is beyond
     /// chance.
     pub louder: Option<f64>,
-    /// Noise by repeated poses beside what was found, where `sigma_mm` does not state it.
+    /// Noise by repeated poses given what was found, where `sigma_mm` does not state it.
     pub repeats: Option<Repeats>,
     /// Deviance and costs in common units: less is better.
     merit: f64,
@@ -56,7 +57,7 @@ impl Attempt {
     /// Nothing speaks against it.
     pub(super) fn clean(&self) -> bool {
         self.unknown.is_empty()
-            && self.rivalled.is_empty()
+            && self.outdone.is_empty()
             && self.likeness.in_order > ALIKE
             && self.likeness.in_posture > ALIKE
             && self.strained.is_none()
@@ -94,16 +95,14 @@ fn outdone(
 ) -> Vec<(usize, Unknown)> {
     let base = fit.with_held(&session.residual, &world.held(&[]));
     let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
-    let beside = Beside::of(&base, fit, &effects);
+    let given = Given::of(&base, fit, &effects);
     let without = |i: usize| -> Vec<bool> { (0..chosen.len()).map(|k| k != i).collect() };
-    let kept: Vec<Kept> = (0..chosen.len())
-        .map(|i| beside.kept(&without(i)))
-        .collect();
-    let best = library.scan(&session.layout, &base, &beside, &kept);
+    let kept: Vec<Kept> = (0..chosen.len()).map(|i| given.kept(&without(i))).collect();
+    let best = library.scan(&session.layout, &base, &given, &kept);
     let mut outdone = Vec::new();
     for ((i, own), best) in chosen.iter().enumerate().zip(best) {
         let left = refit.fit.deviance.min(fit.deviance);
-        let own_gain = (beside.deviance(&kept[i]) - left) / fit.scale.powi(2);
+        let own_gain = (given.deviance(&kept[i]) - left) / fit.scale.powi(2);
         let parameters = own.values.len() + own.candidate.chosen;
         let more = own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER;
         let best = best.into_iter().next();
@@ -128,7 +127,7 @@ fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
     (p < STRAINED).then_some(p)
 }
 
-/// What is left over the noise that is stated, or that repeated poses show, where that is beyond
+/// The residual over the noise that is stated, or that repeated poses show, where that is beyond
 /// chance.
 fn louder(session: &Session, refit: &Refit, repeats: Option<Repeats>) -> Option<f64> {
     let (scale, freedom) = (refit.fit.scale, refit.fit.freedom);
@@ -154,7 +153,7 @@ fn merit(session: &Session, trust: Trust, used: &[bool], chosen: &[Chosen], refi
     refit.fit.deviance + columns as f64 * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>()
 }
 
-/// Searches on one set of assumptions, and asks what of the outcome must be doubted.
+/// Searches on one set of assumptions, and asks what of the outcome must be questioned.
 ///
 /// # Errors
 /// As [`super::diagnose`].
@@ -201,11 +200,11 @@ pub(super) fn attempt(
     progress("looking for what no effect explains");
     let library = Library::of(&session.problem, &session.estimate);
     let fit = world.fit(&chosen);
-    let beside = Beside::of(&refit.fit, &refit.fit, &[]);
-    let left = library.scan(&session.layout, &refit.fit, &beside, &[beside.kept(&[])]);
+    let given = Given::of(&refit.fit, &refit.fit, &[]);
+    let left = library.scan(&session.layout, &refit.fit, &given, &[given.kept(&[])]);
     let mut unknown = left.into_iter().next().unwrap_or_default();
     unknown.retain(|u| u.gain > library.cost(u.count));
-    let rivalled = outdone(&session, &library, &world, &chosen, &fit, &refit);
+    let outdone = outdone(&session, &library, &world, &chosen, &fit, &refit);
     let likeness = likeness(&session.problem, &session.layout, &used, &refit.fit);
     let strained = strain(trust, &refit);
     // with what was found: it may have changed from one repetition to the next
@@ -222,7 +221,7 @@ pub(super) fn attempt(
             chosen,
             refit,
             unknown,
-            rivalled,
+            outdone,
             likeness,
             strained,
             louder,

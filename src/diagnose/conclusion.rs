@@ -1,9 +1,11 @@
-//! What an attempt's outcome means: effects with their evidence, rivals, doubts, the verdict, and
-//! the improved profile.
+//! What an attempt's outcome means: effects with their evidence, alternatives, objections, the
+//! verdict, and the improved profile.
 
 use super::attempt::Attempt;
 use super::candidates::Candidate;
-use super::diagnosis::{Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Rival};
+use super::diagnosis::{
+    Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow,
+};
 use super::improved::improved;
 use super::judgement::{Judged, Standing, judge, stand};
 use super::poses::{Telling, telling};
@@ -16,7 +18,7 @@ use super::table::lengths_m;
 use super::unknown::chance;
 use super::whereabouts::spots;
 use crate::identify::IdentifyError;
-use crate::identify::doubt::Remark;
+use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
 use crate::identify::problem::Estimate;
@@ -31,7 +33,7 @@ use rayon::prelude::*;
 const NEARLY: f64 = 6.0;
 /// Or where its gain is this part of that of the effect found.
 const NEARLY_PART: f64 = 0.95;
-/// Configurations that tell rivals apart.
+/// Configurations that tell alternatives apart.
 const TELLING: usize = 12;
 /// A row is an outlier beyond this many times the length that 99.7 % of normal rows stay below.
 const OUTLIER: f64 = 1.6;
@@ -41,7 +43,7 @@ const FOLLOWED: f64 = 0.7;
 /// Draws the conclusions from the better attempt.
 ///
 /// # Errors
-/// Joint limits that leave no room for configurations that tell rivals apart.
+/// Joint limits that leave no room for configurations that tell alternatives apart.
 pub(super) fn conclude(
     profile: &Profile,
     measurements: &Measurements,
@@ -60,19 +62,19 @@ pub(super) fn conclude(
     };
     let spreads = proof.spreads();
     let mut found = effects(attempt, options, &proof, &spreads);
-    let rivals = rivals(attempt);
-    let Judged { reasons, verdict } = judge(attempt, &proof, &found, &rivals);
-    // what competes with a group is told where the answer is in doubt; else only what explains
+    let alternatives = alternatives(attempt);
+    let Judged { reasons, verdict } = judge(attempt, &proof, &found, &alternatives);
+    // what competes with a group is reported where the answer is uncertain; else only what explains
     // nearly all
     let world = session.world(&used, &options.accept);
-    let doubted = !reasons.is_empty();
-    let stand_ins = stand_ins(attempt, &world, (!doubted).then_some(NEARLY_PART));
-    let impossible = if doubted {
+    let uncertain = !reasons.is_empty();
+    let stand_ins = stand_ins(attempt, &world, (!uncertain).then_some(NEARLY_PART));
+    let impossible = if uncertain {
         impossible(attempt, &world)
     } else {
         Vec::new()
     };
-    stand(attempt, &mut found, &rivals, &stand_ins);
+    stand(attempt, &mut found, &alternatives, &stand_ins);
     let again = |chosen: &[Chosen]| {
         refit(
             &session.problem,
@@ -102,13 +104,19 @@ pub(super) fn conclude(
         verdict,
         reasons,
         telling: telling_poses(
-            profile, attempt, options, &used, &found, &rivals, &stand_ins,
+            profile,
+            attempt,
+            options,
+            &used,
+            &found,
+            &alternatives,
+            &stand_ins,
         )?,
         without: without.collect(),
         bare: options.steps.then(|| again(&[])),
         followed: followed(attempt, measurements),
         found,
-        rivals,
+        alternatives,
         stand_ins,
         impossible,
         unknown: attempt.unknown.clone(),
@@ -146,7 +154,7 @@ pub(super) fn conclude(
     })
 }
 
-/// Noise of a coordinate, where it comes from, and what is left of a coordinate, metres.
+/// Noise of a coordinate, where it comes from, and the residual of a coordinate, metres.
 fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
     let sigma_m = attempt.sigma_m();
     let left_m = attempt.refit.fit.scale * sigma_m;
@@ -197,19 +205,19 @@ fn effects(
 }
 
 /// Effects that explain the data nearly as well as those found, the nearest first.
-fn rivals(attempt: &Attempt) -> Vec<Rival> {
-    let mut rivals = Vec::new();
+fn alternatives(attempt: &Attempt) -> Vec<Alternative> {
+    let mut alternatives = Vec::new();
     for (i, chosen) in attempt.chosen.iter().enumerate() {
-        for rival in &chosen.rivals {
-            let behind = chosen.merit() - rival.merit();
-            if behind < NEARLY || rival.gain.gain > NEARLY_PART * chosen.gain {
-                let candidate = &attempt.session.candidates.list[rival.index];
-                rivals.push(rival_of(candidate, rival, i, behind));
+        for alternative in &chosen.alternatives {
+            let behind = chosen.merit() - alternative.merit();
+            if behind < NEARLY || alternative.gain.gain > NEARLY_PART * chosen.gain {
+                let candidate = &attempt.session.candidates.list[alternative.index];
+                alternatives.push(alternative_of(candidate, alternative, i, behind));
             }
         }
     }
-    rivals.sort_by(|a, b| a.behind.total_cmp(&b.behind));
-    rivals
+    alternatives.sort_by(|a, b| a.behind.total_cmp(&b.behind));
+    alternatives
 }
 
 /// Rows that what was found does not explain, the farthest first.
@@ -249,15 +257,15 @@ fn followed(attempt: &Attempt, measurements: &Measurements) -> Vec<FollowedRow> 
     followed
 }
 
-/// Configurations that tell the strongest rival from the effect found: the rival takes its place,
-/// everything is fitted again, and where the two models differ most tells.
+/// Configurations that tell the strongest alternative from the effect found: the alternative takes
+/// its place, everything is fitted again, and where the two models differ most tells.
 fn telling_poses(
     profile: &Profile,
     attempt: &Attempt,
     options: &Options,
     used: &[bool],
     found: &[Found],
-    rivals: &[Rival],
+    alternatives: &[Alternative],
     stand_ins: &[StandIn],
 ) -> Result<Vec<Telling>, IdentifyError> {
     let session = &attempt.session;
@@ -271,20 +279,23 @@ fn telling_poses(
     let labels = |effects: &mut dyn Iterator<Item = &Effect>| {
         effects.map(Effect::label).collect::<Vec<_>>().join(" + ")
     };
-    let of_robot = |r: &&Rival| {
+    let of_robot = |r: &&Alternative| {
         !r.effect.definition().of_data && !found[r.instead_of].effect.definition().of_data
     };
-    let single = rivals.iter().find(of_robot).and_then(|rival| {
-        let scored = attempt.chosen[rival.instead_of].rivals.iter().find(|s| {
-            let other = &session.candidates.list[s.index].effect;
-            other.kind == rival.effect.kind && other.site == rival.effect.site
-        });
-        scored.map(|scored| (rival, scored))
+    let single = alternatives.iter().find(of_robot).and_then(|alternative| {
+        let scored = attempt.chosen[alternative.instead_of]
+            .alternatives
+            .iter()
+            .find(|s| {
+                let other = &session.candidates.list[s.index].effect;
+                other.kind == alternative.effect.kind && other.site == alternative.effect.site
+            });
+        scored.map(|scored| (alternative, scored))
     });
-    if let Some((rival, scored)) = single {
+    if let Some((alternative, scored)) = single {
         let world = session.world(used, &options.accept);
         let mut other = attempt.chosen.clone();
-        other[rival.instead_of] = world.chosen(scored);
+        other[alternative.instead_of] = world.chosen(scored);
         let refitted = refit(
             &session.problem,
             &session.layout,
@@ -294,7 +305,10 @@ fn telling_poses(
             used,
             session.floor(),
         );
-        let tells = (found[rival.instead_of].effect.label(), rival.effect.label());
+        let tells = (
+            found[alternative.instead_of].effect.label(),
+            alternative.effect.label(),
+        );
         all = tell(&refitted.estimate, tells, count(!stand_ins.is_empty()))?;
     }
     if let Some(stand_in) = stand_ins.first() {
@@ -307,12 +321,17 @@ fn telling_poses(
     Ok(all)
 }
 
-fn rival_of(candidate: &Candidate, scored: &Scored, instead_of: usize, behind: f64) -> Rival {
+fn alternative_of(
+    candidate: &Candidate,
+    scored: &Scored,
+    instead_of: usize,
+    behind: f64,
+) -> Alternative {
     let mut effect = candidate.with(&scored.gain.values);
     if let Some(row) = scored.row {
         effect.site.order = row;
     }
-    Rival {
+    Alternative {
         effect,
         instead_of,
         gain: scored.gain.gain,

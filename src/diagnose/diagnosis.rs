@@ -11,7 +11,7 @@ use super::stand_ins::{Impossible, StandIn};
 use super::unknown::Unknown;
 use super::whereabouts::Spot;
 use crate::geometry::Vector;
-use crate::identify::doubt::Remark;
+use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Pick;
 use crate::identify::problem::{Estimate, Problem};
@@ -58,7 +58,7 @@ pub enum Verdict {
     Improved,
     /// The model agrees with the measurements within the noise.
     NothingMissing,
-    /// Something is missing and it cannot be told what.
+    /// Something is missing and it cannot be known what.
     Undetermined,
 }
 
@@ -86,7 +86,7 @@ impl Verdict {
 
 /// An effect that explains the data nearly as well as one that was found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rival {
+pub struct Alternative {
     /// The effect, with its values.
     pub effect: Effect,
     /// Index of the effect found that it would stand for.
@@ -161,10 +161,10 @@ pub struct Diagnosis {
     pub reasons: Vec<String>,
     /// Effects in the order found; the first ones explain most.
     pub found: Vec<Found>,
-    /// Configurations that would tell the strongest rival from the effect found.
+    /// Configurations that would tell the strongest alternative from the effect found.
     pub telling: Vec<Telling>,
     /// Effects that explain the data nearly as well.
-    pub rivals: Vec<Rival>,
+    pub alternatives: Vec<Alternative>,
     /// Effects of one kind that compete with several of those found.
     pub stand_ins: Vec<StandIn>,
     /// Effects that would compete if their values were possible.
@@ -195,15 +195,15 @@ pub struct Diagnosis {
     pub noise_m: f64,
     /// Where from.
     pub noise_source: NoiseSource,
-    /// What is left of a coordinate, metres.
+    /// The residual of a coordinate, metres.
     pub left_m: f64,
-    /// Where what is left lies.
+    /// Where the residual lies.
     pub left_spots: Vec<Spot>,
     /// Rows that do not fit.
     pub outliers: Vec<OutlierRow>,
     /// What a person should look at.
     pub remarks: Vec<Remark>,
-    /// Present residuals and those left, metres, a length for each row.
+    /// Present residuals and those that remain, metres, a length for each row.
     pub lengths: (Vec<f64>, Vec<f64>),
     /// The improved robot: effects of the data left out.
     pub profile: Profile,
@@ -223,7 +223,7 @@ fn calibrated_rows(profile: &Profile) -> Option<f64> {
         .filter(|n| *n > 0.0)
 }
 
-/// Diagnoses measurements against a profile. `progress` is told what is being done.
+/// Diagnoses measurements against a profile. `progress` is called with what is being done.
 ///
 /// # Errors
 /// Measurements that contradict the robot or themselves, or are too few for the parameters that

@@ -31,7 +31,7 @@ pub struct Held<'a> {
     pub sought: bool,
 }
 
-/// The fit: a basis of everything fitted, robust weights, what is left.
+/// The fit: a basis of everything fitted, robust weights, residuals.
 ///
 /// With the orthonormal basis Q of the columns that are held and their shares S, `M0 = I - Q S Qᵀ`
 /// is the precision of the residuals when those are integrated out. Columns E that are sought lower
@@ -375,7 +375,7 @@ pub struct Projection {
     /// Weighted.
     pub(super) column: Column,
     pub(super) parts: Vec<f64>,
-    /// Inner product with what is left.
+    /// Inner product with the residual.
     pub(super) slope: f64,
     /// Inner product with itself, before projection.
     pub(super) square: f64,

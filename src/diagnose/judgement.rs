@@ -6,7 +6,7 @@
 
 use super::attempt::{ALIKE, Attempt};
 use super::candidates::range;
-use super::diagnosis::{Found, Rival, Verdict};
+use super::diagnosis::{Alternative, Found, Verdict};
 use super::proof::Proof;
 use super::refit::{Beyond, Refit};
 use super::stand_ins::StandIn;
@@ -15,7 +15,7 @@ use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, Need, SiteKey};
 use std::f64::consts::TAU;
 
-/// Two effects cannot be told apart where one is better by less than this, in twice a log
+/// Two effects cannot be distinguished where one is better by less than this, in twice a log
 /// likelihood: odds of 1.6.
 const TIE: f64 = 1.0;
 /// One is clearly better beyond this: odds of 150 (R. E. Kass, A. E. Raftery, "Bayes factors"
@@ -39,7 +39,7 @@ const AGAIN: f64 = 0.8;
 const TELLS_NOISE: f64 = 100.0;
 /// Index of a joint's zero in its link's geometry.
 const THETA: usize = 3;
-/// Odds beyond e to this are not told apart.
+/// Odds beyond e to this are not distinguished.
 const MOST_LN_ODDS: f64 = 20.0;
 
 /// How sure an effect is.
@@ -47,7 +47,7 @@ const MOST_LN_ODDS: f64 = 20.0;
 pub enum Standing {
     /// Another explains as much, or it is not found again: it may be the answer.
     Possible,
-    /// There, but something else may be in its place, or something larger is missing beside it.
+    /// There, but something else may be in its place, or something larger is missing besides it.
     Likely,
     /// By its own evidence, with nothing in its place.
     Certain,
@@ -82,8 +82,13 @@ pub(super) struct Judged {
 }
 
 /// Judges the outcome of a search.
-pub(super) fn judge(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -> Judged {
-    let reasons = doubts(attempt, proof, found, rivals);
+pub(super) fn judge(
+    attempt: &Attempt,
+    proof: &Proof,
+    found: &[Found],
+    alternatives: &[Alternative],
+) -> Judged {
+    let reasons = objections(attempt, proof, found, alternatives);
     let is_possible = pushing(&attempt.refit).is_empty();
     let is_better = proof.judged().is_some_and(|judged| judged.is_better());
     let verdict = match (reasons.is_empty(), found.is_empty()) {
@@ -99,7 +104,7 @@ pub(super) fn judge(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &
 pub(super) fn stand(
     attempt: &Attempt,
     found: &mut [Found],
-    rivals: &[Rival],
+    alternatives: &[Alternative],
     stand_ins: &[StandIn],
 ) {
     let series = series(attempt, found).map_or_else(Vec::new, |series| series.members);
@@ -118,12 +123,12 @@ pub(super) fn stand(
                 against.push(Against { what, odds });
             }
         };
-        for rival in rivals.iter().filter(|r| r.instead_of == i) {
-            if !is_same(rival, one) {
-                put(rival.effect.label(), rival.behind);
+        for alternative in alternatives.iter().filter(|r| r.instead_of == i) {
+            if !is_same(alternative, one) {
+                put(alternative.effect.label(), alternative.behind);
             }
         }
-        for (_, unknown) in attempt.rivalled.iter().filter(|(of, _)| *of == i) {
+        for (_, unknown) in attempt.outdone.iter().filter(|(of, _)| *of == i) {
             put(
                 unknown.name.clone(),
                 one.gain - unknown.fair_gain(one.sought.len()),
@@ -159,9 +164,10 @@ pub(super) fn stand(
 
 /// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a
 /// little apart.
-fn is_same(rival: &Rival, found: &Found) -> bool {
-    let is_step = rival.effect.definition().begins_at_a_row();
-    rival.effect.kind == found.effect.kind && is_step || near(&rival.effect, &found.effect)
+fn is_same(alternative: &Alternative, found: &Found) -> bool {
+    let is_step = alternative.effect.definition().begins_at_a_row();
+    alternative.effect.kind == found.effect.kind && is_step
+        || near(&alternative.effect, &found.effect)
 }
 
 /// Whether a smooth function of the posture may stand for what it does: it has no step, no side
@@ -204,7 +210,7 @@ fn is_seldom(found: &Found) -> bool {
     2 * times < of
 }
 
-/// Whether what is left is the only thing that says how loud the noise is, and there is too little
+/// Whether the residual is the only thing that says how loud the noise is, and there is too little
 /// of it.
 fn nobody_knows(attempt: &Attempt) -> bool {
     let states = !attempt.session.problem.sigma_assumed || attempt.repeats.is_some();
@@ -212,7 +218,12 @@ fn nobody_knows(attempt: &Attempt) -> bool {
 }
 
 /// Why the effects found may not be the answer, one sentence each; none where they are.
-fn doubts(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -> Vec<String> {
+fn objections(
+    attempt: &Attempt,
+    proof: &Proof,
+    found: &[Found],
+    alternatives: &[Alternative],
+) -> Vec<String> {
     let mut reasons = Vec::new();
     if let Some(judged) = proof.judged().filter(|j| !found.is_empty() && j.is_worse()) {
         reasons.push(format!(
@@ -227,15 +238,15 @@ fn doubts(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -
             one.effect.label()
         ));
     }
-    let tied = |r: &&Rival| {
+    let tied = |r: &&Alternative| {
         let own = &found[r.instead_of];
         r.behind < TIE && !own.accepted && !is_same(r, own)
     };
-    for rival in rivals.iter().filter(tied) {
+    for alternative in alternatives.iter().filter(tied) {
         reasons.push(format!(
             "{} and {} explain the measurements equally well",
-            found[rival.instead_of].effect.label(),
-            rival.effect.label()
+            found[alternative.instead_of].effect.label(),
+            alternative.effect.label()
         ));
     }
     reasons.extend(outdone(attempt, found));
@@ -248,7 +259,7 @@ fn doubts(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -
     }
     if let Some(unknown) = attempt.unknown.first() {
         reasons.push(format!(
-            "what is left depends on {} (chi-squared falls by {:.0}): no effect known does that",
+            "the residual depends on {} (chi-squared falls by {:.0}): no effect known does that",
             unknown.name, unknown.gain
         ));
     }
@@ -283,7 +294,7 @@ fn doubts(attempt: &Attempt, proof: &Proof, found: &[Found], rivals: &[Rival]) -
             "sigma_mm states"
         };
         reasons.push(format!(
-            "what is left is {scale:.2} times the noise that {source}"
+            "the residual is {scale:.2} times the noise that {source}"
         ));
     }
     reasons
@@ -309,13 +320,13 @@ fn pushing(refit: &Refit) -> Vec<String> {
 
 /// Effects that functions outside the registry explain more than, one sentence for each function.
 fn outdone(attempt: &Attempt, found: &[Found]) -> Vec<String> {
-    let rivalled = attempt.rivalled.iter();
-    let rivalled: Vec<_> = rivalled.filter(|(i, _)| !found[*i].accepted).collect();
-    let mut names: Vec<&str> = rivalled.iter().map(|(_, u)| u.name.as_str()).collect();
+    let outdone = attempt.outdone.iter();
+    let outdone: Vec<_> = outdone.filter(|(i, _)| !found[*i].accepted).collect();
+    let mut names: Vec<&str> = outdone.iter().map(|(_, u)| u.name.as_str()).collect();
     names.dedup();
-    let mut told = Vec::new();
+    let mut texts = Vec::new();
     let sentence = |name: &str| {
-        let of: Vec<_> = rivalled.iter().filter(|(_, u)| u.name == name).collect();
+        let of: Vec<_> = outdone.iter().filter(|(_, u)| u.name == name).collect();
         let (i, unknown) = of[0];
         let label = found[*i].effect.label();
         let against = format!(
@@ -334,11 +345,11 @@ fn outdone(attempt: &Attempt, found: &[Found]) -> Vec<String> {
     };
     for name in names {
         let text = sentence(name);
-        if !told.contains(&text) {
-            told.push(text);
+        if !texts.contains(&text) {
+            texts.push(text);
         }
     }
-    told
+    texts
 }
 
 /// Effects that may together be the series of a function that is not known.

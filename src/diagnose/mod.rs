@@ -1,4 +1,4 @@
-//! Where simulation and measurement disagree, which effect explains it, and what is left.
+//! Where simulation and measurement disagree, which effect explains it, and the residual.
 //!
 //! Everything is linear about the profile (or about its frames, geometry and compliance fitted
 //! anew): every effect of the registry, at every joint, order, torque, time constant or row it may
@@ -42,13 +42,13 @@
 //! ```
 
 mod attempt;
-pub mod beside;
 pub mod candidates;
 pub mod chances;
 mod conclusion;
 pub mod diagnosis;
 pub mod fit;
 mod functions;
+pub mod given;
 mod improved;
 mod judgement;
 pub mod noise;
@@ -66,6 +66,6 @@ mod waves;
 pub mod weights;
 pub mod whereabouts;
 
-pub use diagnosis::{Diagnosis, Found, NoiseSource, Options, Rival, Verdict, diagnose};
+pub use diagnosis::{Alternative, Diagnosis, Found, NoiseSource, Options, Verdict, diagnose};
 pub use judgement::{Against, Standing};
 pub use proof::Compared;

@@ -142,7 +142,7 @@ fn parts(measurements: &Measurements, choice: &[bool]) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Where a step lies is a fact of the data: rows left out beside it cannot say.
+/// Where a step lies is a fact of the data: rows left out near it cannot say.
 fn keep_rows(world: &World, chosen: &[Chosen], own: &mut [Chosen]) {
     for found in own.iter_mut().filter(|c| c.candidate.row.is_some()) {
         let near = |w: &&Chosen| {

@@ -12,7 +12,7 @@ use crate::model::Slot;
 /// Turns of Gauss–Newton.
 const TURNS: usize = 4;
 
-/// Effects with values and what is left.
+/// Effects with values, and the residuals.
 #[derive(Clone, Debug)]
 pub struct Refit {
     /// Everything with its value.

@@ -1,8 +1,8 @@
-//! Every candidate beside a model, kept at hand while the model changes.
+//! Every candidate given a model, kept at hand while the model changes.
 
-use super::beside::{Beside, Group};
 use super::candidates::Candidate;
 use super::fit::{Fit, Gain, Projection};
+use super::given::{Given, Group};
 use super::search::{Chosen, Scored, World, overlaps};
 use super::steps::Steps;
 use super::table::Column;
@@ -11,7 +11,7 @@ use crate::model::effects::Kind;
 use rayon::prelude::*;
 
 /// Rows on both sides of a row from which on an effect holds.
-const ROWS_BESIDE: usize = 5;
+const ROWS_GIVEN: usize = 5;
 
 /// Every candidate seen from a fit without effects: good as long as its weights are.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ struct Seen {
     steps: Vec<Option<Steps>>,
 }
 
-/// A model with effects, and every candidate beside it.
+/// A model with effects, and every candidate given it.
 #[derive(Debug)]
 pub(super) struct View {
     /// Products of the candidates' columns while every row counts fully.
@@ -37,7 +37,7 @@ pub(super) struct View {
 /// The effects of a model, and what every candidate has in common with them.
 #[derive(Debug)]
 struct Side {
-    beside: Beside,
+    given: Given,
     /// Products of each candidate's columns with those of the effects.
     cross: Vec<Vec<f64>>,
     /// The same from each first row on, of candidates that begin at a row.
@@ -52,17 +52,17 @@ impl Side {
         chosen: &[Chosen],
     ) -> Self {
         let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
-        let beside = Beside::of(&seen.base.fit, full, &effects);
+        let given = Given::of(&seen.base.fit, full, &effects);
         let columns = (0..products.len()).into_par_iter();
-        let cross = columns.map(|i| beside.cross(&projection(world, &seen.base, products, i)));
+        let cross = columns.map(|i| given.cross(&projection(world, &seen.base, products, i)));
         let cross = cross.collect();
         let from = |steps: &Option<Steps>| match steps {
-            Some(steps) => steps.cross(world.layout, &beside),
+            Some(steps) => steps.cross(world.layout, &given),
             None => Vec::new(),
         };
         let steps = seen.steps.iter().map(from).collect();
         Self {
-            beside,
+            given,
             cross,
             steps,
         }
@@ -90,7 +90,7 @@ impl Seen {
             candidate.row.map(|_| {
                 let own = candidate.columns.iter();
                 let own: Vec<Column> = own.map(|i| world.candidates.columns[*i].column()).collect();
-                Steps::of(&base.fit, world.layout, &own, ROWS_BESIDE)
+                Steps::of(&base.fit, world.layout, &own, ROWS_GIVEN)
             })
         };
         let steps = world.candidates.list.par_iter().map(begins).collect();
@@ -135,7 +135,7 @@ impl View {
         self.shown = chosen.iter().map(|c| c.columns.clone()).collect();
     }
 
-    /// Every candidate beside a model with all of these effects, best first.
+    /// Every candidate given a model with all of these effects, best first.
     pub(super) fn best(&mut self, world: &World, chosen: &[Chosen]) -> Vec<Scored> {
         self.show(world, chosen);
         self.scan(world, chosen, &vec![true; chosen.len()])
@@ -144,18 +144,18 @@ impl View {
     /// How much chi-squared rises without the effects that are not kept.
     #[must_use]
     pub(super) fn loss(&self, keep: &[bool]) -> f64 {
-        let beside = &self.side.beside;
-        let all = beside.kept(&vec![true; keep.len()]);
-        (beside.deviance(&beside.kept(keep)) - beside.deviance(&all)) / self.full.scale.powi(2)
+        let given = &self.side.given;
+        let all = given.kept(&vec![true; keep.len()]);
+        (given.deviance(&given.kept(keep)) - given.deviance(&all)) / self.full.scale.powi(2)
     }
 
-    /// Every candidate beside those of the effects shown that are kept, best first.
+    /// Every candidate given those of the effects shown that are kept, best first.
     #[must_use]
     pub(super) fn scan(&self, world: &World, chosen: &[Chosen], keep: &[bool]) -> Vec<Scored> {
         self.scan_side(world, &self.side, chosen, keep)
     }
 
-    /// Every candidate beside other effects than those shown, with the weights and the scale of
+    /// Every candidate given other effects than those shown, with the weights and the scale of
     /// those shown.
     #[must_use]
     pub(super) fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
@@ -163,7 +163,7 @@ impl View {
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
 
-    /// What all of a kind gain together beside those of the effects shown that are kept: which
+    /// What all of a kind gain together given those of the effects shown that are kept: which
     /// candidates, one for each place, and their gain and values. Values stay physical only if
     /// they are `bounded`.
     #[must_use]
@@ -194,12 +194,12 @@ impl View {
         let group = Group::of(&base.fit, &seen.iter().collect::<Vec<_>>());
         let cross = columns.iter().map(|c| self.side.cross[*c].as_slice());
         let cross: Vec<&[f64]> = cross.collect();
-        let kept = self.side.beside.kept(keep);
-        let gain = self.side.beside.gain(&group, &cross, &kept, &least)?;
+        let kept = self.side.given.kept(keep);
+        let gain = self.side.given.gain(&group, &cross, &kept, &least)?;
         Some((own, gain))
     }
 
-    /// What all of a kind would gain together beside the effects shown: one for each place, those
+    /// What all of a kind would gain together given the effects shown: one for each place, those
     /// at their bound left out.
     #[must_use]
     pub(super) fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
@@ -234,7 +234,7 @@ impl View {
         let with: Vec<&Chosen> = (chosen.iter().zip(keep))
             .filter_map(|(c, keep)| keep.then_some(c))
             .collect();
-        let kept = side.beside.kept(keep);
+        let kept = side.given.kept(keep);
         let taken = |candidate: &Candidate, row: Option<u32>| {
             with.iter().any(|c| overlaps(candidate, row, &c.candidate))
         };
@@ -256,7 +256,7 @@ impl View {
                             return None;
                         }
                         let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
-                        let gain = side.beside.gain(group, &cross, &kept, &free)?;
+                        let gain = side.given.gain(group, &cross, &kept, &free)?;
                         Some(of(row, gain))
                     })
                     .collect();
@@ -267,7 +267,7 @@ impl View {
             let own = candidate.columns.iter();
             let cross: Vec<&[f64]> = own.map(|i| side.cross[*i].as_slice()).collect();
             let group = &self.seen.groups[index];
-            let gain = side.beside.gain(group, &cross, &kept, &candidate.least);
+            let gain = side.given.gain(group, &cross, &kept, &candidate.least);
             let gain = gain.filter(|gain| candidate.is_usual(&gain.values));
             gain.map(|gain| of(None, gain)).into_iter().collect()
         };

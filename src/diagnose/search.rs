@@ -26,8 +26,8 @@ const ODDS: f64 = 5.0;
 
 /// Effects that only some arms have: a structure that bends, a gear with two stiffnesses, a load
 /// that is not what was stated, axes that take each other along. Frames, geometry, the gears'
-/// ratio, stiffness, play and waves are in every arm, and what needs a column of its own (time,
-/// temperature, order) is told from them by that.
+/// ratio, stiffness, backlash and waves are in every arm, and what needs a column of its own (time,
+/// temperature, order) is distinguished from them by that.
 const fn rare(kind: Kind) -> bool {
     matches!(
         kind,
@@ -92,7 +92,7 @@ pub struct Chosen {
     /// Values, in typical sizes.
     pub values: Vec<f64>,
     /// The best of the other effects in its place, with what they gain and cost, best first.
-    pub rivals: Vec<Scored>,
+    pub alternatives: Vec<Scored>,
 }
 
 impl Chosen {
@@ -103,7 +103,7 @@ impl Chosen {
     }
 }
 
-/// A candidate's merit beside all others in the model.
+/// A candidate's merit given all others in the model.
 #[derive(Clone, Debug)]
 pub struct Scored {
     /// Index of the candidate.
@@ -239,7 +239,7 @@ impl World<'_> {
             candidate,
             gain: scored.gain.gain,
             cost: scored.cost,
-            rivals: Vec::new(),
+            alternatives: Vec::new(),
         }
     }
 
@@ -259,7 +259,7 @@ impl World<'_> {
                 if let Some(best) = scored.iter().find(is_own) {
                     let mut renewed = self.chosen(best);
                     let others = scored.iter().filter(|s| !is_own(s));
-                    renewed.rivals = best_of_each(self, others);
+                    renewed.alternatives = best_of_each(self, others);
                     changed |= renewed.columns != chosen[i].columns;
                     chosen[i] = renewed;
                 }
@@ -283,10 +283,10 @@ impl World<'_> {
                         continue;
                     }
                     let mut renewed = self.chosen(own);
-                    let rivals = scored
+                    let alternatives = scored
                         .iter()
                         .filter(|s| !same(&self.candidates.list[s.index], s.row, current));
-                    renewed.rivals = best_of_each(self, rivals);
+                    renewed.alternatives = best_of_each(self, alternatives);
                     chosen[i] = renewed;
                     i += 1;
                 }
@@ -432,7 +432,7 @@ impl World<'_> {
 
 impl World<'_> {
     /// The cause first without which most is lost, in it the effect that explains most, then what
-    /// explains most beside those, and so on.
+    /// explains most given those, and so on.
     #[must_use]
     pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
         let mut ordered: Vec<Chosen> = Vec::new();

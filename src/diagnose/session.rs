@@ -14,7 +14,7 @@ use crate::identify::IdentifyError;
 use crate::identify::calibration::{
     BasePolicy, Options as CalibrationOptions, calibrate, fit_frames,
 };
-use crate::identify::doubt::{Remark, screening};
+use crate::identify::input_checks::{Remark, screening};
 use crate::identify::measurements::{Measurements, Purpose};
 use crate::identify::parameters::{Level, Pick, Selection, Subject};
 use crate::identify::problem::{Estimate, Problem};
@@ -144,9 +144,9 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
     }
 }
 
-/// Which columns do not do what those before them do. The others are left out for good: beside an
-/// effect found later, a last link that bends, they would be told apart by next to nothing and run
-/// away together.
+/// Which columns do not do what those before them do. The others are left out for good: given an
+/// effect found later, a last link that bends, they would be distinguished by almost nothing and
+/// run away together.
 fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> Vec<usize> {
     let mut kept = Plain::of(layout, used, residual, held, LEAST).kept();
     kept.sort_unstable();
@@ -181,7 +181,7 @@ pub fn session(
     let mut remarks = screening::look(profile, &fit)?;
     let guess = start::find(profile, &fit);
     if let Some(guess) = &guess {
-        remarks.extend(screening::doubt_start(profile, &fit, guess)?);
+        remarks.extend(screening::check_start(profile, &fit, guess)?);
     }
     let selection = selection(profile);
     let base = guess
@@ -347,7 +347,7 @@ impl Session {
         }
     }
 
-    /// The residuals' scale is at least this: stated noise is not doubted downwards, that of
+    /// The residuals' scale is at least this: stated noise is not lowered, that of
     /// repeated poses not below what it is known to be.
     #[must_use]
     pub fn floor(&self) -> f64 {
@@ -359,7 +359,7 @@ impl Session {
     }
 
     /// Adds candidates with list values nearer to those found, a knee's torque, a time constant,
-    /// and waves that what is left has. Whether there were any.
+    /// and waves that the residual has. Whether there were any.
     pub fn refine(
         &mut self,
         chosen: &[Chosen],
@@ -378,9 +378,9 @@ impl Session {
             &self.candidates,
             least,
         );
-        // those beside a wave found say how well its order is known
+        // those next to a wave found say how well its order is known
         let found = chosen.iter().map(|c| &c.candidate.effect);
-        peaks.extend(found.flat_map(|effect| waves::beside(effect, &self.candidates)));
+        peaks.extend(found.flat_map(|effect| waves::neighbours(effect, &self.candidates)));
         peaks.retain(|effect| !leave(effect));
         let mut any = !peaks.is_empty();
         (self.candidates).add_waves(&self.problem, &self.estimate, peaks);

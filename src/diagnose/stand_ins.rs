@@ -11,7 +11,7 @@ use crate::model::effects::{Effect, Kind, SiteKey, shown_by_tool};
 
 /// Others compete where they explain this part of what the group explains.
 const PART: f64 = 0.25;
-/// At most so many are told.
+/// At most so many are reported.
 const MOST: usize = 6;
 
 /// Effects that compete with a group of those found.
@@ -152,18 +152,18 @@ pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
     }
     // of one kind what would stand for most
     all.sort_by_key(|i| std::cmp::Reverse(i.instead_of.len()));
-    let mut told: Vec<Kind> = Vec::new();
+    let mut listed: Vec<Kind> = Vec::new();
     all.retain(|i| {
         let kind = i.effects.first().map(|e| e.kind);
-        let is_new = kind.is_some_and(|kind| !told.contains(&kind));
-        told.extend(kind);
+        let is_new = kind.is_some_and(|kind| !listed.contains(&kind));
+        listed.extend(kind);
         is_new
     });
     all
 }
 
 /// What competes with groups of the effects found, the nearest first. Where the verdict is sure
-/// only what explains nearly all is told: `least` is the part.
+/// only what explains nearly all is reported: `least` is the part.
 pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) -> Vec<StandIn> {
     let chosen = &attempt.chosen;
     let least = least.unwrap_or(PART);
@@ -171,7 +171,7 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
     view.show(world, chosen);
     let mut found: Vec<Found> = Vec::new();
     for group in groups(chosen) {
-        // one in the place of one is told with the effect itself
+        // one in the place of one is reported with the effect itself
         if group.len() < 2 || group.iter().any(|i| world.wanted(&chosen[*i].candidate)) {
             continue;
         }
@@ -213,10 +213,10 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
         let own = &chosen[f.group[0]];
         (own.candidate.effect.kind, last.candidate.effect.kind)
     };
-    let mut told: Vec<(Kind, Kind)> = Vec::new();
+    let mut listed: Vec<(Kind, Kind)> = Vec::new();
     found.retain(|f| {
-        let is_new = !told.contains(&kinds(f));
-        told.push(kinds(f));
+        let is_new = !listed.contains(&kinds(f));
+        listed.push(kinds(f));
         is_new
     });
     found.truncate(MOST);

@@ -1,7 +1,7 @@
 //! Effects that begin at a row: sums from the end give the products of every first row in one pass.
 
-use super::beside::{Beside, Group};
 use super::fit::Fit;
+use super::given::{Given, Group};
 use super::table::{Column, Layout, add_scaled};
 
 /// Columns that begin at a row, for each first row that is tried: the later first.
@@ -79,8 +79,8 @@ impl Steps {
 
     /// Products of each column with those of the effects, for each first row.
     #[must_use]
-    pub(super) fn cross(&self, layout: &Layout, beside: &Beside) -> Vec<Vec<Vec<f64>>> {
-        let turned = beside.turned();
+    pub(super) fn cross(&self, layout: &Layout, given: &Given) -> Vec<Vec<Vec<f64>>> {
+        let turned = given.turned();
         let mut sums = vec![vec![0.0; turned.len()]; self.columns.len()];
         let mut end = layout.numbers();
         let each = self.rows.iter().map(|row| {

@@ -1,12 +1,12 @@
 //! What no effect of the registry is: functions of the posture, the load, the motion and the time
-//! that may explain what is left. Where one of them does, or does it better than an effect that was
+//! that may explain the residual. Where one of them does, or does it better than an effect that was
 //! named, the truth is not in the registry.
 
-use super::beside::{Beside, Group, Kept};
 use super::candidates::columns_of;
 use super::chances::{chi_squared_tail, normal_tail};
 use super::fit::{Fit, Gain};
 use super::functions::{Facts, Function, Registered, facts, functions};
+use super::given::{Given, Group, Kept};
 use super::table::{Column, Layout, dot};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::JOINTS;
@@ -98,7 +98,7 @@ impl Summed {
         columns: &[Column],
         (layout, rows): (&Layout, &Range<usize>),
         fit: &Fit,
-        beside: &Beside,
+        given: &Given,
     ) -> Self {
         let numbers = layout.row(rows.start).start..layout.row(rows.end - 1).end;
         let weighted = |c: &Column| -> Column {
@@ -123,7 +123,7 @@ impl Summed {
         Self {
             along: all(&basis, 0),
             left: columns.iter().map(|c| with(c, &fit.left, 0)).collect(),
-            effects: all(&slices(beside.turned()), 0),
+            effects: all(&slices(given.turned()), 0),
             own: all(&slices(&columns), numbers.start),
         }
     }
@@ -139,12 +139,12 @@ struct Products {
 
 impl Products {
     /// None yet, of so many columns.
-    fn none(columns: usize, fit: &Fit, beside: &Beside) -> Self {
+    fn none(columns: usize, fit: &Fit, given: &Given) -> Self {
         let zeros = |count: usize| vec![vec![0.0; count]; columns];
         Self {
             along: zeros(fit.basis.len()),
             left: vec![0.0; columns],
-            effects: zeros(beside.turned().len()),
+            effects: zeros(given.turned().len()),
             own: zeros(columns),
         }
     }
@@ -168,7 +168,7 @@ impl Products {
         add_all(&mut self.own, &summed.own, &squared);
     }
 
-    /// The columns as a group beside a fit.
+    /// The columns as a group given a fit.
     fn group(&self, shares: &[f64]) -> Group {
         let projected = |i: usize, j: usize| {
             let parts = self.along[i].iter().zip(&self.along[j]).zip(shares);
@@ -242,25 +242,25 @@ impl Library {
         2.0 * (self.pairs().len() as f64).ln() + 3.0 * (count as f64 - 1.0) + MARGIN
     }
 
-    /// The functions that gain most, best first, at most eight, for each choice of effects beside a
+    /// The functions that gain most, best first, at most eight, for each choice of effects given a
     /// fit.
     #[must_use]
     pub fn scan(
         &self,
         layout: &Layout,
         fit: &Fit,
-        beside: &Beside,
+        given: &Given,
         kept: &[Kept],
     ) -> Vec<Vec<Unknown>> {
         let pairs = self.pairs();
         let count = |motion: usize| self.motions[motion].1.len();
         let mut products: Vec<Products> = (pairs.iter())
-            .map(|(m, _)| Products::none(count(*m), fit, beside))
+            .map(|(m, _)| Products::none(count(*m), fit, given))
             .collect();
         for start in (0..layout.rows()).step_by(BLOCK) {
             let rows = start..layout.rows().min(start + BLOCK);
             let summed = self.motions.par_iter();
-            let summed = summed.map(|(_, own)| Summed::of(own, (layout, &rows), fit, beside));
+            let summed = summed.map(|(_, own)| Summed::of(own, (layout, &rows), fit, given));
             let summed: Vec<Summed> = summed.collect();
             let values = self.features.par_iter();
             let values = values.map(|feature| feature.values(&self.rows[rows.clone()]));
@@ -273,7 +273,7 @@ impl Library {
                 let group = products.group(&fit.shares);
                 let cross: Vec<&[f64]> = products.effects.iter().map(Vec::as_slice).collect();
                 let free = vec![None; cross.len()];
-                let gain = |kept: &Kept| beside.gain(&group, &cross, kept, &free);
+                let gain = |kept: &Kept| given.gain(&group, &cross, kept, &free);
                 kept.iter().map(gain).collect()
             })
             .collect();

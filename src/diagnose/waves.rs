@@ -1,4 +1,4 @@
-//! Orders of waves in a joint's angle, up to those of its gear: a periodogram of what is left.
+//! Orders of waves in a joint's angle, up to those of its gear: a periodogram of the residual.
 //!
 //! A wave of every order has two columns at every joint; those of the lowest orders are candidates
 //! from the beginning, the others only where the periodogram has a peak.
@@ -54,7 +54,7 @@ pub(super) fn wave(joint: usize, order: u32) -> Effect {
     }
 }
 
-/// What the rows say of a joint: the product of its turn with what is left, its square, and its
+/// What the rows say of a joint: the product of its turn with the residual, its square, and its
 /// angle.
 struct Seen {
     slopes: Column,
@@ -79,7 +79,7 @@ impl Seen {
         }
     }
 
-    /// What a wave of this order gains, in units of its noise squared, before it is seen beside all
+    /// What a wave of this order gains, in units of its noise squared, before it is seen given all
     /// that is fitted.
     fn gain(&self, order: f64, variance: f64) -> f64 {
         let (mut a, mut b, mut cc, mut cs, mut ss) = (0.0, 0.0, 0.0, 0.0, 0.0);
@@ -99,7 +99,7 @@ impl Seen {
     }
 }
 
-/// Waves that what is left of a fit has and that are no candidates yet, where they are worth more
+/// Waves that the residual of a fit has and that are no candidates yet, where they are worth more
 /// than `least`.
 pub(super) fn peaks(
     problem: &Problem,
@@ -119,9 +119,9 @@ pub(super) fn peaks(
         let seen = Seen::of(problem, layout, fit, &turns[joint][0], joint);
         let gains: Vec<f64> = periods.iter().map(|n| seen.gain(*n, variance)).collect();
         let is_peak = |k: &usize| {
-            let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
-            let mut beside = beside.filter_map(|other| gains.get(other));
-            gains[*k] > least && beside.all(|other| *other <= gains[*k])
+            let neighbours = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+            let mut neighbours = neighbours.filter_map(|other| gains.get(other));
+            gains[*k] > least && neighbours.all(|other| *other <= gains[*k])
         };
         let mut found: Vec<usize> = (0..orders.len()).filter(is_peak).collect();
         found.sort_by(|a, b| gains[*b].total_cmp(&gains[*a]));
@@ -144,7 +144,7 @@ pub(super) fn near(a: &Effect, b: &Effect) -> bool {
 
 /// The waves of the orders next to that of an effect, where it is a wave of the periodogram and
 /// they are no candidates yet.
-pub(super) fn beside(effect: &Effect, known: &Candidates) -> Vec<Effect> {
+pub(super) fn neighbours(effect: &Effect, known: &Candidates) -> Vec<Effect> {
     if !effect.definition().site.contains(&SiteKey::Order) {
         return Vec::new();
     }

@@ -91,7 +91,7 @@ impl Plain {
         }
     }
 
-    /// Indices of the columns that are not redundant beside those before them.
+    /// Indices of the columns that are not redundant given those before them.
     #[must_use]
     pub fn kept(&self) -> Vec<usize> {
         self.fit.kept.clone()
@@ -330,7 +330,7 @@ impl Plain {
         roots
     }
 
-    /// The robust fit of columns that are sought beside those held, and the fit of those held at
+    /// The robust fit of columns that are sought given those held, and the fit of those held at
     /// its weights and scale.
     ///
     /// Weights are one up to the length that 99.7 % of normal rows stay below, and fall with the

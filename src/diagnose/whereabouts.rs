@@ -10,7 +10,7 @@ use crate::model::JOINTS;
 const GROUPS: usize = 8;
 /// Fewer rows in a group are none.
 const LEAST_ROWS: usize = 3;
-/// Corrected p-values below this are told.
+/// Corrected p-values below this are reported.
 pub const SIGNIFICANT: f64 = 0.01;
 
 /// A column or region that the residuals depend on.
@@ -225,7 +225,7 @@ pub fn spots(
             .map(|g| counts[*g] * means(*g).iter().map(|m| m * m).sum::<f64>())
             .sum();
         let freedom = (live.len() - 1) * widest;
-        // against what is left within the groups, so that the test holds where the noise is not
+        // against the residual within the groups, so that the test holds where the noise is not
         // known
         let within =
             (total - between).max(1e-12) / (count * widest as f64 - freedom as f64).max(1.0);

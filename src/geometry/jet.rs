@@ -483,8 +483,9 @@ mod tests {
             let middle = kepler(low + 0.005);
             let around = |s: Jet, x: Jet| s + k(0.3) * (k(middle) + x).sin_cos().0 - k(middle);
             let s = Jet::variable(low, low + 0.01);
-            let beside = Jet::implicit(0.005, 1e-11, |x| around(s, x), |x| around(s.at_rest(), x));
-            let jet = beside + k(middle);
+            let implicit =
+                Jet::implicit(0.005, 1e-11, |x| around(s, x), |x| around(s.at_rest(), x));
+            let jet = implicit + k(middle);
             assert!(jet.slope.radius < 0.1, "{jet:?}");
             for j in 0..=10 {
                 let x = kepler(low + 0.001 * f64::from(j));

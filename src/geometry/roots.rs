@@ -6,7 +6,7 @@ const NARROWEST: f64 = 1e-7;
 const TOUCHES: f64 = 1e-14;
 /// Share of the cubic's own third-order part that it may miss the function by. Over a quarter of
 /// the function's shortest wave it misses it by a thirtieth.
-const DOUBT: f64 = 0.2;
+const UNCERTAINTY: f64 = 0.2;
 /// Steps of Newton's method within a bracket; four are usual, and each that leaves the bracket
 /// halves it.
 const MOST_STEPS: usize = 60;
@@ -64,8 +64,8 @@ fn search(sample: &mut impl FnMut(f64) -> Sample, low: Sample, high: Sample, fou
     let long = high.at - low.at;
     let (rise, fall) = (long * low.slope, long * high.slope);
     let inner = [low.value + rise / 3.0, high.value - fall / 3.0];
-    let doubt = DOUBT * (high.value - low.value - 0.5 * (rise + fall)).abs();
-    if !doubt.is_finite() {
+    let uncertainty = UNCERTAINTY * (high.value - low.value - 0.5 * (rise + fall)).abs();
+    if !uncertainty.is_finite() {
         return;
     }
     let leaps = (low.value < 0.0) != (high.value < 0.0);
@@ -78,7 +78,7 @@ fn search(sample: &mut impl FnMut(f64) -> Sample, low: Sample, high: Sample, fou
         let climb = if high.value < low.value { -1.0 } else { 1.0 };
         let steady = [rise, 3.0 * (inner[1] - inner[0]), fall]
             .iter()
-            .all(|change| climb * change > doubt);
+            .all(|change| climb * change > uncertainty);
         if steady || long < NARROWEST {
             found.push(refined(sample, low, high));
             return;
@@ -86,7 +86,7 @@ fn search(sample: &mut impl FnMut(f64) -> Sample, low: Sample, high: Sample, fou
     } else {
         let clear = [low.value, inner[0], inner[1], high.value]
             .iter()
-            .all(|value| side * value > doubt);
+            .all(|value| side * value > uncertainty);
         if clear {
             return;
         }
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn roots_as_near_as_a_millionth_are_told_apart() {
+    fn roots_as_near_as_a_millionth_are_distinguished() {
         let pair = |x: f64| ((x - 0.3) * (x - 0.300_001), 2.0 * x - 0.600_001);
         let found = all(pair, [-1.0, 1.0], 4);
         assert_eq!(found.len(), 2, "{found:?}");

@@ -1,4 +1,4 @@
-//! The units of files and printed text, beside the SI units inside.
+//! The units of files and printed text, besides the SI units inside.
 
 /// One millimetre in metres.
 pub const MM: f64 = 1e-3;

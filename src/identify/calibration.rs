@@ -1,10 +1,10 @@
 //! The whole identification: screened measurements, a start, a solution, what it is worth.
 
 use super::contact;
-use super::doubt::{Remark, plausibility, screening};
 use super::error::IdentifyError;
 use super::expectation::expected_error_m;
 use super::identifiability::{Observability, observability, singular_values};
+use super::input_checks::{Remark, plausibility, screening};
 use super::line::Line;
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
@@ -254,7 +254,7 @@ pub fn calibrate(
     let measurements = &*measurements.in_world_of(profile)?;
     let found = identify(profile, measurements, options)?;
     let missed = |found: &Calibration| misses(&found.problem, &found.solution.estimate);
-    plausibility::doubt_touches(measurements, &missed(&found), |other| {
+    plausibility::check_touches(measurements, &missed(&found), |other| {
         Ok(missed(&identify(profile, other, options)?))
     })?;
     by_the_device(profile, measurements, options, found)
@@ -332,9 +332,9 @@ fn identify(
     let mut remarks = screening::look(profile, &fit)?;
     let found = start::find(profile, &fit);
     if let Some(found) = &found {
-        remarks.extend(screening::doubt_start(profile, &fit, found)?);
+        remarks.extend(screening::check_start(profile, &fit, found)?);
         if is_fixed(&options.selection, Kind::ToolFrame) {
-            screening::doubt_fixed_tool(profile, found)?;
+            screening::check_fixed_tool(profile, found)?;
         }
     }
     let sought = !is_fixed(&options.selection, Kind::BaseFrame);
@@ -411,7 +411,7 @@ fn identify(
             .cloned()
             .collect();
         solve(&frames, start, options.shape, sought)
-            .map_err(|error| screening::doubt_rest(error, &guess))?
+            .map_err(|error| screening::check_rest(error, &guess))?
     };
     let frames_only_misses = misses(&problem, &frames_only.estimate);
     let frames_only_quality = Quality::of(&problem.rows, &frames_only_misses);
@@ -421,7 +421,7 @@ fn identify(
         options.shape,
         sought,
     )
-    .map_err(|error| screening::doubt_rest(error, &guess))?;
+    .map_err(|error| screening::check_rest(error, &guess))?;
     let counts: Vec<usize> = problem
         .rows
         .iter()
@@ -436,12 +436,12 @@ fn identify(
     );
     let after_misses = misses(&problem, &solution.estimate);
     let after = Quality::of(&problem.rows, &after_misses);
-    remarks.extend(plausibility::doubt_fit(
+    remarks.extend(plausibility::check_fit(
         &problem,
         &after_misses,
         &frames_only_misses,
     )?);
-    remarks.extend(plausibility::doubt_values(
+    remarks.extend(plausibility::check_values(
         &solution.parameters,
         &solution.estimate,
         &uncertainty.sigma,
@@ -459,9 +459,9 @@ fn identify(
         solution.loss,
         uncertainty.applied_factor,
     );
-    remarks.extend(plausibility::doubt_reach(expected_m, &after_misses));
+    remarks.extend(plausibility::check_reach(expected_m, &after_misses));
     let compliance = options.selection.level == Level::Compliance;
-    remarks.extend(screening::doubt_masses(&problem, compliance));
+    remarks.extend(screening::check_masses(&problem, compliance));
     let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;
     let (world_from_base, device) = if by_controller {
         let device = device_of(profile, &solution, &uncertainty, &world_from_device);
@@ -475,7 +475,7 @@ fn identify(
         (solution.estimate.world_from_base, profile.device)
     };
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
-    remarks.extend(plausibility::doubt_rows(&outliers));
+    remarks.extend(plausibility::check_rows(&outliers));
     let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
     let held_out = if held.rows.is_empty() {
         None

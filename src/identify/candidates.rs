@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// What the arm's effects may add to how fast its points move.
 const EFFECTS: f64 = 1.05;
-/// A way whose points come as near to a box is not told from one that touches it, metres.
+/// A path whose points come as near to a box is not distinguished from one that touches it, metres.
 const TOUCH_M: f64 = 1e-4;
 /// Configurations that are judged side by side.
 const BATCH: usize = 512;
@@ -23,7 +23,7 @@ pub type Box3 = [Vector; 2];
 /// What a configuration must meet.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Constraints {
-    /// Distance from the joint limits, radians. Room for the approach stands beside it.
+    /// Distance from the joint limits, radians. Room for the approach comes in addition.
     pub margin_rad: f64,
     /// Every joint arrives from so far below, radians; 0 without such an approach.
     pub approach_rad: f64,
@@ -155,7 +155,7 @@ impl<'a> Guard<'a> {
 
     /// Whether the boxes are kept everywhere on a move of the joints at constant rates, guaranteed
     /// by how fast the points move: no breach can be between two places that have more room
-    /// together than the way between them is long.
+    /// together than the path between them is long.
     #[must_use]
     pub fn keeps(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
         let at = |s: f64| self.room_m(&std::array::from_fn(|i| from[i] + s * (to[i] - from[i])));

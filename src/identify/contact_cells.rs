@@ -77,7 +77,7 @@ impl Cells<'_> {
             &DISTANCE_COLUMNS,
         ];
         if others.iter().any(|columns| !self.is_empty(columns)) {
-            let found = format!("`{text}` beside a position or a distance");
+            let found = format!("`{text}` next to a position or a distance");
             return Err(self.not_allowed("contact", found, "alone in its row"));
         }
         let Some(feature) = self.text("feature") else {

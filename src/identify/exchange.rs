@@ -1,6 +1,6 @@
 //! The exchange of configurations for better ones, by updates of a determinant.
 //!
-//! A pass over all candidates finds those that tell most beside the set; exchanges are then made
+//! A pass over all candidates finds those that add most to the set; exchanges are then made
 //! among these few alone, until none of them is worth one, and a pass over all of them follows.
 
 mod lanes;
@@ -31,7 +31,7 @@ pub(super) struct Chooser<'a> {
     arch: Arch,
 }
 
-/// A set and the candidates that tell most beside it.
+/// A set and the candidates that add most to it.
 struct Shortlist {
     /// The set first.
     indices: Vec<usize>,
@@ -172,7 +172,7 @@ impl<'a> Chooser<'a> {
         });
     }
 
-    /// A set improved by exchanges until none of the candidates that tell most beside it is worth
+    /// A set improved by exchanges until none of the candidates that add most to it is worth
     /// one.
     pub(super) fn improve(&self, mut set: Vec<usize>, tried: usize) -> Improved {
         let mut exchanges = 0;

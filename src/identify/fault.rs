@@ -1,6 +1,6 @@
 //! What can be wrong with a file of measurements, and where.
 
-use super::doubt::csv::NotCsv;
+use super::input_checks::csv::NotCsv;
 use super::table::{is_of_format, proposal};
 use crate::nearest;
 
@@ -198,12 +198,12 @@ mod tests {
             ("1,2,3,1,1e13", "temperature_c", "1e12"),
         ] {
             let error = fault(&format!("1,2,3,4,5,6,{row}"));
-            let told = error.to_string();
+            let text = error.to_string();
             assert_eq!(error.line, 2, "{row}");
-            assert!(told.contains(column) && told.contains(limit), "{told}");
+            assert!(text.contains(column) && text.contains(limit), "{text}");
         }
-        let told = fault("1,2,3,-1e300,5,6,1,2,3,1,20").to_string();
-        assert!(told.contains("q4_deg: -1e300 is beyond"), "{told}");
+        let text = fault("1,2,3,-1e300,5,6,1,2,3,1,20").to_string();
+        assert!(text.contains("q4_deg: -1e300 is beyond"), "{text}");
         // micrometres of a tracker far away
         assert!(read("1,2,3,4,5,6,9e7,2,3,1,20").is_ok());
     }

@@ -41,7 +41,7 @@ pub struct Identifiable {
 /// Finds redundant columns in the order of the parameters, earlier ones are kept: a Cholesky
 /// factorisation of the scaled normal matrix that leaves out every column whose pivot vanishes.
 /// With the residuals' size `noise` in standard deviations, those are left out as well, the least
-/// known first, whose standard deviation beside all that is kept would be more than [`WEAK`]
+/// known first, whose standard deviation besides all that is kept would be more than [`WEAK`]
 /// typical sizes.
 ///
 /// A pivot is the squared part of a column that earlier ones leave; rounding is some 1e-14 of it,

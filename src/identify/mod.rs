@@ -1,9 +1,9 @@
 //! From measurements to a robot's parameters, with honest uncertainty.
 //!
-//! The data flow: [`measurements`] are read and doubted ([`doubt`], as is what is made of them);
-//! [`start`] finds the base in closed form; [`problem`] makes rows that [`observation`] compares
-//! with a model; [`normal`] gathers normal equations in one pass; [`identifiability`] says which
-//! parameters they determine; [`solver`] finds these, [`uncertainty`] and [`statistics`] say
+//! The data flow: [`measurements`] are read and checked ([`input_checks`], as is what is made of
+//! them); [`start`] finds the base in closed form; [`problem`] makes rows that [`observation`]
+//! compares with a model; [`normal`] gathers normal equations in one pass; [`identifiability`] says
+//! which parameters they determine; [`solver`] finds these, [`uncertainty`] and [`statistics`] say
 //! what they are worth. [`calibrate`] is all of it; [`validation`] judges, [`plan`] chooses what to
 //! measure, [`simulate`] makes the truth that tests find again.
 //!
@@ -50,13 +50,13 @@ pub mod calibration;
 mod candidates;
 pub mod contact;
 mod contact_cells;
-pub mod doubt;
 mod error;
 mod exchange;
 pub mod expectation;
 pub mod external;
 mod fault;
 mod imagined;
+pub mod input_checks;
 mod line;
 mod pairs;
 mod reading;

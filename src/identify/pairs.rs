@@ -153,7 +153,7 @@ impl WithSimd for PairKernel<'_> {
                 let (xs, _) = S::as_simd_f32s(&cloud.sums[0][start..end]);
                 let (ys, _) = S::as_simd_f32s(&cloud.sums[1][start..end]);
                 let (zs, tail) = S::as_simd_f32s(&cloud.sums[2][start..end]);
-                let (mut sum, mut squares, mut most, mut doubt) = (zero, zero, zero, zero);
+                let (mut sum, mut squares, mut most, mut uncertain) = (zero, zero, zero, zero);
                 let mut nearest = simd.splat_f32s(f32::MAX);
                 let gaps = us.iter().zip(vs).zip(ws);
                 for (((&u, &v), &w), ((&x, &y), &z)) in gaps.zip(xs.iter().zip(ys).zip(zs)) {
@@ -181,14 +181,14 @@ impl WithSimd for PairKernel<'_> {
                     let near = simd.mul_f32s(across, inverse);
                     let part = simd.mul_f32s(near, inverse);
                     let part = simd.mul_f32s(part, part);
-                    doubt = simd.max_f32s(doubt, part);
+                    uncertain = simd.max_f32s(uncertain, part);
                     let near = simd.abs_f32s(near);
                     let error = simd.mul_add_e_f32s(near, simd.mul_f32s(half, part), near);
                     sum = simd.add_f32s(sum, error);
                     squares = simd.mul_add_e_f32s(error, error, squares);
                     most = simd.max_f32s(most, error);
                 }
-                let clear = simd.reduce_max_f32s(doubt) < LARGE
+                let clear = simd.reduce_max_f32s(uncertain) < LARGE
                     && simd.reduce_min_f32s(nearest) > cloud.near;
                 if clear {
                     total.sum += f64::from(simd.reduce_sum_f32s(sum));

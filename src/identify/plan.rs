@@ -93,7 +93,7 @@ pub fn plan(
     plan_telling(profile, tool, selection, request, &|_| true, &mut |_, _| ())
 }
 
-/// As [`plan`]; configurations that are not `admitted`, with the way from where they are
+/// As [`plan`]; configurations that are not `admitted`, with the path from where they are
 /// approached, are not drawn; `tell` hears how many of how many starts are done.
 ///
 /// # Errors

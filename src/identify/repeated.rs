@@ -81,16 +81,16 @@ fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
 
 /// The directions that the joints of some rows arrived in, one word a row; `None` of a row that
 /// does not tell them. A joint that no row tells of does not matter.
-fn ways(measurements: &Measurements, rows: &[usize]) -> Vec<Option<Vec<bool>>> {
+fn directions_of(measurements: &Measurements, rows: &[usize]) -> Vec<Option<Vec<bool>>> {
     let direction = |row: &usize| measurements.rows[*row].conditions.direction;
-    let told: Vec<usize> = (0..6)
+    let given: Vec<usize> = (0..6)
         .filter(|k| rows.iter().any(|row| direction(row)[*k] != 0.0))
         .collect();
     rows.iter()
         .map(|row| {
             let direction = direction(row);
-            let known = !told.is_empty() && told.iter().all(|k| direction[*k] != 0.0);
-            known.then(|| told.iter().map(|k| direction[*k] > 0.0).collect())
+            let known = !given.is_empty() && given.iter().all(|k| direction[*k] != 0.0);
+            known.then(|| given.iter().map(|k| direction[*k] > 0.0).collect())
         })
         .collect()
 }
@@ -110,9 +110,9 @@ pub(super) fn repeated(measurements: &Measurements, misses: [&[Miss]; 2]) -> Vec
             let about: Vec<f64> = gaps.iter().map(|g| norm(sub(*g, middle))).collect();
             let spread = Spread::of(&about).expect("at least three rows");
             let mut directions: BTreeMap<Vec<bool>, Vec<Vector>> = BTreeMap::new();
-            for (way, gap) in ways(measurements, rows).into_iter().zip(&gaps) {
-                if let Some(way) = way {
-                    directions.entry(way).or_default().push(*gap);
+            for (direction, gap) in directions_of(measurements, rows).into_iter().zip(&gaps) {
+                if let Some(direction) = direction {
+                    directions.entry(direction).or_default().push(*gap);
                 }
             }
             let means: Vec<Vector> = directions.values().map(|g| mean(g)).collect();

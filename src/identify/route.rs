@@ -38,7 +38,7 @@ pub fn order(
         for _ in 0..REPAIRS {
             over = put_between(&mut order, over, &mut leads);
         }
-        // what no move leads to comes last, and is told
+        // what no move leads to comes last, and is reported
         let missed = over.len();
         order.extend(over);
         if best.as_ref().is_none_or(|(least, _)| missed < *least) {
@@ -62,9 +62,9 @@ const TUCKED: [&[usize]; 7] = [
     &[1],
 ];
 
-/// Poses to go over from one place to another, as few as do, where the straight way of the joints
+/// Poses to go over from one place to another, as few as do, where the straight path of the joints
 /// is not free: with some joints of either end at `home`, or over some of `others`. None where the
-/// straight way is free, or where nothing helps.
+/// straight path is free, or where nothing helps.
 #[must_use]
 pub fn detour(
     from: &[f64; 6],

@@ -4,8 +4,8 @@ pub use super::repeated::{Repeated, RepeatedDistance};
 
 use super::calibration::{begin, begin_frames};
 use super::contact;
-use super::doubt::{self, Remark};
 use super::error::IdentifyError;
+use super::input_checks::{self, Remark};
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
@@ -20,7 +20,7 @@ use crate::model::effects::Kind;
 use crate::model::profile::Profile;
 use std::collections::BTreeMap;
 
-/// Regions of distance from the middle of the calibration that errors are told by.
+/// Regions of distance from the middle of the calibration that errors are reported by.
 pub const REGIONS: usize = 5;
 
 /// One model on the measurements.
@@ -59,7 +59,7 @@ pub enum Refit {
 impl Refit {
     /// A sentence that says it.
     #[must_use]
-    pub fn told(self) -> Option<&'static str> {
+    pub fn note(self) -> Option<&'static str> {
         match self {
             Self::No => None,
             Self::Judged => Some(
@@ -174,7 +174,7 @@ pub fn validate_telling(
             hint: "with --refit-frames base and points are fitted to these rows first".into(),
         });
     }
-    let mut remarks = doubt::validation::before(profile, measurements, refit)?;
+    let mut remarks = input_checks::validation::before(profile, measurements, refit)?;
     let controller = controller_profile(profile);
     let at_rest = |profile: &Profile| {
         Problem::new(profile, measurements, &selection, profile.world_from_base)
@@ -228,7 +228,7 @@ pub fn validate_telling(
         Refit::No => judged(&controller_problem.with_rows(is_judged), &nominal),
         Refit::Judged | Refit::Others => frames_only.clone(),
     };
-    remarks.extend(doubt::validation::after(
+    remarks.extend(input_checks::validation::after(
         &judged_real.quality,
         &frames_only.quality,
         given.then_some(normalised),

@@ -2,8 +2,8 @@
 //!
 //! Levenberg–Marquardt: `(Jᵀ J + λ D) δq = Jᵀ e` with the six components of the missing motion `e`,
 //! the Jacobian from dual numbers, and λ raised until the error falls. Near an aligned wrist or a
-//! stretched elbow the first posture may be on the wrong side of a ridge, so a few starts beside it
-//! are tried, all on the wanted branch.
+//! stretched elbow the first posture may be on the wrong side of a ridge, so a few starts next to
+//! it are tried, all on the wanted branch.
 //!
 //! # Source
 //! D. W. Marquardt, J. SIAM 11 (1963); S. R. Buss, "Introduction to inverse kinematics" (2004) for
@@ -82,7 +82,7 @@ pub(super) fn held(inverse: &Inverse, wanted: &Pose, near: &[f64; 6], joint: usi
     descend(&real.cast(), conditions, wanted, near, Some(joint))
 }
 
-/// Searches from the given start and the nominal solution, then from starts beside the
+/// Searches from the given start and the nominal solution, then from starts besides the
 /// singularities that these are near to, until one ends at `wanted` on `branch`.
 pub(super) fn solve(
     inverse: &Inverse,
@@ -105,7 +105,7 @@ pub(super) fn solve(
     let real = real.cast();
     let (first, then) = (
         [*start, *nominal],
-        beside_singularities(arm, wanted, branch, near, *nominal),
+        near_singularities(arm, wanted, branch, near, *nominal),
     );
     for (number, q) in first.into_iter().chain(then).enumerate() {
         if spent > MOST_EVALUATIONS {
@@ -139,8 +139,8 @@ pub(super) fn solve(
     }
 }
 
-/// Postures beside each singularity that `nominal` is near to, on the wanted branch.
-fn beside_singularities(
+/// Postures besides each singularity that `nominal` is near to, on the wanted branch.
+fn near_singularities(
     arm: &Arm,
     wanted: &Pose,
     branch: Branch,
@@ -174,7 +174,7 @@ fn beside_singularities(
         steps
             .iter()
             .flat_map(move |&by| turned(by))
-            .map(move |(by, turn)| beside(arm, &q, branch, by, turn))
+            .map(move |(by, turn)| near_singularity(arm, &q, branch, by, turn))
     };
     around
         .clone()
@@ -182,8 +182,8 @@ fn beside_singularities(
         .chain(around.flat_map(aside))
 }
 
-/// A posture beside the singularities that `q` is near to, on the wanted side of each.
-fn beside(arm: &Arm, q: &[f64; 6], branch: Branch, by: f64, turn: f64) -> [f64; 6] {
+/// A posture near the singularities that `q` is near to, on the wanted side of each.
+fn near_singularity(arm: &Arm, q: &[f64; 6], branch: Branch, by: f64, turn: f64) -> [f64; 6] {
     let mut q = *q;
     let Margins {
         wrist_rad,

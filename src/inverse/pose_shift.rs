@@ -182,7 +182,7 @@ impl Inverse {
             {
                 outcome
             }
-            Shifted::Landed(outcome) => self.beside(wanted, branch, near, outcome),
+            Shifted::Landed(outcome) => self.nearest(wanted, branch, near, outcome),
             Shifted::Stalled(step, spent) => {
                 self.solve_stalled(methods, wanted, branch, near, &step, spent)
             }
@@ -315,7 +315,13 @@ impl Inverse {
 
     /// A target that the pose shift reaches only beyond the limits or on another branch: where the
     /// posture near it is close to the target, Newton's method from there may stay within.
-    fn beside(&self, wanted: &Pose, branch: Branch, near: &[f64; 6], by_shift: Outcome) -> Outcome {
+    fn nearest(
+        &self,
+        wanted: &Pose,
+        branch: Branch,
+        near: &[f64; 6],
+        by_shift: Outcome,
+    ) -> Outcome {
         let Some(found) = newton::from_near(self, wanted, near) else {
             return by_shift;
         };

@@ -10,8 +10,8 @@ use crate::geometry::{Pose, Rotation, add, scale, sub, wrap};
 const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 1024.0];
 /// A joint turns by less than this in one step, radians.
 const MOST_STEP_RAD: f64 = 0.35;
-/// Nearer to a fold than this, radians, two answers cannot be told apart on the path: they are some
-/// three degrees apart.
+/// Nearer to a fold than this, radians, two answers cannot be distinguished on the path: they are
+/// some three degrees apart.
 const NEAR_FOLD_RAD: f64 = 0.02;
 
 /// A path on which the track of a posture ends.

@@ -21,7 +21,7 @@ pub struct ClassicRow {
 
 /// `before · Π Rz(θi + qi) · Tz(di) · Tx(ai) · Rx(αi)`, exactly the chain of rows with β: where β
 /// is not zero, the row goes over the common normal of the two axes. That of nearly parallel axes
-/// lies far away; the d of the rows beside it are large and cancel, as in the factory calibrations
+/// lies far away; the d of the rows next to it are large and cancel, as in the factory calibrations
 /// of Universal Robots.
 ///
 /// # Source
@@ -79,7 +79,7 @@ fn step(row: &Link) -> Step {
     if sine < PARALLEL_SINE {
         return plain;
     }
-    // along the normal as x points where that can be told
+    // along the normal as x points where that can be known
     let side = if out[0] < 0.0 { -1.0 } else { 1.0 };
     let normal = scale(side / sine, out);
     let between = [row.a_m, 0.0, 0.0];

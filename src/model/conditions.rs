@@ -1,4 +1,4 @@
-//! What, beside the joint angles, decides where the tool is.
+//! What, besides the joint angles, decides where the tool is.
 
 use crate::geometry::Vector;
 

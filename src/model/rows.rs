@@ -27,7 +27,7 @@ pub struct Axes {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RowsError {
     /// The first axis does not cross the x axis of the base.
-    #[error("axis 1 passes {distance_mm:.6} mm beside the x axis of the base")]
+    #[error("axis 1 passes {distance_mm:.6} mm from the x axis of the base")]
     FirstAxis {
         /// By how much.
         distance_mm: f64,
@@ -107,10 +107,10 @@ impl Axes {
         }
         let mut links = *nominal;
         // axis 1: there is no row before it that could take up a turn or a shift
-        let (mut at, beside) = crossing(&self.steps[0], 0.0);
-        if beside.abs() > TOLERANCE {
+        let (mut at, offset) = crossing(&self.steps[0], 0.0);
+        if offset.abs() > TOLERANCE {
             return Err(RowsError::FirstAxis {
-                distance_mm: mm_from_m(beside),
+                distance_mm: mm_from_m(offset),
             });
         }
         take(&mut links[0], &at);
@@ -166,7 +166,7 @@ impl Crossing {
     }
 }
 
-/// The crossing whose z axis has the direction of this frame's, and how far beside the x axis the
+/// The crossing whose z axis has the direction of this frame's, and how far from the x axis the
 /// line passes at height z.
 fn crossing(axis: &Pose, z: f64) -> (Crossing, f64) {
     let [x, y, along] = axis.rotation.axis(2);

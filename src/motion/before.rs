@@ -7,9 +7,9 @@ use foldhash::{HashMap, HashMapExt};
 pub(super) type Stop = u32;
 /// Where the robot stands when the program starts.
 pub(super) const START: Stop = u32::MAX - 1;
-/// Anywhere: more moves than are told apart, or an event.
+/// Anywhere: more moves than are distinguished, or an event.
 pub(super) const ANYWHERE: Stop = u32::MAX;
-/// Moves that are told apart.
+/// Moves that are distinguished.
 const MOST: usize = 64;
 
 /// A set of stops, an index of [`Sets`].

@@ -24,7 +24,7 @@ pub(super) const STANDSTILL_RAD_M: f64 = 1e-3;
 /// What the search for joints leaves, radians.
 const SLACK_RAD: f64 = 1e-8;
 
-/// How a straight or circular move turns the tool on its way.
+/// How a straight or circular move rotates the tool on its path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Turning {
     /// About one axis at a constant rate (quaternion slerp, two-angle method).
@@ -85,7 +85,7 @@ enum Turn {
 }
 
 impl ToolCourse {
-    /// The straight way, or the arc through a point; on what external axes carry meanwhile where
+    /// The straight line, or the arc through a point; on what external axes carry meanwhile where
     /// they bend it.
     #[must_use]
     pub(crate) fn of(
@@ -103,7 +103,7 @@ impl ToolCourse {
         };
         let (from, to) = (on_part(from, 0.0), on_part(to, 1.0));
         let course = match via {
-            // half way, as far as anybody knows
+            // halfway, as far as anybody knows
             Some(via) => Self::arc(&from, on_part(via, 0.5).translation, &to, turning),
             None => Self::straight(&from, &to, turning),
         };
@@ -420,7 +420,7 @@ impl Leg<'_> {
                 } else {
                     let middle_pose = course.pose(0.5 * (from + to));
                     let nominal = arm.solve_along(&middle_pose, self.branch, middle).q;
-                    std::array::from_fn(|i| beside(enclosed[i], middle[i] - nominal[i]))
+                    std::array::from_fn(|i| shifted(enclosed[i], middle[i] - nominal[i]))
                 };
                 (joints, exact)
             }
@@ -530,7 +530,7 @@ fn each_side(piece: &Piece, sides: &[Vec<f64>; 6], out: &mut Vec<Piece>) {
 
 /// Bounds of a joint of a controller whose own chain is calibrated: those of the nominal one,
 /// shifted and widened. Its chain differs by thousandths; the widening is ten times that.
-fn beside(nominal: Jet, by: f64) -> Jet {
+fn shifted(nominal: Jet, by: f64) -> Jet {
     let mut joint = nominal + Jet::constant(by);
     joint.value.radius += 0.5 * by.abs();
     joint.slope.radius += 0.05 * nominal.slope.magnitude();

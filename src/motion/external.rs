@@ -160,7 +160,7 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
     own
 }
 
-/// What the program does to external axes beside the target of a move.
+/// What the program does to external axes besides the target of a move.
 fn state_of(program: &Program, motion: &Move) -> ExternalState {
     let at = (motion.external_state as usize).checked_sub(1);
     at.map_or_else(ExternalState::default, |at| program.external_states[at])

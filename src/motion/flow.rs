@@ -20,7 +20,7 @@ use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
-/// Calls inside calls that are told apart.
+/// Calls inside calls that are distinguished.
 const DEEPEST: u32 = 6;
 /// Statements of all instances of routines: so many times those of the script, and so many more.
 const MOST_TIMES: usize = 3;
@@ -163,10 +163,10 @@ pub(super) struct Flow<'a> {
     /// Where variables are written in routines that nothing in the files calls.
     pub by_operator: Vec<(VariableId, Site)>,
     is_concurrent: bool,
-    /// With what routines are started beside others.
+    /// With what routines are started concurrently with others.
     started: HashMap<RoutineId, State>,
     /// What those that start others write, by variable.
-    beside: HashMap<VariableId, Holding>,
+    concurrent: HashMap<VariableId, Holding>,
     /// The instance whose text is gone through that nothing reaches.
     dead: Option<u32>,
 }
@@ -213,14 +213,14 @@ impl<'a> Flow<'a> {
             by_operator: Vec::new(),
             is_concurrent: false,
             started: HashMap::new(),
-            beside: HashMap::new(),
+            concurrent: HashMap::new(),
             dead: None,
         };
         flow.track();
         for _ in 0..MOST_ROUNDS {
             let before = (
                 flow.started.clone(),
-                flow.beside.clone(),
+                flow.concurrent.clone(),
                 flow.anytime.clone(),
             );
             flow.forget();
@@ -230,7 +230,7 @@ impl<'a> Flow<'a> {
                 || before
                     == (
                         flow.started.clone(),
-                        flow.beside.clone(),
+                        flow.concurrent.clone(),
                         flow.anytime.clone(),
                     )
             {
@@ -287,7 +287,7 @@ impl<'a> Flow<'a> {
                         }
                     }
                     if call.foreign {
-                        // shared variables are in doubt behind it
+                        // shared variables are uncertain behind it
                         for (variable, _) in script
                             .variables
                             .iter()
@@ -420,7 +420,7 @@ impl<'a> Flow<'a> {
                                 DISPLACED_SOMEHOW
                             },
                         },
-                        // beside where the robot itself was nothing is as it is
+                        // except where the robot itself was, nothing is as it is
                         Atom::Value(value) if *self.value(value) == Held::Actual => Atom::Anything,
                         other => other,
                     };
@@ -490,9 +490,9 @@ impl<'a> Flow<'a> {
             let joined = self.holdings.join(before, holding);
             self.anytime.insert(variable, joined);
         } else if !self.started.is_empty() {
-            let before = self.beside.get(&variable).copied().unwrap_or(NOTHING);
+            let before = self.concurrent.get(&variable).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);
-            self.beside.insert(variable, joined);
+            self.concurrent.insert(variable, joined);
         }
         if let Some(slot) = self.slots[variable as usize]
             && state.holds[slot as usize] != holding
@@ -674,7 +674,7 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// Nothing is told apart any more: everything that is written is unknown.
+    /// Nothing is distinguished any more: everything that is written is unknown.
     fn give_up(&mut self) {
         self.work.clear();
         self.chosen.clear();
@@ -1088,7 +1088,7 @@ impl<'a> Flow<'a> {
     // ---- calls
 
     /// What a call itself does before it goes anywhere: arguments are given away, what is shared is
-    /// in doubt.
+    /// uncertain.
     fn call(&mut self, instance: u32, call: &Call, site: Site, state: &mut State) {
         let _ = instance;
         if !call.foreign {
@@ -1107,14 +1107,14 @@ impl<'a> Flow<'a> {
                 self.set(state, variable, changed);
             }
         }
-        let doubt = self.holdings.one(Atom::Doubt, site);
+        let uncertain = self.holdings.one(Atom::Uncertain, site);
         for variable in 0..self.script.variables.len() {
             if self.script.variables[variable].shared
                 && let Some(slot) = self.slots[variable]
             {
                 let held = state.holds[slot as usize];
-                let doubted = self.holdings.join(held, doubt);
-                Rc::make_mut(&mut state.holds)[slot as usize] = doubted;
+                let joined = self.holdings.join(held, uncertain);
+                Rc::make_mut(&mut state.holds)[slot as usize] = joined;
             }
         }
     }
@@ -1162,7 +1162,7 @@ impl<'a> Flow<'a> {
         entry
     }
 
-    /// Notes with what routines are started that then run beside the others.
+    /// Notes with what routines are started that then run concurrently with the others.
     fn start(&mut self, call: &Call, site: Site, state: &State) {
         for &routine in &*call.callees {
             let mut entry = self.entry_of(call, routine, site, state);
@@ -1255,7 +1255,7 @@ impl<'a> Flow<'a> {
             let declared = self.declared_state(ANYWHERE);
             for &routine in &concurrent {
                 let state = match self.started.get(&routine).cloned() {
-                    Some(state) => self.with_beside(state),
+                    Some(state) => self.with_concurrent(state),
                     // nothing has been seen to start it yet
                     None if by_others[routine as usize] => continue,
                     None => declared.clone(),
@@ -1272,9 +1272,9 @@ impl<'a> Flow<'a> {
     }
 
     /// A state in which all that others write meanwhile may hold.
-    fn with_beside(&mut self, mut state: State) -> State {
+    fn with_concurrent(&mut self, mut state: State) -> State {
         let mut holds = state.holds.to_vec();
-        for (variable, &written) in &self.beside {
+        for (variable, &written) in &self.concurrent {
             if let Some(slot) = self.slots[*variable as usize] {
                 let slot = slot as usize;
                 holds[slot] = self.holdings.join(holds[slot], written);

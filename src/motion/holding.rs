@@ -22,16 +22,16 @@ pub(super) enum Atom {
     Value(ValueId),
     /// Only the running program knows.
     Unknown(RemarkId),
-    /// More than are told apart, or what a routine wrote that is not in the files.
+    /// More than are kept apart, or what a routine wrote that is not in the files.
     Anything,
     /// A routine that is not in the files may have set something else since.
-    Doubt,
+    Uncertain,
 }
 
-/// Values that are told apart.
+/// Values that are distinguished.
 const MOST_VALUES: usize = 4;
-/// Positions with numbers in the files that are told apart: a routine may be called for each of an
-/// array.
+/// Positions with numbers in the files that are distinguished: a routine may be called for each of
+/// an array.
 const MOST_TARGETS: usize = 64;
 
 /// What a variable may hold, each with the write that put it there; by [`Atom`], an index of
@@ -56,7 +56,7 @@ pub(super) struct Holdings {
     /// Holdings of several.
     several: HashMap<Box<[(Atom, Site)]>, u32>,
     joins: HashMap<(u32, u32), u32>,
-    /// Targets of holdings with more than are told apart.
+    /// Targets of holdings with more than are distinguished.
     pub lost: HashSet<u32>,
 }
 
@@ -117,11 +117,11 @@ impl Holdings {
         atoms.dedup_by_key(|(atom, _)| *atom);
         let is_target = |atom: &Atom| matches!(atom, Atom::Target { .. } | Atom::Changed { .. });
         let targets = atoms.iter().filter(|(atom, _)| is_target(atom)).count();
-        let doubts = atoms
+        let uncertain = atoms
             .iter()
-            .filter(|(atom, _)| *atom == Atom::Doubt)
+            .filter(|(atom, _)| *atom == Atom::Uncertain)
             .count();
-        if targets > MOST_TARGETS || atoms.len() - targets - doubts > MOST_VALUES {
+        if targets > MOST_TARGETS || atoms.len() - targets - uncertain > MOST_VALUES {
             let site = atoms.iter().map(|(_, site)| *site).min();
             atoms.push((Atom::Anything, site.unwrap_or(DECLARED)));
         }
@@ -147,7 +147,7 @@ impl Holdings {
         Holding(id)
     }
 
-    /// Nothing is told apart any more.
+    /// Nothing is distinguished any more.
     pub(super) fn lose_all(&mut self) {
         self.lost.extend(targets_of(&self.atoms));
     }
@@ -197,14 +197,14 @@ mod tests {
     }
 
     #[test]
-    fn more_than_four_are_not_told_apart() {
+    fn more_than_four_are_not_distinguished() {
         let mut all = Holdings::new();
         let many = all.intern((0..5).map(|i| (Atom::Value(i), i)).collect());
         assert_eq!(all.of(many), [(Atom::Anything, 0)]);
     }
 
     #[test]
-    fn targets_stay_beside_what_is_not_known_and_are_kept_in_mind_where_they_are_too_many() {
+    fn targets_stay_next_to_what_is_not_known_and_are_kept_in_mind_where_they_are_too_many() {
         let mut all = Holdings::new();
         let target = |target| Atom::Target {
             target,

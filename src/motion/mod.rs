@@ -26,11 +26,11 @@
 pub(crate) mod arms;
 mod before;
 pub(crate) mod course;
-pub(crate) mod doubt;
 pub(crate) mod external;
 mod flow;
 pub(crate) mod ground;
 mod holding;
+pub(crate) mod plausibility;
 mod posture;
 mod readers;
 mod resolve;

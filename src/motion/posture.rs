@@ -153,8 +153,8 @@ fn with_kept(asked: &Asked) -> Configuration {
         return all;
     };
     let before = asked.arm.posture(&start).0;
-    let keep = |told: &mut Option<bool>, kept: bool, before: bool| {
-        *told = told.or(kept.then_some(before));
+    let keep = |stated: &mut Option<bool>, kept: bool, before: bool| {
+        *stated = stated.or(kept.then_some(before));
     };
     keep(&mut all.behind_axis_1, all.kept[0], before.behind_axis_1);
     keep(

@@ -52,7 +52,7 @@ pub(super) fn resolve(
         as_written: Vec::new(),
         changed: Vec::new(),
         as_frames: HashMap::new(),
-        doubted: Vec::new(),
+        uncertain: Vec::new(),
         choices: Vec::new(),
         stops: Vec::new(),
         full: false,
@@ -61,7 +61,7 @@ pub(super) fn resolve(
     resolver.as_written.clone_from(&resolver.used);
     resolver.list()?;
     resolver.link();
-    resolver.judge_doubts();
+    resolver.judge_uncertain();
     resolver.judge_targets();
     resolver.report.finish();
     drop(resolver);
@@ -98,9 +98,9 @@ struct Resolver<'a, 'p> {
     changed: Vec<(TargetId, Option<Place>)>,
     /// Targets that are tools or frames, and where.
     as_frames: HashMap<TargetId, Place>,
-    /// Moves whose tool, frame or mode is in doubt: target, the call, and whether it is the tool
+    /// Moves whose tool, frame or mode is uncertain: target, the call, and whether it is the tool
     /// alone.
-    doubted: Vec<(TargetId, Site, bool)>,
+    uncertain: Vec<(TargetId, Site, bool)>,
     /// What [`Flow::modes`] mean, as far as moves have asked.
     choices: Vec<Option<Rc<Choices>>>,
     /// Moves of each stop.
@@ -119,8 +119,8 @@ struct Choices {
     configured: Vec<bool>,
     /// A flag of the controller leaves the orientation free on the path.
     free_orientation: bool,
-    /// The call that leaves tool, frame or mode in doubt, and whether it is the tool alone.
-    doubts: Option<(Site, bool)>,
+    /// The call that leaves tool, frame or mode uncertain, and whether it is the tool alone.
+    uncertainty: Option<(Site, bool)>,
 }
 
 impl Resolver<'_, '_> {
@@ -167,7 +167,7 @@ impl Resolver<'_, '_> {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
             Some(held) => {
                 let atoms = self.flow.holdings.of(held).iter();
-                if atoms.filter(|(atom, _)| *atom != Atom::Doubt).count() == 0 {
+                if atoms.filter(|(atom, _)| *atom != Atom::Uncertain).count() == 0 {
                     // nothing that runs before writes it
                     self.computed(instruction.place);
                 }
@@ -189,12 +189,12 @@ impl Resolver<'_, '_> {
         let mut choices = Choices {
             configured: self.flags(modes.configured),
             free_orientation: self.flags(modes.wrist).contains(&true),
-            doubts: self.doubts(&modes),
+            uncertainty: self.uncertainty(&modes),
             ..Choices::default()
         };
         let loads = self.loads(modes.load);
         for (atom, site) in self.atoms(modes.tool) {
-            if atom == Atom::Doubt {
+            if atom == Atom::Uncertain {
                 continue;
             }
             for &load in &loads {
@@ -205,7 +205,7 @@ impl Resolver<'_, '_> {
             }
         }
         for (atom, site) in self.atoms(modes.frame) {
-            if atom == Atom::Doubt {
+            if atom == Atom::Uncertain {
                 continue;
             }
             match self.frame(atom)? {
@@ -228,7 +228,7 @@ impl Resolver<'_, '_> {
     /// What a holding may be; where nothing is known that is one thing, too.
     fn atoms(&self, holding: Holding) -> Vec<(Atom, Site)> {
         let atoms = self.flow.holdings.of(holding);
-        if atoms.iter().all(|(atom, _)| *atom == Atom::Doubt) {
+        if atoms.iter().all(|(atom, _)| *atom == Atom::Uncertain) {
             let mut all = vec![(Atom::Value(ValueId::MAX), DECLARED)];
             all.extend_from_slice(atoms);
             return all;
@@ -242,12 +242,12 @@ impl Resolver<'_, '_> {
         place.filter(|place| *place != instruction.place)
     }
 
-    /// The call that leaves tool, frame or mode in doubt, and whether it is the tool alone.
-    fn doubts(&self, modes: &Modes) -> Option<(Site, bool)> {
+    /// The call that leaves tool, frame or mode uncertain, and whether it is the tool alone.
+    fn uncertainty(&self, modes: &Modes) -> Option<(Site, bool)> {
         let of = |holding: Holding| {
             let atoms = self.flow.holdings.of(holding).iter();
             atoms
-                .filter(|(atom, _)| *atom == Atom::Doubt)
+                .filter(|(atom, _)| *atom == Atom::Uncertain)
                 .map(|(_, site)| *site)
                 .next()
         };
@@ -319,7 +319,7 @@ impl Resolver<'_, '_> {
         let mut loads: Vec<Option<ValueId>> = loads
             .filter_map(|(atom, _)| match atom {
                 Atom::Value(value) => Some(Some(*value)),
-                Atom::Doubt => None,
+                Atom::Uncertain => None,
                 _ => Some(None),
             })
             .collect();
@@ -338,7 +338,7 @@ impl Resolver<'_, '_> {
                     Held::Flag(flag) => Some(*flag),
                     _ => None,
                 },
-                Atom::Doubt => continue,
+                Atom::Uncertain => continue,
                 _ => None,
             };
             let both = [true, false];
@@ -404,7 +404,7 @@ impl Resolver<'_, '_> {
                 target,
                 displacement: NOT_DISPLACED,
             } => self.target_as_frame(target as usize),
-            Atom::Target { .. } | Atom::Changed { .. } | Atom::Anything | Atom::Doubt => {
+            Atom::Target { .. } | Atom::Changed { .. } | Atom::Anything | Atom::Uncertain => {
                 Err(Refused::Chosen)
             }
             Atom::Unknown(remark) => Err(Refused::Said(remark)),
@@ -546,7 +546,7 @@ impl Resolver<'_, '_> {
                 self.changed.push((target as usize, because));
                 self.go_nowhere(listed);
             }
-            Atom::Value(ValueId::MAX) | Atom::Doubt => self.go_nowhere(listed),
+            Atom::Value(ValueId::MAX) | Atom::Uncertain => self.go_nowhere(listed),
             Atom::Value(value) => {
                 match self.flow.value(value) {
                     Held::Actual if displacement == NOT_DISPLACED => self.report.say(
@@ -610,8 +610,8 @@ impl Resolver<'_, '_> {
             self.report
                 .block(target, remark.id, &remark.text, remark.hint, because);
         }
-        if let Some((site, tool_alone)) = listed.choices.doubts {
-            self.doubted.push((target, site, tool_alone));
+        if let Some((site, tool_alone)) = listed.choices.uncertainty {
+            self.uncertain.push((target, site, tool_alone));
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
         let displacement = match self.script.displacements.get(displacement as usize) {
@@ -797,9 +797,9 @@ impl Resolver<'_, '_> {
 
     /// A routine that is not in the files may set another tool or frame: that matters where moves
     /// use more than one.
-    fn judge_doubts(&mut self) {
-        let doubted = std::mem::take(&mut self.doubted);
-        if doubted.is_empty() {
+    fn judge_uncertain(&mut self) {
+        let uncertain = std::mem::take(&mut self.uncertain);
+        if uncertain.is_empty() {
             return;
         }
         let program = &*self.report.program;
@@ -823,7 +823,7 @@ impl Resolver<'_, '_> {
             }
         }
         let (several_tools, several_frames) = (tools.len() > 1, frames.len() > 1);
-        for (target, site, tool_alone) in doubted {
+        for (target, site, tool_alone) in uncertain {
             if !several_tools && (tool_alone || !several_frames) {
                 continue;
             }
@@ -890,7 +890,7 @@ impl Resolver<'_, '_> {
             self.report.block(
                 target as usize,
                 "too-many-uses",
-                "a move may go to this and to so many other targets that they are not told apart",
+                "a move may go to this and to so many other targets that they are not distinguished",
                 "give fewer files in one call",
                 None,
             );
@@ -977,7 +977,7 @@ impl Resolver<'_, '_> {
     }
 }
 
-/// Moves of one stop that are told apart as predecessors.
+/// Moves of one stop that are distinguished as predecessors.
 const MOST_ALTERNATIVES: u32 = 16;
 
 /// Two displacements one after another.

@@ -30,7 +30,7 @@ pub struct Given {
 pub enum MeasuredFrameError {
     /// The program has another value.
     #[error(
-        "the program declares work frame `{name}` {distance_mm:.4} mm and {angle_deg:.5} deg beside the measured one"
+        "the program declares work frame `{name}` {distance_mm:.4} mm and {angle_deg:.5} deg from the measured one"
     )]
     Conflict {
         /// Its name.
@@ -275,11 +275,11 @@ pub(crate) fn block_unplaced(
 ) {
     let setting = Setting::of(language, program, profile, given);
     let mut blocked = Vec::new();
-    let mut told = std::collections::BTreeSet::new();
+    let mut reported = std::collections::BTreeSet::new();
     for motion in program.moves.iter().filter(|motion| needs(program, motion)) {
         for (what, name) in setting.unknown(program, motion) {
             blocked.extend(motion.target);
-            if told.insert((motion.file, what, name)) {
+            if reported.insert((motion.file, what, name)) {
                 let missing = Missing::at(&sources[motion.file as usize], motion, what, name);
                 let error = PlacementError {
                     missing: vec![missing],

@@ -26,7 +26,7 @@ const STANDSTILL_RAD: f64 = 1e-6;
 const MOST_JOINT_RAD: f64 = 1e5 * DEG;
 /// Numbers above this are written with an exponent.
 const READABLE: f64 = 1e6;
-/// Arrivals at one move that are told apart.
+/// Arrivals at one move that are distinguished.
 const MOST_ARRIVALS: usize = 64;
 /// Joints that differ by less are the same, radians.
 const SAME_RAD: f64 = 1e-7;
@@ -667,7 +667,7 @@ fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
 }
 
-/// A path that passes the wrist's singularity so near that the joints beside it would spin goes
+/// A path that passes the wrist's singularity so near that the joints next to it would spin goes
 /// through it: joint 5 changes its sign and nothing else moves much. `there` gives the joints
 /// behind it on a branch.
 fn through_wrist(

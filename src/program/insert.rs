@@ -41,7 +41,7 @@ pub type Replacements = Vec<(Range<usize>, Vec<u8>)>;
 pub struct Inserted {
     /// For each insertion its text; `None` where the move cannot be repeated.
     pub moves: Vec<Option<Replacements>>,
-    /// What the file needs beside them: positions that stand elsewhere, counts.
+    /// What the file needs besides them: positions that stand elsewhere, counts.
     pub rest: Replacements,
     /// What other files need, by their index in the sources.
     pub elsewhere: Vec<(usize, Replacements)>,

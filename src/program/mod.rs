@@ -141,7 +141,7 @@ pub struct ExternalNames {
     pub units: Vec<(String, u16)>,
 }
 
-/// What a program does to external axes beside its targets, while a move runs.
+/// What a program does to external axes besides its targets, while a move runs.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct ExternalState {
     /// What is added, in the units and the order of the language.
@@ -196,7 +196,7 @@ impl ExternalNames {
     }
 }
 
-/// What a language must know beside the files.
+/// What a language must know besides the files.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Settings {
     /// External axes that the profile describes.
@@ -250,7 +250,7 @@ pub struct Configuration {
     /// The range `[low, high)` of each of the controller's joint angles, radians.
     pub joints: [Option<(f64, f64)>; 6],
     /// Which of the three sides above, in their order, are those of the posture before where they
-    /// are not told.
+    /// are not stated.
     pub kept: [bool; 3],
 }
 
@@ -419,7 +419,7 @@ pub struct Move {
     pub tool_written: Option<Place>,
     /// Likewise its work frame.
     pub frame_written: Option<Place>,
-    /// What is done to external axes beside the target: from 1 an index in
+    /// What is done to external axes besides the target: from 1 an index in
     /// [`Program::external_states`], 0 is nothing.
     pub external_state: u32,
 }
@@ -497,7 +497,7 @@ pub struct Frame {
 pub const BASE_UNIT: &str = "the base";
 
 impl Frame {
-    /// Whether a mechanical unit beside the robot's own base carries it.
+    /// Whether a mechanical unit besides the robot's own base carries it.
     #[must_use]
     pub fn is_carried(&self) -> bool {
         self.on.first().is_some_and(|unit| **unit != *BASE_UNIT)
@@ -543,7 +543,7 @@ pub struct Program {
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by [`Move::instruction`]: they go before their targets.
     pub externals_of_moves: Vec<(u32, External)>,
-    /// What programs do to external axes beside their targets.
+    /// What programs do to external axes besides their targets.
     pub external_states: Vec<ExternalState>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,

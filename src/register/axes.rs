@@ -324,7 +324,7 @@ fn tangential(angles: &[f64], turned: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Backlash beside what compliance and eccentricity do smoothly: least squares of `o + (b/2) dir +
+/// Backlash besides what compliance and eccentricity do smoothly: least squares of `o + (b/2) dir +
 /// c cos q + s sin q`.
 fn backlash(sweep: &Sweep, left: &[f64], turned: &[f64]) -> Option<(f64, f64)> {
     let directions: Vec<f64> = sweep.rows.iter().map(|row| row.direction).collect();

@@ -83,7 +83,7 @@ pub struct Round {
     pub radius_sigma: f64,
 }
 
-/// Standard deviation of what is left of a fit of `parameters` numbers.
+/// Standard deviation of the residual of a fit of `parameters` numbers.
 #[must_use]
 pub fn noise_of(residuals_m: &[f64], parameters: usize) -> Option<f64> {
     let freedom = residuals_m

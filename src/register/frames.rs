@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 /// A point nearer to a line than this part of the line's length does not say which way a frame
 /// turns about it.
-const BESIDE: f64 = 1e-3;
+const NEAR_LINE: f64 = 1e-3;
 
 /// Why touches give no frame.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -24,8 +24,8 @@ pub enum FrameError {
         error: FeatureError,
     },
     /// A direction that is not determined.
-    #[error("{what}: {found_mm:.6} mm beside {of} (limit {limit_mm:.6} mm)")]
-    Beside {
+    #[error("{what}: {found_mm:.6} mm off {of} (limit {limit_mm:.6} mm)")]
+    NearLine {
         /// What was to give a direction.
         what: &'static str,
         /// Distance, mm.
@@ -67,9 +67,9 @@ fn unit(
     scale_m: f64,
 ) -> Result<Vector, FrameError> {
     let length = norm(v);
-    let limit = BESIDE * scale_m;
+    let limit = NEAR_LINE * scale_m;
     if length.is_nan() || length <= limit {
-        return Err(FrameError::Beside {
+        return Err(FrameError::NearLine {
             what,
             found_mm: mm_from_m(length),
             of,
@@ -97,8 +97,8 @@ pub fn three_points([origin, on_x, in_xy]: [Vector; 3]) -> Result<Pose, FrameErr
     let reach = norm(sub(in_xy, origin)).max(norm(along));
     let x = unit("the point on x", "the origin", along, reach)?;
     let to_third = sub(in_xy, origin);
-    let beside = sub(to_third, scale(dot(x, to_third), x));
-    let y = unit("the point in the xy plane", "the x axis", beside, reach)?;
+    let across = sub(to_third, scale(dot(x, to_third), x));
+    let y = unit("the point in the xy plane", "the x axis", across, reach)?;
     Ok(from_axes(x, cross(x, y), origin))
 }
 
@@ -228,9 +228,9 @@ pub struct TouchedPlane {
 pub struct FeatureFit {
     /// Maps coordinates of FROM into TO.
     pub to_from_from: Pose,
-    /// What is left of each point, metres.
+    /// The residual of each point, metres.
     pub points_m: Vec<Vector>,
-    /// What is left of each touch of each plane, along its normal, metres.
+    /// The residual of each touch of each plane, along its normal, metres.
     pub planes_m: Vec<Vec<f64>>,
     /// Standard deviation of one residual, metres; of the touches where `sigma_m` was given.
     pub sigma_m: f64,

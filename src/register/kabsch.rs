@@ -270,7 +270,7 @@ pub(crate) fn scatter(points: &[Vector], weights: Option<&[f64]>) -> (Vector, Ma
 }
 
 impl Fit {
-    /// What is left of each point: its place in TO minus where the motion carries it from FROM,
+    /// The residual of each point: its place in TO minus where the motion carries it from FROM,
     /// metres.
     #[must_use]
     pub fn residuals_m(&self, from: &[Vector], to: &[Vector]) -> Vec<Vector> {

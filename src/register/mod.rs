@@ -136,7 +136,7 @@ impl RegisterError {
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Collinear { .. } => "measure at least one more point well beside the line",
+            Self::Collinear { .. } => "measure at least one more point well off the line",
             Self::Coincident { .. } => "are the coordinates in metres? files are in mm",
             Self::Mirrored { .. } => {
                 "one of the sets has an axis turned round, or two coordinates swapped: check the measuring device's frame"

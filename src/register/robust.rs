@@ -11,7 +11,7 @@ const MEDIAN_CHI2_3: f64 = 2.366;
 /// A touch is bad if its distance is more than this many standard deviations of a coordinate: χ² of
 /// three at 99.97 %.
 pub const LIMIT: f64 = 4.35;
-/// Fewest points from which a bad one can be told: with four, one that is off across the plane of
+/// Fewest points from which a bad one can be found: with four, one that is off across the plane of
 /// the others tilts them.
 pub const FEWEST: usize = 5;
 

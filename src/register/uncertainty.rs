@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 /// from the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseCovariance {
-    /// Where τ is told, metres.
+    /// Where τ is tabulated, metres.
     pub centre_m: Vector,
     /// Rows and columns ω, τ: rad², rad·m, m².
     pub matrix: [[f64; 6]; 6],

@@ -9,7 +9,7 @@ use super::table::{JOINTS, POSE, Table, unit};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{self, Quaternion};
-use crate::identify::doubt::sweeps::{doubt, point_on_flange};
+use crate::identify::input_checks::sweeps::{input_checks, point_on_flange};
 use crate::identify::measurements::{DIRECTION_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS};
 use crate::model::profile::{Mounted, Profile};
 use crate::program::Source;
@@ -145,7 +145,7 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     let placed_tool = placed_tool.transpose().map_err(fail)?;
     let pose = |placed: &Option<Placed>| placed.as_ref().map(|placed| placed.pose);
     let (base_pose, tool_pose) = (pose(&placed_base), pose(&placed_tool));
-    let checked = doubt(
+    let checked = input_checks(
         profile,
         &sweeps,
         &found,

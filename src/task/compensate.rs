@@ -2,7 +2,7 @@
 //! target.
 
 use super::parts::{Names, Pose};
-use super::programs::{LeftOut, common_language, explain, refuse_doubtful, refuse_marked};
+use super::programs::{LeftOut, common_language, explain, refuse_marked, refuse_unlikely};
 use super::{Document, Failure, ProfileFile};
 use crate::check::CheckError;
 use crate::check::refine::refine;
@@ -68,7 +68,7 @@ pub struct Prepared<'a> {
 /// By a fault of poseshift alone: the search for markers fails on no bytes.
 pub fn prepare<'a>(request: &'a Request<'a>) -> Result<Prepared<'a>, Failure> {
     let (sources, profile) = (request.sources, request.profile);
-    refuse_doubtful(profile)?;
+    refuse_unlikely(profile)?;
     let language = match request.language {
         Some(language) => language,
         None => common_language(sources, &profile.profile)?,

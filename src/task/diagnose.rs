@@ -8,7 +8,7 @@ use super::sentences::sentence;
 use super::{Document, PROGRAM};
 use crate::diagnose::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{
-    self as engine, Diagnosis as Found, NoiseSource, Options, Rival, Verdict, diagnose as search,
+    self as engine, Diagnosis as Found, NoiseSource, Options, Verdict, diagnose as search,
 };
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
@@ -376,9 +376,9 @@ pub fn diagnose(
         effects: d.found.iter().map(Into::into).collect(),
         spots: d.spots.iter().map(Into::into).collect(),
         alternatives: d
-            .rivals
+            .alternatives
             .iter()
-            .map(|r: &Rival| Alternative {
+            .map(|r: &engine::Alternative| Alternative {
                 effect: (&r.effect).into(),
                 instead_of: label(r.instead_of),
                 chi_squared_fall: finite(r.gain),

@@ -114,7 +114,7 @@ pub fn common_language(
 ///
 /// # Errors
 /// A calibrated controller without the effects that it applies.
-pub fn refuse_doubtful(file: &ProfileFile) -> Result<(), Failure> {
+pub fn refuse_unlikely(file: &ProfileFile) -> Result<(), Failure> {
     let profile = &file.profile;
     let nothing = profile.effects.iter().all(Effect::is_zero);
     // with its own effects the real arm is taken as the controller's: nothing changes

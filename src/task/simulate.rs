@@ -194,9 +194,9 @@ pub fn measurements_csv(
         Observed::Contact(_) => {}
     }
     let stood = &first.stand;
-    let told = |k: &usize| stood.values.get(*k).is_some_and(|value| value.is_finite());
-    let told: Vec<usize> = (0..axes.len()).filter(told).collect();
-    header.extend(told.iter().map(|k| column_of(&axes[*k], *k)));
+    let given = |k: &usize| stood.values.get(*k).is_some_and(|value| value.is_finite());
+    let given: Vec<usize> = (0..axes.len()).filter(given).collect();
+    header.extend(given.iter().map(|k| column_of(&axes[*k], *k)));
     let came: Vec<usize> = (0..stood.directions.len().min(axes.len())).collect();
     let came = if directions { came } else { Vec::new() };
     header.extend(came.iter().map(|k| EXTERNAL_DIRECTION_COLUMNS[*k]));
@@ -234,7 +234,7 @@ pub fn measurements_csv(
             // no simulated device touches
             Observed::Contact(_) => {}
         }
-        for k in &told {
+        for k in &given {
             let value = row.stand.values.get(*k).copied().unwrap_or(f64::NAN);
             cells.push(cell(in_files(&axes[*k], value)));
         }

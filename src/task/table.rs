@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion};
-use crate::identify::doubt::csv::not_csv;
+use crate::identify::input_checks::csv::not_csv;
 use crate::nearest;
 use crate::program::Source;
 use std::borrow::Cow;
@@ -29,15 +29,15 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Text that is no table, with line and column.
     pub(super) fn read(source: &'a Source) -> Result<Self, Failure> {
-        if let Some(doubt) = not_csv(&source.bytes) {
-            let (line, column) = (doubt.line, doubt.column);
+        if let Some(fault) = not_csv(&source.bytes) {
+            let (line, column) = (fault.line, fault.column);
             return Err(Failure::at(
                 source,
                 line,
                 column,
                 None,
-                doubt.message,
-                doubt.hint,
+                fault.message,
+                fault.hint,
             ));
         }
         let mut reader = csv::ReaderBuilder::new()

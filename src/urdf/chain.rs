@@ -2,8 +2,8 @@
 //!
 //! Frame i has its z axis on axis i. Its x axis is the common normal of axes i and i + 1, so
 //! row i + 1 is the step along and about it, and row i's θ and d the step about and along axis i
-//! from the common normal before. Parallel axes have many common normals: the one through the foot of the
-//! last is taken. The base takes up where axis 1 is, the flange what is behind axis 6.
+//! from the common normal before. Parallel axes have many common normals: the one through the foot
+//! of the last is taken. The base takes up where axis 1 is, the flange what is behind axis 6.
 
 use super::{UrdfArm, UrdfError};
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
@@ -66,18 +66,18 @@ fn length(found: f64) -> f64 {
     if found.abs() < 1e-13 { 0.0 } else { found }
 }
 
-fn normal(p: Vector, z: Vector, q: Vector, w: Vector, beside: Vector) -> Option<Normal> {
+fn normal(p: Vector, z: Vector, q: Vector, w: Vector, foot: Vector) -> Option<Normal> {
     let out = cross(z, w);
     let sine = norm(out);
     let between = sub(q, p);
     if sine < PARALLEL {
-        let gap = across(sub(q, beside), z);
+        let gap = across(sub(q, foot), z);
         let far = norm(gap);
         if far < MEETING_M {
             return None;
         }
         return Some(Normal {
-            feet: [beside, add(beside, gap)],
+            feet: [foot, add(foot, gap)],
             direction: scale(far.recip(), gap),
         });
     }

@@ -37,7 +37,7 @@ fn origin(pose: &Pose) -> String {
     format!("<origin xyz=\"{x} {y} {z}\" rpy=\"{roll} {pitch} {yaw}\"/>")
 }
 
-/// The angles of `Rz · Ry · Rx`; what yaw loses beside pitch = ±90° roll takes up.
+/// The angles of `Rz · Ry · Rx`; what yaw loses near pitch = ±90° roll takes up.
 pub(crate) fn yaw_pitch_roll(rotation: &Rotation) -> [f64; 3] {
     let [yaw, pitch, _] = rotation.rzryrx(0.0);
     let behind = (Rotation::about_z(yaw) * Rotation::about_y(pitch)).transpose() * *rotation;

@@ -52,7 +52,7 @@ pub struct Choice {
     pub tip: Option<String>,
     /// Take the collision shapes.
     pub shapes: bool,
-    /// Take every angle of a frame as it is written, also one beside a multiple of 45°.
+    /// Take every angle of a frame as it is written, also one near a multiple of 45°.
     pub exact: bool,
 }
 

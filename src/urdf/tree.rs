@@ -457,7 +457,7 @@ impl<'a> Tree<'a> {
                 continue;
             };
             let (mut moved_by, mut place) = (0, base_from_foot);
-            let mut beside = false;
+            let mut has_text = false;
             for joint in way {
                 let is_next = arm
                     .joints
@@ -470,10 +470,10 @@ impl<'a> Tree<'a> {
                     place = place * rounding.pose(&joint.origin);
                 } else {
                     // a finger of a gripper or another arm
-                    beside = true;
+                    has_text = true;
                 }
             }
-            if beside {
+            if has_text {
                 continue;
             }
             let mass = link.inertial.mass.value;

@@ -70,7 +70,7 @@ for (const kind of kinds) {
           for (const text of worst[kind](of).filter((one) => one != null)) assert.ok(first.includes(text), `"${text}" is not seen without scrolling:\n${first}`);
           await chartsOf(page);
           assert.deepEqual(await tooWide(page), []);
-          // the page's policy lets no script in: axe runs beside it
+          // the page's policy lets no script in: axe runs outside of it
           await page.evaluate(() => window.scrollTo(0, 0));
           await page.evaluate(axe);
           const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
@@ -123,7 +123,7 @@ test("points in charts are chosen by keys", async () => {
   });
 });
 
-test("points coloured by error have a scale beside them", async () => {
+test("points coloured by error have a scale next to them", async () => {
   for (const kind of ["calibrate", "validate", "diagnose", "register", "icp", "handeye", "check", "compensate"]) {
     await inside(kind, {}, async (page) => {
       const scale = page.locator(".space .scale").first();

@@ -83,8 +83,8 @@ test("a click in the view in space tells another target's line, and so does a ro
     const target = json("compensate").targets.find((one) => one.line === Number(clicked));
     assert.ok(target, `line ${clicked} has no target`);
     const source = readFileSync(join(repository, "programs/rapid/olp/in/Deburr.mod"), "latin1").split(/\r?\n/)[target.line - 1].trim();
-    const told = (await page.locator(".detail pre").textContent()).replace(/^\d+\s+/, "").replace(/\u2026$/, "");
-    assert.ok(source.startsWith(told), `${told} is not ${source}`);
+    const reported = (await page.locator(".detail pre").textContent()).replace(/^\d+\s+/, "").replace(/\u2026$/, "");
+    assert.ok(source.startsWith(reported), `${reported} is not ${source}`);
     const row = page.locator('table[aria-label="Targets"] tbody tr').nth(2);
     await row.click();
     assert.equal(await row.getAttribute("aria-selected"), "true");

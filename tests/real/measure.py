@@ -116,8 +116,8 @@ class Runs:
     def __init__(self, binary):
         self.binary = binary
         self.known = {}
-        told = subprocess.run([binary, "compensate", "--help"], capture_output=True, text=True, check=True)
-        self.takes_start = "--start-joints" in told.stdout
+        reported = subprocess.run([binary, "compensate", "--help"], capture_output=True, text=True, check=True)
+        self.takes_start = "--start-joints" in reported.stdout
 
     def run(self, language, files, profile, reach, place, start):
         key = (tuple(files), profile, place, start)
@@ -172,14 +172,14 @@ def judge(run, path):
             good += bool(target["status"] and not refused)
             corrected += bool(target["changed"])
     causes = dict(collections.Counter(f["id"] for f in own))
-    told = {f["id"]: f"{f['line']}: {f['message']}" for f in reversed(own)}
+    reported = {f["id"]: f"{f['line']}: {f['message']}" for f in reversed(own)}
     return {
         "through": not own and (status == 0 or bool(errors)),
         "targets": used,
         "good": good,
         "corrected": corrected,
         "causes": causes,
-        "told": told,
+        "told": reported,
         "given": given,
     }
 
@@ -193,7 +193,7 @@ def measure(runs, profiles, language, folder, name):
         stem = os.path.splitext(name)[0].lower()
         own = [os.path.join(folder, n) for n in all_names if os.path.splitext(n)[0].lower() == stem]
     together = [os.path.join(folder, n) for n in all_names]
-    # points of VAL 3 are nothing without the programs beside them; each URScript is a whole program
+    # points of VAL 3 are nothing without the programs given them; each URScript is a whole program
     if language == "val3":
         own = together
     sets = [own] if language == "urscript" or len(together) == len(own) else [own, together]

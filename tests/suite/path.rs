@@ -20,9 +20,9 @@ pub const WRITTEN: &[(&str, &str)] = &[
     ("csv", "csv"),
 ];
 
-/// What belongs to the program of that many points beside its first file: the code, where that
+/// What belongs to the program of that many points besides its first file: the code, where that
 /// holds the data alone.
-pub fn beside(language: &str, count: u32) -> Option<(&'static str, String)> {
+pub fn given(language: &str, count: u32) -> Option<(&'static str, String)> {
     let moves: String = (0..count)
         .map(|n| format!("  movel(pPath[{n}],artifact,mPath)\r\n"))
         .collect();

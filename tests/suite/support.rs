@@ -214,7 +214,7 @@ pub fn is_tracked(word: &str) -> bool {
     !word.is_empty() && tracked().iter().any(|file| file.starts_with(path))
 }
 
-/// Arms of `tests/data/inverse_general/arms.csv`, whose axes 4 and 5 meet beside axis 6: name,
+/// Arms of `tests/data/inverse_general/arms.csv`, whose axes 4 and 5 meet offset from axis 6: name,
 /// nominal geometry without a tool, mechanism.
 pub fn offset_wrist_arms() -> Vec<(
     String,

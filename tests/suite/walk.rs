@@ -42,8 +42,8 @@ const LIMITS: [(f64, f64); 6] = [
 ];
 /// The tool on the flange, metres, and its mass.
 const TOOL: (V3, f64) = ([0.05, 0.02, 0.13], 4.0);
-/// What the real robot has beside its drawing: of each joint x, y, z in mm, rx, ry, rz in mrad, and
-/// its compliance in µrad/(N m).
+/// What the real robot has that its drawing has not: of each joint x, y, z in mm, rx, ry, rz in
+/// mrad, and its compliance in µrad/(N m).
 const FAULTS: [([f64; 6], f64); 6] = [
     ([0.3, -0.2, 0.4, 0.3, -0.4, 0.5], 0.0),
     ([0.8, 0.3, -0.9, 1.4, 2.3, -1.2], 3.0),
@@ -52,7 +52,7 @@ const FAULTS: [([f64; 6], f64); 6] = [
     ([-0.6, 0.2, 0.3, -1.2, 2.1, 0.7], 12.0),
     ([0.4, -0.2, 0.2, 1.4, -0.9, 0.5], 0.0),
 ];
-/// Where the reflector really is beside the tool's origin, metres: nests are not exact.
+/// Where the reflector really is, offset from the tool's origin, metres: nests are not exact.
 const NEST: V3 = [0.4e-3, -0.3e-3, 0.2e-3];
 /// Noise of the tracker in each coordinate, metres.
 const NOISE_M: f64 = 0.01e-3;
@@ -276,8 +276,8 @@ fn run(folder: &Path, line: &str) -> String {
         .args(words)
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{line}: {told}");
+    let reported = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{line}: {reported}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
@@ -329,7 +329,7 @@ fn a_urdf_and_a_tracker_file_become_a_program_that_lands_where_it_should() {
          --columns id=Pose,id=Punkt,q1=J1,q2=J2,q3=J3,q4=J4,q5=J5,q6=J6,x=X,y=Y,z=Z --units m,rad -o calibrated.yaml",
     );
     // the base is the controller's; the tracker stands where it stands, but for what of the base
-    // cannot be told from it
+    // cannot be distinguished from it
     let device = &found["world_from_device"];
     for (key, wanted, near) in [
         ("x_mm", 2100.0, 3.0),

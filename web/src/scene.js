@@ -90,8 +90,8 @@ export class View {
     this.resize(box);
     // shaders are compiled while the rest of the page is made
     this.drawn = new Promise((done) => { this.tellDrawn = done; });
-    const isBeside = this.renderer.getContext().getExtension("KHR_parallel_shader_compile");
-    (isBeside ? this.renderer.compileAsync(this.scene, this.camera) : Promise.resolve()).then(() => {
+    const isParallel = this.renderer.getContext().getExtension("KHR_parallel_shader_compile");
+    (isParallel ? this.renderer.compileAsync(this.scene, this.camera) : Promise.resolve()).then(() => {
       this.compiled = true;
       this.draw();
     });

@@ -1,4 +1,4 @@
-//! What the arms come near on a move, and how it is told.
+//! What the arms come near on a move, and how it is reported.
 
 use super::Job;
 use crate::check::MoveReport;
@@ -8,8 +8,8 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::motion::course::{Leg, Piece};
 
-/// One of the two arms, and what is told of it.
-struct Told {
+/// One of the two arms, and what is reported of it.
+struct Reported {
     name: &'static str,
     other: &'static str,
     touches: &'static str,
@@ -17,7 +17,7 @@ struct Told {
     severity: Severity,
 }
 
-const REAL: Told = Told {
+const REAL: Reported = Reported {
     name: "real",
     other: "nominal",
     touches: "collision",
@@ -25,7 +25,7 @@ const REAL: Told = Told {
     severity: Severity::Error,
 };
 
-const NOMINAL: Told = Told {
+const NOMINAL: Reported = Reported {
     name: "nominal",
     other: "real",
     touches: "nominal-collision",
@@ -75,11 +75,12 @@ impl Job<'_> {
         }
     }
 
-    /// What is told of an arm that touches something or comes too near; nothing where it does not.
+    /// What is reported of an arm that touches something or comes too near; nothing where it does
+    /// not.
     fn encounter(
         &self,
         index: usize,
-        told: &Told,
+        reported: &Reported,
         found: Option<Clearance>,
         other: Option<Clearance>,
         first: bool,
@@ -99,28 +100,31 @@ impl Job<'_> {
             format!("at {:.1} % of the move", 100.0 * found.at)
         };
         let place = format!("{when} (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)");
-        let comparison = compared(told.other, other);
-        let name = told.name;
+        let comparison = compared(reported.other, other);
+        let name = reported.name;
         let (id, message) = if touches {
             let message = format!("the {name} arm's {a} touches {b} {place}{comparison}");
-            (told.touches, message)
+            (reported.touches, message)
         } else {
             let message = format!(
                 "the {name} arm's {a} comes within {:.3} mm of {b}, required {:.3} mm, {place}{comparison}",
                 mm_from_m(found.clearance_m),
                 mm_from_m(found.required_m)
             );
-            (told.near, message)
+            (reported.near, message)
         };
         let hint = if first {
             "this is where the program starts: is the cell in the robot's world frame?"
         } else {
             "`pairs` in the cell file allows what may touch"
         };
-        Some(
-            self.subject
-                .finding(self.walk.motion(index), id, told.severity, message, hint),
-        )
+        Some(self.subject.finding(
+            self.walk.motion(index),
+            id,
+            reported.severity,
+            message,
+            hint,
+        ))
     }
 
     /// The arm as the simulation believes it: in the original program where there is one.

@@ -140,7 +140,7 @@ impl Job<'_> {
             let s = f64::from(k) / 16.0;
             if leg.beyond(s) > 0.0 {
                 let message = format!(
-                    "the straight or circular way is out of reach at {:.0} % of the move",
+                    "the straight or circular path is out of reach at {:.0} % of the move",
                     100.0 * s
                 );
                 findings.push(self.subject.finding(
@@ -159,7 +159,7 @@ impl Job<'_> {
             .find(|&i| (q[i] - stop.q[i]).abs() > SAME_RAD && !(aligned && (i == 3 || i == 5)));
         if let Some(i) = other {
             let message = format!(
-                "the target's configuration cannot be reached on this way: joint {} comes to {:.1} deg, and the target has {:.1}",
+                "the target's configuration cannot be reached on this path: joint {} comes to {:.1} deg, and the target has {:.1}",
                 i + 1,
                 q[i] / DEG,
                 stop.q[i] / DEG

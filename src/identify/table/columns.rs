@@ -7,8 +7,8 @@ use super::names::{Quantity, column, in_another_unit, keys};
 use super::text::Grid;
 use super::units::{Unit, Units, in_name};
 use super::{fault, note};
-use crate::identify::doubt::Remark;
 use crate::identify::fault::MeasurementError;
+use crate::identify::input_checks::Remark;
 use crate::identify::measurements::{JOINT_COLUMNS, POSITION_COLUMNS};
 use crate::nearest;
 
@@ -168,7 +168,7 @@ impl Mapping {
                     if let Some(pivoted) = export.pivoted {
                         *grid = pivoted;
                     }
-                    let told: Vec<String> = export
+                    let listed: Vec<String> = export
                         .columns
                         .iter()
                         .map(|(key, theirs)| format!("{theirs} as {key}"))
@@ -177,7 +177,7 @@ impl Mapping {
                         "{} is read as {}: {}",
                         grid.name,
                         export.software,
-                        told.join(", ")
+                        listed.join(", ")
                     );
                     let hint =
                         "if that is not so, say what its columns are with --columns and --units";

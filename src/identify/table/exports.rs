@@ -9,7 +9,7 @@
 
 use super::names::meant;
 use super::text::{Grid, Separator};
-use crate::identify::doubt::csv::NotCsv;
+use crate::identify::input_checks::csv::NotCsv;
 use crate::nearest::plain;
 
 /// A file that was recognised.

@@ -7,15 +7,15 @@ use crate::nearest;
 use std::collections::BTreeMap;
 
 /// Ids that are written out at most.
-const TOLD: usize = 5;
+const MOST_LISTED: usize = 5;
 
 /// The first few of some names.
 fn few(names: &[&str]) -> String {
-    let mut told = names[..names.len().min(TOLD)].join(", ");
-    if names.len() > TOLD {
-        told += ", …";
+    let mut listed = names[..names.len().min(MOST_LISTED)].join(", ");
+    if names.len() > MOST_LISTED {
+        listed += ", …";
     }
-    told
+    listed
 }
 
 impl Table {

@@ -21,8 +21,8 @@ pub use names::{Quantity, is_of_format, keys, proposal};
 pub use text::{Grid, Separator};
 pub use units::{Unit, Units};
 
-use super::doubt::Remark;
 use super::fault::{MeasurementError, MeasurementFault};
+use super::input_checks::Remark;
 use super::measurements::{DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS};
 use crate::geometry::units::DEG;
 
@@ -311,7 +311,7 @@ impl Table {
             ));
         }
         let found: Option<Vec<usize>> = JOINT_COLUMNS.iter().map(|c| self.index(c)).collect();
-        // what is missing is told where joints are read
+        // what is missing is reported where joints are read
         let Some(columns) = found else { return Ok(()) };
         let file = self.columns[columns[0]].grid;
         let mut directions = Vec::with_capacity(self.grids[file].rows.len());

@@ -1,7 +1,7 @@
 //! A table's bytes as text, and how its cells are written: encoding, separator, decimal sign,
 //! header.
 
-use crate::identify::doubt::csv::{NotCsv, doubled, empty};
+use crate::identify::input_checks::csv::{NotCsv, doubled, empty};
 use std::ops::Range;
 
 /// What stands between cells.

@@ -9,12 +9,12 @@ use crate::inverse::Branch;
 const CLOSE_RAD: f64 = 0.35;
 /// An answer that Newton's method finds from a posture is taken where no joint leaves it by more:
 /// near a fold it may be the other one of two, and all are looked at.
-const BESIDE_RAD: f64 = 0.05;
+const NEAR_RAD: f64 = 0.05;
 /// Answers with no joint farther apart than this, radians, are one.
 const SAME_RAD: f64 = 1e-7;
 const BOTH: [f64; 2] = [1.0, -1.0];
 
-/// One way to reach a pose.
+/// One posture that reaches a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// Its branch.
@@ -99,8 +99,8 @@ impl Arm {
         }
     }
 
-    /// Every root of the offset wrist's equation on some of the ways, as turns of the mechanical
-    /// joints.
+    /// Every root of the offset wrist's equation on some of the branches, as turns of the
+    /// mechanical joints.
     fn each_root(
         &self,
         world_from_tool: &Pose,
@@ -118,15 +118,15 @@ impl Arm {
         world_from_tool: &Pose,
         posture: &[Turn; 6],
     ) -> Turned {
-        let way = self.way(posture);
-        if let Some(turns) = self.offset_beside(world_from_tool, posture, way) {
+        let arm = self.arm_branch(posture);
+        if let Some(turns) = self.offset_near(world_from_tool, posture, arm) {
             return Turned { turns, beyond: 0.0 };
         }
         let mut nearest = Nearest::to(posture);
         self.each_root(world_from_tool, &BOTH, &BOTH, |turns| nearest.offer(turns));
         nearest.found().unwrap_or_else(|| {
             let target = self.last_row(world_from_tool);
-            self.least(self.offset_least(&target, way))
+            self.least(self.offset_least(&target, arm))
         })
     }
 
@@ -141,9 +141,9 @@ impl Arm {
     ) -> Turned {
         let posture = Turn::of_each(&self.mechanism.commanded(near));
         let on_branch = self.stance(&posture).branch() == branch;
-        let way = self.way(&posture);
+        let arm = self.arm_branch(&posture);
         if let Some(turns) = self
-            .offset_beside(world_from_tool, &posture, way)
+            .offset_near(world_from_tool, &posture, arm)
             .filter(|_| on_branch)
         {
             return Turned { turns, beyond: 0.0 };
@@ -166,11 +166,11 @@ impl Arm {
     ) -> Turned {
         let posture = Turn::of_each(&self.mechanism.commanded(near));
         let [front, before, _] = branch.signs();
-        let beside = self.offset_beside(world_from_tool, &posture, [front, before]);
+        let offset = self.offset_near(world_from_tool, &posture, [front, before]);
         let is_meant = |turns: &[Turn; 6]| {
             self.stance(turns).branch().joint_5_negative == branch.joint_5_negative
         };
-        if let Some(turns) = beside.filter(is_meant) {
+        if let Some(turns) = offset.filter(is_meant) {
             return Turned { turns, beyond: 0.0 };
         }
         let mut nearest = Nearest::to(&posture);
@@ -192,24 +192,24 @@ impl Arm {
         }
     }
 
-    /// The way to the meeting point that a posture takes.
-    fn way(&self, posture: &[Turn; 6]) -> ArmSigns {
+    /// The branch of the arm to the meeting point.
+    fn arm_branch(&self, posture: &[Turn; 6]) -> ArmSigns {
         let [front, before, _] = self.stance(posture).branch().signs();
         [front, before]
     }
 
-    /// The answer on one way that Newton's method reaches from a posture, if it is close to it.
-    fn offset_beside(
+    /// The answer on one branch that Newton's method reaches from a posture, if it is close to it.
+    fn offset_near(
         &self,
         world_from_tool: &Pose,
         posture: &[Turn; 6],
-        way: ArmSigns,
+        arm: ArmSigns,
     ) -> Option<[Turn; 6]> {
         let target = self.last_row(world_from_tool);
         let start = self.row(5, posture[5]);
-        let (rows, _) = self.offset_root_near(&target, start, way)?;
+        let (rows, _) = self.offset_root_near(&target, start, arm)?;
         let turns = self.turns_of(rows);
-        is_within(&turns, posture, BESIDE_RAD).then_some(turns)
+        is_within(&turns, posture, NEAR_RAD).then_some(turns)
     }
 }
 

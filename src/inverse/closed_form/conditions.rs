@@ -8,7 +8,7 @@ use crate::model::{Chain, Geometry, Link, Mechanism};
 /// metres.
 const TOLERANCE: f64 = 1e-9;
 /// Below this sine of the angle between two axes of an offset wrist they count as parallel: the
-/// joints about them cannot be told apart.
+/// joints about them cannot be distinguished.
 const LEAST_SINE: f64 = 1e-3;
 
 /// Which condition of the closed forms an arm does not meet.

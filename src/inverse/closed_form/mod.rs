@@ -26,8 +26,8 @@ use crate::model::{Chain, Mechanism};
 /// Joint 5 of an arm with three parallel axes farther than this from alignment, radians, multiplies
 /// an error of the orientation in joint 6 by seven at most.
 const STEADY_WRIST_RAD: f64 = 0.15;
-/// Below this sine of joint 5 the angles of the two joints beside it cannot be told apart in 64-bit
-/// numbers.
+/// Below this sine of joint 5 the angles of the two joints next to it cannot be distinguished in
+/// 64-bit numbers.
 const WRIST_SINE: f64 = 1e-12;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Play between gears.
+//! Backlash between gears.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};

@@ -1,4 +1,4 @@
-//! What the registry knows of an effect beside its equation.
+//! What the registry knows of an effect besides its equation.
 
 use crate::geometry::units;
 use serde_json::{Value, json};

@@ -10,7 +10,7 @@ pub(super) struct PositionerScale;
 impl Equation for PositionerScale {
     const DEFINITION: Definition = Definition {
         id: "positioner_scale",
-        summary: "an axis of a positioner goes farther or less far than it is told",
+        summary: "an axis of a positioner goes farther or less far than commanded",
         equation: "angle · (1 + ratio)",
         source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
         site: &[SiteKey::Axis],

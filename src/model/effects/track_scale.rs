@@ -10,7 +10,7 @@ pub(super) struct TrackScale;
 impl Equation for TrackScale {
     const DEFINITION: Definition = Definition {
         id: "track_scale",
-        summary: "a linear axis goes farther or less far than it is told",
+        summary: "a linear axis goes farther or less far than commanded",
         equation: "travel · (1 + ratio), counted from the middle of its limits",
         source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
         site: &[SiteKey::Axis],

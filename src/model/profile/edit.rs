@@ -16,10 +16,10 @@ pub enum EditError {
         /// What the parser says.
         message: String,
     },
-    /// The way to the value ends before it.
+    /// The path to the value ends before it.
     #[error("`{path}` has no `{key}`")]
     NoSuch {
-        /// The way so far.
+        /// The path so far.
         path: String,
         /// What is not there.
         key: String,
@@ -29,13 +29,13 @@ pub enum EditError {
     /// A value over several lines.
     #[error("`{path}` is a block of several lines: set what is in it")]
     Block {
-        /// The way to it.
+        /// The path to it.
         path: String,
     },
     /// What came out is not what was meant.
     #[error("the file's layout is too unusual to set `{path}` in place")]
     Layout {
-        /// The way to the value.
+        /// The path to the value.
         path: String,
     },
 }

@@ -254,7 +254,7 @@ pub struct ToolFile {
 }
 
 /// An effect: its keys and values, as [`crate::model::effects::Effect::from_entry`] reads them;
-/// beside them `large: true` with a `reason` where a value is beyond the usual.
+/// besides them `large: true` with a `reason` where a value is beyond the usual.
 pub(crate) type EffectFile = Spanned<BTreeMap<String, Spanned<serde_json::Value>>>;
 
 /// A name, or several of which each file has one at most.

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::{Location, Spanned};
 
-/// Defines a type of entry that holds a shape beside keys of its own. (A flattened struct would
+/// Defines a type of entry that holds a shape besides keys of its own. (A flattened struct would
 /// lose the place of errors.)
 macro_rules! with_shape {
     ($(#[$meta:meta])* $name:ident { $($(#[$field_meta:meta])* $field:ident: $type:ty,)* }) => {

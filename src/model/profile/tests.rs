@@ -103,15 +103,15 @@ fn the_controller_of_a_text_is_replaced_and_nothing_else() {
 }
 
 #[test]
-fn what_is_no_calibration_of_this_arm_is_told() {
+fn what_is_no_calibration_of_this_arm_is_reported() {
     let profile = Profile::from_yaml(UR5).expect("a shipped profile");
-    let told = |text: &str| link_geometry(text, &profile).expect_err(text);
-    assert_eq!(told("a: 1"), UrError::Unknown);
+    let refusal = |text: &str| link_geometry(text, &profile).expect_err(text);
+    assert_eq!(refusal("a: 1"), UrError::Unknown);
     let without = CONF.replace("delta_d ", "delta_x ");
-    assert_eq!(told(&without), UrError::Missing { key: "delta_d" });
+    assert_eq!(refusal(&without), UrError::Missing { key: "delta_d" });
     let twice = format!("{CONF}delta_a = [0, 0, 0, 0, 0, 0]\n");
     assert!(matches!(
-        told(&twice),
+        refusal(&twice),
         UrError::Twice {
             key: "delta_a",
             line: 8
@@ -119,7 +119,7 @@ fn what_is_no_calibration_of_this_arm_is_told() {
     ));
     let five = CONF.replacen(", 0]", "]", 1);
     assert!(matches!(
-        told(&five),
+        refusal(&five),
         UrError::NotSix {
             key: "delta_a",
             line: 3
@@ -127,26 +127,26 @@ fn what_is_no_calibration_of_this_arm_is_told() {
     ));
     let wild = CONF.replacen(", 0]", ", 1e999]", 1);
     assert!(matches!(
-        told(&wild),
+        refusal(&wild),
         UrError::NotSix {
             key: "delta_a",
             line: 3
         }
     ));
     let off = CONF.replace("calibration_status = 2", "calibration_status = 0");
-    assert!(matches!(told(&off), UrError::NotCalibrated { line: 7 }));
+    assert!(matches!(refusal(&off), UrError::NotCalibrated { line: 7 }));
     let moved = CONF.replacen(", 0]", ", 0.001]", 1);
     assert!(matches!(
-        told(&moved),
+        refusal(&moved),
         UrError::Rows(crate::model::RowsError::Flange { .. })
     ));
     let far = CONF.replace("439.846", "439.946");
     assert!(matches!(
-        told(&far),
+        refusal(&far),
         UrError::Rows(crate::model::RowsError::TooDifferent { .. })
     ));
     assert!(matches!(
-        told("kinematics:\n  shoulder: {x: 0}\n"),
+        refusal("kinematics:\n  shoulder: {x: 0}\n"),
         UrError::Yaml { line: 2, .. }
     ));
     let other = Profile::from_yaml(include_str!("../../../robots/abb_irb120.yaml"));

@@ -7,7 +7,7 @@ use crate::model::shape::{Form, LinkShape};
 use crate::printable::printable;
 pub(super) use crate::printable::quoted;
 
-/// What a made profile says beside its numbers.
+/// What a made profile says besides its numbers.
 #[derive(Clone, Debug, Default)]
 pub struct Comments {
     /// Lines at its top.

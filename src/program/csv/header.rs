@@ -52,7 +52,7 @@ impl Header {
         let joints: Option<Vec<usize>> = JOINTS.into_iter().map(find).collect();
         let (shape, numbers) = match (pose, joints) {
             (Some(pose), None) => (Shape::Pose, pose),
-            // a position beside the joints makes measurements of them
+            // a position next to the joints makes measurements of them
             (None, Some(joints)) if find(POSE[0]).is_none() => (Shape::Joints, joints),
             (None, None) => return Err(Wrong::Missing),
             _ => return Err(Wrong::Both),

@@ -93,7 +93,7 @@ fn joints_and_joints_to_start_from() {
 }
 
 #[test]
-fn broken_tables_are_told_with_line_and_column() {
+fn broken_tables_are_reported_with_line_and_column() {
     let head = "x_mm,y_mm,z_mm,qw,qx,qy,qz";
     for (text, place, message) in [
         (

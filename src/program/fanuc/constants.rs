@@ -73,7 +73,7 @@ impl Constants {
             .and_then(|value| value.strip_suffix(b")"));
         let value = number::parse(inside.unwrap_or(value).trim_ascii());
         match element {
-            // an axis beside the arm's
+            // an axis besides the arm's
             Some(6..) => {}
             Some(element) => self.written.entry(number).or_default()[element] = value,
             None => _ = self.written.remove(&number),

@@ -19,15 +19,15 @@
 //! `IF`, `SELECT`, `FOR`, `Skip,LBL` and `TIMEOUT,LBL` are its flow; a word that nobody knows is a
 //! macro, which may select another tool. Tools, user frames, the numbers that select them and
 //! position registers are variables that the controller keeps. A move to `PR[n]` goes with the
-//! active tool and frame; where `PR[n]` is a copy of a point it goes to that point, beside it where
-//! something was added or one number changed. The controller goes to a point only where the numbers
-//! are selected that it was taught with (else MOTN-018), so that behind such a move they are the
-//! active ones.
+//! active tool and frame; where `PR[n]` is a copy of a point it goes to that point, next to it
+//! where something was added or one number changed. The controller goes to a point only where the
+//! numbers are selected that it was taught with (else MOTN-018), so that behind such a move they
+//! are the active ones.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! A move with `Offset`, `Tool_Offset` or `VOFFSET` goes to a point that only the running program
-//! knows: it takes the correction of its point along, which is told as `displacement-unknown`.
+//! knows: it takes the correction of its point along, which is reported as `displacement-unknown`.
 //! Where the robot stands behind a move that `Skip` or `Search[…]` ended is unknown.
 //!
 //! # Limits

@@ -244,7 +244,7 @@ impl Reader<'_> {
     fn point(&mut self, index: u32) -> Option<Goal> {
         let point = self.listing.points[index as usize];
         let Some(target) = point.target else {
-            if !std::mem::replace(&mut self.listing.told_group, true) {
+            if !std::mem::replace(&mut self.listing.reported_group, true) {
                 let message = "the point has no group 1: it is one of another group and stays";
                 self.say(self.place, "other-group", Severity::Note, message, "");
             }
@@ -444,7 +444,7 @@ mod tests {
     }
 
     #[test]
-    fn what_follows_a_point_is_told() {
+    fn what_follows_a_point_is_reported() {
         let plain = words("R[25:INC Offset]mm/sec FINE ACC100 TB .10sec,CALL RTCP(1),LBL[3:COORD]");
         assert_eq!(plain.against, [false; 4]);
         assert!(!plain.displaced && plain.then.len() == 2);

@@ -42,7 +42,7 @@ pub(super) struct Point {
     pub frame: Option<u32>,
     /// Its tool, likewise.
     pub tool: Option<u32>,
-    /// Axes beside the six of the arm, of other groups as `G2J1`, and their values; not a number
+    /// Axes besides the six of the arm, of other groups as `G2J1`, and their values; not a number
     /// where they were never taught.
     pub external: Vec<(String, f64)>,
 }
@@ -374,7 +374,7 @@ struct Group {
     uninitialised: bool,
     remote: bool,
     other: bool,
-    /// Axes beside the six that stand somewhere: name and value, not a number where it was never
+    /// Axes besides the six that stand somewhere: name and value, not a number where it was never
     /// taught.
     external: Vec<(String, f64)>,
     pose: [Option<Number>; 6],

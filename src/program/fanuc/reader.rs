@@ -46,8 +46,8 @@ pub(super) struct Listing {
     pub written: HashMap<TargetId, VariableId>,
     /// An instruction that nobody knows names any of its points.
     pub gives_any: bool,
-    /// It has told of points of other groups.
-    pub told_group: bool,
+    /// It has reported points of other groups.
+    pub reported_group: bool,
 }
 
 /// A point as moves need it.
@@ -405,7 +405,7 @@ impl Reader<'_> {
                 self.builder.script.writes[write].how = How::Whole(Expr::Variable(variable));
             }
         }
-        // a program that runs beside may have written the registers meanwhile
+        // a program that runs concurrently may have written the registers meanwhile
         let mut routines = self.builder.script.routines.iter();
         if routines.any(|routine| routine.start == Start::Concurrent) {
             for write in std::mem::take(&mut self.from_constants) {

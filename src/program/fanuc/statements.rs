@@ -200,7 +200,7 @@ impl Reader<'_> {
         });
     }
 
-    /// `RUN PROGRAM`: it runs beside this one.
+    /// `RUN PROGRAM`: it runs concurrently with this one.
     fn start(&mut self, text: &[u8]) {
         let name = called(&text[..word_length(text)]);
         for (routine, _) in self.by_name.get(&name).into_iter().flatten() {

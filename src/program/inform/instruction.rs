@@ -41,7 +41,7 @@ impl Operand {
     }
 }
 
-/// What a move does beside going to its position.
+/// What a move does besides going to its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Joint,

@@ -1,7 +1,7 @@
 //! Reads the positions of jobs: the state machine of their header, and the positions under it.
 //!
 //! `///USER`, `///TOOL`, `///POSTYPE`, `///PULSE`, `///RECTAN`, `///ANGLE` and `///RCONF` hold for
-//! all positions below them until they are set anew. What a position's numbers are is told by the
+//! all positions below them until they are set anew. What a position's numbers are is stated by the
 //! last of PULSE, RECTAN and ANGLE; POSTYPE tells the frame of rectangular ones. (Some posts write
 //! `POSTYPE BASE` behind pulse positions.)
 
@@ -86,7 +86,7 @@ pub(super) struct Header<'a> {
     pub tool: Option<u32>,
     user: Option<u32>,
     type_: &'a [u8],
-    told: Option<Coordinates>,
+    stated: Option<Coordinates>,
     /// What RCONF tells.
     pub variant: u8,
     /// The lines themselves.
@@ -95,7 +95,7 @@ pub(super) struct Header<'a> {
 
 impl<'a> Header<'a> {
     pub(super) fn coordinates(&self) -> Option<Coordinates> {
-        self.told.or(match self.type_ {
+        self.stated.or(match self.type_ {
             b"PULSE" => Some(Coordinates::Pulses),
             b"ANGLE" => Some(Coordinates::Degrees),
             b"" => None,
@@ -143,9 +143,9 @@ impl<'a> Header<'a> {
             b"TOOL" => self.tool = Some(number()?),
             b"USER" => self.user = Some(number()?),
             b"POSTYPE" => self.type_ = value.unwrap_or_default(),
-            b"PULSE" => self.told = Some(Coordinates::Pulses),
-            b"ANGLE" => self.told = Some(Coordinates::Degrees),
-            b"RECTAN" => self.told = Some(Coordinates::Rectangular),
+            b"PULSE" => self.stated = Some(Coordinates::Pulses),
+            b"ANGLE" => self.stated = Some(Coordinates::Degrees),
+            b"RECTAN" => self.stated = Some(Coordinates::Rectangular),
             _ => self.variant = rconf::variant(&text[key.len()..]),
         }
         self.lines[which] = Some(line.text);
@@ -153,7 +153,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// What is known of a target beside its numbers.
+/// What is known of a target besides its numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub letter: Letter,

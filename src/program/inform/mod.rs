@@ -9,10 +9,10 @@
 //! robot's base.
 //!
 //! Each job is a routine: CALL JOB goes to jobs of the files and comes back, JUMP JOB does not;
-//! PSTART runs beside. What a P variable holds, which frame MFRAME and which tool SETTOOL made, and
-//! whether a shift is on is followed through them. A move to a place where the robot itself stood
-//! (`GETS PX001 $PX001`) is right as it is; one to a place that the running program computes stays,
-//! and is told.
+//! PSTART runs concurrently. What a P variable holds, which frame MFRAME and which tool SETTOOL
+//! made, and whether a shift is on is followed through them. A move to a place where the robot
+//! itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running program
+//! computes stays, and is reported.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
@@ -63,8 +63,8 @@ static ABOUT: About = About {
     ],
     leaves: &[
         "RCONF, external axes (BC, EC, BP, EX), speeds, positions that no move goes to",
-        "moves to places that the running program computes (local and indexed variables) or reads from the robot: told",
-        "PULSE positions without pulses_per_deg: told",
+        "moves to places that the running program computes (local and indexed variables) or reads from the robot: reported",
+        "PULSE positions without pulses_per_deg: reported",
         "TOOL.CND and UFRAME.CND, which tell tools and user frames",
         "comments, line ends, encoding, header",
     ],

@@ -6,7 +6,7 @@
 //! line from axis L to the wrist), and o, p, q where they are 0: the axis stands within ±180°. (1
 //! is two ranges: beyond +180° or below −180°.)
 //!
-//! The flip is told by controllers of two generations:
+//! The flip is stated by controllers of two generations:
 //!
 //! - DX100 and later write 24 fields. No flip is B below zero: `1,0,0,0,…` is what they write for
 //!   arms with R near zero and the tool bent down, also on arms whose R cannot stand beyond ±150°.

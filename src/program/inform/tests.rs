@@ -209,17 +209,17 @@ fn a_frame_that_the_header_does_not_tell_is_an_error() {
 }
 
 #[test]
-fn what_tells_the_first_solution_is_told() {
+fn what_states_the_first_solution_is_reported() {
     let found = |positions: &str, comment: &str, moves: &str| {
         let text = job(positions, moves).replace("///ATTR", &format!("///COMM {comment}\n///ATTR"));
         let program = read(&text);
         let ids: Vec<_> = program.findings.iter().map(|f| f.id).collect();
-        let told = |target: &crate::program::Target| {
+        let reported = |target: &crate::program::Target| {
             let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
             let decoded = Inform.decode(target.layout, &numbers, &Settings::default());
             decoded.configuration.behind_axis_1
         };
-        (ids, told(&program.targets[0]))
+        (ids, reported(&program.targets[0]))
     };
     let joints = format!("{USER}C00001={P6}\n///POSTYPE ANGLE\n///ANGLE\nC00000={P6}");
     let moves = "MOVJ C00000 VJ=5\nMOVJ C00001 VJ=5\nMOVJ C00001 VJ=5";
@@ -295,7 +295,7 @@ fn every_line_end_comment_and_second_job_is_read() {
 }
 
 #[test]
-fn broken_jobs_are_told_with_line_and_column() {
+fn broken_jobs_are_reported_with_line_and_column() {
     let text = job(&format!("{USER}{}", points(1)), "MOVL C00000 V=5");
     for (broken, place, message) in [
         (text.replace("\nEND", ""), (1, 1), "is not closed"),

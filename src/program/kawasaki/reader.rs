@@ -382,7 +382,7 @@ impl<'a> Reader<'a> {
     // ---- calls
 
     /// `name(a,b)`
-    fn call(&mut self, part: Part<'a, '_>, beside: bool) {
+    fn call(&mut self, part: Part<'a, '_>, concurrent: bool) {
         let Some(name) = part.0.first() else { return };
         let known = self.programs.get(&name.text.to_ascii_lowercase());
         let callees: Box<[RoutineId]> = known.map_or_else(Box::default, |all| all[..].into());
@@ -404,7 +404,7 @@ impl<'a> Reader<'a> {
             name: Source::text(name.text).into(),
             arguments: first..short(script.arguments.len()),
         };
-        if beside {
+        if concurrent {
             for routine in &*call.callees {
                 self.builder.script.routines[*routine as usize].start = Start::Concurrent;
             }

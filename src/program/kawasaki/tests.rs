@@ -213,7 +213,7 @@ fn tools_are_followed_and_programs_called() {
 }
 
 #[test]
-fn what_is_not_sure_is_refused_or_told() {
+fn what_is_not_sure_is_refused_or_reported() {
     for (code, expected) in [
         ("LMOVE TRANS(1,2,3)", "partial-target"),
         ("LMOVE TRANS(1,2,3,4,5,x)", "computed-target"),

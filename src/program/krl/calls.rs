@@ -1,4 +1,4 @@
-//! Calls of routines and functions, and what runs beside the program.
+//! Calls of routines and functions, and what runs concurrently with the program.
 
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
@@ -368,13 +368,13 @@ impl Reader {
         let name = cursor.next();
         if name.kind == Kind::Name && cursor.blanks() == b'(' {
             let symbol = self.symbol(&cursor, name);
-            self.beside.push((symbol, self.context()));
+            self.concurrent.push((symbol, self.context()));
         }
     }
 
     /// Marks the routines that run at any time, once all are declared.
     pub(super) fn mark_concurrent(&mut self) {
-        for (name, context) in std::mem::take(&mut self.beside) {
+        for (name, context) in std::mem::take(&mut self.concurrent) {
             if let Some(routine) = self.names.routine(name, context) {
                 self.builder.script.routines[routine as usize].start = Start::Concurrent;
             }

@@ -163,8 +163,8 @@ pub(super) struct States {
     chosen_guards: u32,
     /// Of moves to axes.
     pub joint_guards: u32,
-    /// External axes that go beside the program, and those that it does not move.
-    pub beside: [VariableId; 2],
+    /// External axes that move independently of the program, and those that it does not move.
+    pub apart: [VariableId; 2],
 }
 
 /// A kinematic of the controller by its names.
@@ -245,10 +245,10 @@ impl States {
         ]
         .map(|declared| script.variable(Variable::new("the move", NOWHERE, declared)));
         let mode = states[State::Ipo as usize];
-        let beside = ["$ASYNC_AXIS", "$ACT_EX_AX"]
+        let apart = ["$ASYNC_AXIS", "$ACT_EX_AX"]
             .map(|name| script.variable(Variable::new(name, NOWHERE, Expr::Value(on))));
         let mut guard = |of: &[VariableId]| {
-            script.guards.push([of, &beside].concat().into());
+            script.guards.push([of, &apart].concat().into());
             short(script.guards.len() - 1)
         };
         Self {
@@ -257,7 +257,7 @@ impl States {
             fixed_guards: guard(&[fixed]),
             chosen_guards: guard(&[chosen]),
             joint_guards: guard(&[]),
-            beside,
+            apart,
             states,
             tables,
             entries: HashMap::new(),

@@ -13,7 +13,7 @@ pub(super) const MANNER: Manner = Manner {
     longest: LONGEST_LINE,
 };
 
-/// Moves whose path is told by their targets alone.
+/// Moves whose path is given by their targets alone.
 const REPEATED: &[&str] = &["PTP", "LIN", "CIRC", "SPTP", "SLIN", "SCIRC"];
 
 /// Values of the external axes: one that is not given stands at zero.

@@ -117,7 +117,7 @@ pub(super) struct Fdat {
     pub is_external: Option<bool>,
 }
 
-/// A routine, beside what the script has of it.
+/// A routine, besides what the script has of it.
 #[derive(Clone, Debug)]
 pub(super) struct Head {
     pub module: u32,
@@ -170,7 +170,7 @@ impl Names {
         }))
     }
 
-    /// Adds a variable; one of a routine may be a parameter whose type was not told yet.
+    /// Adds a variable; one of a routine may be a parameter whose type is not known yet.
     pub(super) fn declare(&mut self, datum: Datum, global: bool) -> u32 {
         let at = datum.name.0 as usize;
         if self.last.len() <= at {

@@ -34,7 +34,7 @@ pub(super) struct Reader {
     pub(super) refused: HashSet<(u32, &'static str)>,
     pub(super) missing: HashMap<Symbol, RemarkId>,
     /// Routines of interrupts and triggers.
-    pub(super) beside: Vec<(Symbol, Context)>,
+    pub(super) concurrent: Vec<(Symbol, Context)>,
     /// Moves to the pose where the robot is.
     pub(super) stays: Vec<Place>,
     /// External axes that the profile describes.
@@ -89,7 +89,7 @@ impl Reader {
             ambiguous: HashMap::new(),
             refused: HashSet::new(),
             missing: HashMap::new(),
-            beside: Vec::new(),
+            concurrent: Vec::new(),
             stays: Vec::new(),
             here: Place { file: 0, offset: 0 },
             spline: super::moves::With::default(),
@@ -113,7 +113,7 @@ impl Reader {
                     open = Some(first);
                     self.define(name, global, rest);
                     if is_submit && self.first_of_file(file) {
-                        // it runs beside the robot's program
+                        // it runs concurrently with the robot's program
                         self.builder.script.routines[self.names.heads.len() - 1].start =
                             Start::Concurrent;
                     }

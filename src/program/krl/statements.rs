@@ -138,7 +138,7 @@ impl Reader {
                 return Ok(());
             }
             b"ASYPTP" | b"ASYCONT" | b"ASYSTOP" if !cursor.peek().is(b'=') => {
-                self.beside(cursor);
+                self.apart(cursor);
                 return Ok(());
             }
             b"BAS" if cursor.peek().is(b'(') => {
@@ -187,7 +187,7 @@ impl Reader {
     }
 
     /// `ASYPTP {E1 100}`: from here on nothing says where listed axes stand.
-    fn beside(&mut self, mut cursor: Cursor) {
+    fn apart(&mut self, mut cursor: Cursor) {
         let named = aggregate::read(&mut cursor)
             .ok()
             .map(|found| found.external);
@@ -238,7 +238,7 @@ impl Reader {
         };
         self.builder.write(Write {
             place: self.here,
-            variable: Written::One(self.states.beside[which]),
+            variable: Written::One(self.states.apart[which]),
             how: How::Whole(Expr::Value(value)),
         });
     }

@@ -280,7 +280,7 @@ impl Reader {
 /// Points of absolutely accurate robots; where they are to be rewritten that is said once a file.
 fn accurate_targets(script: &mut Script, kept: &[bool], settings: &Settings, sources: &[Source]) {
     let remark = script.remark(accurate());
-    let mut told = None;
+    let mut reported = None;
     for (id, target) in script.targets.iter().enumerate() {
         let (has_status, _) = status_and_turn(target.layout);
         if !has_status || target.numbers.is_empty() {
@@ -292,7 +292,7 @@ fn accurate_targets(script: &mut Script, kept: &[bool], settings: &Settings, sou
         }
         if !settings.accept_absolutely_accurate {
             script.refused.push((id, remark));
-        } else if kept[id] && told.replace(target.file) != Some(target.file) {
+        } else if kept[id] && reported.replace(target.file) != Some(target.file) {
             let message = "S of this target has bit 4 (16): taught on an absolutely accurate robot; it is compensated all \
                            the same, as all of its kind in this file";
             let hint =

@@ -60,7 +60,7 @@ fn ids(program: &Program) -> Vec<&'static str> {
 }
 
 /// Findings that are not about targets no move goes to.
-fn told(program: &Program) -> Vec<&'static str> {
+fn reported(program: &Program) -> Vec<&'static str> {
     let mut ids = ids(program);
     ids.retain(|id| *id != "target-unused-here");
     ids
@@ -141,7 +141,7 @@ fn targets_stand_in_moves_with_or_without_a_type() {
     assert_eq!(program.moves.len(), 4);
     assert_eq!(values(&program, 1)[5..], [-0.5, 2.0, 10.0]);
     assert_eq!(values(&program, 2)[5], 1.5e-12);
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -169,18 +169,18 @@ fn spline_blocks_are_moves_along_their_points() {
             "BASE_DATA[2]"
         ]
     );
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
 fn partial_positions_are_refused_by_name() {
     let program =
         path("LIN XP1\nLIN {Z 500} C_DIS\nLIN {X 1,Y 2,Z 3}\nLIN {X 0.0,Y 0.0,A 0.0,B 0.0,C 0.0}");
-    assert_eq!(told(&program), ["partial-target"; 3]);
+    assert_eq!(reported(&program), ["partial-target"; 3]);
     assert_eq!(blocked(&program), ["-"; 3]);
     // axes stay as they are anyway
     let program = path("PTP {A1 10.0}\nLIN XP1");
-    assert_eq!(told(&program), ["partial-target"]);
+    assert_eq!(reported(&program), ["partial-target"]);
     let partial = program.findings.iter().find(|f| f.id == "partial-target");
     assert_eq!(partial.map(|f| f.severity), Some(Severity::Warning));
 }
@@ -191,7 +191,7 @@ fn expressions_are_refused() {
         "LIN {X dx+1,Y 2,Z 3,A 0,B 0,C 0}\nLIN f(XP1)\nLIN XP1.X\nLIN nowhere\nPTP POS_HERE[i]",
     );
     assert_eq!(
-        told(&program),
+        reported(&program),
         [
             "target-has-expressions",
             "target-copied",
@@ -215,7 +215,7 @@ fn moves_back_to_where_the_robot_was_are_no_targets() {
     // where the robot is it stays
     assert_eq!(to(&program), ["?", "?", "?", "XP1"]);
     assert_eq!(
-        told(&program),
+        reported(&program),
         [
             "run-time-position",
             "joint-target-not-in-files",
@@ -261,7 +261,7 @@ fn points_that_the_program_changes_are_refused() {
         let expected_blocks = if blocks { vec!["XP1"] } else { vec![] };
         assert_eq!(blocked(&program), expected_blocks, "{change}");
         assert!(
-            told(&program).contains(&expected),
+            reported(&program).contains(&expected),
             "{change}: {:?}",
             program.findings
         );
@@ -269,7 +269,7 @@ fn points_that_the_program_changes_are_refused() {
     // both are targets: the data list keeps what was written last
     let program = path("LIN XP1\nXP1={X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN XP1");
     assert_eq!(to(&program), ["-", "XP1", "-"]);
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
     // a comparison changes nothing
     let program = path("IF XP1.X==1.0 THEN\nLIN XP1\nENDIF\nWAIT FOR XP1.Z==2.0");
     assert_eq!(blocked(&program), [""; 0]);
@@ -288,7 +288,7 @@ fn points_that_another_is_computed_from_are_displaced() {
 #[test]
 fn points_handed_to_routines_are_refused() {
     let program = path("approach(XP1, 5)\nLIN XP2");
-    assert_eq!(told(&program), ["target-passed-to-routine"]);
+    assert_eq!(reported(&program), ["target-passed-to-routine"]);
     assert_eq!(blocked(&program), ["XP1"]);
 }
 
@@ -309,7 +309,7 @@ fn global_points_of_another_list_are_found_and_local_ones_are_not() {
     let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN park\nLIN mine\nEND\n";
     let program = read_files(&[("points.dat", points), ("m.src", text)]);
     assert_eq!(to(&program), ["park", "?"]);
-    assert_eq!(told(&program), ["target-not-in-files"]);
+    assert_eq!(reported(&program), ["target-not-in-files"]);
 }
 
 #[test]
@@ -350,7 +350,7 @@ fn products_with_constant_frames_are_displaced_targets() {
     assert!(
         program.moves[1].displacement == Displacement::By(Box::new(Shift::along([0.0, 0.0, 0.1])))
     );
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -359,7 +359,7 @@ fn products_that_the_text_does_not_tell_are_unknown_displacements_or_errors() {
         path("DECL FRAME off\nSLIN XP1 : off : $RECIPE.PiO\nSLIN XP1 : XP2\nSLIN off : here");
     assert_eq!(to(&program), ["XP1", "?", "?"]);
     assert!(program.moves[0].displacement == Displacement::Unknown);
-    assert_eq!(told(&program), ["target-copied", "computed-target"]);
+    assert_eq!(reported(&program), ["target-copied", "computed-target"]);
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn frames_of_the_text_displace_by_what_they_are() {
     assert!((shift.in_frame.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
     let (before, behind) = (shift.in_frame.translation, shift.in_tool.translation);
     assert_eq!((before, behind), ([0.01, 0.0, 0.0], [0.0, 0.0, 0.005]));
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -384,7 +384,7 @@ fn relative_moves_go_from_the_target_before() {
     };
     assert_eq!(by(1), ([0.0, 0.0, 0.1], [0.0; 3]));
     assert_eq!(by(2), ([0.0, 0.0, 0.1], [-0.01, 0.0, 0.0]));
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -398,12 +398,12 @@ fn relative_moves_from_an_unknown_position_are_errors() {
     ];
     for text in rest {
         let program = path(&format!("LIN XP1\nWHILE TRUE\n{text}\nENDWHILE"));
-        assert_eq!(told(&program), ["relative-move"], "{text}");
+        assert_eq!(reported(&program), ["relative-move"], "{text}");
         let found = program.findings.iter().find(|f| f.id == "relative-move");
         assert_eq!(found.map(|f| f.severity), Some(Severity::Error), "{text}");
     }
     let program = path("PTP_REL {A6 -0.001}\nLIN XP1");
-    assert_eq!(told(&program), ["relative-joint-move"]);
+    assert_eq!(reported(&program), ["relative-joint-move"]);
 }
 
 #[test]
@@ -486,10 +486,10 @@ fn look_alikes_are_not_recognised() {
 }
 
 #[test]
-fn long_lines_are_told() {
+fn long_lines_are_reported() {
     let program = path(&format!(
         "LIN {{X 1,Y 2,Z 3,A 0,B 0,C 0}} C_DIS ;{}",
         "x".repeat(430)
     ));
-    assert_eq!(told(&program), ["long-line"]);
+    assert_eq!(reported(&program), ["long-line"]);
 }

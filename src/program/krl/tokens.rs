@@ -302,7 +302,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_numbers_bits_and_strings_are_told_apart() {
+    fn words_numbers_bits_and_strings_are_distinguished() {
         let text = b"LIN {X -1.5E-12,s'B010'} \"a;b\" $TOOL[1].x ; rest";
         let mut cursor = Cursor {
             bytes: text,

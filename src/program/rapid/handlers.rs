@@ -4,7 +4,7 @@ use super::syntax::StatementKind;
 use super::translate::Translator;
 use crate::program::script::Expr;
 
-/// Keys of labels beside those of names: handlers, places to go on at, where going on is chosen,
+/// Keys of labels besides those of names: handlers, places to go on at, where going on is chosen,
 /// nowhere.
 const HANDLERS: u64 = 1 << 40;
 const PLACES: u64 = 1 << 41;

@@ -34,7 +34,7 @@ fn predefined(name: &str, letter: char) -> Option<f64> {
 }
 
 /// What a predefined name says of a move's speed and zone.
-fn read_pace(name: &str, speed_zone: &mut SpeedZone) {
+fn read_speed_zone(name: &str, speed_zone: &mut SpeedZone) {
     if let Some(mm) = predefined(name, 'v') {
         speed_zone.speed_m_s = speed_zone.speed_m_s.or(Some(mm * MM));
     } else if let Some(mm) = predefined(name, 'z') {
@@ -109,7 +109,7 @@ impl Translator<'_> {
         for (place, (at, argument)) in positional().filter(|(at, _)| *at >= end).enumerate() {
             last = Some(at);
             if let Some(name) = plain(argument) {
-                read_pace(self.resolved.spelling(name), &mut speed_zone);
+                read_speed_zone(self.resolved.spelling(name), &mut speed_zone);
             }
             if place == 2 {
                 inside = Some(at);

@@ -112,7 +112,7 @@ impl Parts<'_> {
             return if unknown { Err(assigned()) } else { Ok(None) };
         };
         if fixed {
-            // a name beside a fixed frame means nothing
+            // a name next to a fixed frame means nothing
             return Ok(None);
         }
         if empty {

@@ -152,7 +152,7 @@ fn every_kind_of_declaration_and_array_is_a_target() {
 }
 
 #[test]
-fn displacements_add_up_and_unknown_ones_are_told() {
+fn displacements_add_up_and_unknown_ones_are_reported() {
     let program = path(
         "CONST num up:=30;\nMoveL offs(p1,1,-2,+3),v5,z5,t;\nMoveL OFFS(Offs(p1,0,0,5),0,0,-up),v5,z5,t;\n\
          MoveL RelTool(p1,0,0,10\\Rz:=90),v5,z5,t;\nMoveL Reltool(OFFS(p1,-50,100,100),0,0,0\\Rx:=180),v5,z5,t;\n\
@@ -248,7 +248,7 @@ fn targets_that_code_changes_are_blocked() {
 }
 
 #[test]
-fn positions_that_the_robot_told_are_right_as_they_are() {
+fn positions_that_the_robot_reported_are_right_as_they_are() {
     for statement in [
         "p3 := CRobT();",
         "p3 := CRobT(\\Tool:=t \\WObj:=w);",
@@ -266,13 +266,13 @@ fn positions_that_the_robot_told_are_right_as_they_are() {
         );
         assert_eq!(to(&program)[..2], ["p3", "?"], "{statement}");
     }
-    for beside in [
+    for computed in [
         "p3:=CRobT();\nMoveL Offs(p3,0,0,50),v5,z5,t;",
         "MoveL Offs(CRobT(),0,0,50),v5,z5,t;",
         "p3:=Offs(CRobT(),0,0,50);\nMoveL p3,v5,z5,t;",
     ] {
-        let program = path(beside);
-        assert_eq!(ids(&program), ["computed-target"], "{beside}");
+        let program = path(computed);
+        assert_eq!(ids(&program), ["computed-target"], "{computed}");
         assert!(
             program
                 .findings
@@ -539,7 +539,7 @@ fn external_axes_are_refused_until_their_unit_is_known() {
 }
 
 #[test]
-fn sensors_that_correct_a_path_are_told_once_a_place() {
+fn sensors_that_correct_a_path_are_reported_once_a_place() {
     let program = path("MoveL p1,v5,z5,t\\Corr;\nMoveL p2,v5,z5,t\\Corr;\nMoveL p1,v5,z5,t;");
     assert_eq!(
         (ids(&program), blocked(&program)),
@@ -856,7 +856,7 @@ fn the_marker_stands_behind_the_module_line() {
 }
 
 #[test]
-fn rapid_is_told_from_other_text() {
+fn rapid_is_distinguished_from_other_text() {
     for text in [
         "%%%\nVERSION:1\n%%%\nMODULE m\nENDMODULE",
         "! c\nMODULE x(NOSTEPIN)\nEND",

@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn moves_are_told_by_their_names() {
+    fn moves_are_known_by_their_names() {
         for (name, expected) in [
             ("MoveL", Some(Path::Linear)),
             ("MOVEJ", Some(Path::Joint)),

@@ -103,7 +103,7 @@ impl Builder {
         self.script.statements.push(Statement::Call(at));
     }
 
-    /// A start of routines that then run beside this one.
+    /// A start of routines that then run concurrently with this one.
     pub fn start(&mut self, call: Call) {
         let at = short(self.script.calls.len());
         self.script.calls.push(call);

@@ -61,11 +61,11 @@ pub struct Script {
     pub targets: Vec<Target>,
     /// The numbers of all targets.
     pub numbers: Vec<Number>,
-    /// What can be written, or is told by a caller.
+    /// What can be written, or is given by a caller.
     pub variables: Vec<Variable>,
     /// Variables that are reached by a number.
     pub tables: Vec<Table>,
-    /// What variables may hold beside targets.
+    /// What variables may hold besides targets.
     pub values: Vec<Held>,
     /// Parts of records.
     pub parts: Vec<Part>,
@@ -154,7 +154,7 @@ pub struct Variable {
     /// The controller keeps it from run to run.
     pub kept: bool,
     /// It is a state of the controller that any routine may set: after one that is not in the
-    /// files it is in doubt.
+    /// files it is uncertain.
     pub shared: bool,
     /// The routine it belongs to; parameters and local data.
     pub routine: Option<RoutineId>,
@@ -360,7 +360,7 @@ pub enum Start {
     Called,
     /// The controller or the operator, calls or not (`main`).
     Main,
-    /// An event: it runs between any two statements, or beside them.
+    /// An event: it runs between any two statements, or concurrently with them.
     Concurrent,
 }
 
@@ -373,7 +373,7 @@ pub enum Statement {
     Write(u32),
     /// Index in [`Script::calls`].
     Call(u32),
-    /// Starts routines that then run beside this one ([`Start::Concurrent`]): index in
+    /// Starts routines that then run concurrently with this one ([`Start::Concurrent`]): index in
     /// [`Script::calls`].
     Start(u32),
     /// Statements come here.

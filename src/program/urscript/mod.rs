@@ -10,7 +10,7 @@
 //! `get_inverse_kin(pose, qnear=joints)`: the pose is the target, the joints tell which of its
 //! solutions is meant and stay. Joints that are computed so keep the tool that is set where they
 //! are computed. `p[a[0], a[1], a[2] + 0.1, a[3], a[4], a[5]]` of a target a that moves go to is a
-//! displacement of it, too, and what is computed from targets in another manner stands beside them
+//! displacement of it, too, and what is computed from targets in another manner stands next to them
 //! by something. `pose_trans(target, offset)` of a target that other moves go to, and `pose_add`,
 //! are displacements of it.
 //!

@@ -167,7 +167,7 @@ fn targets_that_nobody_can_correct_are_errors() {
 }
 
 #[test]
-fn what_the_program_computes_stays_and_is_told() {
+fn what_the_program_computes_stays_and_is_reported() {
     for (lines, id, severity) in [
         ("movel(get_target())", "computed-target", Severity::Warning),
         ("movel(list[i])", "target-not-in-files", Severity::Error),
@@ -440,7 +440,7 @@ fn the_marker_stands_behind_the_first_function_line() {
 }
 
 #[test]
-fn urscript_is_told_from_other_text() {
+fn urscript_is_distinguished_from_other_text() {
     for text in [
         "def P():\n  set_tcp(p[0,0,0,0,0,0])\nend\n",
         " def P():\n  # c\n  movej([0,0,0,0,0,0])\n end\n",

@@ -10,7 +10,7 @@ use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Names that stand for each other in turn, and calls inside each other, that are followed.
 pub(super) const MOST_STEPS: u32 = 12;
-/// Functions of one name that are told apart: a program has one.
+/// Functions of one name that are distinguished: a program has one.
 const MOST_OF_A_NAME: usize = 4;
 /// No source follows.
 const NONE: u32 = u32::MAX;

@@ -19,7 +19,7 @@ pub(super) enum Verb {
     Somewhere,
     /// The robot gives way to forces.
     Force,
-    /// Moves go along a frame that moves, or beside the path; or no longer.
+    /// Moves go along a frame that moves, or offset from the path; or no longer.
     Tracking(bool),
     /// `set_tcp`
     Tool,

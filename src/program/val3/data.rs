@@ -94,7 +94,7 @@ pub(super) struct Element<'a> {
     pub numbers: [Number; 6],
     /// Some of the numbers stand there.
     pub is_given: bool,
-    /// Sides of the arm that are told: 0 or 1.
+    /// Sides of the arm that are stated: 0 or 1.
     pub sides: [Option<Number>; 3],
     /// Sides that are free.
     pub free: [bool; 3],
@@ -156,11 +156,11 @@ impl<'a> Element<'a> {
             if self.sides[at].is_some() || self.free[at] {
                 return Err(twice(tag));
             }
-            let told = words.iter().position(|word| word.as_bytes() == side.value);
-            self.sides[at] = told.map(|told| Number {
+            let stated = words.iter().position(|word| word.as_bytes() == side.value);
+            self.sides[at] = stated.map(|stated| Number {
                 start: short(side.start),
                 length: u16::try_from(side.value.len()).expect("a known word is short"),
-                value: if told == 0 { 0.0 } else { 1.0 },
+                value: if stated == 0 { 0.0 } else { 1.0 },
             });
             self.free[at] = side.value.ends_with(b"free");
         }
@@ -192,7 +192,7 @@ fn speed_zone<'a, 'b: 'a>(
     })
 }
 
-/// Where the path is left, mm, unless it is told.
+/// Where the path is left, mm, unless it is stated.
 const LEAVE_MM: f64 = 50.0;
 /// No tool is as fast, mm/s: the descriptor does not limit it.
 const NO_LIMIT: f64 = 9999.0;

@@ -173,11 +173,11 @@ fn written(tag: &Tag, target: &Target, numbers: &[Vec<u8>]) -> Option<Vec<u8>> {
             put(name.as_bytes(), number);
         }
     }
-    let mut told = numbers[6..].iter();
+    let mut stated = numbers[6..].iter();
     for (side, (name, _)) in SIDES.iter().enumerate() {
-        let is_told = target.layout.variant & 1 << side != 0;
+        let is_stated = target.layout.variant & 1 << side != 0;
         if let Some(old) = attributes.iter().find(|one| one.name == name.as_bytes()) {
-            let value = if is_told { told.next()? } else { old.value };
+            let value = if is_stated { stated.next()? } else { old.value };
             put(name.as_bytes(), value);
         }
     }

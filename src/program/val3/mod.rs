@@ -93,7 +93,7 @@ impl Language for Val3 {
     }
 
     fn pose_roles(&self, layout: Layout) -> &'static [Role] {
-        &notation::WITH_ANGLES[..6 + told(layout).count()]
+        &notation::WITH_ANGLES[..6 + stated(layout).count()]
     }
 
     fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
@@ -116,7 +116,7 @@ impl Language for Val3 {
                 (0.0, f64::INFINITY)
             })
         };
-        for (number, side) in numbers[6..].iter().zip(told(layout)) {
+        for (number, side) in numbers[6..].iter().zip(stated(layout)) {
             let is_second = *number > 0.5;
             match side {
                 0 => found.behind_axis_1 = Some(is_second),
@@ -140,7 +140,7 @@ impl Language for Val3 {
             0 => posture.behind_axis_1,
             side => posture.joints_rad[JOINT[side]] < 0.0,
         };
-        for (number, side) in numbers[6..].iter_mut().zip(told(layout)) {
+        for (number, side) in numbers[6..].iter_mut().zip(stated(layout)) {
             let is = |posture: &Posture| second(posture, side) == (*number > 0.5);
             if notation::truly_changes(before, after, JOINT[side], is) {
                 *number = 1.0 - *number;
@@ -151,7 +151,7 @@ impl Language for Val3 {
     fn write_configuration(&self, _: Layout, _: usize, value: f64, old: &[u8], out: &mut Vec<u8>) {
         let is_same = |words: &&[&str; 2]| words.iter().any(|word| word.as_bytes() == old);
         let words = SIDES.iter().map(|(_, words)| words).find(is_same);
-        let words = words.expect("sides that are told are known words");
+        let words = words.expect("sides that are stated are known words");
         out.extend_from_slice(words[usize::from(value > 0.5)].as_bytes());
     }
 
@@ -201,7 +201,7 @@ impl Language for Val3 {
 }
 
 /// The sides of the arm that a layout tells.
-fn told(layout: Layout) -> impl Iterator<Item = usize> {
+fn stated(layout: Layout) -> impl Iterator<Item = usize> {
     (0..usize::from(FREE)).filter(move |side| layout.variant & 1 << side != 0)
 }
 

@@ -152,7 +152,7 @@ fn frames_hang_on_fathers_and_tools_on_tools() {
 }
 
 #[test]
-fn approaches_are_displaced_and_others_are_told() {
+fn approaches_are_displaced_and_others_are_reported() {
     let points = data("trA", "trsf", &["key=\"0\" z=\"-50\""])
         + &data("trB", "trsf", &["key=\"0\" z=\"-50\""])
         + &data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fA[0]\""]);
@@ -289,7 +289,7 @@ fn points_are_followed_through_parameters_and_copies() {
 }
 
 #[test]
-fn what_the_running_program_changes_is_refused_or_told() {
+fn what_the_running_program_changes_is_refused_or_reported() {
     let points = data(
         "pA",
         "pointRx",

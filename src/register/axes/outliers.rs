@@ -7,7 +7,7 @@ use crate::register::features;
 
 /// Sweeps with fewer rows keep all: the others could not tell which one is wrong.
 pub const FEWEST: usize = 6;
-/// A row counts as wrong where, without it, the mean square of what is left falls by more than this
+/// A row counts as wrong where, without it, the mean square of the residual falls by more than this
 /// many times itself a coordinate: beyond six standard deviations of the others.
 const LIMIT: f64 = 40.0;
 /// Rows nearer to the circle of the others than this are never left out, metres.

@@ -1,4 +1,5 @@
-//! How measured axes stand to one another, beside the drawing: it depends on no frame and no tool.
+//! How measured axes stand to one another, compared with the drawing: it depends on no frame and no
+//! tool.
 
 use super::{Axis, Line, Sweep, nominal};
 use crate::geometry::{Vector, add, cross, dot, norm, scale, sub};
@@ -32,7 +33,7 @@ fn angle_and_distance(a: &Line, b: &Line) -> (f64, f64) {
     (angle, distance)
 }
 
-/// Each swept axis beside the next swept one.
+/// Each swept axis offset from the next swept one.
 #[must_use]
 pub fn relations(axes: &[Axis], sweeps: &[Sweep], profile: &Profile) -> Vec<Relation> {
     // an axis stands where the joints before it put it

@@ -31,7 +31,7 @@ pub struct Sag {
 }
 
 impl PoseCovariance {
-    /// Two independent uncertainties of one motion, told about one centre.
+    /// Two independent uncertainties of one motion, expressed about one centre.
     #[must_use]
     pub fn and(&self, other: &Self) -> Self {
         Self::new(self.centre_m, &(self.as_matrix() + other.as_matrix()))

@@ -186,8 +186,8 @@ fn finish(
     }
 }
 
-/// A covariance of small motions behind a pose, told along the axes of the frame that the pose maps
-/// into.
+/// A covariance of small motions behind a pose, expressed along the axes of the frame that the pose
+/// maps into.
 fn along_world(block: &Matrix6<f64>, pose: &Pose) -> PoseCovariance {
     let turn = nalgebra::Matrix3::from_fn(|i, j| pose.rotation.0[i][j]);
     let mut both = Matrix6::zeros();

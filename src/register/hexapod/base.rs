@@ -13,7 +13,7 @@ const LIMIT_M: f64 = 0.02;
 pub struct BaseFrame {
     /// `robot_from_base`: origin B1, x to B2, B3 in the xy plane with y > 0.
     pub robot_from_base: Pose,
-    /// What is left of each taught point, metres.
+    /// The residual of each taught point, metres.
     pub left_m: [Vector; 3],
     /// Root mean square of it, metres.
     pub rms_m: f64,

@@ -34,9 +34,9 @@ fn meet<S: Scalar>(p: [Vector<S>; 3], r: [S; 3], side: f64) -> (Vector<S>, S) {
     let x = scale(S::one() / d, along);
     let other = sub(p[2], p[0]);
     let i = dot(x, other);
-    let beside = sub(other, scale(i, x));
-    let j = norm(beside);
-    let y = scale(S::one() / j, beside);
+    let across = sub(other, scale(i, x));
+    let j = norm(across);
+    let y = scale(S::one() / j, across);
     let z = cross(x, y);
     let half = S::constant(0.5);
     let u = half * (r[0] * r[0] - r[1] * r[1] + d * d) / d;
@@ -92,8 +92,8 @@ fn frame<S: Scalar>(p: [Vector<S>; 3]) -> Pose<S> {
     let along = sub(p[1], p[0]);
     let x = scale(S::one() / norm(along), along);
     let to_third = sub(p[2], p[0]);
-    let beside = sub(to_third, scale(dot(x, to_third), x));
-    let y = scale(S::one() / norm(beside), beside);
+    let across = sub(to_third, scale(dot(x, to_third), x));
+    let y = scale(S::one() / norm(across), across);
     let z = cross(x, y);
     let mut rotation = [[S::zero(); 3]; 3];
     for i in 0..3 {

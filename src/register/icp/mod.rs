@@ -22,7 +22,7 @@ use crate::geometry::{Pose, Vector, add, dot, norm, scale, sub};
 use pairs::{Pairing, pairings, step};
 use search::coarse_search;
 use surface::{Surface, along_curve};
-use trust::{doubt_rival, judge};
+use trust::{check_alternative, judge};
 
 /// Fewest points of a cloud.
 const FEWEST: usize = 50;
@@ -34,7 +34,7 @@ const MIDDLE: usize = 4000;
 const STEPS: usize = 300;
 /// Steps after which small steps back and forth are taken for standing still.
 const PATIENT: usize = 25;
-/// Points of which it is told what is left.
+/// Points of which the residual is reported.
 const MOST_LEFT: usize = 2000;
 /// Points handed to a thread at a time.
 const CHUNK: usize = 4096;
@@ -176,7 +176,7 @@ pub struct PointResidual {
 ///
 /// # Errors
 /// If a set is too small, not finite, coincident, or of other units than the other. A result that
-/// is found but doubtful is returned with its concerns.
+/// is found but uncertain is returned with its concerns.
 pub fn icp(
     from: &[Vector],
     to: &[Vector],
@@ -247,7 +247,7 @@ pub fn icp(
     }
     found.steps = steps;
     if let Some(other) = alternative {
-        doubt_rival(from, &surface, other, options, &extent, &mut found);
+        check_alternative(from, &surface, other, options, &extent, &mut found);
     }
     Ok(found)
 }

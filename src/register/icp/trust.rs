@@ -178,7 +178,7 @@ fn mirrored(
 }
 
 /// Refines the other end a little and compares.
-pub(super) fn doubt_rival(
+pub(super) fn check_alternative(
     from: &[Vector],
     surface: &Surface,
     mut other: Pose,

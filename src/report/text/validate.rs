@@ -13,7 +13,7 @@ fn of<'a, T>(models: Option<&'a Models<T>>, name: &str) -> Option<&'a T> {
 
 pub(super) fn text(found: &Validation, style: Style) -> String {
     let mut out = format!("{} rows\n", found.rows);
-    if let Some(note) = found.found.refit.told() {
+    if let Some(note) = found.found.refit.note() {
         out += &format!("{note}\n");
     }
     out.push('\n');

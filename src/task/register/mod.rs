@@ -158,7 +158,7 @@ pub struct Search {
     pub expected_mm: f64,
     /// Root mean square residual of the pairs kept.
     pub rms_mm: f64,
-    /// Whether nothing is doubtful.
+    /// Whether nothing is uncertain.
     pub success: bool,
 }
 
@@ -312,7 +312,7 @@ impl Registration {
         }
     }
 
-    /// Whether the answer is no: a doubtful result is not written.
+    /// Whether the answer is no: an uncertain result is not written.
     #[must_use]
     pub fn is_refused(&self) -> bool {
         self.findings

@@ -1,7 +1,7 @@
 """Runs `poseshift profile from-urdf` on every URDF below a folder, such as the ones in the PyPI package example-robot-data, and prints
 what became of each. Ends with 1 where the program did anything but write a profile or refuse with a reason.
 
-Usage: python packages.py POSESHIFT FOLDER [LINK:LINK ...]     (base:tip pairs tried beside the defaults)
+Usage: python packages.py POSESHIFT FOLDER [LINK:LINK ...]     (base:tip pairs tried given the defaults)
 """
 import pathlib, subprocess, sys
 

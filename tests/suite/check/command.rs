@@ -95,7 +95,7 @@ fn inserted_targets_bring_the_path_within_the_limit_and_arcs_stay_arcs() {
 }
 
 #[test]
-fn a_baseline_catches_a_changed_decimal_and_a_build_server_is_told() {
+fn a_baseline_catches_a_changed_decimal_and_a_build_server_is_reported() {
     let folder = scratch();
     let (program, base, xml) = (
         folder.path().join("t.mod"),
@@ -140,7 +140,7 @@ fn a_baseline_catches_a_changed_decimal_and_a_build_server_is_told() {
 }
 
 #[test]
-fn a_cell_s_faults_and_its_missing_mesh_are_told() {
+fn a_cell_s_faults_and_its_missing_mesh_are_reported() {
     let folder = scratch();
     let (program, cell) = (folder.path().join("t.mod"), folder.path().join("cell.yaml"));
     std::fs::write(&program, PROGRAM).expect("scratch");
@@ -200,7 +200,7 @@ fn a_cell_s_faults_and_its_missing_mesh_are_told() {
 }
 
 #[test]
-fn speed_zone_and_limits_are_told() {
+fn speed_zone_and_limits_are_reported() {
     let folder = scratch();
     let program = folder.path().join("t.mod");
     std::fs::write(&program, PROGRAM.replace("MoveL p2,v100", "MoveL p2,v7000")).expect("scratch");
@@ -389,8 +389,8 @@ fn joints_in_no_unit_at_all_are_refused_before_they_are_followed() {
         "0,0,100,0,0,0",
     ]);
     let findings = found["findings"].as_array().expect("findings");
-    let told = findings.iter().find(|f| f["id"] == "angle-too-large");
-    let told = told.unwrap_or_else(|| panic!("{findings:?}"));
-    assert_eq!((status, told["line"].as_u64()), (1, Some(3)));
+    let reported = findings.iter().find(|f| f["id"] == "angle-too-large");
+    let reported = reported.unwrap_or_else(|| panic!("{findings:?}"));
+    assert_eq!((status, reported["line"].as_u64()), (1, Some(3)));
     assert_eq!(found["summary"]["unknown"], 1, "{found}");
 }

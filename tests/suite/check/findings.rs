@@ -107,23 +107,21 @@ fn a_straight_move_through_the_shoulder_is_out_of_reach_though_both_ends_are_not
     let lines = joint_move(from) + "    ConfL\\Off;\n";
     let through =
         checked(&(lines.clone() + &straight_to(from, [10.0, -412.0, 0.0], [-1, 0, 0, 0])));
-    let told = through
+    let reported = through
         .findings
         .iter()
         .find(|f| f.id == "path-out-of-reach")
         .expect("it is found");
     assert!(
-        told.severity == Severity::Error && told.message.contains("out of reach at 44 %"),
+        reported.severity == Severity::Error && reported.message.contains("out of reach at 44 %"),
         "{}",
-        told.message
+        reported.message
     );
-    let beside = checked(&(lines + &straight_to(from, [150.0, -20.0, 0.0], [0, 0, 0, 0])));
+    let given = checked(&(lines + &straight_to(from, [150.0, -20.0, 0.0], [0, 0, 0, 0])));
     assert!(
-        !ids(&beside)
-            .iter()
-            .any(|(id, _)| *id == "path-out-of-reach"),
+        !ids(&given).iter().any(|(id, _)| *id == "path-out-of-reach"),
         "{:?}",
-        beside.findings
+        given.findings
     );
 }
 
@@ -203,8 +201,8 @@ ENDMODULE
             &at("m.csv"),
         ]
         .map(str::to_owned);
-        let (status, told) = command(&simulate.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(status, 0, "{told}");
+        let (status, reported) = command(&simulate.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(status, 0, "{reported}");
         let (m, c, t) = (at("m.csv"), at("c.yaml"), at("t.mod"));
         let calibrate = [
             "calibrate",
@@ -215,8 +213,8 @@ ENDMODULE
             "-o",
             &c,
         ];
-        let (status, told) = command(&calibrate);
-        assert_eq!(status, 0, "{told}");
+        let (status, reported) = command(&calibrate);
+        assert_eq!(status, 0, "{reported}");
         let (status, text) = command(&["check", &t, "--profile", &c]);
         assert_eq!(status, 0, "{text}");
         assert!(text.contains(" \u{b1} "), "{text}");
@@ -268,7 +266,7 @@ ENDMODULE
     let mut worst = Vec::new();
     for (name, limit) in [("plain.mod", "10"), ("fine.mod", "0.03")] {
         let (t, out) = (at("t.mod"), at(name));
-        let (status, told) = command(&[
+        let (status, reported) = command(&[
             "compensate",
             &t,
             "--profile",
@@ -278,7 +276,7 @@ ENDMODULE
             "-o",
             &out,
         ]);
-        assert_eq!(status, 0, "{told}");
+        assert_eq!(status, 0, "{reported}");
         let (_, json) = command(&["check", &out, "--nominal", &t, "--profile", robot, "--json"]);
         let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
         let moves = report["moves"].as_array().expect("moves");
@@ -347,8 +345,8 @@ fn a_collision_that_only_compensation_makes_is_found_and_named() {
         (found.summary.collisions, found.summary.nominal_collisions),
         (1, 0)
     );
-    let told = found.findings.iter().find(|f| f.id == "collision");
-    let message = &told.expect("a finding").message;
+    let reported = found.findings.iter().find(|f| f.id == "collision");
+    let message = &reported.expect("a finding").message;
     assert!(
         message.contains("the real arm's bulge touches ball"),
         "{message}"
@@ -381,11 +379,11 @@ fn a_target_in_reach_of_a_base_at_the_origin_names_the_base() {
         String::from_utf8_lossy(&out.stderr).into_owned() + &String::from_utf8_lossy(&out.stdout)
     };
     let named = "kinematics.base of the profile is at (5000, 0, 0) mm";
-    let told = run(&moved);
+    let reported = run(&moved);
     assert!(
-        told.contains("out-of-reach") && told.contains(named),
-        "{told}"
+        reported.contains("out-of-reach") && reported.contains(named),
+        "{reported}"
     );
-    let told = run(&here);
-    assert!(!told.contains("out-of-reach"), "{told}");
+    let reported = run(&here);
+    assert!(!reported.contains("out-of-reach"), "{reported}");
 }

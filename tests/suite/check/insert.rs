@@ -235,12 +235,12 @@ fn command(arguments: &[String]) -> (i32, String) {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let error = String::from_utf8_lossy(&output.stderr);
     let status = output.status.code().expect("it ended");
-    let told = if text.starts_with('{') {
+    let reported = if text.starts_with('{') {
         text
     } else {
         format!("{text}{error}")
     };
-    (status, told)
+    (status, reported)
 }
 
 impl Case {
@@ -282,7 +282,7 @@ impl Case {
 /// Largest bound of a path of one kind, mm.
 fn worst(report: &Value, kind: &str) -> f64 {
     let moves = report["moves"].as_array().expect("moves");
-    // the first move comes from a joint target, which stays beside where it is wanted
+    // the first move comes from a joint target, which stays off where it is wanted
     let others = moves[2..].iter().filter(|m| m["kind"] == kind);
     others
         .filter_map(|m| m["max_path_error_mm"].as_f64())
@@ -304,12 +304,16 @@ fn try_case(case: &Case) {
     };
     let (original, plain, fine) = (at("in"), at("plain"), at("fine"));
     case.write(&original);
-    let (status, told) = case.compensate(&original, &plain, &[]);
-    assert_eq!(status, 0, "{}: {told}", case.language);
+    let (status, reported) = case.compensate(&original, &plain, &[]);
+    assert_eq!(status, 0, "{}: {reported}", case.language);
     let limit = format!("{LIMIT_MM}");
-    let (status, told) = case.compensate(&original, &fine, &["--max-path-error", &limit]);
-    assert_eq!(status, 0, "{}: {told}", case.language);
-    assert!(told.contains("moves inserted"), "{}: {told}", case.language);
+    let (status, reported) = case.compensate(&original, &fine, &["--max-path-error", &limit]);
+    assert_eq!(status, 0, "{}: {reported}", case.language);
+    assert!(
+        reported.contains("moves inserted"),
+        "{}: {reported}",
+        case.language
+    );
     // the moves of the two written programs, by what the original wants
     let before = case.check(&plain, Some(&original));
     let after = case.check(&fine, Some(&original));
@@ -455,11 +459,11 @@ fn a_move_that_does_more_than_go_is_not_repeated() {
         assert!(text.contains(from));
         std::fs::write(&files[0], text.replace(from, to)).expect("a writable folder");
         let out = folder.path().join(format!("out-{}", case.files[0].0));
-        let (status, told) = case.compensate(&files[0], &out, &["--max-path-error", "0.05"]);
-        assert_eq!(status, 1, "{}: {told}", case.language);
+        let (status, reported) = case.compensate(&files[0], &out, &["--max-path-error", "0.05"]);
+        assert_eq!(status, 1, "{}: {reported}", case.language);
         assert!(
-            told.contains("path-not-refined") && told.contains("cannot be repeated"),
-            "{}: {told}",
+            reported.contains("path-not-refined") && reported.contains("cannot be repeated"),
+            "{}: {reported}",
             case.language
         );
         assert!(!out.exists(), "{}", case.language);
@@ -489,7 +493,7 @@ ENDMODULE
         let (input, out) = (folder.path().join("t.mod"), folder.path().join("o.mod"));
         std::fs::write(&input, text.replace("MoveL p2,v100,z10,artifact;", line))
             .expect("a writable folder");
-        let (got, told) = command(
+        let (got, reported) = command(
             &[
                 "compensate",
                 &input.display().to_string(),
@@ -502,7 +506,11 @@ ENDMODULE
             ]
             .map(str::to_owned),
         );
-        assert_eq!(got, status, "{line}: {told}");
-        assert_eq!(told.contains("cannot be repeated"), status == 1, "{told}");
+        assert_eq!(got, status, "{line}: {reported}");
+        assert_eq!(
+            reported.contains("cannot be repeated"),
+            status == 1,
+            "{reported}"
+        );
     }
 }

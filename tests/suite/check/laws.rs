@@ -286,11 +286,11 @@ fn clearance_is_that_of_dense_sampling_and_never_more() {
         let b: [f64; 6] = std::array::from_fn(|i| a[i] + 40.0 * (part(&mut state) - 0.5));
         let sources = rapid(&(joint_move(a) + &joint_move(b)));
         let found = run(&profile, Some(&cell), &sources, None, &options);
-        let told = found.moves[1]
+        let reported = found.moves[1]
             .clearance
             .as_deref()
             .expect("there are bodies");
-        assert!(told.certified);
+        assert!(reported.certified);
         let at = |s: f64| clearance(&profile, &cell, &real, &moved(&a, &b, s));
         let steps = 150;
         let best = (0..=steps)
@@ -302,12 +302,12 @@ fn clearance_is_that_of_dense_sampling_and_never_more() {
         let dense = (0..=60)
             .map(|k| at(low + (high - low) * f64::from(k) / 60.0))
             .fold(at(best), f64::min);
-        let (told_mm, dense_mm) = (1e3 * told.clearance_m, 1e3 * dense);
-        assert!(told_mm <= dense_mm + 1e-6, "{told_mm} {dense_mm}");
+        let (reported_mm, dense_mm) = (1e3 * reported.clearance_m, 1e3 * dense);
+        assert!(reported_mm <= dense_mm + 1e-6, "{reported_mm} {dense_mm}");
         // the bound's own slack is 0.005 mm; the rest is what sampling misses
         assert!(
-            dense_mm - told_mm <= 0.01 + 50.0 * SAMPLING_MM,
-            "{told_mm} {dense_mm}"
+            dense_mm - reported_mm <= 0.01 + 50.0 * SAMPLING_MM,
+            "{reported_mm} {dense_mm}"
         );
         apart += usize::from(dense > 0.0);
     }

@@ -265,11 +265,11 @@ fn refused(folder: &Path, file: &str, bytes: &[u8], says: &str) {
 #[test]
 fn meshes_that_mean_harm_are_errors() {
     let folder = scratch();
-    let beside = scratch();
-    std::fs::write(beside.path().join("out.bin"), [0; 132]).expect("scratch");
+    let given = scratch();
+    std::fs::write(given.path().join("out.bin"), [0; 132]).expect("scratch");
     let outside = format!(
         "../{}/out.bin",
-        beside.path().file_name().expect("a name").display()
+        given.path().file_name().expect("a name").display()
     );
     for (uri, says) in [
         (outside.as_str(), "in the mesh's folder"),

@@ -173,8 +173,8 @@ fn what_is_no_chain_of_six_turning_joints_is_refused_by_name() {
         (text.replace("</robot>", ""), ""),
     ];
     for (text, says) in cases {
-        let told = error(&text);
-        assert!(told.contains(says), "{says}: {told}");
+        let reported = error(&text);
+        assert!(reported.contains(says), "{says}: {reported}");
     }
 }
 
@@ -189,10 +189,10 @@ fn the_command_writes_a_profile_and_says_what_the_inverse_supports() {
         command
     };
     let output = command().arg("-o").arg(&out).output().expect("it starts");
-    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    let reported = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(
-        output.status.success() && told.contains("spherical wrist"),
-        "{told} {output:?}"
+        output.status.success() && reported.contains("spherical wrist"),
+        "{reported} {output:?}"
     );
     Profile::from_yaml(&std::fs::read_to_string(&out).expect("written")).expect("a profile");
     let with_mesh = urdf(&usual(), "").replace(
@@ -201,11 +201,11 @@ fn the_command_writes_a_profile_and_says_what_the_inverse_supports() {
     );
     std::fs::write(&file, with_mesh).expect("scratch");
     let output = command().output().expect("it starts");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2));
     assert!(
-        told.contains("package://arm/link.stl") && told.contains("--package-path"),
-        "{told}"
+        reported.contains("package://arm/link.stl") && reported.contains("--package-path"),
+        "{reported}"
     );
     assert!(
         command()

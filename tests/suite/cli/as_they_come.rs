@@ -18,10 +18,10 @@ fn joined(points: &[u8], mapping: &Mapping) -> (Measurements, Vec<&'static str>)
     let [joints, points] = grids;
     let table =
         Table::joined(joints, points, mapping).unwrap_or_else(|e| panic!("{e}: {}", e.hint()));
-    let told = table.remarks.iter().map(|remark| remark.id).collect();
+    let reported = table.remarks.iter().map(|remark| remark.id).collect();
     (
         Measurements::from_table(&table).unwrap_or_else(|e| panic!("{e}: {}", e.hint())),
-        told,
+        reported,
     )
 }
 
@@ -56,17 +56,20 @@ fn exports_of_measuring_software_are_read_as_they_are() {
         754,-3193.366,303.745,0.004,0.003,0.227782,-0.114534,0.22,22.8,'11.10.2022 15:06:48.043,\n\
         835.44,-3148.711,256.682,0.01,0.008,0.37518,-0.170711,0.35,22.8,'11.10.2022 15:06:55.562,\n\
         394.456,-3200.746,-664.155,0.01,0.006,0.388994,-0.204948,0.35,22.8,'11.10.2022 15:07:07.502,\n";
-    let (read, told) = joined(leica, &Mapping::default());
+    let (read, reported) = joined(leica, &Mapping::default());
     near(&places(&read)[..1], &[[0.754, -3.193_366, 0.303_745]]);
-    assert_eq!(told, ["export-recognised", "encoding", "joined-in-order"]);
+    assert_eq!(
+        reported,
+        ["export-recognised", "encoding", "joined-in-order"]
+    );
     // SpatialAnalyzer: commas, blanks, comments, with and without collection and group
     for list in [
         "// frame: A::WORLD\n3,  1975.5,  -310.25,  -257.0\n1,  1.0, 2.0, 3.0\n2, 4, 5, 6\n",
         "3   1975.5   -310.25   -257.0\n1 1.0 2.0 3.0\n2 4 5 6\n",
         "A,points,3,1975.5,-310.25,-257\nA,points,1,1,2,3\nA,points,2,4,5,6\n",
     ] {
-        let (read, told) = joined(list.as_bytes(), &Mapping::default());
-        assert_eq!(told, ["export-recognised"], "{list}");
+        let (read, reported) = joined(list.as_bytes(), &Mapping::default());
+        assert_eq!(reported, ["export-recognised"], "{list}");
         near(
             &places(&read),
             &[
@@ -83,8 +86,8 @@ fn exports_of_measuring_software_are_read_as_they_are() {
     // one row a coordinate, a unit in the name of the column
     let long = "Name;Control;Nom;Meas [in];Tol;Dev;Test\n1;X;1;1,5;0,1;0,5;Fail\n;Y;2;2;0,1;0;Pass\n;Z;3;3;0,1;0;Pass\n\
         2;X;1;1;;0;\n2;Y;1;1;;0;\n2;Z;1;1;;0;\n";
-    let (read, told) = joined(long.as_bytes(), &Mapping::default());
-    assert_eq!(told, ["export-recognised", "not-measured"]);
+    let (read, reported) = joined(long.as_bytes(), &Mapping::default());
+    assert_eq!(reported, ["export-recognised", "not-measured"]);
     near(&places(&read)[..1], &[[0.0381, 0.0508, 0.0762]]);
     let lacking = "Name;Control;Nom;Meas\n1;X;1;1,5\n1;Y;2;2\n";
     let error = Table::of(
@@ -108,17 +111,17 @@ fn exports_of_measuring_software_are_read_as_they_are() {
 
 #[test]
 fn an_unknown_header_is_answered_with_a_mapping() {
-    let told = refused(
+    let reported = refused(
         "Punkt;Ost (m);Nord (m);H\n1;1;2;3\n2;1;2;3\n3;1;2;3\n",
         &Mapping::default(),
     );
     assert!(
-        told.contains("columns are missing: x_mm, y_mm, z_mm"),
-        "{told}"
+        reported.contains("columns are missing: x_mm, y_mm, z_mm"),
+        "{reported}"
     );
     assert!(
-        told.contains("--columns id=Punkt") && told.contains("Nord (m)"),
-        "{told}"
+        reported.contains("--columns id=Punkt") && reported.contains("Nord (m)"),
+        "{reported}"
     );
     let own = mapping("id=punkt,x=Ost (m),y=Nord (m),z=#4", "");
     let (read, _) = joined(
@@ -128,12 +131,12 @@ fn an_unknown_header_is_answered_with_a_mapping() {
     near(&places(&read)[..1], &[[1.0, 2.0, 0.003]]);
     // the unit of what does not say it
     let metres = mapping("x=Ost (m),y=Nord (m),z=H", "m");
-    let (read, told) = joined(
+    let (read, reported) = joined(
         "Ost (m);Nord (m);H\n1;1;2\n1;1;2\n1;1;2\n".as_bytes(),
         &metres,
     );
     near(&places(&read)[..1], &[[1.0, 1.0, 2.0]]);
-    assert_eq!(told, ["joined-in-order"]);
+    assert_eq!(reported, ["joined-in-order"]);
     // units of the format's own names need no option
     let (read, _) = joined(
         b"id,x_m,y_m,z_in\n1,1,2,1\n2,1,2,1\n3,1,2,1\n",
@@ -159,21 +162,21 @@ fn several_reflectors_stand_in_columns_or_rows() {
     );
     assert!(read.has(&["point", "x_mm"]));
     let stacked = "id,point,x_mm,y_mm,z_mm\n1,a,1,2,3\n2,a,7,8,9\n1,b,4,5,6\n2,b,1,1,1\n";
-    let (read, told) = joined(stacked.as_bytes(), &Mapping::default());
+    let (read, reported) = joined(stacked.as_bytes(), &Mapping::default());
     assert_eq!(
-        (read.rows.len(), told.as_slice()),
+        (read.rows.len(), reported.as_slice()),
         (4, ["not-measured"].as_slice())
     );
     assert_eq!(read.rows[2].q, read.rows[0].q);
-    let told = refused(
+    let reported = refused(
         "id,X1,Y1,Z1,X2,Y2,Z2\n1,1,2,3,4,5,6\n2,,,,,,\n3,1,1,1,,,\n",
         &columns,
     );
-    assert!(told.contains("no point was measured"), "{told}");
-    let told = refused("id,x_mm,y_mm,z_mm\n1,1,2,3\n1,4,5,6\n", &Mapping::default());
+    assert!(reported.contains("no point was measured"), "{reported}");
+    let reported = refused("id,x_mm,y_mm,z_mm\n1,1,2,3\n1,4,5,6\n", &Mapping::default());
     assert!(
-        told.contains("stands in line 2, too") && told.contains("column point"),
-        "{told}"
+        reported.contains("stands in line 2, too") && reported.contains("column point"),
+        "{reported}"
     );
 }
 
@@ -217,19 +220,22 @@ fn angles_are_rotations_by_the_name_of_their_convention() {
     assert!((pose.rotation.transpose() * wanted).angle() < 1e-12);
     // a row without angles is a position
     assert!(matches!(read.rows[2].observed, Observed::Position(_)));
-    let told = refused("id,x_mm,y_mm,z_mm\n1,1,2,3\n", &kuka);
-    assert!(told.contains("no column `A` for rz_deg"), "{told}");
+    let reported = refused("id,x_mm,y_mm,z_mm\n1,1,2,3\n", &kuka);
+    assert!(reported.contains("no column `A` for rz_deg"), "{reported}");
 }
 
 #[test]
 fn what_cannot_be_joined_is_refused_with_both_files() {
-    let told = refused("id,x_mm,y_mm,z_mm\n1,1,2,3\n9,4,5,6\n", &Mapping::default());
+    let reported = refused("id,x_mm,y_mm,z_mm\n1,1,2,3\n9,4,5,6\n", &Mapping::default());
     assert!(
-        told.contains("the id `9` is not in T, whose ids are 1, 2, 3"),
-        "{told}"
+        reported.contains("the id `9` is not in T, whose ids are 1, 2, 3"),
+        "{reported}"
     );
-    let told = refused("x_mm,y_mm,z_mm\n1,2,3\n4,5,6\n", &Mapping::default());
-    assert!(told.contains("T has 3 rows, T has 2"), "{told}");
-    let told = refused("id,x_mm,y_mm,z_mm,q1_deg\n1,2,3,4,5\n", &Mapping::default());
-    assert!(told.contains("the column q1_deg stands in"), "{told}");
+    let reported = refused("x_mm,y_mm,z_mm\n1,2,3\n4,5,6\n", &Mapping::default());
+    assert!(reported.contains("T has 3 rows, T has 2"), "{reported}");
+    let reported = refused("id,x_mm,y_mm,z_mm,q1_deg\n1,2,3,4,5\n", &Mapping::default());
+    assert!(
+        reported.contains("the column q1_deg stands in"),
+        "{reported}"
+    );
 }

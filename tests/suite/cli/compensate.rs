@@ -31,15 +31,15 @@ fn with_sample() -> tempfile::TempDir {
 /// output.
 fn refused(folder: &Path, arguments: &[&str], status: i32, files: &[&str]) -> String {
     let output = run(folder, arguments);
-    let told = String::from_utf8_lossy(&output.stderr).into_owned()
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned()
         + &String::from_utf8_lossy(&output.stdout);
-    assert_eq!(output.status.code(), Some(status), "{told}");
+    assert_eq!(output.status.code(), Some(status), "{reported}");
     let is: Vec<_> = files_below(folder)
         .iter()
         .map(|p| p.display().to_string())
         .collect();
-    assert_eq!(is, files, "{told}");
-    told
+    assert_eq!(is, files, "{reported}");
+    reported
 }
 
 #[test]
@@ -58,15 +58,15 @@ fn a_program_is_rewritten_and_marked_and_refused_a_second_time() {
         std::fs::read(folder.path().join("a b.mod")).expect("the sample"),
         before
     );
-    let told = refused(
+    let reported = refused(
         folder.path(),
         &["out.mod", "-o", "twice.mod"],
         2,
         &["a b.mod", "out.mod"],
     );
     assert!(
-        told.contains("already compensated") && told.contains("--force"),
-        "{told}"
+        reported.contains("already compensated") && reported.contains("--force"),
+        "{reported}"
     );
     assert!(
         run(folder.path(), &["out.mod", "-o", "twice.mod", "--force"])
@@ -208,36 +208,36 @@ fn broken_programs_are_refused_with_their_place() {
         (good.replacen("MODULE", "MO\0ULE", 1), "text"),
         (String::new(), "it is empty"),
     ];
-    for (text, told) in cases {
+    for (text, reported) in cases {
         let folder = scratch();
         std::fs::write(folder.path().join("a.mod"), &text).expect("scratch");
         let message = refused(folder.path(), &["a.mod", "-o", "out.mod"], 2, &["a.mod"]);
         assert!(
-            message.to_lowercase().contains(&told.to_lowercase()) && message.contains("a.mod"),
-            "{told}: {message}"
+            message.to_lowercase().contains(&reported.to_lowercase()) && message.contains("a.mod"),
+            "{reported}: {message}"
         );
     }
 }
 
 #[test]
-fn a_target_that_cannot_be_compensated_blocks_the_file_unless_told_to_go_on() {
+fn a_target_that_cannot_be_compensated_blocks_the_file_unless_asked_to_go_on() {
     let folder = scratch();
     let far = "MODULE m\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
                MoveL [[374,0,500],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
                MoveL [[3740,0,500],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n  ENDPROC\nENDMODULE\n";
     std::fs::write(folder.path().join("a.mod"), far).expect("scratch");
-    let told = refused(folder.path(), &["a.mod", "-o", "out.mod"], 1, &["a.mod"]);
+    let reported = refused(folder.path(), &["a.mod", "-o", "out.mod"], 1, &["a.mod"]);
     assert!(
-        told.contains("a.mod:5:") && told.contains("out-of-reach"),
-        "{told}"
+        reported.contains("a.mod:5:") && reported.contains("out-of-reach"),
+        "{reported}"
     );
-    let told = refused(
+    let reported = refused(
         folder.path(),
         &["a.mod", "-o", "out.mod", "--keep-going"],
         1,
         &["a.mod", "out.mod"],
     );
-    assert!(told.contains("out-of-reach"), "{told}");
+    assert!(reported.contains("out-of-reach"), "{reported}");
     let text = std::fs::read_to_string(folder.path().join("out.mod")).expect("written");
     assert!(
         text.contains("[[3740,0,500]") && !text.contains("[[374,0,500]"),
@@ -252,21 +252,21 @@ fn unknown_frames_are_asked_for_and_never_taken_as_identity() {
                    MoveL [[374.0,0,400.0],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tGun\\WObj:=wPart;\n  \
                    ENDPROC\nENDMODULE\n";
     std::fs::write(folder.path().join("a.mod"), program).expect("scratch");
-    let told = refused(folder.path(), &["a.mod", "-o", "out.mod"], 2, &["a.mod"]);
+    let reported = refused(folder.path(), &["a.mod", "-o", "out.mod"], 2, &["a.mod"]);
     assert!(
-        told.contains("tGun") && told.contains("--tool tGun="),
-        "{told}"
+        reported.contains("tGun") && reported.contains("--tool tGun="),
+        "{reported}"
     );
     let tool = ["--tool", "tGun=0,0,50,0,0,0"];
-    let told = refused(
+    let reported = refused(
         folder.path(),
         &["a.mod", "-o", "out.mod", tool[0], tool[1]],
         2,
         &["a.mod"],
     );
     assert!(
-        told.contains("wPart") && told.contains("--frame wPart="),
-        "{told}"
+        reported.contains("wPart") && reported.contains("--frame wPart="),
+        "{reported}"
     );
     let both = [
         "a.mod",
@@ -317,18 +317,18 @@ fn decimals_and_joint_targets_are_the_users_choice() {
 }
 
 #[test]
-fn a_profile_of_another_robot_is_told_apart() {
+fn a_profile_of_another_robot_is_distinguished() {
     let folder = with_sample();
     let fanuc = repository("robots/fanuc_lrmate200ic.yaml")
         .display()
         .to_string();
-    let told = refused(
+    let reported = refused(
         folder.path(),
         &["a b.mod", "-o", "o.mod", "--profile", &fanuc],
         2,
         &["a b.mod"],
     );
-    assert!(told.contains("fanuc"), "{told}");
+    assert!(reported.contains("fanuc"), "{reported}");
     let big =
         std::fs::read_to_string(repository("robots/abb_irb2600_20_165.yaml")).expect("a profile");
     std::fs::write(
@@ -336,13 +336,13 @@ fn a_profile_of_another_robot_is_told_apart() {
         big.replace("a_mm: 700", "a_mm: 70"),
     )
     .expect("scratch");
-    let told = refused(
+    let reported = refused(
         folder.path(),
         &["a b.mod", "-o", "o.mod", "--profile", "big.yaml"],
         2,
         &["a b.mod", "big.yaml"],
     );
-    assert!(told.contains("profile of this robot"), "{told}");
+    assert!(reported.contains("profile of this robot"), "{reported}");
 }
 
 #[cfg(unix)]
@@ -350,13 +350,13 @@ fn a_profile_of_another_robot_is_told_apart() {
 fn a_folder_that_cannot_be_written_leaves_nothing() {
     let folder = with_sample();
     std::fs::write(folder.path().join("file"), "").expect("scratch");
-    let told = refused(
+    let reported = refused(
         folder.path(),
         &["a b.mod", "-o", "file/out.mod"],
         2,
         &["a b.mod", "file"],
     );
-    assert!(told.contains("cannot write"), "{told}");
+    assert!(reported.contains("cannot write"), "{reported}");
     // a limit on the size of files stands for a full disk
     let script = format!(
         "ulimit -f 1; trap '' XFSZ; exec {} compensate 'a b.mod' --profile {} -o big.mod",
@@ -383,8 +383,8 @@ fn a_profile_without_calibration_is_said_to_correct_nothing() {
     let nominal = repository("robots/abb_irb120.yaml");
     let nominal = nominal.to_str().expect("UTF-8");
     let arguments = ["a b.mod", "-o", "out.mod", "--profile", nominal];
-    let told = refused(folder.path(), &arguments, 2, &["a b.mod"]);
-    assert!(told.contains("has no effect"), "{told}");
+    let reported = refused(folder.path(), &arguments, 2, &["a b.mod"]);
+    assert!(reported.contains("has no effect"), "{reported}");
 }
 
 #[test]
@@ -394,15 +394,15 @@ fn a_program_without_targets_is_said_to_have_none() {
     std::fs::write(folder.path().join("empty.mod"), text).expect("scratch");
     let output = run(folder.path(), &["empty.mod", "-o", "out.mod"]);
     assert_eq!(output.status.code(), Some(0));
-    let told = String::from_utf8(output.stdout).expect("UTF-8");
+    let reported = String::from_utf8(output.stdout).expect("UTF-8");
     assert!(
-        told.contains("no-targets") && told.contains("empty.mod"),
-        "{told}"
+        reported.contains("no-targets") && reported.contains("empty.mod"),
+        "{reported}"
     );
 }
 
 #[test]
-fn orientations_rounded_away_are_told_with_their_size() {
+fn orientations_rounded_away_are_reported_with_their_size() {
     let folder = scratch();
     let program = "MODULE m
   PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];
@@ -437,7 +437,7 @@ end
     let profile = repository("programs/urscript/profile.yaml");
     let profile = profile.to_str().expect("UTF-8");
     let arguments = ["a.script", "-o", "b.script", "--profile", profile];
-    let told = refused(folder.path(), &arguments, 1, &["a.script"]);
-    assert!(told.contains("a.script:3:"), "{told}");
-    assert!(told.contains("-2.5555"), "{told}");
+    let reported = refused(folder.path(), &arguments, 1, &["a.script"]);
+    assert!(reported.contains("a.script:3:"), "{reported}");
+    assert!(reported.contains("-2.5555"), "{reported}");
 }

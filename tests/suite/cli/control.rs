@@ -227,8 +227,8 @@ fn names_are_quoted_in_written_profiles() {
                 .args(["--profile", "p.yaml"])
                 .output();
             let output = output.expect("the program starts");
-            let told = String::from_utf8_lossy(&output.stderr);
-            assert_eq!(output.status.code(), Some(0), "{name:?}: {told}");
+            let reported = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(0), "{name:?}: {reported}");
         }
         let output = poseshift()
             .current_dir(path)
@@ -273,8 +273,8 @@ fn names_of_a_urdf_are_quoted_and_its_comments_stay_comments() {
             .args(made)
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{name}: {told}");
+        let reported = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{name}: {reported}");
         let written = std::fs::read_to_string(path.join("p.yaml")).expect("written");
         let stray = written.chars().find(|c| c.is_control() && *c != '\n');
         assert_eq!(stray, None, "{name}");

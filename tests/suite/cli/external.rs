@@ -11,9 +11,9 @@ fn run(folder: &Path, arguments: &[&str]) -> (i32, String) {
         .args(arguments)
         .output()
         .expect("the program starts");
-    let told = [done.stdout, done.stderr].concat();
-    let told = String::from_utf8_lossy(&told).into_owned();
-    (done.status.code().expect("a status"), told)
+    let reported = [done.stdout, done.stderr].concat();
+    let reported = String::from_utf8_lossy(&reported).into_owned();
+    (done.status.code().expect("a status"), reported)
 }
 
 fn read(path: &Path) -> (String, Profile) {
@@ -43,9 +43,9 @@ fn axes_are_added_and_every_other_line_stays() {
         "-o",
         "q.yaml",
     ];
-    let (status, told) = run(folder.path(), &track);
-    assert_eq!(status, 0, "{told}");
-    assert!(told.contains("external axis eax_a"), "{told}");
+    let (status, reported) = run(folder.path(), &track);
+    assert_eq!(status, 0, "{reported}");
+    assert!(reported.contains("external axis eax_a"), "{reported}");
     let (text, found) = read(&folder.path().join("q.yaml"));
     let axis = &found.external.track[0];
     assert_eq!((axis.direction, axis.zero_m), ([0.0, -1.0, 0.0], 0.5));
@@ -66,8 +66,8 @@ fn axes_are_added_and_every_other_line_stays() {
         "0,0,50,0,0,0",
         "--in-place",
     ];
-    let (status, told) = run(folder.path(), &table);
-    assert_eq!(status, 0, "{told}");
+    let (status, reported) = run(folder.path(), &table);
+    assert_eq!(status, 0, "{reported}");
     let (_, found) = read(&folder.path().join("q.yaml"));
     let station = &found.external.positioners[0];
     assert_eq!((station.name.as_str(), station.axes.len()), ("STN1", 2));
@@ -75,8 +75,8 @@ fn axes_are_added_and_every_other_line_stays() {
     assert!((station.axes[0].zero_rad.to_degrees() - 5.0).abs() < 1e-12);
     assert_eq!(found.external.track.len(), 1);
     // nothing is written over, nothing half, and the fault is named
-    let (status, told) = run(folder.path(), &track);
-    assert_eq!(status, 2, "{told}");
+    let (status, reported) = run(folder.path(), &track);
+    assert_eq!(status, 2, "{reported}");
     for (option, value, says) in [
         ("--direction", "0,0,0", "no direction"),
         ("--direction", "0,0,1", "up is nearly along"),
@@ -94,9 +94,9 @@ fn axes_are_added_and_every_other_line_stays() {
             bad[at] = "--max-mm=-200";
             bad[at + 1] = "--coordinates=base";
         }
-        let (status, told) = run(folder.path(), &bad);
-        assert_eq!(status, 2, "{value} {told}");
-        assert!(told.contains(says), "{value} {told}");
+        let (status, reported) = run(folder.path(), &bad);
+        assert_eq!(status, 2, "{value} {reported}");
+        assert!(reported.contains(says), "{value} {reported}");
         assert!(!folder.path().join("bad.yaml").exists());
     }
 }
@@ -163,17 +163,17 @@ fn a_backup_of_an_abb_controller_says_where_the_base_goes() {
         all.extend(more);
         run(folder.path(), &all)
     };
-    let (status, told) = import(&["-o", "p.yaml"]);
-    assert_eq!(status, 2, "{told}");
+    let (status, reported) = import(&["-o", "p.yaml"]);
+    assert_eq!(status, 2, "{reported}");
     assert!(
-        told.contains("logical axis") && told.contains("--axis"),
-        "{told}"
+        reported.contains("logical axis") && reported.contains("--axis"),
+        "{reported}"
     );
-    let (status, told) = import(&["-o", "p.yaml", "--axis", "eax_a"]);
-    assert_eq!(status, 0, "{told}");
+    let (status, reported) = import(&["-o", "p.yaml", "--axis", "eax_a"]);
+    assert_eq!(status, 0, "{reported}");
     assert!(
-        told.contains("MOC.cfg:15") && told.contains("left out: the unit GUN"),
-        "{told}"
+        reported.contains("MOC.cfg:15") && reported.contains("left out: the unit GUN"),
+        "{reported}"
     );
     let (_, found) = read(&folder.path().join("p.yaml"));
     let base = &found.world_from_base;
@@ -206,9 +206,9 @@ fn a_backup_of_an_abb_controller_says_where_the_base_goes() {
     ] {
         assert!(MOC.contains(from), "{from}");
         put("MOC.cfg", &MOC.replacen(from, to, 1));
-        let (status, told) = import(&["-o", "bad.yaml", "--axis", "eax_a"]);
-        assert_eq!(status, 2, "{to} {told}");
-        assert!(told.contains(says), "{to} {told}");
+        let (status, reported) = import(&["-o", "bad.yaml", "--axis", "eax_a"]);
+        assert_eq!(status, 2, "{to} {reported}");
+        assert!(reported.contains(says), "{to} {reported}");
         assert!(!folder.path().join("bad.yaml").exists());
     }
 }
@@ -245,8 +245,8 @@ fn an_archive_of_a_kuka_controller_says_what_its_axes_carry() {
             ],
         )
     };
-    let (status, told) = import("p.yaml");
-    assert_eq!(status, 0, "{told}");
+    let (status, reported) = import("p.yaml");
+    assert_eq!(status, 0, "{reported}");
     let (_, found) = read(&folder.path().join("p.yaml"));
     let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
     // z of TA1KR is the root's x, which points along the world's y
@@ -300,9 +300,9 @@ fn an_archive_of_a_kuka_controller_says_what_its_axes_carry() {
         ),
     ] {
         put(&machine, &config);
-        let (status, told) = import("bad.yaml");
-        assert_eq!(status, 2, "{says} {told}");
-        assert!(told.contains(says), "{says} {told}");
+        let (status, reported) = import("bad.yaml");
+        assert_eq!(status, 2, "{says} {reported}");
+        assert!(reported.contains(says), "{says} {reported}");
         assert!(!folder.path().join("bad.yaml").exists());
     }
 }

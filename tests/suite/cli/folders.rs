@@ -26,7 +26,7 @@ fn run(folder: &Path, command: &[&str]) -> Output {
     output.expect("the program starts")
 }
 
-fn told(output: &Output) -> String {
+fn reported(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout)
 }
 
@@ -35,7 +35,7 @@ fn refused(folder: &Path, words: &[&str], glob: &str) {
     let before = files_below(folder);
     for command in [&["compensate", "in", "-o", "out"][..], &["check", "in"]] {
         let output = run(folder, command);
-        let said = told(&output);
+        let said = reported(&output);
         assert_eq!(output.status.code(), Some(2), "{said}");
         let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
         for word in words {
@@ -44,7 +44,7 @@ fn refused(folder: &Path, words: &[&str], glob: &str) {
         assert!(said.contains("--ignore"), "{said}");
         assert_eq!(files_below(folder), before);
         let taken = run(folder, &[command, &["--ignore", glob]].concat());
-        let said = told(&taken);
+        let said = reported(&taken);
         assert!(
             said.contains("--ignore)") && said.contains("ignored"),
             "{said}"
@@ -99,8 +99,8 @@ fn texts_that_cannot_be_read_as_programs_are_named() {
     std::fs::write(folder.path().join("y.mod"), "").expect("scratch");
     for (name, word) in [("x.mod", "UTF-16"), ("y.mod", "empty")] {
         let output = run(folder.path(), &["compensate", name, "-o", "out.mod"]);
-        assert_eq!(output.status.code(), Some(2), "{}", told(&output));
-        assert!(told(&output).contains(word), "{}", told(&output));
+        assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
+        assert!(reported(&output).contains(word), "{}", reported(&output));
     }
 }
 
@@ -115,8 +115,17 @@ fn a_program_that_ends_too_early_is_named() {
         let folder = world();
         std::fs::write(folder.path().join("in/Deburr.mod"), &sample[..end]).expect("scratch");
         let output = run(folder.path(), &["compensate", "in", "-o", "out"]);
-        assert_eq!(output.status.code(), Some(2), "{end}: {}", told(&output));
-        assert!(told(&output).contains("Deburr.mod"), "{}", told(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{end}: {}",
+            reported(&output)
+        );
+        assert!(
+            reported(&output).contains("Deburr.mod"),
+            "{}",
+            reported(&output)
+        );
         assert!(!folder.path().join("out").exists());
     }
 }
@@ -174,11 +183,11 @@ fn files_and_folders_without_permission_are_named() {
             eprintln!("SKIPPED: this user may read everything");
         } else {
             let output = run(path, &["check", "in"]);
-            assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+            assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
             assert!(
-                told(&output).contains(&format!("{name}: ")),
+                reported(&output).contains(&format!("{name}: ")),
                 "{}",
-                told(&output)
+                reported(&output)
             );
         }
         let open = std::fs::Permissions::from_mode(mode);
@@ -206,8 +215,8 @@ fn what_is_left_out_stands_in_the_summary() {
             command.extend(["--ignore", glob]);
         }
         let output = run(path, &[&command[..], &["--json"]].concat());
-        let report: Value =
-            serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", told(&output)));
+        let report: Value = serde_json::from_slice(&output.stdout)
+            .unwrap_or_else(|_| panic!("{}", reported(&output)));
         let left_out = &report["summary"]["left_out"];
         let names = |key: &str| -> Vec<String> {
             let list = left_out[key].as_array().expect("names");
@@ -226,7 +235,7 @@ fn what_is_left_out_stands_in_the_summary() {
                 .any(|name| name.starts_with("in/old/")),
             "{left_out}"
         );
-        let text = told(&run(path, &command));
+        let text = reported(&run(path, &command));
         assert!(
             text.contains("2 (no programs, by their names): in/cell.yaml, in/notes.txt"),
             "{text}"
@@ -234,15 +243,15 @@ fn what_is_left_out_stands_in_the_summary() {
         assert!(text.contains("(--ignore): in/Deburr copy.mod"), "{text}");
     }
     let output = run(path, &["check", "in", "--ignore", "a[.mod"]);
-    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
     assert!(
-        told(&output).contains("--ignore a[.mod"),
+        reported(&output).contains("--ignore a[.mod"),
         "{}",
-        told(&output)
+        reported(&output)
     );
     // files that are read for their declarations likewise
     let output = run(path, &["check", "in/Deburr.mod", "--with", "in"]);
-    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
     let output = run(
         path,
         &[
@@ -256,5 +265,5 @@ fn what_is_left_out_stands_in_the_summary() {
             "*copy*",
         ],
     );
-    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
 }

@@ -37,12 +37,16 @@ fn programs_that_once_failed_end_with_an_answer() {
             .timeout(Duration::from_mins(1))
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&output.stderr);
+        let reported = String::from_utf8_lossy(&output.stderr);
         let status = output.status.code();
-        assert!(matches!(status, Some(0..=2)), "{}: {told}", file.display());
         assert!(
-            !told.contains("internal error"),
-            "{}: {told}",
+            matches!(status, Some(0..=2)),
+            "{}: {reported}",
+            file.display()
+        );
+        assert!(
+            !reported.contains("internal error"),
+            "{}: {reported}",
             file.display()
         );
         assert_eq!(

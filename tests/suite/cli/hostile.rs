@@ -1,4 +1,4 @@
-//! Measurements that nobody measured: each is refused or told with file, line, value and limit.
+//! Measurements that nobody measured: each is refused or reported with file, line, value and limit.
 
 use crate::support::{poseshift, repository, scratch};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 const TRUTH: &str = "robots/abb_irb120_thesis.yaml";
 
-/// Status, report and what is told.
+/// Status, report and what is reported.
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, Value, String) {
     let output = poseshift()
         .current_dir(folder)
@@ -47,8 +47,8 @@ fn measured() -> (tempfile::TempDir, Vec<Vec<String>>) {
             "m.csv",
         ],
     ] {
-        let (status, _, told) = run(folder.path(), arguments);
-        assert_eq!(status, Some(0), "{told}");
+        let (status, _, reported) = run(folder.path(), arguments);
+        assert_eq!(status, Some(0), "{reported}");
     }
     let text = std::fs::read_to_string(folder.path().join("m.csv")).expect("measurements");
     let rows = text
@@ -94,17 +94,17 @@ fn numbers_and_points_out_of_the_world_are_refused_with_their_line() {
         bad[5][column(&rows, name)] = value.into();
         write(folder.path(), "m.csv", &bad);
         for command in ["calibrate", "validate"] {
-            let (status, _, told) = run(folder.path(), &[command, "--measurements", "m.csv"]);
-            assert_eq!(status, Some(2), "{command} {name}: {told}");
+            let (status, _, reported) = run(folder.path(), &[command, "--measurements", "m.csv"]);
+            assert_eq!(status, Some(2), "{command} {name}: {reported}");
             for word in words {
-                assert!(told.contains(word), "{command} {word}: {told}");
+                assert!(reported.contains(word), "{command} {word}: {reported}");
             }
         }
     }
 }
 
 #[test]
-fn points_in_one_place_and_poses_that_are_one_are_told_with_the_evidence() {
+fn points_in_one_place_and_poses_that_are_one_are_reported_with_the_evidence() {
     let (folder, rows) = measured();
     let x = column(&rows, "x_mm");
     let mut still = rows.clone();
@@ -113,27 +113,27 @@ fn points_in_one_place_and_poses_that_are_one_are_told_with_the_evidence() {
         row.splice(x..x + 3, first.clone());
     }
     write(folder.path(), "m.csv", &still);
-    let (status, _, told) = run(folder.path(), &["calibrate", "--measurements", "m.csv"]);
+    let (status, _, reported) = run(folder.path(), &["calibrate", "--measurements", "m.csv"]);
     assert!(
-        status == Some(2) && told.contains("all 40 measured points are in one place"),
-        "{told}"
+        status == Some(2) && reported.contains("all 40 measured points are in one place"),
+        "{reported}"
     );
 
     let mut copies = vec![rows[0].clone()];
     copies.extend(std::iter::repeat_n(rows[1].clone(), 50));
     write(folder.path(), "m.csv", &copies);
-    let (status, _, told) = run(folder.path(), &["calibrate", "--measurements", "m.csv"]);
-    assert_eq!(status, Some(2), "{told}");
+    let (status, _, reported) = run(folder.path(), &["calibrate", "--measurements", "m.csv"]);
+    assert_eq!(status, Some(2), "{reported}");
     for word in [
         "all 50 rows have the same pose",
         "49 rows repeat",
         "line 3",
         "0.5 deg",
     ] {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(reported.contains(word), "{word}: {reported}");
     }
-    let (status, report, told) = run(folder.path(), &["validate", "--measurements", "m.csv"]);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, report, reported) = run(folder.path(), &["validate", "--measurements", "m.csv"]);
+    assert_eq!(status, Some(0), "{reported}");
     assert_eq!(finding(&report, "duplicate-rows")["line"], 3);
     let variety = finding(&report, "little-variety")["message"].as_str();
     assert!(
@@ -157,8 +157,8 @@ fn what_is_found_in_one_of_several_files_names_it() {
     let files = ["--measurements", "a.csv", "--measurements", "b.csv"];
     for command in ["calibrate", "validate"] {
         let arguments = [&[command][..], &files].concat();
-        let (status, report, told) = run(folder.path(), &arguments);
-        assert_eq!(status, Some(0), "{told}");
+        let (status, report, reported) = run(folder.path(), &arguments);
+        assert_eq!(status, Some(0), "{reported}");
         let copy = finding(&report, "duplicate-rows");
         assert_eq!((&copy["file"], &copy["line"]), (&"b.csv".into(), &5.into()));
         let message = copy["message"].as_str().expect("a message");
@@ -167,9 +167,9 @@ fn what_is_found_in_one_of_several_files_names_it() {
             "{message}"
         );
         if command == "calibrate" {
-            let doubt = finding(&report, "outliers");
+            let remark = finding(&report, "outliers");
             assert_eq!(
-                (&doubt["file"], &doubt["line"]),
+                (&remark["file"], &remark["line"]),
                 (&"b.csv".into(), &10.into())
             );
             let outlier = &report["outliers"][0];
@@ -182,10 +182,11 @@ fn what_is_found_in_one_of_several_files_names_it() {
     let tool = column(&rows, "tool");
     second[7][tool] = "gripper".into();
     write(folder.path(), "b.csv", &second);
-    let (status, _, told) = run(folder.path(), &[&["calibrate"][..], &files].concat());
+    let (status, _, reported) = run(folder.path(), &[&["calibrate"][..], &files].concat());
     assert!(
-        status == Some(2) && told.contains("line 8 of b.csv: the profile has no tool `gripper`"),
-        "{told}"
+        status == Some(2)
+            && reported.contains("line 8 of b.csv: the profile has no tool `gripper`"),
+        "{reported}"
     );
 }
 

@@ -30,7 +30,7 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
     output.expect("the program starts")
 }
 
-fn told(output: &Output) -> String {
+fn reported(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout)
 }
 
@@ -43,9 +43,12 @@ fn refused(folder: &Path, input: &str, command: &str) {
     let before = bytes(folder, input);
     let arguments: Vec<&str> = command.split(' ').collect();
     let output = run(folder, &arguments);
-    let told = told(&output);
-    assert_eq!(output.status.code(), Some(2), "{command}: {told}");
-    assert!(told.contains("would be written over"), "{command}: {told}");
+    let reported = reported(&output);
+    assert_eq!(output.status.code(), Some(2), "{command}: {reported}");
+    assert!(
+        reported.contains("would be written over"),
+        "{command}: {reported}"
+    );
     assert_eq!(bytes(folder, input), before, "{command}");
 }
 
@@ -83,7 +86,7 @@ fn an_output_onto_an_input_is_refused_whatever_its_name() {
         "link of link.mod",
     ];
     let output = run(path, &spaced);
-    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
     // the input by another name, the output by its own
     for input in ["link.mod", "hard.mod", "here/in.mod", "newer/../in.mod"] {
         let command = format!("compensate {input} --profile p.yaml -o in.mod");
@@ -101,7 +104,7 @@ fn an_output_onto_an_input_is_refused_whatever_its_name() {
         .env("POSESHIFT", env!("CARGO_BIN_EXE_poseshift"))
         .output()
         .expect("a shell");
-    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
     assert_eq!(bytes(path, "in.mod"), before);
 }
 
@@ -125,11 +128,11 @@ fn names_that_are_no_text_are_files_like_others() {
     };
     let before = std::fs::read(path.join(one)).expect("a file");
     let output = compensate(one);
-    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
     assert_eq!(std::fs::read(path.join(one)).expect("a file"), before);
     // both look the same in messages, and are not
     let output = compensate(other);
-    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
     assert_ne!(std::fs::read(path.join(other)).expect("written"), before);
 }
 
@@ -197,9 +200,12 @@ fn an_input_that_changes_before_the_end_is_an_error() {
         }
         out.read_to_end(&mut Vec::new()).expect("a report");
         let output = child.wait_with_output().expect("it ended");
-        let told = told(&output);
-        assert_eq!(output.status.code(), Some(2), "{how}: {told}");
-        assert!(told.contains(&format!("{input} was ")), "{how}: {told}");
+        let reported = reported(&output);
+        assert_eq!(output.status.code(), Some(2), "{how}: {reported}");
+        assert!(
+            reported.contains(&format!("{input} was ")),
+            "{how}: {reported}"
+        );
         assert!(!path.join("out.mod").exists(), "{how}");
         let left = std::fs::read_dir(path).expect("scratch");
         let left = left.filter(|entry| {
@@ -232,5 +238,5 @@ fn an_input_that_is_only_touched_has_not_changed() {
             "out.mod",
         ],
     );
-    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
 }

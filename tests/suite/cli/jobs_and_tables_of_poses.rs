@@ -19,7 +19,7 @@ fn compensated(name: &str, text: &str, options: &[&str]) -> (Output, Option<Stri
     (output, written)
 }
 
-fn told(output: &Output) -> String {
+fn reported(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout)
 }
 
@@ -35,7 +35,7 @@ const IN_WORLD: &str = "455.0000,60.0000,30.0000,0.0000000,1.0000000,0.0000000,0
 #[test]
 fn the_frame_of_the_command_line_is_for_poses_that_name_none() {
     let (output, world) = compensated("p.csv", &format!("{HEAD}{IN_WORLD},\n"), &[]);
-    assert!(output.status.success(), "{}", told(&output));
+    assert!(output.status.success(), "{}", reported(&output));
     let moved = IN_WORLD.replace("455.0000,60.0000,30.0000", "55.0000,60.0000,10.0000");
     let frame = ["--frame", "400,0,20,0,0,0"];
     let (_, framed) = compensated("p.csv", &format!("{HEAD}{moved},\n"), &frame);
@@ -54,7 +54,11 @@ fn the_frame_of_the_command_line_is_for_poses_that_name_none() {
     assert_eq!(last(named), format!("{world}world"));
     let (output, none) = compensated("p.csv", &format!("{HEAD}{IN_WORLD},nest\n"), &[]);
     assert_eq!((output.status.code(), none), (Some(2), None));
-    assert!(told(&output).contains("--frame nest="), "{}", told(&output));
+    assert!(
+        reported(&output).contains("--frame nest="),
+        "{}",
+        reported(&output)
+    );
 }
 
 #[test]
@@ -63,12 +67,12 @@ fn the_tool_of_a_table_without_one_is_asked_for() {
     let (output, none) = compensated("p.csv", text, &[]);
     assert_eq!((output.status.code(), none), (Some(2), None));
     assert!(
-        told(&output).contains("give `--tool x,y,z"),
+        reported(&output).contains("give `--tool x,y,z"),
         "{}",
-        told(&output)
+        reported(&output)
     );
     let (output, _) = compensated("p.csv", text, &["--tool", "1"]);
-    assert!(output.status.success(), "{}", told(&output));
+    assert!(output.status.success(), "{}", reported(&output));
 }
 
 /// R at 179.99 degrees; the correction takes it beyond 180.
@@ -87,16 +91,17 @@ fn near_a_turn(pose: &str, motion: &str) -> String {
 fn a_joint_move_whose_turn_rconf_cannot_follow_is_refused() {
     let (output, none) = compensated("t.JBI", &near_a_turn(NEAR_TURN, "MOVJ"), &[]);
     assert_eq!((output.status.code(), none), (Some(1), None));
-    let told_joint = told(&output);
+    let reported_joint = reported(&output);
     assert!(
-        told_joint.contains("configuration-kept") && told_joint.contains("joint 4 of `C00001`"),
-        "{told_joint}"
+        reported_joint.contains("configuration-kept")
+            && reported_joint.contains("joint 4 of `C00001`"),
+        "{reported_joint}"
     );
     let (output, some) = compensated("t.JBI", &near_a_turn(NEAR_TURN, "MOVL"), &[]);
     assert!(
         output.status.success() && some.is_some(),
         "{}",
-        told(&output)
+        reported(&output)
     );
 }
 
@@ -106,8 +111,8 @@ fn a_job_is_known_by_its_content_and_the_report_says_so() {
         std::fs::read_to_string(repository("programs/inform/cam/in/TRIM.JBI")).expect("a job");
     let (output, _) = compensated("trim.txt", &text, &["--frame", "430,-40,-120,0,0,20"]);
     assert!(
-        told(&output).contains("1 file(s) of Yaskawa INFORM"),
+        reported(&output).contains("1 file(s) of Yaskawa INFORM"),
         "{}",
-        told(&output)
+        reported(&output)
     );
 }

@@ -162,7 +162,7 @@ fn the_limit_of_shifts_is_raised_by_the_user_and_recorded() {
 }
 
 #[test]
-fn other_units_are_doubted() {
+fn other_units_are_questioned() {
     let thesis = text(THESIS);
     let tiny = changed(
         DEBURR,

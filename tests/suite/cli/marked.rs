@@ -5,7 +5,7 @@ use crate::support::{files_below, poseshift, repository, scratch};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Compensates a folder as its case says; status and what is told.
+/// Compensates a folder as its case says; status and what is reported.
 fn compensate(folder: &Path, case: &crate::golden::Case, top: &Path) -> (Option<i32>, String) {
     let out = scratch();
     let output = poseshift()
@@ -17,8 +17,8 @@ fn compensate(folder: &Path, case: &crate::golden::Case, top: &Path) -> (Option<
         .args(&case.options)
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    (output.status.code(), told)
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code(), reported)
 }
 
 fn copy(from: &Path, to: &Path) {
@@ -114,11 +114,11 @@ fn each_line_of_a_marker_alone_is_enough_in_every_language() {
                 let mut lines = all_but;
                 lines.insert(at, form.as_bytes());
                 std::fs::write(place.path().join(&name), lines.join(&end)).expect("scratch");
-                let (status, told) = compensate(place.path(), &case, &top);
-                assert_eq!(status, Some(2), "{language:?}: {form:?}: {told}");
+                let (status, reported) = compensate(place.path(), &case, &top);
+                assert_eq!(status, Some(2), "{language:?}: {form:?}: {reported}");
                 assert!(
-                    told.contains("already compensated"),
-                    "{language:?}: {form:?}: {told}"
+                    reported.contains("already compensated"),
+                    "{language:?}: {form:?}: {reported}"
                 );
                 lines_seen += 1;
             }
@@ -126,8 +126,8 @@ fn each_line_of_a_marker_alone_is_enough_in_every_language() {
         // without all of them nothing is known, and nothing else is refused
         let place = scratch();
         copy(&plain, place.path());
-        let (_, told) = compensate(place.path(), &case, &top);
-        assert!(!told.contains("already compensated"), "{told}");
+        let (_, reported) = compensate(place.path(), &case, &top);
+        assert!(!reported.contains("already compensated"), "{reported}");
     }
     let all = std::fs::read_dir(repository("programs")).expect("samples");
     let all = all.filter(|entry| entry.as_ref().expect("an entry").path().is_dir());

@@ -151,7 +151,7 @@ fn change(folder: &Path, words: &str) {
 }
 
 #[test]
-fn typical_mistakes_are_told_with_the_place_what_was_meant_and_the_way_out() {
+fn typical_mistakes_are_reported_with_the_place_what_was_meant_and_the_way_out() {
     let right = scratch();
     world(right.path());
     let cases = text("tests/data/mistakes.txt");

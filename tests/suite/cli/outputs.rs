@@ -75,9 +75,9 @@ fn no_output_takes_the_place_of_an_input_or_of_another_output() {
             .args(command.split(' '))
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{command}: {told}");
-        assert!(told.contains("written"), "{command}: {told}");
+        let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{command}: {reported}");
+        assert!(reported.contains("written"), "{command}: {reported}");
         assert_eq!(content(folder), before, "{command}");
     }
 }

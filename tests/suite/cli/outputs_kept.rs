@@ -24,7 +24,7 @@ fn compensate(folder: &Path, output: &str) -> Output {
     output.expect("the program starts")
 }
 
-fn told(output: &Output) -> String {
+fn reported(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout)
 }
 
@@ -46,7 +46,7 @@ fn links_are_followed_to_the_real_file() {
     symlink("round", path.join("turn")).expect("scratch");
     for (link, file) in [("second", "real/out.mod"), ("to nothing", "real/new.mod")] {
         let output = compensate(path, link);
-        assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+        assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
         assert!(path.join(link).is_symlink(), "{link} is no link any more");
         assert!(
             !path.join(file).is_symlink() && is_marked(&path.join(file)),
@@ -54,11 +54,11 @@ fn links_are_followed_to_the_real_file() {
         );
     }
     let output = compensate(path, "round");
-    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
     assert!(
-        told(&output).contains("too many links"),
+        reported(&output).contains("too many links"),
         "{}",
-        told(&output)
+        reported(&output)
     );
 }
 
@@ -72,15 +72,15 @@ fn devices_pipes_sockets_and_folders_are_no_outputs() {
     let _socket = socket.expect("a socket");
     symlink("/dev/null", path.join("null")).expect("scratch");
     for output in ["/dev/null", "/dev/full", "null", "pipe", "socket"] {
-        let told = told(&compensate(path, output));
+        let reported = reported(&compensate(path, output));
         assert!(
-            told.contains("a device, a pipe or a socket"),
-            "{output}: {told}"
+            reported.contains("a device, a pipe or a socket"),
+            "{output}: {reported}"
         );
     }
     for output in ["new/", "p.yaml/out.mod"] {
         let done = compensate(path, output);
-        assert_eq!(done.status.code(), Some(2), "{output}: {}", told(&done));
+        assert_eq!(done.status.code(), Some(2), "{output}: {}", reported(&done));
     }
     // other outputs likewise
     for command in [
@@ -98,7 +98,7 @@ fn devices_pipes_sockets_and_folders_are_no_outputs() {
             output.status.code(),
             Some(2),
             "{command}: {}",
-            told(&output)
+            reported(&output)
         );
     }
     assert!(!path.join("out.mod").exists());
@@ -126,7 +126,7 @@ fn mode_and_owner_of_a_replaced_file_stay_and_its_time_is_new() {
         std::fs::set_permissions(&out, permissions).expect("scratch");
         let before = std::fs::metadata(&out).expect("a file");
         let done = compensate(folder.path(), "out.mod");
-        assert_eq!(done.status.code(), Some(0), "{}", told(&done));
+        assert_eq!(done.status.code(), Some(0), "{}", reported(&done));
         let after = std::fs::metadata(&out).expect("a file");
         assert!(is_marked(&out));
         assert_eq!(after.mode(), before.mode());
@@ -138,7 +138,7 @@ fn mode_and_owner_of_a_replaced_file_stay_and_its_time_is_new() {
     let locked = std::fs::Permissions::from_mode(0o444);
     std::fs::set_permissions(&out, locked).expect("scratch");
     let done = compensate(folder.path(), "out.mod");
-    assert_eq!(done.status.code(), Some(2), "{}", told(&done));
+    assert_eq!(done.status.code(), Some(2), "{}", reported(&done));
     assert_eq!(std::fs::read(&out).expect("a file"), b"old");
 }
 
@@ -159,7 +159,7 @@ fn new_files_and_folders_obey_the_umask() {
             .env("POSESHIFT", env!("CARGO_BIN_EXE_poseshift"))
             .output()
             .expect("a shell");
-        assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+        assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
         for (name, mode) in [("new/out.mod", file), ("r.html", file), ("new", below)] {
             let found = std::fs::metadata(folder.path().join(name)).expect(name);
             assert_eq!(found.mode() & 0o777, mode, "{name} with {umask}");

@@ -1,5 +1,5 @@
 //! `plan`: what holds for a configuration holds where it is approached from, and what the moves
-//! between meet is told.
+//! between meet is reported.
 
 use crate::support::{poseshift, repository, scratch};
 use poseshift::model::Conditions;
@@ -16,8 +16,8 @@ fn run(folder: &Path, command: &str) -> Value {
         .arg("--json")
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.stdout.is_empty(), "{command}: {told}");
+    let reported = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.stdout.is_empty(), "{command}: {reported}");
     serde_json::from_slice(&output.stdout).expect("JSON and nothing else")
 }
 
@@ -66,7 +66,7 @@ fn boxes_hold_where_a_configuration_is_approached_from_too() {
 }
 
 #[test]
-fn moves_of_the_program_on_which_the_arm_touches_itself_are_few_and_all_told() {
+fn moves_of_the_program_on_which_the_arm_touches_itself_are_few_and_all_reported() {
     let folder = scratch();
     let profile = repository(PROFILE).display().to_string();
     let plan = run(
@@ -83,9 +83,9 @@ fn moves_of_the_program_on_which_the_arm_touches_itself_are_few_and_all_told() {
         lines.sort_unstable();
         lines
     };
-    let told = lines(&plan, "collision");
-    assert_eq!(told, lines(&check, "collision"));
-    assert!(told.is_empty(), "{told:?} of 60 moves");
+    let reported = lines(&plan, "collision");
+    assert_eq!(reported, lines(&check, "collision"));
+    assert!(reported.is_empty(), "{reported:?} of 60 moves");
 }
 
 #[test]

@@ -159,8 +159,8 @@ fn reports_begin_with_their_kind_and_are_alone_on_standard_output() {
             .arg("--json")
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(*status), "{line}: {told}");
+        let reported = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(*status), "{line}: {reported}");
         let report = String::from_utf8(output.stdout).expect("UTF-8");
         if kind.is_empty() {
             assert_eq!(report, "", "{line}");

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Runs in a folder: exit status, standard output, standard error.
-fn told(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+fn reported(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let output = poseshift()
         .current_dir(folder)
         .args(arguments)
@@ -52,7 +52,7 @@ fn robots_are_found_by_parts_of_their_names_and_a_misspelt_one_is_proposed() {
     );
     assert!(listed(&["--search", "fanuc crx"]).len() >= 7);
     let folder = scratch();
-    let (status, _, error) = told(folder.path(), &["robots", "--search", "irb12o0"]);
+    let (status, _, error) = reported(folder.path(), &["robots", "--search", "irb12o0"]);
     assert_eq!(status, Some(2), "{error}");
     assert!(words(&error).contains("did you mean `abb_irb12"), "{error}");
     for (wanted, meant) in [
@@ -61,7 +61,7 @@ fn robots_are_found_by_parts_of_their_names_and_a_misspelt_one_is_proposed() {
         ("ur5e", "universal_robots_ur5e"),
         ("kuka_kr6r900", "kuka_kr6_r900"),
     ] {
-        let (status, _, error) = told(folder.path(), &["profile", "new", "--robot", wanted]);
+        let (status, _, error) = reported(folder.path(), &["profile", "new", "--robot", wanted]);
         assert_eq!(status, Some(2));
         let error = words(&error);
         assert!(
@@ -69,7 +69,7 @@ fn robots_are_found_by_parts_of_their_names_and_a_misspelt_one_is_proposed() {
             "{error}"
         );
     }
-    let (status, _, error) = told(folder.path(), &["profile", "show", "abb_irb120"]);
+    let (status, _, error) = reported(folder.path(), &["profile", "show", "abb_irb120"]);
     assert_eq!(status, Some(2));
     assert!(
         words(&error).contains("poseshift profile new --robot abb_irb120 -o"),
@@ -88,7 +88,7 @@ fn a_profile_of_the_catalogue_says_where_its_numbers_are_from_and_what_is_to_be_
         "-o",
         "crx.yaml",
     ];
-    let (status, out, error) = told(folder.path(), &new);
+    let (status, out, error) = reported(folder.path(), &new);
     assert_eq!(status, Some(0), "{error}");
     let file = folder.path().join("crx.yaml");
     let text = std::fs::read_to_string(&file).expect("written");
@@ -120,7 +120,7 @@ fn a_profile_of_the_catalogue_says_where_its_numbers_are_from_and_what_is_to_be_
         "{leaning:?}"
     );
     assert_eq!(
-        told(folder.path(), &new).0,
+        reported(folder.path(), &new).0,
         Some(2),
         "an existing profile stays"
     );
@@ -162,7 +162,7 @@ fn a_urdf_stands_where_its_controller_counts_from() {
     std::fs::write(folder.path().join("a.urdf"), urdf("fanuc_test", "")).expect("scratch");
     let made = |out: &str, more: &[&str]| {
         let arguments = [&["profile", "from-urdf", "a.urdf", "-o", out], more].concat();
-        let (status, text, error) = told(folder.path(), &arguments);
+        let (status, text, error) = reported(folder.path(), &arguments);
         assert_eq!(status, Some(0), "{error}");
         (profile(&folder.path().join(out)), words(&text))
     };
@@ -226,7 +226,7 @@ fn a_urdf_stands_where_its_controller_counts_from() {
     let (_, text) = made("d.yaml", &["--maker", "ABB"]);
     assert!(text.contains("IRB 2400, 4400"), "{text}");
     let rod = "kinematics.coupling=[{joint: 3, \"on\": 2, ratio: -1}]";
-    let (status, _, error) = told(
+    let (status, _, error) = reported(
         folder.path(),
         &["profile", "set", "d.yaml", rod, "--in-place"],
     );
@@ -237,7 +237,7 @@ fn a_urdf_stands_where_its_controller_counts_from() {
     // an arm that nobody knows
     let (status, text, _) = {
         std::fs::write(folder.path().join("x.urdf"), urdf("arm", "")).expect("scratch");
-        told(
+        reported(
             folder.path(),
             &[
                 "profile",
@@ -320,7 +320,7 @@ fn what_cannot_be_taken_of_a_urdf_is_refused_with_what_was_meant() {
         ),
     ] {
         let arguments = [&["profile", "from-urdf", "a.urdf"][..], more].concat();
-        let (status, out, error) = told(folder.path(), &arguments);
+        let (status, out, error) = reported(folder.path(), &arguments);
         assert_eq!((status, out.as_str()), (Some(2), ""), "{more:?}");
         let error = words(&error);
         assert!(
@@ -338,7 +338,7 @@ fn what_cannot_be_taken_of_a_urdf_is_refused_with_what_was_meant() {
         "--tip",
         "tool0",
     ];
-    assert_eq!(told(folder.path(), &base).0, Some(0));
+    assert_eq!(reported(folder.path(), &base).0, Some(0));
 }
 
 #[test]
@@ -366,7 +366,7 @@ fn a_pedestal_is_reported_and_meshes_are_named_from_the_profile() {
         "-o",
         "profiles/arm.yaml",
     ];
-    let (status, out, error) = told(folder.path(), &from);
+    let (status, out, error) = reported(folder.path(), &from);
     assert_eq!(status, Some(0), "{error}");
     let out = words(&out);
     assert!(
@@ -398,7 +398,7 @@ fn values_are_set_and_tools_added_without_touching_anything_else() {
         "robot.payload_kg=3",
         "--in-place",
     ];
-    let (status, out, error) = told(folder.path(), &set);
+    let (status, out, error) = reported(folder.path(), &set);
     assert_eq!(status, Some(0), "{error}");
     assert!(out.contains("120-7") && out.contains("65.5"), "{out}");
     let changed = std::fs::read_to_string(&file).expect("written");
@@ -421,7 +421,7 @@ fn values_are_set_and_tools_added_without_touching_anything_else() {
         "weld gun=0,0,150,0,45,0,1.5,0,0,60",
         "--in-place",
     ];
-    let (status, _, error) = told(folder.path(), &add);
+    let (status, _, error) = reported(folder.path(), &add);
     assert_eq!(status, Some(0), "{error}");
     let now = profile(&file);
     assert_eq!(now.tools["weld gun"].load, Some((1.5, [0.0, 0.0, 0.06])));
@@ -496,7 +496,7 @@ fn values_are_set_and_tools_added_without_touching_anything_else() {
         ),
     ] {
         let before = std::fs::read(&file).expect("a file");
-        let (status, out, error) = told(folder.path(), &[&["profile"], arguments].concat());
+        let (status, out, error) = reported(folder.path(), &[&["profile"], arguments].concat());
         assert_eq!(
             (status, out.as_str()),
             (Some(2), ""),
@@ -595,7 +595,7 @@ fn what_was_identified_leaves_as_a_urdf_and_as_tables_that_move_alike() {
         let geometry = calibrated(nominal, folder.path());
         let model = geometry.real_model(&Mounted::flange(), &Conditions::default());
         let export = |form: &str, file: &str| {
-            let (status, out, error) = told(
+            let (status, out, error) = reported(
                 folder.path(),
                 &["profile", "export", "real.yaml", form, "-o", file],
             );
@@ -644,7 +644,7 @@ fn what_was_identified_leaves_as_a_urdf_and_as_tables_that_move_alike() {
             "-o",
             "back.yaml",
         ];
-        let (status, _, error) = told(folder.path(), &back);
+        let (status, _, error) = reported(folder.path(), &back);
         assert_eq!(status, Some(0), "{error}");
         let back = profile(&folder.path().join("back.yaml"));
         let again = back.controller_model(&Mounted::flange());
@@ -667,7 +667,7 @@ fn what_was_identified_leaves_as_a_urdf_and_as_tables_that_move_alike() {
 fn a_factory_calibration_leaves_as_the_driver_reads_it() {
     let folder = scratch();
     let geometry = calibrated("robots/universal_robots_ur5.yaml", folder.path());
-    let (status, out, error) = told(
+    let (status, out, error) = reported(
         folder.path(),
         &[
             "profile",
@@ -691,7 +691,7 @@ fn a_factory_calibration_leaves_as_the_driver_reads_it() {
         "-o",
         "back.yaml",
     ];
-    let (status, _, error) = told(folder.path(), &import);
+    let (status, _, error) = reported(folder.path(), &import);
     assert_eq!(status, Some(0), "{error}");
     let back = profile(&folder.path().join("back.yaml"));
     let again = back.controller_model(&Mounted::flange());
@@ -708,16 +708,16 @@ fn a_factory_calibration_leaves_as_the_driver_reads_it() {
     // no other maker's driver reads it
     let abb = repository("robots/abb_irb120.yaml");
     let abb = abb.to_str().expect("a plain name");
-    let (status, _, error) = told(
+    let (status, _, error) = reported(
         folder.path(),
         &["profile", "export", abb, "--ur-kinematics"],
     );
     assert_eq!(status, Some(2));
     assert!(words(&error).contains("maker is ABB"), "{error}");
-    let (status, _, error) = told(folder.path(), &["profile", "export", abb]);
+    let (status, _, error) = reported(folder.path(), &["profile", "export", abb]);
     assert_eq!(status, Some(2));
     assert!(error.contains("--mdh-csv"), "{error}");
-    let (status, out, _) = told(folder.path(), &["profile", "export", abb, "--json"]);
+    let (status, out, _) = reported(folder.path(), &["profile", "export", abb, "--json"]);
     let report: Value = serde_json::from_str(&out).expect("JSON");
     assert_eq!(
         (status, report["chain"]["rows"].as_array().map(Vec::len)),

@@ -27,7 +27,7 @@ fn shell(folder: &Path, line: &str) -> Output {
     output.expect("a shell")
 }
 
-fn told(output: &Output) -> String {
+fn reported(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
@@ -38,7 +38,7 @@ fn a_program_goes_from_standard_input_to_standard_output() {
         folder.path(),
         "p compensate in.mod --profile p.yaml -o out.mod",
     );
-    assert_eq!(written.status.code(), Some(0), "{}", told(&written));
+    assert_eq!(written.status.code(), Some(0), "{}", reported(&written));
     let wanted = std::fs::read(folder.path().join("out.mod")).expect("written");
     for line in [
         "p compensate --profile p.yaml -o - - < in.mod",
@@ -48,27 +48,32 @@ fn a_program_goes_from_standard_input_to_standard_output() {
         "p compensate - --profile p.yaml -o stream.mod < in.mod > /dev/null && cat stream.mod",
     ] {
         let output = shell(folder.path(), line);
-        assert_eq!(output.status.code(), Some(0), "{line}: {}", told(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{line}: {}",
+            reported(&output)
+        );
         assert!(
             output.stdout == wanted,
             "{line}: {}",
             String::from_utf8_lossy(&output.stdout)
         );
     }
-    // what is told of it stands beside
+    // what is reported of it stands next to it
     let output = shell(
         folder.path(),
         "p compensate - --profile p.yaml -o - < in.mod",
     );
     assert!(
-        told(&output).contains("file(s) of ABB RAPID"),
+        reported(&output).contains("file(s) of ABB RAPID"),
         "{}",
-        told(&output)
+        reported(&output)
     );
     // a check of it
     let output = shell(folder.path(), "p check - --profile p.yaml --json < in.mod");
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a report");
-    assert_eq!(report["input"], "-", "{}", told(&output));
+    assert_eq!(report["input"], "-", "{}", reported(&output));
 }
 
 #[test]
@@ -90,16 +95,25 @@ fn streams_that_cannot_be_meant_are_refused() {
         "p compensate /dev/zero --profile p.yaml -o x.mod",
     ] {
         let output = shell(folder.path(), line);
-        assert_eq!(output.status.code(), Some(2), "{line}: {}", told(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{line}: {}",
+            reported(&output)
+        );
         assert!(output.stdout.is_empty(), "{line}");
-        assert!(told(&output).contains("error"), "{line}: {}", told(&output));
+        assert!(
+            reported(&output).contains("error"),
+            "{line}: {}",
+            reported(&output)
+        );
         assert_eq!(files_below(folder.path()), before, "{line}");
     }
     // refused, and so no program: nothing else is taken for one
     let line = "p compensate in.mod --profile p.yaml -o - --max-shift 0.001mm,0.001deg";
     let output = shell(folder.path(), line);
-    assert_eq!(output.status.code(), Some(1), "{}", told(&output));
-    assert!(output.stdout.is_empty() && told(&output).contains("nothing is written"));
+    assert_eq!(output.status.code(), Some(1), "{}", reported(&output));
+    assert!(output.stdout.is_empty() && reported(&output).contains("nothing is written"));
 }
 
 /// Asserts that a command does what it is asked where nothing is wrong with its streams.
@@ -110,7 +124,7 @@ fn works(line: &str, status: i32) {
         output.status.code(),
         Some(status),
         "{line}: {}",
-        told(&output)
+        reported(&output)
     );
 }
 
@@ -126,15 +140,15 @@ fn a_reader_that_has_gone_makes_no_success() {
             folder.path(),
             &format!("exec 3> >(:); sleep 0.3; p {line} >&3; echo $? >&2"),
         );
-        let told = told(&output);
-        let status = told
+        let reported = reported(&output);
+        let status = reported
             .lines()
             .last()
             .and_then(|line| line.parse::<i32>().ok());
-        (status.expect("a status"), told)
+        (status.expect("a status"), reported)
     };
     let plain = shell(folder.path(), &format!("p {NO}"));
-    assert_eq!(plain.status.code(), Some(1), "{}", told(&plain));
+    assert_eq!(plain.status.code(), Some(1), "{}", reported(&plain));
     assert_eq!(gone(NO).0, 1);
     assert_eq!(gone(&format!("{NO} --json")).0, 1);
     let before = files_below(folder.path());
@@ -158,11 +172,11 @@ fn a_reader_that_has_gone_makes_no_success() {
         "--version",
     ] {
         works(line, 0);
-        let (status, told) = gone(line);
-        assert_eq!(status, 2, "{line}: {told}");
-        assert_eq!(files_below(folder.path()), before, "{line}: {told}");
+        let (status, reported) = gone(line);
+        assert_eq!(status, 2, "{line}: {reported}");
+        assert_eq!(files_below(folder.path()), before, "{line}: {reported}");
     }
-    // at status 1, too, nothing is written that could not be told
+    // at status 1, too, nothing is written that could not be known
     assert_eq!(gone(&format!("{NO} --report r.html --junit j.xml")).0, 1);
     assert_eq!(files_below(folder.path()), before);
 }
@@ -189,7 +203,12 @@ fn a_full_standard_output_or_error_is_status_2_and_nothing_is_written() {
     ] {
         works(line, i32::from(line == NO));
         let output = shell(folder.path(), &format!("p {line} > /dev/full"));
-        assert_eq!(output.status.code(), Some(2), "{line}: {}", told(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{line}: {}",
+            reported(&output)
+        );
         assert_eq!(files_below(folder.path()), before, "{line}");
     }
     // nothing that stands there alone is lost either
@@ -209,7 +228,7 @@ fn a_full_standard_output_or_error_is_status_2_and_nothing_is_written() {
         folder.path(),
         "p compensate in.mod --profile p.yaml -o out.mod > /dev/null",
     );
-    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
 }
 
 #[test]
@@ -226,7 +245,11 @@ fn every_result_of_a_command_may_go_to_standard_output() {
     ] {
         let output = shell(folder.path(), line);
         let out = String::from_utf8_lossy(&output.stdout);
-        assert!(out.starts_with(begins), "{line}: {out}{}", told(&output));
+        assert!(
+            out.starts_with(begins),
+            "{line}: {out}{}",
+            reported(&output)
+        );
     }
     assert!(!folder.path().join("-").exists());
 }

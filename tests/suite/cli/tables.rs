@@ -85,24 +85,27 @@ fn a_bad_cell_names_line_and_column() {
             format!("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n{row}\n"),
         )
         .expect("scratch");
-        let told = refused(&[
+        let reported = refused(&[
             "fk",
             "--profile",
             PROFILE,
             "--joints",
             joints.to_str().expect("UTF-8"),
         ]);
-        assert!(told.contains(&format!("j.csv:{column}")), "{told}");
+        assert!(reported.contains(&format!("j.csv:{column}")), "{reported}");
     }
     std::fs::write(&joints, "q1_deg,q2_deg\n1,2\n").expect("scratch");
-    let told = refused(&[
+    let reported = refused(&[
         "fk",
         "--profile",
         PROFILE,
         "--joints",
         joints.to_str().expect("UTF-8"),
     ]);
-    assert!(told.contains("q3_deg, q4_deg, q5_deg, q6_deg"), "{told}");
+    assert!(
+        reported.contains("q3_deg, q4_deg, q5_deg, q6_deg"),
+        "{reported}"
+    );
 }
 
 #[test]
@@ -136,12 +139,12 @@ fn profile_faults_name_the_place_and_the_way_out() {
         ),
         ("mass_kg: 2.6", "mass_kg: -2.6", "mass_kg is -2.6"),
     ];
-    for (from, to, told) in cases {
+    for (from, to, reported) in cases {
         assert!(good.contains(from), "{from}");
         std::fs::write(&file, good.replacen(from, to, 1)).expect("scratch");
         let stderr = refused(&["profile", "show", file.to_str().expect("UTF-8")]);
         assert!(
-            stderr.contains(told) && stderr.contains("bad.yaml:"),
+            stderr.contains(reported) && stderr.contains("bad.yaml:"),
             "{to}: {stderr}"
         );
     }

@@ -50,8 +50,8 @@ fn measured(count: usize) -> TempDir {
     }
     std::fs::write(folder.path().join("q.csv"), joints).expect("scratch");
     let simulate = "simulate --profile TRUTH --joints q.csv --noise-mm 0.02 -o m.csv";
-    let (status, _, told) = run(folder.path(), simulate);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, _, reported) = run(folder.path(), simulate);
+    assert_eq!(status, Some(0), "{reported}");
     folder
 }
 
@@ -85,28 +85,34 @@ fn files_that_cannot_be_meant_are_refused_as_by_calibrate() {
     let folder = measured(40);
     assert_eq!(validate(folder.path(), "TRUTH", "").0, Some(0));
     change(folder.path(), &joints, f64::to_radians);
-    let (status, _, told) = validate(folder.path(), "TRUTH", "");
-    assert!(status == Some(2) && told.contains("radians"), "{told}");
+    let (status, _, reported) = validate(folder.path(), "TRUTH", "");
+    assert!(
+        status == Some(2) && reported.contains("radians"),
+        "{reported}"
+    );
     let folder = measured(40);
     change(folder.path(), &["x_mm", "y_mm", "z_mm"], |v| v / 1000.0);
-    let (status, _, told) = validate(folder.path(), "TRUTH", "");
-    assert!(status == Some(2) && told.contains("metres"), "{told}");
+    let (status, _, reported) = validate(folder.path(), "TRUTH", "");
+    assert!(
+        status == Some(2) && reported.contains("metres"),
+        "{reported}"
+    );
     let folder = measured(2);
-    let (status, _, told) = validate(folder.path(), "TRUTH", "");
+    let (status, _, reported) = validate(folder.path(), "TRUTH", "");
     assert_eq!(status, Some(2));
     assert!(
-        !told.contains("--level") && told.contains("configurations"),
-        "{told}"
+        !reported.contains("--level") && reported.contains("configurations"),
+        "{reported}"
     );
 }
 
 #[test]
-fn rows_that_the_profile_was_calibrated_with_are_told() {
+fn rows_that_the_profile_was_calibrated_with_are_reported() {
     let folder = measured(30);
     let at = folder.path();
     let calibrate = "calibrate --profile TRUTH --measurements m.csv --level 0 --date day -o c.yaml";
-    let (status, _, told) = run(at, calibrate);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, _, reported) = run(at, calibrate);
+    assert_eq!(status, Some(0), "{reported}");
     let (_, report, _) = validate(at, "c.yaml", "");
     assert_eq!(ids(&report), ["seen-before"]);
     validate(at, "c.yaml", " --report page.html");
@@ -129,7 +135,7 @@ fn rows_that_the_profile_was_calibrated_with_are_told() {
 }
 
 #[test]
-fn a_device_set_up_anew_is_told_and_refitted_with_its_regions_and_its_controller() {
+fn a_device_set_up_anew_is_reported_and_refitted_with_its_regions_and_its_controller() {
     let folder = measured(40);
     let at = folder.path();
     let calibrate = "calibrate --profile TRUTH --measurements m.csv --level 0 -o c.yaml";
@@ -163,7 +169,7 @@ fn a_device_set_up_anew_is_told_and_refitted_with_its_regions_and_its_controller
 }
 
 #[test]
-fn sigmas_in_another_unit_are_told_with_the_factor() {
+fn sigmas_in_another_unit_are_reported_with_the_factor() {
     let folder = measured(40);
     let path = folder.path().join("m.csv");
     let text = std::fs::read_to_string(&path).expect("measurements");
@@ -184,40 +190,46 @@ fn tables_that_are_no_csv_are_named_with_the_way_out() {
     for (from, to, word) in [(",", ";", "semicolons"), (",", "\t", "tabs")] {
         std::fs::write(&path, text.replace(from, to)).expect("scratch");
         // measurements are read as they come, other tables are not
-        let (status, _, told) = validate(folder.path(), "TRUTH", "");
-        assert_eq!(status, Some(0), "{told}");
-        let (status, _, told) = run(folder.path(), "simulate --profile TRUTH --joints m.csv");
+        let (status, _, reported) = validate(folder.path(), "TRUTH", "");
+        assert_eq!(status, Some(0), "{reported}");
+        let (status, _, reported) = run(folder.path(), "simulate --profile TRUTH --joints m.csv");
         assert!(
-            status == Some(2) && told.contains(word) && told.contains("sed"),
-            "{told}"
+            status == Some(2) && reported.contains(word) && reported.contains("sed"),
+            "{reported}"
         );
     }
     std::fs::write(&path, text.replace(',', ";").replace('.', ",")).expect("scratch");
-    let (status, _, told) = validate(folder.path(), "TRUTH", "");
-    assert_eq!(status, Some(0), "{told}");
-    let (status, _, told) = run(folder.path(), "simulate --profile TRUTH --joints m.csv");
-    assert!(status == Some(2) && told.contains("decimals"), "{told}");
+    let (status, _, reported) = validate(folder.path(), "TRUTH", "");
+    assert_eq!(status, Some(0), "{reported}");
+    let (status, _, reported) = run(folder.path(), "simulate --profile TRUTH --joints m.csv");
+    assert!(
+        status == Some(2) && reported.contains("decimals"),
+        "{reported}"
+    );
     std::fs::write(&path, "").expect("scratch");
-    let (status, _, told) = validate(folder.path(), "TRUTH", "");
-    assert!(status == Some(2) && told.contains("empty"), "{told}");
+    let (status, _, reported) = validate(folder.path(), "TRUTH", "");
+    assert!(
+        status == Some(2) && reported.contains("empty"),
+        "{reported}"
+    );
     let mut bytes = text.into_bytes();
     let place = bytes.len() - 3;
     bytes[place] = 0xb5;
     std::fs::write(&path, bytes).expect("scratch");
-    let (status, _, told) = run(folder.path(), "simulate --profile TRUTH --joints m.csv");
+    let (status, _, reported) = run(folder.path(), "simulate --profile TRUTH --joints m.csv");
     assert!(
-        status == Some(2) && told.contains("UTF-8") && told.contains("iconv"),
-        "{told}"
+        status == Some(2) && reported.contains("UTF-8") && reported.contains("iconv"),
+        "{reported}"
     );
-    assert!(!told.contains("m.csv:21:1\n"), "{told}");
+    assert!(!reported.contains("m.csv:21:1\n"), "{reported}");
 }
 
 #[test]
 fn folds_identify_the_level_and_hold_to_the_priors_that_are_asked_for() {
     let folder = measured(24);
     let folded = |rest: &str| {
-        let (status, report, told) = validate(folder.path(), "TRUTH", rest);
-        assert_eq!(status, Some(0), "{told}");
+        let (status, report, reported) = validate(folder.path(), "TRUTH", rest);
+        assert_eq!(status, Some(0), "{reported}");
         let mean = report["folds"]["real"]["position"]["mean_mm"].as_f64();
         mean.unwrap_or_else(|| panic!("{report:#}"))
     };
@@ -229,6 +241,9 @@ fn folds_identify_the_level_and_hold_to_the_priors_that_are_asked_for() {
     assert!((geometry - held).abs() > 1e-6, "{geometry} {held}");
     // some thirty parameters from 54 numbers: priors help
     assert!(held < geometry, "{held} {geometry}");
-    let (status, _, told) = validate(folder.path(), "TRUTH", " --level 2");
-    assert!(status == Some(2) && told.contains("--folds"), "{told}");
+    let (status, _, reported) = validate(folder.path(), "TRUTH", " --level 2");
+    assert!(
+        status == Some(2) && reported.contains("--folds"),
+        "{reported}"
+    );
 }

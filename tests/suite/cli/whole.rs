@@ -60,7 +60,7 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
     output.expect("the program starts")
 }
 
-fn told(output: &Output) -> String {
+fn reported(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout)
 }
 
@@ -68,19 +68,19 @@ fn told(output: &Output) -> String {
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     let before = content(folder);
     let output = run(folder, arguments);
-    let told = told(&output);
-    assert_eq!(output.status.code(), Some(2), "{told}");
+    let reported = reported(&output);
+    assert_eq!(output.status.code(), Some(2), "{reported}");
     for word in words {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(reported.contains(word), "{word}: {reported}");
     }
-    assert_eq!(content(folder), before, "{told}");
+    assert_eq!(content(folder), before, "{reported}");
 }
 
 /// What a run that nothing stops writes.
 fn wanted() -> Content {
     let folder = world();
     let output = run(folder.path(), &IN_PLACE);
-    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
     content(folder.path())
 }
 
@@ -109,7 +109,7 @@ fn a_file_that_cannot_be_changed_stops_all_others() {
     );
     assert!(tool("chattr", &["-i", second], folder.path()));
     let output = run(folder.path(), &IN_PLACE);
-    assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
 
     // a folder in which nothing can be made
     reset(folder.path());
@@ -149,7 +149,7 @@ fn kill(times: usize, seed: u64) -> (usize, usize) {
         child.wait().expect("it ended");
         // any run that reads there
         let next = run(path, &["profile", "show", "work/p.yaml"]);
-        let said = told(&next);
+        let said = reported(&next);
         assert_eq!(next.status.code(), Some(0), "{said}");
         let is = content(path);
         assert!(
@@ -189,18 +189,18 @@ fn a_limit_of_file_sizes_stops_all_or_is_undone() {
     let folder = world();
     let before = content(folder.path());
     let line = format!("ulimit -f 8; exec \"$POSESHIFT\" {}", IN_PLACE.join(" "));
-    // the signal ignored: the program is told
+    // the signal ignored: the program sees a closed pipe
     let output = shell(folder.path(), &format!("trap '' XFSZ; {line}"));
-    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
     assert!(
-        told(&output).contains("cannot write work/"),
+        reported(&output).contains("cannot write work/"),
         "{}",
-        told(&output)
+        reported(&output)
     );
     assert_eq!(content(folder.path()), before);
     // the signal kills it, with its new files half written
     let output = shell(folder.path(), &line);
-    assert!(output.status.signal().is_some(), "{}", told(&output));
+    assert!(output.status.signal().is_some(), "{}", reported(&output));
     let left = content(folder.path());
     assert!(
         left.len() > before.len(),
@@ -209,9 +209,9 @@ fn a_limit_of_file_sizes_stops_all_or_is_undone() {
     );
     let next = run(folder.path(), &["profile", "show", "work/p.yaml"]);
     assert!(
-        told(&next).contains("undone what a run that was stopped"),
+        reported(&next).contains("undone what a run that was stopped"),
         "{}",
-        told(&next)
+        reported(&next)
     );
     assert_eq!(content(folder.path()), before);
 }
@@ -291,11 +291,11 @@ fn a_quota_stops_all() {
         .gid(NOBODY)
         .output()
         .expect("the program starts");
-    let told = told(&output);
-    assert_eq!(output.status.code(), Some(2), "{told}");
+    let reported = reported(&output);
+    assert_eq!(output.status.code(), Some(2), "{reported}");
     assert!(
-        told.contains("cannot write") && told.contains("uota"),
-        "{told}"
+        reported.contains("cannot write") && reported.contains("uota"),
+        "{reported}"
     );
     assert_eq!(content(&disk.0.join("work")), before);
 }
@@ -391,7 +391,7 @@ fn a_run_that_waits_to_print_has_replaced_nothing_and_is_undone_when_killed() {
             "*.html",
         ],
     );
-    let said = told(&next);
+    let said = reported(&next);
     assert!(
         said.contains("undone what a run that was stopped"),
         "{said}"

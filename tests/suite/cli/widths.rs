@@ -4,7 +4,8 @@ use super::reports::{COMMANDS, given};
 use crate::support::scratch;
 use std::path::Path;
 
-/// Commands beside those whose reports are looked at: long findings, tables with reasons, refusals.
+/// Commands besides those whose reports are looked at: long findings, tables with reasons,
+/// refusals.
 const MORE: &[&str] = &[
     "calibrate --profile @robots/abb_irb120_thesis.yaml --measurements measured.csv -v",
     "validate --profile calibrated.yaml --measurements measured.csv -v",
@@ -37,7 +38,7 @@ fn too_wide(text: &str, width: usize) -> Option<&str> {
         .find(|line| letters(line) > width && !is_usage(line))
 }
 
-fn told(line: &str, folder: &Path, columns: Option<usize>) -> (String, String) {
+fn reported(line: &str, folder: &Path, columns: Option<usize>) -> (String, String) {
     let mut command = given(line, folder);
     command.envs(columns.map(|columns| ("COLUMNS", columns.to_string())));
     let output = command.output().expect("the program starts");
@@ -55,7 +56,7 @@ fn no_line_is_wider_than_the_terminal() {
     let mut seen = 0;
     for line in commands {
         for width in [80, 60] {
-            let (out, err) = told(line, folder.path(), Some(width));
+            let (out, err) = reported(line, folder.path(), Some(width));
             let out = if DATA.iter().any(|data| line.starts_with(data)) {
                 String::new()
             } else {
@@ -77,7 +78,7 @@ fn no_line_is_wider_than_the_terminal() {
 #[test]
 fn help_fits_the_terminal() {
     let folder = scratch();
-    let (commands, _) = told("--help", folder.path(), Some(80));
+    let (commands, _) = reported("--help", folder.path(), Some(80));
     let names = commands
         .lines()
         .skip_while(|line| *line != "Commands:")
@@ -88,7 +89,7 @@ fn help_fits_the_terminal() {
     let mut count = 0;
     for name in names {
         for width in [80, 60] {
-            let (help, _) = told(&format!("{name} --help"), folder.path(), Some(width));
+            let (help, _) = reported(&format!("{name} --help"), folder.path(), Some(width));
             assert_eq!(
                 too_wide(&help, width),
                 None,
@@ -105,11 +106,11 @@ fn where_nobody_looks_text_is_eighty_columns_without_colour_and_a_finding_is_one
     let folder = scratch();
     let show = "profile show @robots/abb_irb120_thesis.yaml";
     assert_eq!(
-        told(show, folder.path(), None),
-        told(show, folder.path(), Some(80))
+        reported(show, folder.path(), None),
+        reported(show, folder.path(), Some(80))
     );
     let finds = "compensate @programs/krl/cam/in/pocket.src --profile @programs/krl/profile.yaml -o out.src";
-    let (out, _) = told(finds, folder.path(), None);
+    let (out, _) = reported(finds, folder.path(), None);
     let finding = out
         .lines()
         .find(|line| line.contains("warning["))

@@ -103,7 +103,7 @@ fn an_effect_of_the_data_is_refused_in_a_profile() {
 }
 
 #[test]
-fn too_few_rows_and_constant_columns_are_told() {
+fn too_few_rows_and_constant_columns_are_reported() {
     let short = case(group("clean"), 0, 3, 8);
     let (folder, profile, csv) = files(&short);
     let better = folder.path().join("better.yaml");
@@ -230,7 +230,7 @@ pub fn diagnosed(case: &Case, more: &[&str]) -> (i32, String, String) {
 }
 
 #[test]
-fn lengths_in_another_unit_are_told_by_name() {
+fn lengths_in_another_unit_are_reported_by_name() {
     let mut case = case(group("clean"), 0, 3, 60);
     let plain = case.csv.clone();
     for (of_mm, says) in [(1e-3, "metres"), (1.0 / 25.4, "inches")] {
@@ -394,12 +394,12 @@ fn a_spring_that_would_push_is_no_answer() {
     };
     let (stiff, pushing) = (with("stiff.yaml", "0"), with("pushing.yaml", "-6e-5"));
     let (joints, measured) = (at("joints.csv"), at("measured.csv"));
-    let told = |arguments: &[&str]| {
+    let reported = |arguments: &[&str]| {
         let (status, out, error) = run(arguments);
         assert!(status < 2, "{error}");
         out
     };
-    told(&[
+    reported(&[
         "plan",
         "--profile",
         &stiff,
@@ -412,7 +412,7 @@ fn a_spring_that_would_push_is_no_answer() {
         "-o",
         &joints,
     ]);
-    told(&[
+    reported(&[
         "simulate",
         "--profile",
         &pushing,
@@ -425,7 +425,7 @@ fn a_spring_that_would_push_is_no_answer() {
         "-o",
         &measured,
     ]);
-    let json = told(&[
+    let json = reported(&[
         "diagnose",
         "--profile",
         &stiff,

@@ -133,7 +133,7 @@ fn drift_over_hours_is_no_noise_where_repetitions_follow_one_another() {
     );
     let near = near.expect("enough repetitions").scale;
     assert!((near - 2.0).abs() < 0.3, "{near}");
-    // all poses once, then all again, an hour later: what drifts cannot be told from noise
+    // all poses once, then all again, an hour later: what drifts cannot be distinguished from noise
     let far = noise_of(true, |_| {}, |row, random| drift(row) + normal(random));
     let far = far.expect("enough repetitions").scale;
     assert!(far > 10.0, "{far}");
@@ -240,9 +240,9 @@ fn what_repeats_at_a_pose_and_no_function_tells_is_missing() {
     );
     let found = quick(&repeated);
     assert_eq!(found.verdict, Verdict::Undetermined);
-    let told = found.reasons.iter();
-    let told = told.filter(|r| r.contains("the noise that repeated poses show"));
-    assert_eq!(told.count(), 1, "{:?}", found.reasons);
+    let reported = found.reasons.iter();
+    let reported = reported.filter(|r| r.contains("the noise that repeated poses show"));
+    assert_eq!(reported.count(), 1, "{:?}", found.reasons);
     assert!(found.left_m > 2.0 * found.noise_m);
     // measured once each there is no telling it from noise
     let once = moved(

@@ -237,7 +237,7 @@ fn a_wave_of_the_gear_is_found_at_its_order() {
 }
 
 #[test]
-fn a_device_that_moved_is_told_where_the_robot_is() {
+fn a_device_that_moved_is_reported_where_the_robot_is() {
     let case = case_with("frame_shift");
     let (status, out, error) = diagnosed(&case, &["--json", "--quick"]);
     assert_eq!(status, 0, "{error}");

@@ -70,11 +70,11 @@ fn runnable(command: &str) -> Option<String> {
 /// Exit status and everything printed, standard output first.
 fn run(folder: &Path, command: &str) -> (Option<i32>, String) {
     let program = poseshift();
-    let beside = Path::new(program.get_program()).parent().expect("a folder");
+    let given = Path::new(program.get_program()).parent().expect("a folder");
     let path = std::env::var("PATH").expect("a search path");
     let output = Command::new("sh")
         .args(["-c", command])
-        .env("PATH", format!("{}:{path}", beside.display()))
+        .env("PATH", format!("{}:{path}", given.display()))
         .current_dir(folder)
         .output()
         .expect("a shell");

@@ -1,5 +1,5 @@
-//! One word for a thing, that of the field, and British spelling: in the documents and in what
-//! commands print.
+//! One word for a thing, that of the field, and British spelling: in the documents, in what
+//! commands print, in comments and in names.
 
 use crate::support::{files_below, repository, text};
 
@@ -82,4 +82,29 @@ fn documents_and_what_is_printed_have_the_words_of_the_field() {
         misused("here", &pieces("`told` and told", '`', false)).len(),
         1
     );
+}
+
+/// Words of the list in comments, texts and parts of names; ids of findings that are a promise
+/// stay.
+#[test]
+fn comments_and_names_have_the_words_of_the_field() {
+    let mut wrong = Vec::new();
+    let mut lines = 0;
+    for folder in ["src", "tests", "examples", "benches"] {
+        for path in files_below(&repository(folder)) {
+            let name = format!("{folder}/{}", path.display());
+            if !name.ends_with(".rs") || name == "tests/suite/documents/words.rs" {
+                continue;
+            }
+            for (number, line) in text(&name).lines().enumerate() {
+                lines += 1;
+                let place = format!("{name}:{}", number + 1);
+                let line = line.replace("wrist-not-told", "");
+                wrong.extend(misused(&place, &line.replace('_', " ")));
+            }
+        }
+    }
+    assert!(lines > 100_000, "only {lines} lines were read");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert_eq!(misused("here", &"fn is_told()".replace('_', " ")).len(), 1);
 }

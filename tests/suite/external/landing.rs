@@ -597,11 +597,11 @@ fn lands(said: Said, cell: &Cell) {
         let controller = standing(&nominal_rails, e, 0.0);
         let real = standing(&cell.rails, e, *direction);
         let land = |numbers: &[f64]| {
-            let told = times(
+            let reported = times(
                 &part(&nominal_tables, &[0.0; 6], e),
                 &pose_of(said, numbers),
             );
-            let q = joints(&controller, &told, q);
+            let q = joints(&controller, &reported, q);
             let is = tool_pose(&real, &arm_faults, &q, &Moment::default());
             let by = missing(&is, &wanted);
             1e3 * by.fixed_rows::<3>(0).norm()

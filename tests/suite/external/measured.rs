@@ -101,8 +101,8 @@ fn json(arguments: &[&str], files: &[(&str, &Path)]) -> Value {
         command.arg(option).arg(path);
     }
     let done = command.output().expect("the program starts");
-    let told = String::from_utf8_lossy(&done.stderr);
-    assert_eq!(done.status.code(), Some(0), "{told}");
+    let reported = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(0), "{reported}");
     serde_json::from_slice(&done.stdout).expect("JSON")
 }
 
@@ -190,9 +190,12 @@ fn files_and_profiles_must_speak_of_the_same_axes() {
                 .arg(&csv)
                 .output()
                 .expect("the program starts");
-            let told = String::from_utf8_lossy(&done.stderr).into_owned();
-            assert_eq!(done.status.code(), Some(2), "{told}");
-            assert!(words.iter().all(|word| told.contains(word)), "{told}");
+            let reported = String::from_utf8_lossy(&done.stderr).into_owned();
+            assert_eq!(done.status.code(), Some(2), "{reported}");
+            assert!(
+                words.iter().all(|word| reported.contains(word)),
+                "{reported}"
+            );
         }
     };
     let bare = with_tool("", &[]);
@@ -337,9 +340,9 @@ fn simulated_measurements_are_identified_again() {
             .arg(&made)
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert_eq!(done.status.code(), Some(2), "{told}");
-        assert!(told.contains(says), "{told}");
+        let reported = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(2), "{reported}");
+        assert!(reported.contains(says), "{reported}");
     }
 }
 
@@ -435,9 +438,9 @@ fn a_plan_has_places_of_the_rail_and_tells_its_errors_apart() {
             .args(more)
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert_eq!(done.status.code(), Some(2), "{told}");
-        assert!(told.contains(says), "{told}");
+        let reported = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(2), "{reported}");
+        assert!(reported.contains(says), "{reported}");
         assert!(!folder.path().join("none.csv").exists());
     }
 }
@@ -466,8 +469,8 @@ fn fk_is_the_reference_along_the_rail() {
         .arg(&table)
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&done.stderr).into_owned();
-    assert_eq!(done.status.code(), Some(0), "{told}");
+    let reported = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert_eq!(done.status.code(), Some(0), "{reported}");
     let text = String::from_utf8(done.stdout).expect("ASCII");
     let device = frame(&[2.1, -3.3, 0.4, 0.02, -0.03, 1.1]);
     let numbers = |line: &str, from: usize| -> [f64; 3] {

@@ -153,8 +153,8 @@ fn a_positioner_is_as_if_the_frame_stood_there() {
             .to_owned()
     };
     let let_through = profile("external_axes: {other: [eax_b]}\n", &[ARM]);
-    let told = moves(&profile(TABLE, &[ARM]), &carried);
-    assert_eq!(told, moves(&let_through, &fixed));
+    let reported = moves(&profile(TABLE, &[ARM]), &carried);
+    assert_eq!(reported, moves(&let_through, &fixed));
 }
 
 #[test]
@@ -213,20 +213,20 @@ fn limits_and_values_that_nobody_knows_are_errors() {
 fn a_component_that_krl_leaves_out_keeps_its_value() {
     let rail = profile(KRL_TRACK, &[ARM, RAIL]);
     let pose = "X 640,Y 200,Z 700,A 10,B 5,C 170";
-    let told = |body: &str| {
+    let reported = |body: &str| {
         let text = format!("DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\n{body}END\n");
         errors(&run(&rail, &[("t.src", &text)]).expect("read"))
     };
     let home = "PTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 100}\n";
-    assert_eq!(told(&format!("{home}PTP {{{pose}}}\n")), [""; 0]);
+    assert_eq!(reported(&format!("{home}PTP {{{pose}}}\n")), [""; 0]);
     let home = "PTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0}\n";
     assert_eq!(
-        told(&format!("{home}PTP {{{pose}}}\n")),
+        reported(&format!("{home}PTP {{{pose}}}\n")),
         ["external-value-unknown"]
     );
     let both = "IF x THEN\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 100}\nELSE\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 150}\nENDIF\n";
     assert_eq!(
-        told(&format!("{both}PTP {{{pose}}}\n")),
+        reported(&format!("{both}PTP {{{pose}}}\n")),
         ["external-value-unknown"]
     );
 }
@@ -288,9 +288,9 @@ fn a_profile_says_where_it_is_wrong() {
             "",
         ),
     ] {
-        let (line, message, told) = error(&good, effect);
+        let (line, message, reported) = error(&good, effect);
         assert!(message.contains(says), "{message}");
-        assert!(told.contains(hint), "{told}");
+        assert!(reported.contains(hint), "{reported}");
         assert_eq!(line, 4);
     }
 }
@@ -331,11 +331,11 @@ fn what_another_robot_or_a_station_carries_is_refused_with_its_reason() {
 }
 
 #[test]
-fn a_move_beyond_the_measured_part_of_a_rail_is_told_once() {
+fn a_move_beyond_the_measured_part_of_a_rail_is_reported_once() {
     let bent = "{effect: track_straightness, axis: 1, along: y, degree: 2, mm: 0.4}";
     let mut rail = profile(TRACK, &[ARM, bent]);
     let body = |eax: &str| [HOME, &go(640.0, eax, ""), &go(650.0, eax, "")].concat();
-    let told = |rail: &Profile, eax: &str| {
+    let reported = |rail: &Profile, eax: &str| {
         let done = run(rail, &[("t.mod", &rapid("", &body(eax)))]).expect("read");
         let found = done
             .findings
@@ -343,14 +343,14 @@ fn a_move_beyond_the_measured_part_of_a_rail_is_told_once() {
             .filter(|f| f.id == "track-extrapolated");
         found.map(|f| f.message.clone()).collect::<Vec<_>>()
     };
-    assert!(told(&rail, "1500,9E9").is_empty());
+    assert!(reported(&rail, "1500,9E9").is_empty());
     let quality = r#"{"track_mm": [[0.0, 1000.0]]}"#;
     rail.quality = Some(serde_json::from_str(quality).expect("JSON"));
-    let beyond = told(&rail, "1500,9E9");
+    let beyond = reported(&rail, "1500,9E9");
     assert_eq!(beyond.len(), 1, "{beyond:?}");
     assert!(
         beyond[0].contains("1500") && beyond[0].contains("1000"),
         "{beyond:?}"
     );
-    assert!(told(&rail, "900,9E9").is_empty());
+    assert!(reported(&rail, "900,9E9").is_empty());
 }

@@ -1,5 +1,5 @@
-//! Units that are switched off and axes that move beside the program: their values in targets do
-//! not count.
+//! Units that are switched off and axes that move independently of the program: their values in
+//! targets do not count.
 
 use super::{errors, profile, rapid, run};
 use poseshift::model::profile::Profile;
@@ -12,7 +12,7 @@ const HOME: &str = "MoveAbsJ [[0,0,10,0,60,0],[0,0,9E9,9E9,9E9,9E9]],v100,fine,t
 const GO: &str =
     "MoveJ [[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],[100,0,9E9,9E9,9E9,9E9]],v100,fine,t;\n";
 
-fn told(profile: &Profile, body: &str) -> (Vec<&'static str>, String) {
+fn reported(profile: &Profile, body: &str) -> (Vec<&'static str>, String) {
     let text = rapid("", body);
     let done = run(profile, &[("t.mod", &text)]).expect("read");
     let messages: Vec<&str> = done.findings.iter().map(|f| f.message.as_str()).collect();
@@ -51,7 +51,7 @@ fn a_unit_that_is_off_stands_where_no_target_says() {
             &[],
         ),
     ] {
-        let (found, messages) = told(&rail, &body);
+        let (found, messages) = reported(&rail, &body);
         assert_eq!(found, expected, "{body}\n{messages}");
         if !expected.is_empty() {
             assert!(
@@ -67,10 +67,10 @@ fn only_axes_that_matter_to_the_move_are_asked_for() {
     let cell = profile(CELL, &[ARM]);
     // a fixed work object does not ask for the station; what is in `other` carries nothing
     for body in ["DeactUnit STN1;\n", "DeactUnit GUN;\n"] {
-        let (found, messages) = told(&cell, &format!("{HOME}{body}{GO}"));
+        let (found, messages) = reported(&cell, &format!("{HOME}{body}{GO}"));
         assert_eq!(found, [""; 0], "{body} {messages}");
     }
-    let (found, _) = told(&cell, &format!("{HOME}DeactUnit TRACK1;\n{GO}"));
+    let (found, _) = reported(&cell, &format!("{HOME}DeactUnit TRACK1;\n{GO}"));
     assert_eq!(found, ["external-value-unknown"]);
     let wobj = "PERS wobjdata w:=[FALSE,FALSE,\"STN1\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];";
     let on_station = "MoveJ [[40,20,400],[0,0.1,0.9949874371,0],[0,0,0,0],[100,0,9E9,9E9,9E9,9E9]],v100,fine,t\\WObj:=w;\n";

@@ -112,9 +112,9 @@ fn explain_tells_one_finding_and_asks_back_for_none() {
         flat(&out).contains(of.meaning) && flat(&out).contains(of.remedy),
         "{out}"
     );
-    let (status, _, told) = run(&["explain", "near-nothing"]);
+    let (status, _, reported) = run(&["explain", "near-nothing"]);
     assert_eq!(status, 2);
-    assert!(told.contains("near-singularity"), "{told}");
+    assert!(reported.contains("near-singularity"), "{reported}");
     let (_, out, _) = run(&["explain", "--json"]);
     let report: Value = serde_json::from_str(&out).expect("JSON");
     assert_eq!(

@@ -25,7 +25,7 @@ fn fakes(language: &str, ending: &str) -> Vec<Value> {
     std::fs::create_dir(&program).expect("scratch");
     let text = path::program(language, POINTS, EVERY);
     std::fs::write(program.join(format!("path.{ending}")), text).expect("scratch");
-    if let Some((name, text)) = path::beside(language, POINTS) {
+    if let Some((name, text)) = path::given(language, POINTS) {
         std::fs::write(program.join(name), text).expect("scratch");
     }
     let output = poseshift()
@@ -37,11 +37,11 @@ fn fakes(language: &str, ending: &str) -> Vec<Value> {
         .arg(at("out"))
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&output.stderr);
+    let reported = String::from_utf8_lossy(&output.stderr);
     assert_eq!(
         output.status.code(),
         Some(0),
-        "{language}: {told}{}",
+        "{language}: {reported}{}",
         String::from_utf8_lossy(&output.stdout)
     );
     let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");

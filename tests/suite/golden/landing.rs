@@ -129,8 +129,8 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
             let Some(target) = used.target.filter(|target| *target < targets.len()) else {
                 continue;
             };
-            let told = &targets[target];
-            if told["status"] != "converged" || told["fake"].is_null() {
+            let reported = &targets[target];
+            if reported["status"] != "converged" || reported["fake"].is_null() {
                 continue;
             }
             let (tool, frame) = (&after.tools[used.tool], &after.frames[used.frame]);
@@ -156,7 +156,7 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
                 load,
             };
             let near: Vec<f64> =
-                serde_json::from_value(told["joints_deg"].clone()).expect("joints");
+                serde_json::from_value(reported["joints_deg"].clone()).expect("joints");
             let near = std::array::from_fn(|i| near[i].to_radians());
             let given = world_from_frame * fake;
             let q = if is_irb120 {
@@ -167,11 +167,11 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
             let real = profile
                 .real_model(&mounted, &Conditions::default())
                 .forward(&q, &Conditions::default());
-            let beside_mm = 1e3 * real.separation(&(world_from_frame * wanted)).distance_m;
-            let rounding_mm = told["rounding_mm"].as_f64().expect("a number");
+            let offset_mm = 1e3 * real.separation(&(world_from_frame * wanted)).distance_m;
+            let rounding_mm = reported["rounding_mm"].as_f64().expect("a number");
             assert!(
-                (beside_mm - rounding_mm).abs() < TOLERANCE_MM,
-                "{}: {told} {beside_mm}",
+                (offset_mm - rounding_mm).abs() < TOLERANCE_MM,
+                "{}: {reported} {offset_mm}",
                 folder.display()
             );
             landed += 1;

@@ -55,11 +55,11 @@ pub fn run(folder: &Path, case: &Case, out: &Path, more: &[&str]) -> Vec<u8> {
         .args(more)
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&output.stderr);
+    let reported = String::from_utf8_lossy(&output.stderr);
     assert_eq!(
         output.status.code(),
         Some(case.status),
-        "{}: {told}{}",
+        "{}: {reported}{}",
         folder.display(),
         String::from_utf8_lossy(&output.stdout)
     );

@@ -212,8 +212,13 @@ fn joints_that_were_meant_are_found_again() {
             .arg("--json")
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{:?}: {told}", post.files);
+        let reported = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{:?}: {reported}",
+            post.files
+        );
         let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         let targets = report["targets"].as_array().expect("a list");
         let points = (post.points)();
@@ -223,13 +228,13 @@ fn joints_that_were_meant_are_found_again() {
             let joints = joints(&target["joints_deg"])
                 .or_else(|| joints(&target["wanted_joints_deg"]))
                 .expect("a pose's joints or a joint target's");
-            let beside = (0..6)
+            let given = (0..6)
                 .map(|i| {
                     let sense = if i == 4 { post.joint_5 } else { 1.0 };
                     (joints[i] - sense * truth[point][i]).abs()
                 })
                 .fold(0.0, f64::max);
-            if beside > post.tolerance_deg {
+            if given > post.tolerance_deg {
                 wrong.push(point);
             }
         }

@@ -11,11 +11,11 @@ use rand::{RngExt, SeedableRng};
 
 /// Random postures an arm.
 const POSES: usize = 500;
-/// Rounding of an arm of three metres; beside an edge of the reach the last steps of joint 6 are
+/// Rounding of an arm of three metres; near an edge of the reach the last steps of joint 6 are
 /// coarser.
 const POSITION_M: f64 = 1e-10;
 const ANGLE_RAD: f64 = 1e-10;
-/// An answer beside a fold moves by the root of the rounding.
+/// An answer near a fold moves by the root of the rounding.
 const SAME_RAD: f64 = 1e-5;
 /// Of ten thousand postures so many may be missed.
 const MISSED_OF_10_000: usize = 10;
@@ -122,8 +122,8 @@ fn a_track_is_followed_from_branch_to_branch() {
                 let wanted = model.forward(&q, &conditions);
                 // where two answers meet, either may be meant
                 let answers = arm.solve_all(&wanted, &q);
-                let beside = answers.iter().filter(|a| is_same(&a.q, &q, 0.05));
-                if arm.fold_rad(&q).expect("an offset wrist") < 0.03 || beside.count() > 1 {
+                let given = answers.iter().filter(|a| is_same(&a.q, &q, 0.05));
+                if arm.fold_rad(&q).expect("an offset wrist") < 0.03 || given.count() > 1 {
                     near = q;
                     continue;
                 }

@@ -45,7 +45,7 @@ fn arms() -> Vec<(String, Profile, Arm)> {
 }
 
 #[test]
-fn every_shipped_robot_has_an_inverse_and_its_kind_is_told() {
+fn every_shipped_robot_has_an_inverse_and_its_kind_is_reported() {
     let kinds: Vec<_> = shipped_profiles()
         .iter()
         .map(|(name, profile)| {
@@ -74,7 +74,7 @@ fn nominal_inverse_of_a_forward_pose_gives_the_joints_back_on_their_branch() {
             let (branch, margins) = arm.posture(&q);
             let found = arm.solve_branch(&wanted, branch, &q);
             if found.beyond > 0.0 && !arm.is_only_posture(&margins) {
-                // it is told that nothing was found
+                // it is reported that nothing was found
                 continue;
             }
             assert!(

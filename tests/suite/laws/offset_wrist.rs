@@ -112,7 +112,7 @@ fn the_calibrated_inverse_converges_from_postures_some_degrees_away() {
 }
 
 #[test]
-fn a_path_lands_and_poses_near_a_border_are_told() {
+fn a_path_lands_and_poses_near_a_border_are_reported() {
     let profile = Profile::from_yaml(&calibrated_text()).expect("a calibrated profile");
     let (arm, tool) = (arm_of(&profile), Mounted::flange());
     let nominal = profile.controller_model(&tool);
@@ -149,14 +149,14 @@ fn a_path_lands_and_poses_near_a_border_are_told() {
     ]);
     assert_eq!(status, 0, "{error}");
     let report: Value = serde_json::from_str(&json).expect("JSON");
-    let told: Vec<_> = report["findings"]
+    let reported: Vec<_> = report["findings"]
         .as_array()
         .expect("findings")
         .iter()
         .filter(|f| f["id"] == "several-postures")
         .collect();
-    assert_eq!(told.len(), 1, "{report}");
-    assert_eq!(told[0]["line"], 4);
+    assert_eq!(reported.len(), 1, "{report}");
+    assert_eq!(reported[0]["line"], 4);
     let poses = |file: &str| -> Vec<Pose> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))

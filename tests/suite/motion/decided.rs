@@ -1,5 +1,5 @@
 //! What the user decides: accepted errors, targets split, ways past a singularity, files for their
-//! declarations only, good programs beside refused ones.
+//! declarations only, good programs next to refused ones.
 
 use super::{BACKLASH, P, PLAIN, errors, given, message, profile, rapid, try_with};
 use poseshift::compensate::{AtSingularity, Compensation, Options, compensate};

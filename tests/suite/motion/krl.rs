@@ -1,5 +1,5 @@
-//! KRL programs whose thin reading lands beside: what each means, or that it is refused with both
-//! places.
+//! KRL programs whose thin reading lands elsewhere: what each means, or that it is refused with
+//! both places.
 
 use super::{BACKLASH, PLAIN, done, errors, message};
 use poseshift::compensate::Compensation;
@@ -66,8 +66,8 @@ fn a_routine_that_is_called_in_two_postures_is_judged_in_both() {
         )],
     );
     assert_eq!(errors(&done), ["target-shared"], "{:?}", done.findings);
-    let told = message(&done, "target-shared");
-    assert!(told.contains("2 ways"), "{told}");
+    let reported = message(&done, "target-shared");
+    assert!(reported.contains("2 ways"), "{reported}");
 }
 
 /// How far the tool lands from where it is wanted without correction, mm, with a tool and load set
@@ -103,9 +103,9 @@ fn a_tool_that_is_written_out_keeps_the_load_that_was_set() {
         format!("{written}\n$LOAD={{M 3.0,CM {{X 0,Y 0,Z 40,A 0,B 0,C 0}},J {{X 0,Y 0,Z 0}}}}"),
         "$LOAD=LOAD_DATA[2]\nBAS(#TOOL,1)".to_owned(),
     ] {
-        let (sag, told) = sagging(&set);
+        let (sag, reported) = sagging(&set);
         assert!((sag - heavy).abs() < 1e-9, "{set}: {sag} {heavy}");
-        assert_eq!(told, [], "{set}");
+        assert_eq!(reported, [], "{set}");
     }
 }
 
@@ -118,8 +118,8 @@ fn a_load_that_the_text_does_not_tell_is_said() {
         ("BAS(#TOOL,1)\n$LOAD={M m1,CM {X 0,Y 0,Z 40}}", 4),
         ("LOAD_DATA[1].M=2\nBAS(#TOOL,1)", 3),
     ] {
-        let (_, told) = sagging(set);
-        assert_eq!(told, [(Severity::Warning, line)], "{set}");
+        let (_, reported) = sagging(set);
+        assert_eq!(reported, [(Severity::Warning, line)], "{set}");
     }
 }
 
@@ -153,11 +153,12 @@ fn a_base_that_is_written_in_a_branch_is_refused_with_both_places() {
         for select in ["$BASE=BASE_DATA[1]", "BAS(#BASE,1)"] {
             let done = in_base(&format!("IF $IN[1] THEN\n{write}\nENDIF\n{select}\n{NEAR}"));
             assert_eq!(errors(&done), ["target-shared"], "{write}");
-            let told = message(&done, "target-shared");
+            let reported = message(&done, "target-shared");
             // the write, and where the declared one is selected
             assert!(
-                told.contains("work frame of line 4") && told.contains("work frame of line 6"),
-                "{told}"
+                reported.contains("work frame of line 4")
+                    && reported.contains("work frame of line 6"),
+                "{reported}"
             );
         }
     }
@@ -170,10 +171,10 @@ fn a_base_that_is_written_behind_the_move_is_that_of_the_next_run() {
     let select = "BAS(#BASE,1)\n";
     let behind = in_base(&format!("{select}{NEAR}{write}"));
     assert_eq!(errors(&behind), ["target-shared"]);
-    let told = message(&behind, "target-shared");
+    let reported = message(&behind, "target-shared");
     assert!(
-        told.contains("work frame of line 3") && told.contains("work frame of line 5"),
-        "{told}"
+        reported.contains("work frame of line 3") && reported.contains("work frame of line 5"),
+        "{reported}"
     );
     let before = in_base(&format!("{write}{select}{NEAR}"));
     assert_eq!(errors(&before), [""; 0]);
@@ -263,16 +264,16 @@ fn positions_are_bound_to_parameters_by_value_and_by_reference() {
 }
 
 #[test]
-fn positions_that_the_robot_told_itself_stay_with_a_note() {
-    for told in ["$POS_ACT", "$AXIS_ACT"] {
-        let kind = if told == "$POS_ACT" {
+fn positions_that_the_robot_reported_itself_stay_with_a_note() {
+    for reported in ["$POS_ACT", "$AXIS_ACT"] {
+        let kind = if reported == "$POS_ACT" {
             "E6POS"
         } else {
             "E6AXIS"
         };
-        let body = format!("DECL {kind} here\n{UP}here={told}\n{NEAR}PTP here\n");
+        let body = format!("DECL {kind} here\n{UP}here={reported}\n{NEAR}PTP here\n");
         let done = plain(&body);
-        assert_eq!(errors(&done), [""; 0], "{told}: {:?}", done.findings);
+        assert_eq!(errors(&done), [""; 0], "{reported}: {:?}", done.findings);
         assert_eq!(found(&done, "run-time-position"), [(Severity::Note, 8)]);
         assert_eq!(done.summary.compensated, 1);
     }

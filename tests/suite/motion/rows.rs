@@ -1,5 +1,5 @@
-//! Small programs whose thin reading lands beside: what each means, or that it is refused with both
-//! places.
+//! Small programs whose thin reading lands elsewhere: what each means, or that it is refused with
+//! both places.
 
 use super::{BACKLASH, P, PLAIN, done, errors, given, message, profile_of, rapid, try_with};
 use poseshift::compensate::{CompensateError, Options, compensate};
@@ -14,8 +14,11 @@ fn a_target_that_joints_reach_from_both_sides_is_refused_with_both_lines() {
                 MoveAbsJ [[0,60,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;";
     let done = done(&[BACKLASH], &[("t.mod", &rapid(&data, body))]);
     assert_eq!(errors(&done), ["target-shared"]);
-    let told = message(&done, "target-shared");
-    assert!(told.contains("line 5") && told.contains("line 7"), "{told}");
+    let reported = message(&done, "target-shared");
+    assert!(
+        reported.contains("line 5") && reported.contains("line 7"),
+        "{reported}"
+    );
 }
 
 #[test]
@@ -95,8 +98,8 @@ fn an_assignment_in_a_routine_that_nothing_calls_leaves_the_declaration() {
     );
     let done = done(&[PLAIN], &[("t.mod", &text)]);
     assert_eq!(errors(&done), [""; 0]);
-    let told = message(&done, "write-not-called");
-    assert!(told.contains("w1"), "{told}");
+    let reported = message(&done, "write-not-called");
+    assert!(reported.contains("w1"), "{reported}");
 }
 
 #[test]
@@ -232,7 +235,7 @@ fn parameters_bind_at_every_call() {
 }
 
 #[test]
-fn a_position_that_the_robot_told_itself_stays() {
+fn a_position_that_the_robot_reported_itself_stays() {
     let data = format!("VAR robtarget here;\nCONST robtarget p1 := [[430,0,400],{P};");
     let body = "MoveJ p1,v100,fine,tool0;\nhere := CRobT(\\Tool:=tool0);\nMoveL here,v100,fine,tool0;\nMoveL p1,v100,fine,tool0;";
     let done = done(&[PLAIN], &[("t.mod", &rapid(&data, body))]);
@@ -416,7 +419,7 @@ fn connecting_a_trap_calls_nothing() {
              VAR intnum i1;\nPROC main()\n{connect}MoveJ p,v100,fine,tA;\nENDPROC\nTRAP tMeas\ntA.tframe.trans.z := 140;\nENDTRAP\nENDMODULE\n"
         )
     };
-    // the trap may run at any time in both: what it writes is in doubt everywhere
+    // the trap may run at any time in both: what it writes is uncertain everywhere
     for connect in ["", "CONNECT i1 WITH tMeas;\n"] {
         let done = done(&[PLAIN], &[("t.mod", &program(connect))]);
         assert!(done.is_refused(), "{connect}: {:?}", done.findings);

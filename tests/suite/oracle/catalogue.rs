@@ -17,7 +17,7 @@ const INVERSE: usize = 100;
 /// Rounding of numbers in mm and degrees on arms of up to four metres.
 const POSITION_M: f64 = 1e-9;
 const ANGLE_RAD: f64 = 1e-9;
-/// An answer beside a fold moves by the root of the rounding.
+/// An answer near a fold moves by the root of the rounding.
 const SAME_RAD: f64 = 1e-5;
 /// Of ten thousand postures so many may be missed: those on a fold.
 const MISSED_OF_10_000: usize = 10;

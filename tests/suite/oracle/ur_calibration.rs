@@ -211,7 +211,7 @@ fn the_command_writes_a_profile_that_fk_reads_and_compensation_waits_for() {
 }
 
 #[test]
-fn the_effects_of_the_controller_are_told_and_counted_as_a_difference() {
+fn the_effects_of_the_controller_are_reported_and_counted_as_a_difference() {
     let folder = scratch();
     let out = folder.path().join("ur5.yaml");
     let ur5 = repository("robots/universal_robots_ur5.yaml");
@@ -224,7 +224,7 @@ fn the_effects_of_the_controller_are_told_and_counted_as_a_difference() {
         .arg(&out)
         .assert()
         .success();
-    let told = |arguments: &[&std::ffi::OsStr]| -> serde_json::Value {
+    let reported = |arguments: &[&std::ffi::OsStr]| -> serde_json::Value {
         let output = poseshift()
             .arg("profile")
             .args(arguments)
@@ -233,13 +233,13 @@ fn the_effects_of_the_controller_are_told_and_counted_as_a_difference() {
             .expect("the program starts");
         serde_json::from_slice(&output.stdout).expect("JSON")
     };
-    let facts = told(&["show".as_ref(), out.as_ref()]);
+    let facts = reported(&["show".as_ref(), out.as_ref()]);
     assert!(
         facts["facts"]["controller effect link_geometry link 3"].is_string(),
         "{facts}"
     );
     assert_eq!(facts["deviation"]["max_mm"], 0.0);
-    let diff = told(&["diff".as_ref(), ur5.as_ref(), out.as_ref()]);
+    let diff = reported(&["diff".as_ref(), ur5.as_ref(), out.as_ref()]);
     let keys: Vec<_> = diff["differences"]
         .as_array()
         .expect("a list")

@@ -345,9 +345,9 @@ fn bad_contacts_are_named_with_their_line() {
         (",a,3,10,1,2,3,,,", "the contact is missing"),
         (",,,,,,,,,", "neither"),
     ];
-    for (rest, told) in cases {
+    for (rest, reported) in cases {
         let error = Measurements::from_csv(row(rest).as_bytes()).expect_err(rest);
-        assert!(error.to_string().contains(told), "{rest}: {error}");
+        assert!(error.to_string().contains(reported), "{rest}: {error}");
         assert_eq!(error.line, 2, "{rest}");
     }
     let twice = row("sphere,a,3,10,1,2,3,,,") + "1,2,3,4,5,7,0,0,0,0.1,sphere,a,3,11,1,2,3,,,\n";
@@ -387,12 +387,12 @@ fn files_of_touches_are_calibrated_validated_and_refused_by_command() {
         let mut command = poseshift();
         let output = command.current_dir(at).args(arguments).arg("--json");
         let output = output.output().expect("the program starts");
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        (output.status.code(), output.stdout, told)
+        let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), output.stdout, reported)
     };
     let report = |arguments: &[&str]| -> serde_json::Value {
-        let (status, out, told) = run(arguments);
-        assert_eq!(status, Some(0), "{told}");
+        let (status, out, reported) = run(arguments);
+        assert_eq!(status, Some(0), "{reported}");
         serde_json::from_slice(&out).expect("JSON and nothing else")
     };
     let number = |value: &serde_json::Value| value.as_f64().expect("a number");
@@ -461,14 +461,20 @@ fn files_of_touches_are_calibrated_validated_and_refused_by_command() {
     let lines = std::fs::read_to_string(at.join("fit.csv")).expect("scratch");
     let bad = lines.replacen("plane,floor,3,,", "plane,floor,3,5,", 1);
     std::fs::write(at.join("bad.csv"), &bad).expect("scratch");
-    let (status, _, told) = run(&calibrate("bad.csv"));
+    let (status, _, reported) = run(&calibrate("bad.csv"));
     let place = 1 + bad
         .lines()
         .position(|l| l.contains("plane,floor,3,5,"))
         .expect("a row");
     assert_eq!(status, Some(2));
-    assert!(told.contains("only a sphere has a radius"), "{told}");
-    assert!(told.contains(&format!("bad.csv:{place}:")), "{told}");
+    assert!(
+        reported.contains("only a sphere has a radius"),
+        "{reported}"
+    );
+    assert!(
+        reported.contains(&format!("bad.csv:{place}:")),
+        "{reported}"
+    );
     assert!(!at.join("found.yaml").exists());
 }
 

@@ -251,7 +251,7 @@ fn a_device_that_stands_tilted_leaves_the_base_and_gravity_to_the_controller() {
     ] {
         let mut random = StdRng::seed_from_u64(seed);
         let mut truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, true);
-        // where the real base is beside the controller's, no device tells
+        // where the real base is offset from the controller's, no device tells
         truth.effects.retain(|e| e.kind != Kind::BaseFrame);
         let options = Options {
             base: BasePolicy::Controller,
@@ -376,7 +376,7 @@ fn wrong_rows_are_listed_and_do_not_bend_the_answer() {
 }
 
 #[test]
-fn what_cannot_be_told_apart_is_named_and_stays_nominal() {
+fn what_cannot_be_distinguished_is_named_and_stays_nominal() {
     let mut random = StdRng::seed_from_u64(13);
     let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, false);
     let seen = measure(
@@ -423,7 +423,7 @@ fn files_that_are_read_wrongly_are_found_out() {
         &Session::default(),
     );
     let options = Options::default();
-    let told = |change: &dyn Fn(usize, &mut poseshift::identify::measurements::Measurement)| {
+    let reported = |change: &dyn Fn(usize, &mut poseshift::identify::measurements::Measurement)| {
         let mut bad = good.clone();
         for (i, row) in bad.rows.iter_mut().enumerate() {
             change(i, row);
@@ -438,17 +438,19 @@ fn files_that_are_read_wrongly_are_found_out() {
             *p = by(*p);
         }
     };
-    assert!(told(&|_, row| row.q = row.q.map(|q| q * DEG)).contains("radians"));
+    assert!(reported(&|_, row| row.q = row.q.map(|q| q * DEG)).contains("radians"));
     assert!(
-        told(&|_, row| moved(&mut row.observed, &|p| p.map(|x| x / 1000.0))).contains("metres")
+        reported(&|_, row| moved(&mut row.observed, &|p| p.map(|x| x / 1000.0))).contains("metres")
     );
-    assert!(told(&|_, row| moved(&mut row.observed, &|[x, y, z]| [y, x, z])).contains("swapped"));
-    assert!(told(&|_, row| row.q.swap(1, 2)).contains("q2_deg and q3_deg are swapped"));
-    assert!(told(&|_, row| row.q[2] = -row.q[2]).contains("joint 3 counts the other way"));
-    assert!(told(&|i, row| row.observed = good.rows[(i + 1) % 40].observed).contains("row"));
-    assert!(told(&|_, row| row.q = [0.1; 6]).contains("same pose"));
     assert!(
-        told(&|i, row| row.observed = Observed::Position([i as f64 * 0.01, 0.0, 0.0]))
+        reported(&|_, row| moved(&mut row.observed, &|[x, y, z]| [y, x, z])).contains("swapped")
+    );
+    assert!(reported(&|_, row| row.q.swap(1, 2)).contains("q2_deg and q3_deg are swapped"));
+    assert!(reported(&|_, row| row.q[2] = -row.q[2]).contains("joint 3 counts the other way"));
+    assert!(reported(&|i, row| row.observed = good.rows[(i + 1) % 40].observed).contains("row"));
+    assert!(reported(&|_, row| row.q = [0.1; 6]).contains("same pose"));
+    assert!(
+        reported(&|i, row| row.observed = Observed::Position([i as f64 * 0.01, 0.0, 0.0]))
             .contains("one line")
     );
     let few = good.filtered(|i, _| i < 6);
@@ -481,7 +483,7 @@ fn files_that_are_read_wrongly_are_found_out() {
 }
 
 #[test]
-fn a_wrong_tool_and_rows_in_any_order_are_told_with_the_evidence() {
+fn a_wrong_tool_and_rows_in_any_order_are_reported_with_the_evidence() {
     let mut random = StdRng::seed_from_u64(19);
     let truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, false);
     let commands = commands(&mut random, &truth, 60);
@@ -490,15 +492,15 @@ fn a_wrong_tool_and_rows_in_any_order_are_told_with_the_evidence() {
     mounted.flange_from_tool.translation[2] += 30.0 * MM;
     let seen = measure(&longer, &commands, &Session::default());
     let found = calibrate(&nominal(), &seen, &Options::default()).expect("an answer");
-    let told = found.remarks.iter().find(|r| r.id == "tool-elsewhere");
-    let told = &told.expect("a warning").message;
-    let gap: f64 = told
+    let reported = found.remarks.iter().find(|r| r.id == "tool-elsewhere");
+    let reported = &reported.expect("a warning").message;
+    let gap: f64 = reported
         .split_whitespace()
         .find_map(|word| word.parse().ok())
         .expect("a number");
     assert!(
-        told.contains("`artifact`") && (gap - 30.0).abs() < 2.0,
-        "{told}"
+        reported.contains("`artifact`") && (gap - 30.0).abs() < 2.0,
+        "{reported}"
     );
 
     // every point in the file, none in its row

@@ -1,8 +1,8 @@
 //! Hidden truths found again.
 
 mod contact;
-mod doubts;
 mod identify;
+mod input_checks;
 mod judged;
 mod kinds;
 mod real;

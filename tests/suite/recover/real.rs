@@ -19,7 +19,7 @@ fn read(set: &str, file: &str) -> Option<(Profile, Measurements)> {
         skipped(&format!("{} is not there", folder.display()));
         return None;
     };
-    let bytes = std::fs::read(folder.join(file)).expect("measurements beside the profile");
+    let bytes = std::fs::read(folder.join(file)).expect("measurements besides the profile");
     let profile = Profile::from_yaml(&text).expect("a profile");
     Some((
         profile,
@@ -173,7 +173,7 @@ fn folds_and_links_carried_over_meet_the_reference() {
     let Some((profile, fit)) = read("tx2_90l_tmac", "fit.csv") else {
         return;
     };
-    let (_, mut points) = read("tx2_90l_tmac", "points.csv").expect("it is beside");
+    let (_, mut points) = read("tx2_90l_tmac", "points.csv").expect("it is besides");
     // the reference fitted positions
     positions_alone(&mut points);
     let folded = |rows: &Measurements, level: Level, count: usize| {

@@ -30,8 +30,8 @@ fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
 
 fn report(folder: &Path, arguments: &[&str]) -> Value {
     let all: Vec<&str> = arguments.iter().copied().chain(["--json"]).collect();
-    let (status, out, told) = run(folder, &all);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, out, reported) = run(folder, &all);
+    assert_eq!(status, Some(0), "{reported}");
     serde_json::from_str(&out).expect("JSON and nothing else")
 }
 
@@ -128,8 +128,11 @@ fn joints_and_the_calibrated_model_keep_the_arms_error_out_of_the_camera() {
         "{}",
         nominal["camera"]
     );
-    let (status, _, told) = run(at, &["joints.csv", "board.csv", "--setup", "eye-in-hand"]);
-    assert!(status == Some(2) && told.contains("--profile"), "{told}");
+    let (status, _, reported) = run(at, &["joints.csv", "board.csv", "--setup", "eye-in-hand"]);
+    assert!(
+        status == Some(2) && reported.contains("--profile"),
+        "{reported}"
+    );
 }
 
 /// Rows `touched, seen` of corners, as the command reads them.
@@ -193,11 +196,11 @@ fn touched_corners_correct_the_camera_of_both_setups() {
             .chain(["--corners", "corners.csv", "-o", "camera.yaml"])
             .collect();
         let with = report(at, &with);
-        let told = &with["corners"];
-        assert_eq!(told["accepted"], true, "{setup}: {told}");
+        let reported = &with["corners"];
+        assert_eq!(reported["accepted"], true, "{setup}: {reported}");
         assert!(
-            number(&told["left_out_mm"]) < 0.5 * number(&told["before_mm"]),
-            "{told}"
+            number(&reported["left_out_mm"]) < 0.5 * number(&reported["before_mm"]),
+            "{reported}"
         );
         // where the corners are; at the camera itself their noise is some times as large
         let work = [0.06, 0.075, 0.41];
@@ -248,7 +251,7 @@ fn bad_corners_are_refused_with_their_place() {
         ("1,2,3,4,5,6,1\n9,2,3,4,5,6,1\n", "corners"),
     ] {
         std::fs::write(at.join("corners.csv"), format!("{head}{rows}")).expect("scratch");
-        let (status, _, told) = run(
+        let (status, _, reported) = run(
             at,
             &[
                 &robot,
@@ -261,7 +264,10 @@ fn bad_corners_are_refused_with_their_place() {
                 "camera.yaml",
             ],
         );
-        assert!(status == Some(2) && told.contains(word), "{word}: {told}");
+        assert!(
+            status == Some(2) && reported.contains(word),
+            "{word}: {reported}"
+        );
         assert!(!at.join("camera.yaml").exists());
     }
 }

@@ -68,8 +68,8 @@ fn reports_have_the_promised_keys() {
         ),
     ];
     for (arguments, keys) in cases {
-        let (status, out, told) = run(folder.path(), arguments);
-        assert_eq!(status, Some(0), "{told}");
+        let (status, out, reported) = run(folder.path(), arguments);
+        assert_eq!(status, Some(0), "{reported}");
         let report: Value = serde_json::from_str(&out).expect("JSON and nothing else");
         for key in keys {
             assert!(!report[*key].is_null(), "{key}");
@@ -123,8 +123,11 @@ fn bad_point_sets_are_refused_by_name() {
         ("good.csv", "missing.csv", "missing.csv"),
     ];
     for (from, to, message) in cases {
-        let (status, out, told) = run(at, &["register", from, to, "-o", "f.yaml"]);
-        assert!(status == Some(2) && told.contains(message), "{to}: {told}");
+        let (status, out, reported) = run(at, &["register", from, to, "-o", "f.yaml"]);
+        assert!(
+            status == Some(2) && reported.contains(message),
+            "{to}: {reported}"
+        );
         assert!(out.is_empty() && !at.join("f.yaml").exists());
     }
 }
@@ -149,7 +152,7 @@ fn bad_hand_eye_sets_are_refused_with_the_reason() {
     };
     std::fs::write(at.join("robot.csv"), header.to_owned() + &about_z(1.0)).expect("scratch");
     std::fs::write(at.join("board.csv"), header.to_owned() + &about_z(-1.0)).expect("scratch");
-    let (status, _, told) = run(
+    let (status, _, reported) = run(
         at,
         &[
             "handeye",
@@ -159,10 +162,13 @@ fn bad_hand_eye_sets_are_refused_with_the_reason() {
             "eye-in-hand",
         ],
     );
-    assert!(status == Some(2) && told.contains("one axis"), "{told}");
+    assert!(
+        status == Some(2) && reported.contains("one axis"),
+        "{reported}"
+    );
     let still: String = (0..5).map(|k| format!("{k},0,0,1,0,0,0\n")).collect();
     std::fs::write(at.join("still.csv"), header.to_owned() + &still).expect("scratch");
-    let (status, _, told) = run(
+    let (status, _, reported) = run(
         at,
         &[
             "handeye",
@@ -173,8 +179,8 @@ fn bad_hand_eye_sets_are_refused_with_the_reason() {
         ],
     );
     assert!(
-        status == Some(2) && told.contains("do not rotate"),
-        "{told}"
+        status == Some(2) && reported.contains("do not rotate"),
+        "{reported}"
     );
     // rows of the board one off
     let board = text("tests/data/register/board.csv");
@@ -184,16 +190,16 @@ fn bad_hand_eye_sets_are_refused_with_the_reason() {
     shifted.push(lines[1]);
     std::fs::write(at.join("shifted.csv"), shifted.join("\n")).expect("scratch");
     let robot = data("robot.csv");
-    let (status, _, told) = run(
+    let (status, _, reported) = run(
         at,
         &["handeye", &robot, "shifted.csv", "--setup", "eye-in-hand"],
     );
     assert!(
-        status == Some(2) && told.contains("different angles"),
-        "{told}"
+        status == Some(2) && reported.contains("different angles"),
+        "{reported}"
     );
     // the camera is said to stand where it is carried
-    let (status, _, told) = run(
+    let (status, _, reported) = run(
         at,
         &[
             "handeye",
@@ -204,8 +210,8 @@ fn bad_hand_eye_sets_are_refused_with_the_reason() {
         ],
     );
     assert!(
-        status == Some(2) && told.contains("other --setup"),
-        "{told}"
+        status == Some(2) && reported.contains("other --setup"),
+        "{reported}"
     );
 }
 
@@ -236,8 +242,11 @@ fn bad_ballbar_lengths_are_refused_with_row_and_leg() {
         (format!("{head},mode\n{good},1\n"), "no joints"),
     ] {
         std::fs::write(at.join("lengths.csv"), text).expect("scratch");
-        let (status, out, told) = run(at, &["hexapod", "lengths.csv", "-o", "m.csv"]);
-        assert!(status == Some(2) && told.contains(word), "{word}: {told}");
+        let (status, out, reported) = run(at, &["hexapod", "lengths.csv", "-o", "m.csv"]);
+        assert!(
+            status == Some(2) && reported.contains(word),
+            "{word}: {reported}"
+        );
         assert!(out.is_empty() && !at.join("m.csv").exists(), "{word}");
     }
 }

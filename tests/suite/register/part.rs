@@ -107,13 +107,13 @@ fn a_program_planned_in_simulation_lands_on_the_displaced_part() {
             .args(arguments)
             .output()
             .expect("the program starts");
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        (output.status.code(), told)
+        let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), reported)
     };
-    let (status, told) = run(&["register", "nominal.csv", "probed.csv", "-o", "part.yaml"]);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = run(&["register", "nominal.csv", "probed.csv", "-o", "part.yaml"]);
+    assert_eq!(status, Some(0), "{reported}");
     let profile_path = profile.to_str().expect("a plain path");
-    let (status, told) = run(&[
+    let (status, reported) = run(&[
         "compensate",
         "part.mod",
         "--profile",
@@ -123,7 +123,7 @@ fn a_program_planned_in_simulation_lands_on_the_displaced_part() {
         "-o",
         "out.mod",
     ]);
-    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(status, Some(0), "{reported}");
     // the controller goes to each fake target, and the real tool is somewhere else
     let profile = Profile::from_yaml(&std::fs::read_to_string(&profile).expect("a profile"))
         .expect("a profile");
@@ -187,13 +187,16 @@ fn a_measured_work_object_must_agree_with_the_program() {
         )
     };
     assert_eq!(run("wPart=same.yaml", "part.mod").0, Some(0));
-    let (status, told) = run("wPart=other.yaml", "part.mod");
+    let (status, reported) = run("wPart=other.yaml", "part.mod");
     assert!(
-        status == Some(2) && told.contains("1.0000 mm") && told.contains("--work-offset"),
-        "{told}"
+        status == Some(2) && reported.contains("1.0000 mm") && reported.contains("--work-offset"),
+        "{reported}"
     );
-    let (status, told) = run("wOther=same.yaml", "part.mod");
-    assert!(status == Some(2) && told.contains("wPart"), "{told}");
+    let (status, reported) = run("wOther=same.yaml", "part.mod");
+    assert!(
+        status == Some(2) && reported.contains("wPart"),
+        "{reported}"
+    );
     // not declared in the files: the measured frame is what the controller is given
     let open: String = program()
         .lines()
@@ -201,6 +204,6 @@ fn a_measured_work_object_must_agree_with_the_program() {
         .map(|l| format!("{l}\n"))
         .collect();
     std::fs::write(at("open.mod"), open).expect("scratch");
-    let (status, told) = run("wPart=other.yaml", "open.mod");
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = run("wPart=other.yaml", "open.mod");
+    assert_eq!(status, Some(0), "{reported}");
 }

@@ -83,8 +83,8 @@ fn run(folder: &Path, arguments: &[&str]) -> String {
         .args(arguments)
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {told}");
+    let reported = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {reported}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 

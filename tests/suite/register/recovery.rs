@@ -186,7 +186,7 @@ fn clouds_are_laid_on_each_other_from_any_turn() {
     }
 }
 
-/// Places and residuals of the points that are told, against the pose and all points.
+/// Places and residuals of the points that are reported, against the pose and all points.
 fn left_is_what_the_pose_leaves(found: &Found, from: &[Vector], to: &[Vector], metric: Metric) {
     assert!(
         (1000..=2000).contains(&found.left.len()),
@@ -276,7 +276,7 @@ fn a_local_minimum_is_not_called_success() {
 }
 
 #[test]
-fn parts_that_slide_or_look_alike_turned_are_doubted() {
+fn parts_that_slide_or_look_alike_turned_are_questioned() {
     let mut random = seeded(16);
     // a flat grid with many equal coordinates
     let grid = |shift: f64| -> Vec<Vector> {
@@ -444,17 +444,17 @@ fn a_wrong_ballbar_length_is_named() {
     let design = Design::parse("123/123").expect("a design");
     let mut bad = good;
     bad.legs_m[4] = 0.93;
-    let told = modes(&bad, &design).expect_err("no pose").to_string();
+    let reported = modes(&bad, &design).expect_err("no pose").to_string();
     assert!(
-        told.contains("T2") && told.contains("r22 is likely wrong"),
-        "{told}"
+        reported.contains("T2") && reported.contains("r22 is likely wrong"),
+        "{reported}"
     );
     bad = good;
     bad.tool_m[1] = 0.5;
-    let told = modes(&bad, &design).expect_err("no pose").to_string();
+    let reported = modes(&bad, &design).expect_err("no pose").to_string();
     assert!(
-        told.contains("the tool is no triangle") && told.contains("t23"),
-        "{told}"
+        reported.contains("the tool is no triangle") && reported.contains("t23"),
+        "{reported}"
     );
     bad = good;
     bad.legs_m[0] = -0.3;

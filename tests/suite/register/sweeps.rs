@@ -1,4 +1,4 @@
-//! `axes`: files that cannot be meant are told, and uncertainties hold the truth.
+//! `axes`: files that cannot be meant are reported, and uncertainties hold the truth.
 
 use crate::support::{poseshift, repository, scratch};
 use serde_json::Value;
@@ -43,12 +43,12 @@ fn axes(
         }
         command.output().expect("the program starts")
     };
-    let told = run(false);
+    let reported = run(false);
     let value = serde_json::from_slice(&run(true).stdout).unwrap_or(Value::Null);
     (
-        told.status.code(),
+        reported.status.code(),
         value,
-        String::from_utf8_lossy(&told.stderr).into_owned(),
+        String::from_utf8_lossy(&reported.stderr).into_owned(),
     )
 }
 
@@ -63,28 +63,34 @@ fn scaled(name: &'static str, by: f64) -> impl Fn(&[String], &mut Vec<Vec<String
 
 #[test]
 fn sweeps_that_no_base_and_tool_of_the_robot_explain_are_refused_with_what_does() {
-    let (status, _, told) = axes(PROFILE, |header, rows| {
+    let (status, _, reported) = axes(PROFILE, |header, rows| {
         for name in ["x_mm", "y_mm", "z_mm"] {
             scaled(name, 1e-3)(header, rows);
         }
     });
-    assert!(status == Some(2) && told.contains("metres"), "{told}");
-    let (status, _, told) = axes(PROFILE, |header, rows| {
+    assert!(
+        status == Some(2) && reported.contains("metres"),
+        "{reported}"
+    );
+    let (status, _, reported) = axes(PROFILE, |header, rows| {
         let (x, y) = (column(header, "x_mm"), column(header, "y_mm"));
         for row in rows {
             row.swap(x, y);
         }
     });
-    assert!(status == Some(2) && told.contains("swapped"), "{told}");
-    let (status, _, told) = axes(PROFILE, scaled("q2_deg", -1.0));
     assert!(
-        status == Some(2) && told.contains("joint 2 counts the other way"),
-        "{told}"
+        status == Some(2) && reported.contains("swapped"),
+        "{reported}"
     );
-    let (status, _, told) = axes("robots/kuka_kr6_r900.yaml", |_, _| ());
+    let (status, _, reported) = axes(PROFILE, scaled("q2_deg", -1.0));
     assert!(
-        status == Some(2) && told.contains("is it this robot"),
-        "{told}"
+        status == Some(2) && reported.contains("joint 2 counts the other way"),
+        "{reported}"
+    );
+    let (status, _, reported) = axes("robots/kuka_kr6_r900.yaml", |_, _| ());
+    assert!(
+        status == Some(2) && reported.contains("is it this robot"),
+        "{reported}"
     );
 }
 
@@ -92,15 +98,15 @@ fn sweeps_that_no_base_and_tool_of_the_robot_explain_are_refused_with_what_does(
 fn a_row_on_no_circle_is_left_out_and_named() {
     let (_, clean, _) = axes(PROFILE, |_, _| ());
     assert_eq!(clean["findings"], serde_json::json!([]));
-    let (status, found, told) = axes(PROFILE, |header, rows| {
+    let (status, found, reported) = axes(PROFILE, |header, rows| {
         let at = column(header, "x_mm");
         rows[5][at] = (rows[5][at].parse::<f64>().expect("a number") + 5.0).to_string();
     });
-    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(status, Some(0), "{reported}");
     // the header is line 1
     assert!(
-        told.contains("s.csv:7:1: warning[outlier]: left out"),
-        "{told}"
+        reported.contains("s.csv:7:1: warning[outlier]: left out"),
+        "{reported}"
     );
     assert_eq!(found["findings"][0]["id"], "outlier");
     for key in ["x_mm", "y_mm", "z_mm"] {
@@ -147,7 +153,7 @@ fn a_device_that_the_profile_knows_is_taken_into_account() {
                   pose: {x_mm: 2100, y_mm: -3400, z_mm: 700, rx_deg: 0, ry_deg: 0, rz_deg: 90}\n";
     let known = folder.path().join("known.yaml");
     std::fs::write(&known, text.replacen("calibration:\n", placed, 1)).expect("scratch");
-    let (status, found, told) = axes(known.to_str().expect("a name"), |header, rows| {
+    let (status, found, reported) = axes(known.to_str().expect("a name"), |header, rows| {
         let [x, y, z] = ["x_mm", "y_mm", "z_mm"].map(|name| column(header, name));
         for row in rows {
             let [wx, wy, wz] = [x, y, z].map(|i| row[i].parse::<f64>().expect("a number"));
@@ -156,7 +162,7 @@ fn a_device_that_the_profile_knows_is_taken_into_account() {
             row[z] = (wz - 700.0).to_string();
         }
     });
-    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(status, Some(0), "{reported}");
     assert_eq!(found["device_known"], true);
     for frame in ["base", "tool"] {
         for key in ["x_mm", "y_mm", "z_mm"] {

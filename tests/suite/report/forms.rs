@@ -161,7 +161,7 @@ fn shown(page: &Path) -> String {
 #[test]
 fn text_json_and_page_of_every_command_tell_the_same_numbers() {
     let folder = scratch();
-    let (mut told, mut drawn, mut kinds) = (0, 0, BTreeSet::new());
+    let (mut reported, mut drawn, mut kinds) = (0, 0, BTreeSet::new());
     let mut unknown = Vec::new();
     for (number, (line, status, kind)) in COMMANDS.iter().enumerate() {
         let page = folder.path().join(format!("page{number}.html"));
@@ -203,7 +203,7 @@ fn text_json_and_page_of_every_command_tell_the_same_numbers() {
             .expect("the program starts");
         let printed = String::from_utf8(printed.stdout).expect("UTF-8");
         let what = format!("text of {line}");
-        told += count(&known, &printed, &what, &mut unknown);
+        reported += count(&known, &printed, &what, &mut unknown);
         if has_page {
             let what = format!("page of {line}");
             drawn += count(&known, &body(&page), &what, &mut unknown);
@@ -212,7 +212,7 @@ fn text_json_and_page_of_every_command_tell_the_same_numbers() {
         kinds.insert(kind.split('/').next().unwrap_or_default().to_owned());
     }
     assert!(unknown.is_empty(), "not in the JSON: {unknown:#?}");
-    assert!(told > 500 && drawn > 300, "{told} {drawn}");
+    assert!(reported > 500 && drawn > 300, "{reported} {drawn}");
     assert!(kinds.len() > 12, "{kinds:?}");
 }
 

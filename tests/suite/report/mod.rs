@@ -45,12 +45,12 @@ pub fn column(data: &Value, table: &str, label: &str, unit: Option<&str>) -> Vec
 }
 
 /// Each number of a page is one of the report rounded to so many digits.
-pub fn agree(shown: &[Value], told: &[Value], digits: i32, what: &str) {
-    assert_eq!(shown.len(), told.len(), "{what}");
+pub fn agree(shown: &[Value], reported: &[Value], digits: i32, what: &str) {
+    assert_eq!(shown.len(), reported.len(), "{what}");
     assert!(!shown.is_empty(), "{what}");
-    for (shown, told) in shown.iter().zip(told) {
-        let (Some(a), Some(b)) = (shown.as_f64(), told.as_f64()) else {
-            assert_eq!(shown, told, "{what}");
+    for (shown, reported) in shown.iter().zip(reported) {
+        let (Some(a), Some(b)) = (shown.as_f64(), reported.as_f64()) else {
+            assert_eq!(shown, reported, "{what}");
             continue;
         };
         let slack = 0.51 * b.abs() * 10.0_f64.powi(1 - digits);
@@ -266,8 +266,11 @@ fn pages_of_measurements_have_the_numbers_of_their_json() {
         let errors = column(&shown, "rows", &format!("error, {model}"), Some("mm"));
         let numbers: Vec<f64> = errors.iter().filter_map(Value::as_f64).collect();
         let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-        let told = report[key]["position"]["mean_mm"].as_f64().expect("a mean");
-        assert!((mean - told).abs() < 1e-4 * told, "{model}: {mean} {told}");
+        let reported = report[key]["position"]["mean_mm"].as_f64().expect("a mean");
+        assert!(
+            (mean - reported).abs() < 1e-4 * reported,
+            "{model}: {mean} {reported}"
+        );
     }
     let page = at("diagnose.html");
     let (status, json, error) = run(&[
@@ -355,7 +358,7 @@ fn what_cannot_be_done_leaves_no_report_and_an_answer_of_no_has_one() {
 }
 
 #[test]
-fn inserted_moves_are_told_and_drawn_as_a_way_of_their_own() {
+fn inserted_moves_are_reported_and_drawn_as_a_path_of_their_own() {
     let folder = scratch();
     let (program, out, page) = (
         folder.path().join("t.mod"),
@@ -397,17 +400,17 @@ fn inserted_moves_are_told_and_drawn_as_a_way_of_their_own() {
 }
 
 #[test]
-fn pages_of_repeated_poses_and_of_sweeps_have_what_is_told() {
+fn pages_of_repeated_poses_and_of_sweeps_have_what_is_reported() {
     let folder = scratch();
     let at = |file: &str| folder.path().join(file);
     let (once, repeated) = (at("once.csv"), at("repeated.csv"));
-    let told = |arguments: &[&str]| -> String {
+    let reported = |arguments: &[&str]| -> String {
         let (status, out, error) = run(arguments);
         assert_eq!(status, 0, "{error}");
         out
     };
     let joints = at("joints.csv");
-    told(&[
+    reported(&[
         "plan",
         "--profile",
         PROFILE,
@@ -423,7 +426,7 @@ fn pages_of_repeated_poses_and_of_sweeps_have_what_is_told() {
         name(&joints),
     ]);
     let measured = |seed: &str| {
-        told(&[
+        reported(&[
             "simulate",
             "--profile",
             PROFILE,
@@ -445,7 +448,7 @@ fn pages_of_repeated_poses_and_of_sweeps_have_what_is_told() {
     }
     std::fs::write(&repeated, rows.join("\n")).expect("scratch");
     let page = at("validate.html");
-    let json = told(&[
+    let json = reported(&[
         "validate",
         "--profile",
         PROFILE,
@@ -488,7 +491,7 @@ fn pages_of_repeated_poses_and_of_sweeps_have_what_is_told() {
     let text = std::fs::read_to_string(repository("docs/measuring/sweeps.csv")).expect("sweeps");
     std::fs::write(&sweeps, text.replacen("341.3129", "344.3129", 1)).expect("scratch");
     let page = at("axes.html");
-    let json = told(&[
+    let json = reported(&[
         "axes",
         name(&sweeps),
         "--profile",

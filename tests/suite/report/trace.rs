@@ -36,17 +36,20 @@ fn samples_stay_within_the_bounds_and_end_where_the_moves_end() {
         let traced = trace(&subject, &options, 1000).expect("a way");
         assert_eq!(traced.len(), found.moves.len());
         assert!(!traced[0].continues && traced[1..].iter().all(|one| one.continues));
-        for (one, told) in traced.iter().zip(&found.moves) {
-            assert_eq!((one.motion, one.line), (told.motion, told.line as usize));
+        for (one, reported) in traced.iter().zip(&found.moves) {
+            assert_eq!(
+                (one.motion, one.line),
+                (reported.motion, reported.line as usize)
+            );
             let far = one.places.iter().map(|p| apart(p.wanted_m, p.real_m));
             let far = far.fold(0.0, f64::max);
-            if let Some(path) = told.path {
+            if let Some(path) = reported.path {
                 assert_eq!(one.places.len(), 24);
                 assert!(far <= path.bound.distance_m + 1e-12, "{far} {path:?}");
                 assert!(far >= 0.9 * path.bound.distance_m, "{far} {path:?}");
             }
             let end = one.places.last().expect("an end");
-            let miss = apart(end.wanted_m, end.real_m) - told.target_error.distance_m;
+            let miss = apart(end.wanted_m, end.real_m) - reported.target_error.distance_m;
             assert!(miss.abs() < 1e-9, "{miss}");
         }
         // what is wanted is continuous: each move's places go on from the end of the move before

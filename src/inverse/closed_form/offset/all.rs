@@ -1,10 +1,11 @@
 //! All answers of an arm with an offset wrist.
 //!
-//! Each of the four ways exists where the meeting point is within reach. Where it leaves the reach
-//! of the stretched or folded arm, or comes too near to axis 1, the equation goes over into that of
-//! another way with a square root's vertical slope. So each stretch of joint 6 between two such
-//! edges is counted by t with `q6 = middle − half cos t`, in which the equation is smooth up to its
-//! ends, and its roots are searched there: a pair of them beside an edge is one on either way.
+//! Each of the four branches exists where the meeting point is within reach. Where it leaves the
+//! reach of the stretched or folded arm, or comes too near to axis 1, the equation goes over into
+//! that of another branch with a square root's vertical slope. So each stretch of joint 6 between
+//! two such edges is counted by t with `q6 = middle − half cos t`, in which the equation is smooth
+//! up to its ends, and its roots are searched there: a pair of them near an edge is one on either
+//! branch.
 
 use super::{Arm, Circle, LONGEST_RAD, MISSED_RAD, MOST_STEPS, Reached, SETTLED_RAD};
 use crate::geometry::{Pose, Turn, roots};
@@ -21,9 +22,9 @@ const PINCHED: f64 = 0.1;
 const PINCH_STEPS: u32 = 13;
 /// The last step to the least that a target out of reach is missed by.
 const LEAST_STEP_RAD: f64 = 1e-4;
-/// Left out beside an edge, in t: there the slope is a quotient of two zeros. A root in it is
+/// Left out near an edge, in t: there the slope is a quotient of two zeros. A root in it is
 /// within 1e-10 rad of the edge.
-const BESIDE_EDGE: f64 = 2e-5;
+const EDGE: f64 = 2e-5;
 
 /// A stretch of joint 6 by a parameter.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +39,7 @@ impl Stretch {
     fn ends(self) -> [f64; 2] {
         match self {
             Self::Plain { from, to } => [from, to],
-            Self::Between { .. } => [BESIDE_EDGE, PI - BESIDE_EDGE],
+            Self::Between { .. } => [EDGE, PI - EDGE],
         }
     }
 
@@ -120,7 +121,7 @@ fn pinches(room: &mut impl FnMut(f64) -> (f64, f64), [from, to]: [f64; 2], found
     }
 }
 
-/// A way to the meeting point: front, before.
+/// A branch to the meeting point: front, before.
 pub(in super::super) type ArmSigns = [f64; 2];
 
 impl Arm {
@@ -240,8 +241,8 @@ impl Arm {
         }
     }
 
-    /// The root that Newton's method reaches from row 6 at `sixth` on one way, with how far row 6
-    /// turned; `None` where it leaves the way or does not settle.
+    /// The root that Newton's method reaches from row 6 at `sixth` on one branch, with how far row
+    /// 6 turned; `None` where it leaves the branch or does not settle.
     pub(in super::super) fn offset_root_near(
         &self,
         target: &Pose,
@@ -267,8 +268,8 @@ impl Arm {
         None
     }
 
-    /// Where no root is: the rows on one way that miss the target least of some samples, with how
-    /// far they are beyond reach or how much the equation misses.
+    /// Where no root is: the rows on one branch that miss the target least of some samples, with
+    /// how far they are beyond reach or how much the equation misses.
     pub(in super::super) fn offset_least(
         &self,
         target: &Pose,

@@ -1,10 +1,10 @@
 //! Axes 4 and 5 meet, and axis 6 passes either of them at a distance: most cobots with one motor
-//! beside the next, and many arc welding arms.
+//! offset from the next, and many arc welding arms.
 //!
 //! With joint 6 given, the point where axes 4 and 5 meet and the direction of axis 5 are known, and
 //! the arm in front of that point is the shoulder and the planar pair of the other kinds: four
-//! ways, in front of or behind axis 1 with either elbow. What is left is one equation in one
-//! unknown a way, that axis 4 stands at its angle to axis 5:
+//! branches, in front of or behind axis 1 with either elbow. One equation remains in one
+//! unknown a branch, that axis 4 stands at its angle to axis 5:
 //!
 //! ```text
 //! f(q6) = z4(q1, q2, q3) · z5(q6) − cos α5 = 0
@@ -34,8 +34,8 @@ const MOST_STEPS: u32 = 12;
 const LONGEST_RAD: f64 = 0.25;
 /// Below this, radians, a step of joint 6 changes nothing any more.
 const SETTLED_RAD: f64 = 1e-13;
-/// Farther than this from the borders of the branches an arm with axis 6 beside axis 5 alone has
-/// one solution mostly, by a search over all angles of joint 6 of 1500 random postures of the
+/// Farther than this from the borders of the branches an arm with axis 6 offset from axis 5 alone
+/// has one solution mostly, by a search over all angles of joint 6 of 1500 random postures of the
 /// Motoman MA1400 (two of the 1061 that lie so far away had another).
 const ONE_SOLUTION: Margins = Margins {
     wrist_rad: 10.0 * DEG,
@@ -106,7 +106,7 @@ impl<S: Scalar> Circle<S> {
     }
 }
 
-/// The arm in front of the meeting point on one of the four ways, and what the equation leaves.
+/// The arm in front of the meeting point on one of the four branches, and what the equation leaves.
 #[derive(Clone, Copy, Debug)]
 struct Reached<S> {
     first: Turn<S>,
@@ -232,7 +232,8 @@ impl Arm {
         [here.first, here.second, here.third, fourth, fifth, sixth]
     }
 
-    /// With joint 6 as Newton's method finds it from its angle in `near`, on one of the four ways.
+    /// With joint 6 as Newton's method finds it from its angle in `near`, on one of the four
+    /// branches.
     ///
     /// Which side joint 5 is on comes out of it; the third sign is not looked at.
     #[inline(always)]
@@ -284,22 +285,22 @@ impl Arm {
         // Newton's map with the slope of the middle: what it leaves of a step is small throughout a
         // short interval
         let inverse = Jet::constant(self.slope(&here, &at, &circle.slope(given)).recip());
-        let turned = |beside: Jet| given.cast() * Turn::of(beside);
-        let back = |target: &Pose<Jet>, beside: Jet| {
-            let meeting = self.circle(target).at(turned(beside));
-            beside - self.reached(&meeting, front, before).value * inverse
+        let turned = |fifth: Jet| given.cast() * Turn::of(fifth);
+        let back = |target: &Pose<Jet>, fifth: Jet| {
+            let meeting = self.circle(target).at(turned(fifth));
+            fifth - self.reached(&meeting, front, before).value * inverse
         };
         let resting = Pose {
             rotation: Rotation(target.rotation.0.map(|row| row.map(Jet::at_rest))),
             translation: target.translation.map(Jet::at_rest),
         };
-        let beside = Jet::implicit(
+        let fifth = Jet::implicit(
             half_width,
             ENCLOSED_RAD,
             |x| back(target, x),
             |x| back(&resting, x),
         );
-        let sixth = turned(beside);
+        let sixth = turned(fifth);
         let here = self.reached(&self.circle(target).at(sixth), front, before);
         (self.rows_at(target, sixth, &here), here.beyond)
     }
@@ -325,9 +326,9 @@ impl Arm {
         Some(sine.abs().min(1.0).asin())
     }
 
-    /// Whether a posture is the only one of its branch that reaches its pose, as far as can be told
-    /// from how far it is from the branch's borders. Where axis 6 passes axis 4 at a distance
-    /// that cannot be told: [`Arm::solve_all`] counts them.
+    /// Whether a posture is the only one of its branch that reaches its pose, as far as can be
+    /// known from how far it is from the branch's borders. Where axis 6 passes axis 4 at a
+    /// distance that cannot be known: [`Arm::solve_all`] counts them.
     #[must_use]
     pub fn is_only_posture(&self, margins: &Margins) -> bool {
         self.wrist != Wrist::Offset

@@ -104,13 +104,13 @@ fn a_turn_changes_where_the_correction_takes_a_joint_over_a_half_turn() {
         let fake = done.targets[0].q.expect("joints")[3] / DEG;
         let wanted = if fake.abs() > 180.01 { others[0] } else { from };
         let ids: Vec<_> = done.findings.iter().map(|finding| finding.id).collect();
-        let told = ids.contains(&"configuration-changed");
-        assert_eq!(told, wanted != from, "{fake} {ids:?}");
+        let reported = ids.contains(&"configuration-changed");
+        assert_eq!(reported, wanted != from, "{fake} {ids:?}");
         assert!(
             new.contains(&format!("N U T, 0, {wanted}, 0")),
             "{fake} {new}"
         );
-        changed += usize::from(told);
+        changed += usize::from(reported);
     }
     assert_eq!(changed, 1, "the correction goes one way");
 }

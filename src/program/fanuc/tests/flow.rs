@@ -110,7 +110,7 @@ fn selections_last_across_calls_and_arguments_bind() {
             "UTOOL_NUM=AR[1] ;",
             vec!["7", "8", "F"],
         ),
-        // beside it
+        // next to it
         (
             "UTOOL_NUM=4 ;\nRUN OTHER ;\nJ P[1] 1% FINE ;",
             "UTOOL_NUM=5 ;",
@@ -128,7 +128,7 @@ fn selections_last_across_calls_and_arguments_bind() {
 }
 
 #[test]
-fn a_macro_between_moves_of_two_tools_is_in_doubt() {
+fn a_macro_between_moves_of_two_tools_is_uncertain() {
     let lines = "J P[2] 1% FINE ;\nUTOOL_NUM=4 ;\nGRIP OPEN ;\nJ P[1] 1% FINE ;";
     let program = read(lines, &(pose("1", ACTIVE) + &usual("2")));
     assert_eq!(blocked(&program), ["P[1]"]);
@@ -267,7 +267,7 @@ fn moves_have_configuration_data_but_where_the_orientation_is_free() {
 }
 
 #[test]
-fn axes_beside_the_six_are_an_error_where_they_are_used() {
+fn axes_besides_the_six_are_an_error_where_they_are_used() {
     let extended = usual("1").replace("-.287 deg", "-.287 deg,\n\tE1=  -345.000  mm");
     let program = read("J P[1] 100% FINE ;", &extended);
     assert_eq!(ids(&program), ["external-axis-unknown"]);
@@ -278,7 +278,7 @@ fn axes_beside_the_six_are_an_error_where_they_are_used() {
 }
 
 #[test]
-fn moves_that_a_sensor_corrects_are_told_once_a_place() {
+fn moves_that_a_sensor_corrects_are_reported_once_a_place() {
     for (begin, end) in [
         ("Touch Offset PR[1]", "Touch Offset End"),
         ("Search Start[1] PR[1]", "Search End"),

@@ -133,12 +133,14 @@ fn an_arm_without_effects_leaves_outputs_of_post_processors_as_they_are() {
         let solved = done.targets.iter().filter(|target| target.fake.is_some());
         assert_eq!(solved.count(), 58, "{name}");
         // each has a solution with exactly its configuration data
-        let told: Vec<_> = done.findings.iter().map(|f| f.id).collect();
+        let reported: Vec<_> = done.findings.iter().map(|f| f.id).collect();
         // but the lines behind the two joint points, whose joint 5 the post does not turn
-        let mismatches = told.iter().filter(|id| **id == "configuration-mismatch");
-        assert_eq!(mismatches.count(), 2, "{told:?}");
-        assert!(!told.contains(&"configuration-changed"), "{told:?}");
-        assert!(!done.is_refused(), "{told:?}");
+        let mismatches = reported
+            .iter()
+            .filter(|id| **id == "configuration-mismatch");
+        assert_eq!(mismatches.count(), 2, "{reported:?}");
+        assert!(!reported.contains(&"configuration-changed"), "{reported:?}");
+        assert!(!done.is_refused(), "{reported:?}");
         assert_eq!(done.edits.remove(0).apply(&source.bytes), source.bytes);
     }
 }

@@ -6,7 +6,7 @@ fn two() -> String {
     usual("1") + &usual("2")
 }
 
-/// Where moves go, and whether beside that by something.
+/// Where moves go, and whether offset from that by something.
 fn to(program: &Program) -> Vec<(Option<&str>, bool)> {
     let moves = program.moves.iter();
     moves
@@ -67,8 +67,8 @@ fn a_register_that_is_a_copy_of_a_point_is_that_point() {
     let indirect = read(&copied.replace("L PR[4]", "L PR[R[1]]"), &two());
     assert!(to(&indirect).contains(&(Some("P[2]"), false)));
     assert_eq!(ids(&indirect), ["computed-target"]);
-    // one number of it is changed, or something is added: beside the point by what only the running
-    // program knows
+    // one number of it is changed, or something is added: offset from the point by what only the
+    // running program knows
     for line in [
         "PR[4,3]=PR[4,3]-R[1] ;",
         "PR[4]=P[2]+PR[3] ;",
@@ -97,7 +97,7 @@ fn a_register_goes_with_the_active_numbers_which_points_tell() {
 }
 
 #[test]
-fn copies_that_nothing_in_the_files_uses_are_told() {
+fn copies_that_nothing_in_the_files_uses_are_reported() {
     let program = read("J P[1] 100% FINE ;\nPR[4]=P[1] ;", &usual("1"));
     assert_eq!(ids(&program), ["target-copied"]);
     assert!(blocked(&program).is_empty());

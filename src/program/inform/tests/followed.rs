@@ -82,7 +82,7 @@ fn moves_that_cannot_be_compensated_are_errors() {
 }
 
 #[test]
-fn a_moved_axis_is_told_with_its_value() {
+fn a_moved_axis_is_reported_with_its_value() {
     let program = cell("MOVL C00000 BC00001 V=5");
     let found = program
         .findings
@@ -103,7 +103,7 @@ fn a_moved_axis_is_told_with_its_value() {
 }
 
 #[test]
-fn what_the_running_program_computes_stays_and_is_told_once_a_place() {
+fn what_the_running_program_computes_stays_and_is_reported_once_a_place() {
     for (instructions, ids_of) in [
         ("MOVL LP000 V=5", &["computed-target"][..]),
         ("MOVL P[I000] V=5", &["computed-target"]),
@@ -226,24 +226,24 @@ fn jobs_begin_where_their_callers_stand() {
         let files = [named("MAIN", main), named("SUB", sub)];
         let files: Vec<&str> = files.iter().map(String::as_str).collect();
         let program = read_files(&files, &Settings::default()).expect("jobs");
-        let told = program.findings.iter().filter(|f| f.id == "wrist-not-told");
-        let told: Vec<_> = told.map(|f| f.file.clone()).collect();
+        let reported = program.findings.iter().filter(|f| f.id == "wrist-not-told");
+        let reported: Vec<_> = reported.map(|f| f.file.clone()).collect();
         (
             program.moves.iter().map(|m| m.before).collect::<Vec<_>>(),
-            told,
+            reported,
         )
     };
     let main = "MOVL C00000\nCALL JOB:SUB\nMOVL C00001";
-    let (found, told) = befores(main, "MOVL C00000");
+    let (found, reported) = befores(main, "MOVL C00000");
     assert_eq!(found, [Before::Start, Before::One(2), Before::One(0)]);
-    assert_eq!(told, ["0.JBI"]);
+    assert_eq!(reported, ["0.JBI"]);
     // JUMP does not come back: what follows is dead
     let (found, _) = befores("MOVL C00000\nJUMP JOB:SUB\nMOVL C00001", "MOVL C00000");
     assert_eq!(found, [Before::Start, Before::Anywhere, Before::One(0)]);
-    // a job that runs beside
-    let (found, told) = befores("PSTART JOB:SUB SUB1\nMOVL C00000", "MOVL C00000");
+    // a job that runs concurrently
+    let (found, reported) = befores("PSTART JOB:SUB SUB1\nMOVL C00000", "MOVL C00000");
     assert_eq!(found, [Before::Start, Before::Anywhere]);
-    assert_eq!(told.len(), 2);
+    assert_eq!(reported.len(), 2);
 }
 
 #[test]
@@ -258,8 +258,8 @@ fn rconf_tells_the_wrist_where_a_job_begins_with_a_pose() {
         let numbers: Vec<f64> = program.numbers.iter().map(|n| n.value).collect();
         let layout = program.targets[0].layout;
         let decoded = Inform.decode(layout, &numbers, &Settings::default());
-        let told = program.findings.iter().all(|f| f.id != "wrist-not-told");
-        (told, decoded.configuration.joint_5_negative)
+        let reported = program.findings.iter().all(|f| f.id != "wrist-not-told");
+        (reported, decoded.configuration.joint_5_negative)
     };
     assert_eq!(begins(24), (true, Some(true)));
     assert_eq!(begins(8), (false, None));

@@ -1,4 +1,4 @@
-//! Moves through calls, branches and what runs beside the program.
+//! Moves through calls, branches and what runs concurrently with the program.
 
 use super::*;
 use crate::program::Before;
@@ -43,7 +43,7 @@ fn positions_are_handed_to_routines_of_the_files() {
         ("XP3", "BASE_DATA[3]"),
     ];
     assert_eq!(found, expected);
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn what_a_routine_writes_through_a_parameter_comes_back() {
     let program = read_files(&[("m.src", text), ("m.dat", DATA)]);
     assert_eq!(to(&program), ["XP1", "XP1"]);
     assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn moves_to_positions_nobody_knows_are_moves() {
     ] {
         let program = path(&format!("PTP XP1\nPTP {here}\nLIN XP2"));
         assert_eq!(chain(&program)[1], ("XP2", vec![Some(0)]));
-        assert_eq!(told(&program), ids);
+        assert_eq!(reported(&program), ids);
     }
 }
 
@@ -115,7 +115,7 @@ fn run_time_positions_are_kept_in_variables() {
     let program =
         path("DECL E6POS here\nhere=$POS_ACT\nLIN XP1\nLIN here\nhere.Z=here.Z+10\nLIN here");
     assert_eq!(to(&program), ["XP1", "?", "?"]);
-    let mut ids = told(&program);
+    let mut ids = reported(&program);
     ids.sort_unstable();
     assert_eq!(ids, ["computed-target", "run-time-position"]);
     assert!(
@@ -130,7 +130,7 @@ fn run_time_positions_are_kept_in_variables() {
 fn external_axes_in_use_are_refused_by_name() {
     let at = |e: &str| format!("LIN {{X 1,Y 2,Z 3,A 0,B 0,C 0,{e}}}");
     for unused in ["E1 0.0,E2 0", "E1 9E+09,E2 9.0E9"] {
-        assert_eq!(told(&path(&at(unused))), [""; 0], "{unused}");
+        assert_eq!(reported(&path(&at(unused))), [""; 0], "{unused}");
     }
     for (used, shown) in [
         ("E1 1800.0", "E1 is 1800"),
@@ -138,7 +138,7 @@ fn external_axes_in_use_are_refused_by_name() {
         ("E2 q", "E2 is an expression"),
     ] {
         let program = path(&at(used));
-        assert_eq!(told(&program), ["external-axis-unknown"], "{used}");
+        assert_eq!(reported(&program), ["external-axis-unknown"], "{used}");
         assert_eq!(blocked(&program), ["-"], "{used}");
         assert!(program.findings[0].message.contains(shown), "{used}");
     }
@@ -159,10 +159,10 @@ fn external_axes_in_use_are_refused_by_name() {
 fn arcs_that_go_on_to_an_angle_are_refused() {
     let program =
         path("LIN XP1\nCIRC XP2,XP3,CA 180\nSCIRC XP2,{X 1,Y 2,Z 3,A 0,B 0,C 0}, CA 30.5 C_SPL");
-    assert_eq!(told(&program), ["circular-angle"; 3]);
+    assert_eq!(reported(&program), ["circular-angle"; 3]);
     assert_eq!(blocked(&program), ["-", "XP2", "XP3"]);
     let program = path("LIN XP1\nCIRC XP2,XP3 C_DIS ; CA 180");
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn functions_that_are_not_in_the_files_may_move_to_what_they_are_given() {
         let program = path(&format!("{text}\nBAS(#BASE,2)\nLIN XP1"));
         assert_eq!(blocked(&program), ["XP1"], "{text}");
         assert!(
-            told(&program).contains(&"target-passed-to-routine"),
+            reported(&program).contains(&"target-passed-to-routine"),
             "{text}"
         );
     }
@@ -210,7 +210,7 @@ fn functions_that_are_not_in_the_files_may_move_to_what_they_are_given() {
         "b=INV_POS(XP1)",
     ] {
         let program = path(&format!("{text}\nLIN XP1"));
-        assert_eq!(told(&program), [""; 0], "{text}");
+        assert_eq!(reported(&program), [""; 0], "{text}");
     }
 }
 

@@ -48,7 +48,7 @@ fn tools_bases_and_loads_are_in_the_config_given_with_the_program() {
     let base = program.frames[0].world_from_frame.expect("a base");
     assert_eq!(base.translation, [0.5, 0.0, 0.0]);
     assert!((base.rotation.0[1][0] - 1.0).abs() < 1e-12);
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn inline_forms_of_newer_controllers_set_tool_and_base_in_the_move() {
          $IPO_MODE=SIPO_MODE(FP1.IPO_FRAME), $LOAD=SLOAD(FP1.TOOL_NO), $ACC=SACC_CP(LCPDAT1) C_Spl\n;ENDFOLD",
     );
     assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn frames_written_out_have_their_value() {
     // C turns about x
     assert!((tool.rotation.0[2][1] - 1.0).abs() < 1e-12);
     assert!(program.tools[2].flange_from_tool.is_some());
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 fn translations(program: &Program) -> Vec<Option<f64>> {
@@ -132,7 +132,7 @@ fn entries_that_the_program_writes_have_that_value_from_there_on() {
     let tool = program.tools[0].flange_from_tool.expect("a tool");
     assert_eq!(tool.translation, [0.0, 0.0, 0.12]);
     assert_eq!(translations(&program), [Some(0.001)]);
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
     for (change, x) in [
         ("BASE_DATA[2]={X 9,Y 0,Z 0,A 0,B 0,C 0}", Some(0.009)),
         ("BASE_DATA[2].X=-5.0", Some(-0.005)),
@@ -142,7 +142,7 @@ fn entries_that_the_program_writes_have_that_value_from_there_on() {
         let program = path(&format!(
             "BASE_DATA[2]={{X 1,Y 0,Z 0,A 0,B 0,C 0}}\n{change}\n{use_it}"
         ));
-        assert_eq!(told(&program), [""; 0], "{change}");
+        assert_eq!(reported(&program), [""; 0], "{change}");
         assert_eq!(translations(&program), [x], "{change}");
     }
     for change in [
@@ -153,7 +153,11 @@ fn entries_that_the_program_writes_have_that_value_from_there_on() {
         let program = path(&format!(
             "BASE_DATA[2]={{X 1,Y 0,Z 0,A 0,B 0,C 0}}\n{change}\n{use_it}"
         ));
-        assert_eq!(told(&program), ["frame-assigned-at-run-time"], "{change}");
+        assert_eq!(
+            reported(&program),
+            ["frame-assigned-at-run-time"],
+            "{change}"
+        );
         assert_eq!(blocked(&program), ["XP1"], "{change}");
     }
 }
@@ -183,7 +187,7 @@ fn entries_that_are_written_here_and_there_have_several_values() {
         } else {
             &[]
         };
-        assert_eq!(told(&program), expected, "{text}");
+        assert_eq!(reported(&program), expected, "{text}");
         let written = program.moves.iter().filter(|m| m.frame_written.is_some());
         assert_eq!(
             written.count() > 0,
@@ -207,7 +211,7 @@ fn frames_that_only_the_running_program_knows_are_refused() {
             "DECL FRAME tools[2]\nDECL FRAME shift\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1"
         ));
         assert!(
-            told(&program).iter().any(|id| id.starts_with("frame-")),
+            reported(&program).iter().any(|id| id.starts_with("frame-")),
             "{set}: {:?}",
             program.findings
         );
@@ -229,7 +233,7 @@ fn frames_of_branches_are_several() {
         found = found.split_off(found.len() - 2);
         found.sort_unstable();
         assert_eq!(found, ["BASE_DATA[1]", "BASE_DATA[2]"], "{set}");
-        assert_eq!(told(&program), [""; 0], "{set}");
+        assert_eq!(reported(&program), [""; 0], "{set}");
     }
 }
 
@@ -244,7 +248,7 @@ fn numbers_of_the_program_choose_tools_and_bases() {
     ] {
         let program = in_cell(&format!("BAS(#TOOL,1)\n{text}"));
         assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")], "{text}");
-        assert_eq!(told(&program), [""; 0], "{text}");
+        assert_eq!(reported(&program), [""; 0], "{text}");
     }
 }
 
@@ -288,7 +292,7 @@ fn ways_that_agree_are_followed() {
             "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1\nEND\nDEF sub()\nBAS(#BASE,1)\nEND\n"
         );
         let program = read_files(&[("$config.dat", CONFIG), ("m.src", &text), ("m.dat", DATA)]);
-        assert_eq!(told(&program), [""; 0], "{set}");
+        assert_eq!(reported(&program), [""; 0], "{set}");
         assert!(
             used(&program)
                 .iter()
@@ -305,16 +309,16 @@ fn routines_take_what_their_callers_have() {
     let program = read(text);
     let bases: Vec<_> = used(&program).into_iter().map(|(_, base)| base).collect();
     assert_eq!(bases, ["BASE_DATA[2]", "BASE_DATA[3]"]);
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
 fn routines_outside_the_files_matter_where_several_frames_are_in_use() {
     let one =
         "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\ngripper(1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
-    assert_eq!(told(&read(one)), [""; 0]);
+    assert_eq!(reported(&read(one)), [""; 0]);
     let two = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nBAS(#BASE,2)\ngripper(1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
-    assert_eq!(told(&read(two)), ["frame-chosen-at-run-time"]);
+    assert_eq!(reported(&read(two)), ["frame-chosen-at-run-time"]);
 }
 
 #[test]
@@ -324,11 +328,11 @@ fn fixed_tools_are_refused_by_name() {
         "FDAT_ACT={TOOL_NO 1,BASE_NO 2,IPO_FRAME #TCP,POINT2[] \" \"}\nBAS(#FRAMES)",
     ] {
         let program = in_cell(&format!("BAS(#TOOL,1)\nBAS(#BASE,2)\n{set}\nLIN XP1"));
-        assert_eq!(told(&program), ["held-work-piece"], "{set}");
+        assert_eq!(reported(&program), ["held-work-piece"], "{set}");
         assert_eq!(blocked(&program), ["XP1"]);
     }
     let program = in_cell("BAS(#TOOL,1)\nBAS(#BASE,2)\n$IPO_MODE=#TCP\n$IPO_MODE=#BASE\nLIN XP1");
-    assert_eq!(told(&program), [""; 0]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]
@@ -339,7 +343,7 @@ fn bases_on_other_kinematics_are_refused() {
         "SLIN XP1 WITH $BASE=EK(K_ROOT(FP1.BASE_NO),K_TYPE(FP1.BASE_NO),K_OFFS(FP1.BASE_NO)), $APO=SAPO(L) C_SPL",
     ] {
         let program = in_cell(&format!("BAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1"));
-        assert_eq!(told(&program), ["moving-frame"], "{set}");
+        assert_eq!(reported(&program), ["moving-frame"], "{set}");
         assert_eq!(blocked(&program), ["XP1"], "{set}");
     }
 }
@@ -362,7 +366,7 @@ fn bases_on_a_kinematic_are_those_of_the_unit() {
 fn what_one_of_several_programs_writes_reaches_no_other() {
     let writes = "DEF a()\nBASE_DATA[2]={X 9,Y 0.0,Z 0,A 90,B 0,C -0.0}\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     let other = "DEF b()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
-    for (others, expected, told_of) in [
+    for (others, expected, ids) in [
         (
             other,
             vec![Some(0.009), Some(0.5)],
@@ -377,7 +381,7 @@ fn what_one_of_several_programs_writes_reaches_no_other() {
         ];
         let program = read_files(&files);
         assert_eq!(translations(&program), expected);
-        assert_eq!(told(&program), told_of);
+        assert_eq!(reported(&program), ids);
     }
 }
 
@@ -390,12 +394,12 @@ fn two_configs_that_disagree_are_refused() {
         ("b/$config.dat", &*other),
         ("m.src", text),
     ];
-    assert_eq!(told(&read_files(&files)), ["frame-name-ambiguous"]);
+    assert_eq!(reported(&read_files(&files)), ["frame-name-ambiguous"]);
 }
 
 #[test]
 fn a_target_that_is_a_base_too_is_refused() {
     let program = in_cell("BAS(#TOOL,1)\n$BASE=XP3\nLIN XP1\nBAS(#BASE,1)\nLIN XP3");
     assert_eq!(blocked(&program), ["XP3"]);
-    assert_eq!(told(&program), ["target-used-as-frame"]);
+    assert_eq!(reported(&program), ["target-used-as-frame"]);
 }

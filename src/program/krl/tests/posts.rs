@@ -5,7 +5,7 @@ use crate::inverse::Arm;
 use crate::model::profile::Profile;
 use std::path::{Path, PathBuf};
 
-/// Outputs of post-processors with known joints; kept beside the project.
+/// Outputs of post-processors with known joints; kept next to the project.
 fn posts() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/programs");
     if folder.exists() {

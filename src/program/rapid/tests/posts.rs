@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Outputs of post-processors with known tool and frame; kept beside the project.
+/// Outputs of post-processors with known tool and frame; kept next to the project.
 fn posts() -> Option<std::path::PathBuf> {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/programs");
     if folder.exists() {

@@ -44,7 +44,7 @@ fn parameters_are_what_calls_give_by_position_and_by_name() {
          go(pose_trans(p[7,0,0,0,0,0],p[1,2,3,0,0,0]), p[1,0,0,0,0,0])\ngo(p[1,2,5,0,0,0], p[2,0,0,0,0,0])\nmovej(q)",
     );
     assert_eq!(program.findings, []);
-    let mut told: Vec<_> = program
+    let mut reported: Vec<_> = program
         .moves
         .iter()
         .map(|m| {
@@ -54,8 +54,8 @@ fn parameters_are_what_calls_give_by_position_and_by_name() {
         })
         .map(|(tool, frame)| format!("{tool} {frame}"))
         .collect();
-    told.sort_unstable();
-    assert_eq!(told, ["1 7", "2 0", "3 0"]);
+    reported.sort_unstable();
+    assert_eq!(reported, ["1 7", "2 0", "3 0"]);
 }
 
 #[test]
@@ -88,12 +88,12 @@ fn elements_of_lists_are_any_of_them() {
 }
 
 #[test]
-fn poses_with_expressions_stay_or_stand_beside_the_targets_that_flow_into_them() {
+fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them() {
     let displaced = |lines: &str| {
         let program = path(lines);
         let last = program.moves.last().expect("a move");
-        let told = program.findings.first().map(|f| (f.id, f.severity));
-        (to(&program).pop(), last.displacement.clone(), told)
+        let reported = program.findings.first().map(|f| (f.id, f.severity));
+        (to(&program).pop(), last.displacement.clone(), reported)
     };
     let warned = Some(("target-has-expressions", Severity::Warning));
     for lines in [
@@ -156,7 +156,7 @@ fn joints_keep_the_tool_that_is_set_where_they_are_computed() {
     assert_eq!(program.findings, []);
     let tools: Vec<_> = (0..3).map(|k| tool_x(&program, k)).collect();
     assert_eq!(tools, [Some(1.0), Some(3.0), Some(2.0)]);
-    // configuration is not told: the inverse starts from the present joints
+    // configuration is not stated: the inverse starts from the present joints
     assert!(program.moves.iter().all(|m| !m.configured));
     // in a branch: the tool of either
     let program = path(&text.replace("q=get", "if a:\nset_tcp(p[4,0,0,0,0,0])\nend\nq=get"));

@@ -25,7 +25,7 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     );
     let mut page = Page::new("Validation".into(), level, answer);
     robot_lead(&mut page, &of.name, profile);
-    page.lead.extend(found.refit.told().map(Into::into));
+    page.lead.extend(found.refit.note().map(Into::into));
     let quality = |of: &statistics::Quality| Quality::from(of);
     let (controller, real) = (
         quality(&found.controller.quality),

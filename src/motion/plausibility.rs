@@ -6,7 +6,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::model::profile::is_tiny;
 
-/// Doubts the tools that moves have, each at the first move that has it.
+/// Checks the units of the tools that moves have, each at the first move that has it.
 pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Finding>) {
     let mut seen = vec![false; ground.program.tools.len()];
     for motion in &ground.program.moves {

@@ -1,4 +1,4 @@
-//! What columns gain beside effects that come and go: products with the effects' columns are made
+//! What columns gain given effects that come and go: products with the effects' columns are made
 //! once, and every choice of effects that are kept takes a small triangle only.
 
 use super::fit::{Fit, Gain, Projection, REDUNDANT, gain_of};
@@ -6,7 +6,7 @@ use super::table::{Column, dot};
 
 /// Effects in the model, seen from a fit of everything else.
 #[derive(Clone, Debug)]
-pub struct Beside {
+pub struct Given {
     deviance: f64,
     scale: f64,
     ridge: f64,
@@ -48,7 +48,7 @@ impl Group {
 }
 
 impl Group {
-    /// Products that are known: of the columns with one another and with what is left, all
+    /// Products that are known: of the columns with one another and with the residual, all
     /// projected, and their squares before.
     #[must_use]
     pub const fn known(gram: Vec<Vec<f64>>, slopes: Vec<f64>, squares: Vec<f64>) -> Self {
@@ -60,7 +60,7 @@ impl Group {
     }
 }
 
-impl Beside {
+impl Given {
     /// Of a fit without effects, at the scale of `full`, the fit with all of them.
     #[must_use]
     pub fn of(fit: &Fit, full: &Fit, effects: &[&[Column]]) -> Self {
@@ -126,7 +126,7 @@ impl Beside {
         self.deviance - dot(&kept.parts, &kept.parts)
     }
 
-    /// What a group of columns gains beside the effects kept; `cross` are each column's products
+    /// What a group of columns gains given the effects kept; `cross` are each column's products
     /// with all effects.
     #[must_use]
     pub fn gain(
@@ -212,7 +212,7 @@ mod tests {
             let full = Fit::of(&layout, &used, &residual, &all, 0.1);
             let plain = full.with_held(&residual, &held(&base, share, false));
             let groups: Vec<&[Column]> = vec![&effects[..2], &effects[2..3], &effects[3..]];
-            let beside = Beside::of(&plain, &full, &groups);
+            let given = Given::of(&plain, &full, &groups);
             for keep in [
                 [true, true, true],
                 [false, true, true],
@@ -224,13 +224,13 @@ mod tests {
                     .collect();
                 let some = [held(&base, share, false), held(&own, 1.0, true)].concat();
                 let anew = full.with_held(&residual, &some);
-                let kept = beside.kept(&keep);
-                assert!(near(anew.deviance, beside.deviance(&kept)), "{share}");
+                let kept = given.kept(&keep);
+                assert!(near(anew.deviance, given.deviance(&kept)), "{share}");
                 let seen = plain.projections(&tried);
                 let group = Group::of(&plain, &seen.iter().collect::<Vec<_>>());
-                let cross: Vec<Vec<f64>> = seen.iter().map(|p| beside.cross(p)).collect();
+                let cross: Vec<Vec<f64>> = seen.iter().map(|p| given.cross(p)).collect();
                 let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
-                let gain = beside
+                let gain = given
                     .gain(&group, &cross, &kept, &[None; 3])
                     .expect("a gain");
                 let seen = anew.projections(&tried);

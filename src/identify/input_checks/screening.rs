@@ -13,7 +13,8 @@ use crate::identify::start::{self, Start, spreads};
 use crate::identify::statistics::quantile;
 use crate::model::profile::Profile;
 
-/// A first guess that misses by less is not doubted, metres, if it is also less than [`GOOD_PART`].
+/// A first guess that misses by less is not questioned, metres, if it is also less than
+/// [`GOOD_PART`].
 const GOOD_START_M: f64 = 0.003;
 /// Of how far the measurements spread.
 const GOOD_PART: f64 = 0.02;
@@ -26,7 +27,7 @@ const FITS_PART: f64 = 0.1;
 const AS_WELL: f64 = 1.5;
 /// Orientations further from each other than this are not of one tool, radians.
 const TURNED_RAD: f64 = 3.0 * DEG;
-/// An axis 1 this far from where the profile has it is told, radians: gravity acts along the
+/// An axis 1 this far from where the profile has it is reported, radians: gravity acts along the
 /// world's z.
 const TILTED_RAD: f64 = 3.0 * DEG;
 /// Exchanged columns are sure that leave axis 1 as near as this to where the profile has it, and
@@ -44,14 +45,14 @@ const VARIETY: &str =
     "measure configurations over the whole workspace: `poseshift plan` chooses them";
 /// Points that are less apart are in one place, metres.
 const ONE_PLACE_M: f64 = 1e-6;
-/// Points that are no farther than this from the middle of all are not doubted for it, metres.
+/// Points that are no farther than this from the middle of all are not questioned for it, metres.
 const NEAR_M: f64 = 10.0;
 /// Rows that are enough to try other readings of the file.
 const TRIED_ROWS: usize = 150;
 
 /// What was asked for and cannot be.
 #[must_use]
-pub fn doubt_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark> {
+pub fn check_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark> {
     let masses =
         !problem.profile.bodies.is_empty() || problem.tools.iter().any(|t| t.load.is_some());
     (compliance_asked && !masses).then(|| {
@@ -105,7 +106,7 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
             "joint-never-moved",
             WHOLE_FILE,
             format!(
-                "joint {} never moves by more than {:.3} deg: its parameters cannot be told from those of its neighbours",
+                "joint {} never moves by more than {:.3} deg: its parameters cannot be distinguished from those of its neighbours",
                 joint + 1,
                 range(*joint) / DEG
             ),
@@ -266,19 +267,19 @@ impl Fit {
     }
 }
 
-/// Doubts a first guess that misses by far: tries other readings of the file, and says which one
+/// Checks a first guess that misses by far: tries other readings of the file, and says which one
 /// fits.
 ///
 /// # Errors
 /// Another reading fits much better; orientations that are not of one tool.
-pub fn doubt_start(
+pub fn check_start(
     profile: &Profile,
     measurements: &Measurements,
     start: &Start,
 ) -> Result<Vec<Remark>, IdentifyError> {
     let own = Fit::part(start);
     if start.rms_m > GOOD_START_M || own > GOOD_PART {
-        doubt_reading(profile, measurements)?;
+        check_reading(profile, measurements)?;
     }
     if let Some(apart) = start.turned_apart_rad.filter(|apart| *apart > TURNED_RAD)
         && start.rms_m < BAD_START_M
@@ -337,7 +338,7 @@ pub fn gravity_by_device(tilt_rad: f64, better: f64, gravity_m_s2: Vector) -> Re
     )
 }
 
-fn doubt_reading(profile: &Profile, measurements: &Measurements) -> Result<(), IdentifyError> {
+fn check_reading(profile: &Profile, measurements: &Measurements) -> Result<(), IdentifyError> {
     let sample = measurements.filtered(|i, _| i < TRIED_ROWS);
     if sample.rows.len() < 4 {
         return Ok(());
@@ -366,7 +367,7 @@ fn doubt_reading(profile: &Profile, measurements: &Measurements) -> Result<(), I
     fits.retain(|fit| part(fit) <= AS_WELL * least);
     fits.sort_by(|a, b| a.tilt_deg(profile).total_cmp(&b.tilt_deg(profile)));
     let best = &fits[0];
-    let (supposes, as_well) = told_of(&fits, profile);
+    let (supposes, as_well) = expected(&fits, profile);
     Err(suspicious(
         format!(
             "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, where they spread {:.1} mm; if {}, {:.1} of {:.1} mm{as_well}",
@@ -384,7 +385,7 @@ fn doubt_reading(profile: &Profile, measurements: &Measurements) -> Result<(), I
 ///
 /// A mirror image is mended by the exchange of any two coordinates: the exchanges differ only in
 /// how the base then stands.
-fn told_of(fits: &[Fit], profile: &Profile) -> (String, String) {
+fn expected(fits: &[Fit], profile: &Profile) -> (String, String) {
     let as_well = |others: &mut dyn Iterator<Item = &Fit>| -> String {
         let others = others.take(2);
         others
@@ -446,11 +447,11 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
     remarks
 }
 
-/// Doubts a tool that is to stay where the profile has it and was measured elsewhere.
+/// Checks a tool that is to stay where the profile has it and was measured elsewhere.
 ///
 /// # Errors
 /// It is far away.
-pub fn doubt_fixed_tool(profile: &Profile, start: &Start) -> Result<(), IdentifyError> {
+pub fn check_fixed_tool(profile: &Profile, start: &Start) -> Result<(), IdentifyError> {
     let Some(believed) = start
         .believed_rms_m
         .filter(|rms| *rms > CONTRADICTED_TOOL_M)
@@ -460,7 +461,7 @@ pub fn doubt_fixed_tool(profile: &Profile, start: &Start) -> Result<(), Identify
     if start.rms_m * BETTER > believed {
         return Ok(());
     }
-    let told: Vec<String> = moved_tools(profile, start)
+    let listed: Vec<String> = moved_tools(profile, start)
         .into_iter()
         .map(|remark| remark.message)
         .collect();
@@ -469,15 +470,15 @@ pub fn doubt_fixed_tool(profile: &Profile, start: &Start) -> Result<(), Identify
             "with the tool where the profile has it the measurements miss the robot by {:.1} mm rms, else by {:.1} mm: {}",
             mm_from_m(believed),
             mm_from_m(start.rms_m),
-            told.join("; ")
+            listed.join("; ")
         ),
         "correct the tool in the profile, or do not --fix tool_frame",
     ))
 }
 
-/// Doubts measurements from which no fit comes to rest: where even the best base and tool miss by
+/// Checks measurements from which no fit comes to rest: where even the best base and tool miss by
 /// far, they are not of this robot, and which parameters are identified does not matter.
-pub fn doubt_rest(error: IdentifyError, start: &Start) -> IdentifyError {
+pub fn check_rest(error: IdentifyError, start: &Start) -> IdentifyError {
     if !matches!(error, IdentifyError::NotConverged { .. }) || start.rms_m < BAD_START_M {
         return error;
     }

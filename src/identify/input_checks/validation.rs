@@ -1,6 +1,6 @@
-//! Doubts of a validation: measurements that are not of this robot, or not as the file says.
+//! Checks of a validation: measurements that are not of this robot, or not as the file says.
 
-use super::screening::{doubt_start, duplicates, look, refuse_far_off};
+use super::screening::{check_start, duplicates, look, refuse_far_off};
 use super::{Remark, WHOLE_FILE, remark, sigma};
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::Measurements;
@@ -12,7 +12,7 @@ use crate::model::profile::Profile;
 /// The real model is worse than the nominal arm with fitted frames by this factor where something
 /// was moved.
 const WORSE: f64 = 1.5;
-/// Errors below this are never doubted, mm.
+/// Errors below this are never questioned, mm.
 const SMALL_MM: f64 = 0.1;
 /// Frames that are fitted and still miss by more are not of this robot, mm.
 const HOPELESS_MM: f64 = 20.0;
@@ -41,16 +41,16 @@ pub(crate) fn before(
     // nothing is identified
     remarks.retain(|remark| remark.id != "joint-never-moved");
     if let Some(start) = start::find(profile, measurements) {
-        let mut doubts = doubt_start(profile, measurements, &start)?;
+        let mut found = check_start(profile, measurements, &start)?;
         // fitted tools may be anywhere
-        doubts.retain(|remark| remark.id != "tool-elsewhere" || refit == Refit::No);
-        for doubt in &mut doubts {
-            if doubt.id == "tool-elsewhere" {
-                doubt.hint =
+        found.retain(|remark| remark.id != "tool-elsewhere" || refit == Refit::No);
+        for remark in &mut found {
+            if remark.id == "tool-elsewhere" {
+                remark.hint =
                     "is it the tool of the profile? --refit-frames fits base, tool and points first".into();
             }
         }
-        remarks.extend(doubts);
+        remarks.extend(found);
     }
     Ok(remarks)
 }

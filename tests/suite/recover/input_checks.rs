@@ -39,7 +39,7 @@ fn with(shape: Shape) -> Options {
     }
 }
 
-fn told(found: &Calibration, id: &str) -> bool {
+fn reported(found: &Calibration, id: &str) -> bool {
     found.remarks.iter().any(|remark| remark.id == id)
 }
 
@@ -200,12 +200,12 @@ fn units_zeros_and_orders_of_other_makers_are_suggested() {
 }
 
 #[test]
-fn a_frame_on_its_side_is_told() {
+fn a_frame_on_its_side_is_reported() {
     let (truth, commands) = robot(44);
     let good = measure(&truth, &commands, &session());
     let lying = changed(&good, |_, row| moved(row, |[x, y, z]| [y, z, x]));
     let found = calibrate(&nominal(), &lying, &Options::default()).expect("it fits");
-    assert!(told(&found, "base-tilted"), "{:?}", found.remarks);
+    assert!(reported(&found, "base-tilted"), "{:?}", found.remarks);
     let found = calibrate(&nominal(), &good, &Options::default()).expect("it fits");
     assert!(found.remarks.is_empty(), "{:?}", found.remarks);
 }
@@ -264,7 +264,7 @@ fn distances_from_one_or_two_points_leave_the_base_s_turn_to_the_profile() {
             turned.world_from_base * Pose::from_xyz_rxryrz([0.0, 0.0, 0.0, 0.0, 0.0, 40.0 * DEG]);
         let found = calibrate(&turned, &seen, &Options::default()).expect("an answer");
         assert!(
-            told(&found, "base-not-determined"),
+            reported(&found, "base-not-determined"),
             "{count}: {:?}",
             found.remarks
         );
@@ -278,7 +278,7 @@ fn distances_from_one_or_two_points_leave_the_base_s_turn_to_the_profile() {
 }
 
 #[test]
-fn measurements_that_tell_nothing_of_the_arm_elsewhere_are_told() {
+fn measurements_that_tell_nothing_of_the_arm_elsewhere_are_reported() {
     let (truth, all) = robot(48);
     let found = calibrate(
         &nominal(),
@@ -304,7 +304,7 @@ fn measurements_that_tell_nothing_of_the_arm_elsewhere_are_told() {
     let seen = measure(&truth, &narrow, &session());
     let found = calibrate(&nominal(), &seen, &Options::default()).expect("an answer");
     assert!(
-        told(&found, "hardly-determined"),
+        reported(&found, "hardly-determined"),
         "{:?} {:?}",
         found.expected_m,
         found.remarks
@@ -347,7 +347,7 @@ fn no_value_of_the_arm_is_kept_that_is_hardly_known() {
 }
 
 #[test]
-fn effects_that_show_only_beside_others_are_identified_with_them() {
+fn effects_that_show_only_besides_others_are_identified_with_them() {
     let (mut truth, commands) = robot(49);
     let mut heavier = effect(Kind::PayloadError, 0, &[1.0, 0.0, 0.0, 0.0]);
     heavier.site = Site {
@@ -372,7 +372,7 @@ fn effects_that_show_only_beside_others_are_identified_with_them() {
 }
 
 #[test]
-fn missing_masses_negative_springs_and_doubtful_sigmas_are_told() {
+fn missing_masses_negative_springs_and_unlikely_sigmas_are_reported() {
     let (truth, commands) = robot(50);
     let seen = measure(&truth, &commands, &session());
     let mut light = nominal();
@@ -381,7 +381,7 @@ fn missing_masses_negative_springs_and_doubtful_sigmas_are_told() {
         tool.load = None;
     }
     let found = calibrate(&light, &seen, &Options::default()).expect("an answer");
-    assert!(told(&found, "no-masses"), "{:?}", found.remarks);
+    assert!(reported(&found, "no-masses"), "{:?}", found.remarks);
     for factor in [1e-3, 1e3] {
         let other = changed(&seen, |_, row| {
             row.sigma_m = row.sigma_m.map(|sigma| factor * sigma);
@@ -392,7 +392,7 @@ fn missing_masses_negative_springs_and_doubtful_sigmas_are_told() {
         } else {
             "sigma-large"
         };
-        assert!(told(&found, id), "{factor}: {:?}", found.remarks);
+        assert!(reported(&found, id), "{factor}: {:?}", found.remarks);
     }
     let mut springs = truth;
     springs.effects.retain(|e| e.kind != Kind::JointCompliance);
@@ -401,5 +401,9 @@ fn missing_masses_negative_springs_and_doubtful_sigmas_are_told() {
         .push(effect(Kind::JointCompliance, 1, &[-2e-4]));
     let seen = measure(&springs, &commands, &session());
     let found = calibrate(&nominal(), &seen, &Options::default()).expect("an answer");
-    assert!(told(&found, "negative-compliance"), "{:?}", found.remarks);
+    assert!(
+        reported(&found, "negative-compliance"),
+        "{:?}",
+        found.remarks
+    );
 }

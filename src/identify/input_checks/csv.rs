@@ -104,7 +104,7 @@ pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
 mod tests {
     use super::*;
 
-    fn told(text: &[u8]) -> (usize, usize, String, String) {
+    fn reported(text: &[u8]) -> (usize, usize, String, String) {
         let found = not_csv(text).expect("no CSV");
         (found.line, found.column, found.message, found.hint)
     }
@@ -113,23 +113,23 @@ mod tests {
     fn separators_decimals_and_encodings_are_named() {
         assert_eq!(not_csv(b"a,b\n1,2\n"), None);
         assert_eq!(not_csv(b"a\n1\n"), None);
-        let (line, _, message, hint) = told(b"# x\na;b\n1,5;2,5\n");
+        let (line, _, message, hint) = reported(b"# x\na;b\n1,5;2,5\n");
         assert_eq!(line, 2);
         assert!(
             message.contains("semicolons") && message.contains("comma"),
             "{message}"
         );
         assert!(hint.contains("s/,/./g; s/;/,/g"), "{hint}");
-        let (_, _, message, hint) = told(b"a\tb\n1.5\t2\n");
+        let (_, _, message, hint) = reported(b"a\tb\n1.5\t2\n");
         assert!(
             message.contains("tabs") && hint.contains("'s/\\t/,/g'"),
             "{hint}"
         );
-        let (line, _, message, hint) = told(b"a,b,c\n1,5,2,5,3,5\n");
+        let (line, _, message, hint) = reported(b"a,b,c\n1,5,2,5,3,5\n");
         assert!(line == 2 && message.contains("6 cells") && hint.contains("point"));
-        let (_, _, message, _) = told(b"\n# nothing\n");
+        let (_, _, message, _) = reported(b"\n# nothing\n");
         assert!(message.contains("empty"));
-        let (line, column, message, hint) = told(b"a,b\n1,\xb52\n");
+        let (line, column, message, hint) = reported(b"a,b\n1,\xb52\n");
         assert_eq!((line, column), (2, 3));
         assert!(message.contains("UTF-8") && hint.contains("iconv"));
     }

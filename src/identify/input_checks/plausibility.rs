@@ -28,7 +28,7 @@ const ABSURD: f64 = 100.0;
 const UNUSUAL: f64 = 20.0;
 /// Touches that miss by more than this many are read in other ways.
 const TOUCH_FACTOR: f64 = 5.0;
-/// An expected error elsewhere is told from here on, metres.
+/// An expected error elsewhere is reported from here on, metres.
 const FAR_OFF_M: f64 = 0.3 * MM;
 /// A compliance is negative that is so by this many standard deviations.
 const SURELY: f64 = 3.0;
@@ -45,11 +45,11 @@ fn usual(sizes: impl Iterator<Item = f64>) -> Option<f64> {
     })
 }
 
-/// Doubts a fit that misses by far more than any calibrated arm.
+/// Checks a fit that misses by far more than any calibrated arm.
 ///
 /// # Errors
 /// The measurements are not of this robot.
-pub(crate) fn doubt_fit(
+pub(crate) fn check_fit(
     problem: &Problem,
     after: &[Miss],
     frames_only: &[Miss],
@@ -100,12 +100,12 @@ fn times_sigma(misses: &[Miss]) -> Option<f64> {
     usual(misses.iter().map(|miss| miss.normalised))
 }
 
-/// Doubts touches that miss by far more than the probe's repeatability, where they fit if its ball
+/// Checks touches that miss by far more than the probe's repeatability, where they fit if its ball
 /// or a plane is meant otherwise. `again` gives what the model misses of other measurements.
 ///
 /// # Errors
 /// They fit if the radius is a diameter, or a normal points the other way.
-pub(crate) fn doubt_touches(
+pub(crate) fn check_touches(
     measurements: &Measurements,
     after: &[Miss],
     again: impl Fn(&Measurements) -> Result<Vec<Miss>, IdentifyError>,
@@ -175,9 +175,9 @@ pub(crate) fn doubt_touches(
     Ok(())
 }
 
-/// Doubts that the measurements tell of the arm elsewhere.
+/// Checks that the measurements say enough of the arm elsewhere.
 #[must_use]
-pub(crate) fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
+pub(crate) fn check_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Remark> {
     let missed = usual(after.iter().map(|miss| miss.length_m))?;
     let expected = expected_m.filter(|e| *e > FAR_OFF_M && *e > super::SIGMA_FACTOR * missed)?;
     let message = format!(
@@ -189,9 +189,9 @@ pub(crate) fn doubt_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Rem
     Some(remark("hardly-determined", WHOLE_FILE, message, hint))
 }
 
-/// Rows that do not fit the others: they are told, whatever the loss makes of them.
+/// Rows that do not fit the others: they are reported, whatever the loss makes of them.
 #[must_use]
-pub(crate) fn doubt_rows(outliers: &[Outlier]) -> Option<Remark> {
+pub(crate) fn check_rows(outliers: &[Outlier]) -> Option<Remark> {
     let worst = outliers.iter().max_by(|a, b| a.times.total_cmp(&b.times))?;
     let message = format!(
         "{} row{} not fit the others, the worst misses by {:.3} mm, {:.1} times the typical residual (limit {:.1})",
@@ -205,11 +205,11 @@ pub(crate) fn doubt_rows(outliers: &[Outlier]) -> Option<Remark> {
     Some(remark("outliers", worst.line.clone(), message, hint))
 }
 
-/// Doubts identified values that no arm has.
+/// Checks identified values that no arm has.
 ///
 /// # Errors
 /// A value a hundred times its typical size.
-pub(crate) fn doubt_values(
+pub(crate) fn check_values(
     parameters: &[Parameter],
     estimate: &Estimate,
     sigma: &[f64],

@@ -1,6 +1,6 @@
 //! Sweeps of single joints that no base and tool of this robot explain.
 
-use super::screening::doubt_start;
+use super::screening::check_start;
 use super::{Remark, WHOLE_FILE, remark};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector, add, norm, scale, sub};
@@ -41,12 +41,12 @@ pub fn point_on_flange(profile: &Profile, sweeps: &[Sweep], world_from_base: &Po
     scale(1.0 / rows.len().max(1) as f64, sum)
 }
 
-/// Doubts sweeps: whether base and tool explain every row, whether the axes stand to one another as
+/// Checks sweeps: whether base and tool explain every row, whether the axes stand to one another as
 /// drawn, whether the tool is that of the profile.
 ///
 /// # Errors
 /// Base and tool miss by far: another reading of the file that fits, or the robot is another one.
-pub fn doubt(
+pub fn input_checks(
     profile: &Profile,
     sweeps: &[Sweep],
     axes: &[Axis],
@@ -152,7 +152,7 @@ fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(
         columns: Vec::new(),
     };
     if let Some(start) = start::find(profile, &measurements) {
-        doubt_start(profile, &measurements, &start)?;
+        check_start(profile, &measurements, &start)?;
         if start.rms_m < HOPELESS_M {
             return Ok(());
         }
