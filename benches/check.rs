@@ -82,7 +82,8 @@ fn bench(c: &mut Criterion) {
     let mesh = Mesh::of(&triangles(), 1.0).expect("a mesh");
     assert_eq!(mesh.triangles.len(), 20_000);
     let cell_text = "poseshift: cell/1\nclearance_mm: 5\nbodies: [{name: floor, mesh: floor.stl}]\n\
-        attached: [{name: gun, to: flange, capsule_mm: {from: [0, 0, 0], to: [50, 25, 100], radius: 10}}]\n\
+        attached: [{name: gun, to: flange, capsule_mm: {from: [0, 0, 0], to: [50, 25, 100], \
+            radius: 10}}]\n\
         pairs: [{a: link1, b: floor, allow: true}, {a: link2, b: floor, allow: true}]\n";
     let cell = Cell::from_yaml(cell_text).expect("a cell");
     let meshes: Meshes = [("floor.stl".to_owned(), mesh.clone())].into();

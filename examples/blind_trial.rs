@@ -224,7 +224,8 @@ fn main() {
         let slow = all.iter().map(|t| t.seconds).fold(0.0, f64::max);
         let typical = all.iter().map(|t| t.seconds).sum::<f64>() / all.len() as f64;
         println!(
-            "{:13} {right:4} of {:4} = {:5.1} % (goal {:.0} %)  held-out / noise {mean:.3} (90 %: {tail:.3})  {typical:.2} s, at most {slow:.2} s",
+            "{:13} {right:4} of {:4} = {:5.1} % (goal {:.0} %)  held-out / noise {mean:.3} (90 %: \
+             {tail:.3})  {typical:.2} s, at most {slow:.2} s",
             group.name,
             all.len(),
             100.0 * part,
@@ -247,7 +248,8 @@ fn main() {
             .filter(|t| t.independent && t.right(group))
             .count();
         println!(
-            "              undetermined {undetermined}, errors {failed}; from the independent simulator {second_right} of {second}"
+            "              undetermined {undetermined}, errors {failed}; from the independent \
+             simulator {second_right} of {second}"
         );
         let mut table: BTreeMap<&str, (usize, usize, BTreeMap<String, usize>)> = BTreeMap::new();
         for reported in &all {

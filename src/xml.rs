@@ -219,7 +219,8 @@ mod tests {
 
     #[test]
     fn elements_have_attributes_text_and_a_line() {
-        let text = "\u{feff}<?xml version='1.0'?>\n<!-- <x> -->\n<a n='1 &amp; 2'>\n x&#65;<![CDATA[<]]>\n<b/><c:b>2</c:b></a>\n";
+        let text = "\u{feff}<?xml version='1.0'?>\n<!-- <x> -->\n<a n='1 &amp; 2'>\n \
+            x&#65;<![CDATA[<]]>\n<b/><c:b>2</c:b></a>\n";
         let root = read(text).expect("XML");
         assert_eq!(
             (root.name.as_str(), root.attribute("n")),

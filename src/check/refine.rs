@@ -179,7 +179,8 @@ impl Job<'_> {
         let ends = gap(&first).max(gap(&last));
         if ends > self.limit_m {
             let message = format!(
-                "this move begins or ends {:.3} mm off its wanted path, at a target that stays as it is: no targets are inserted",
+                "this move begins or ends {:.3} mm off its wanted path, at a target that stays as \
+                 it is: no targets are inserted",
                 mm_from_m(ends)
             );
             let hint = "--joint-targets correct shifts joint targets, too";
@@ -240,7 +241,8 @@ impl Job<'_> {
                 shift.distance_m <= limit.distance_m && shift.angle_rad <= limit.angle_rad;
             (!is_within).then(|| {
                 format!(
-                    "a target between would be shifted by {:.3} mm and {:.3} deg, the limit of shifts is {:.3} mm and {:.3} deg \
+                    "a target between would be shifted by {:.3} mm and {:.3} deg, the limit of \
+                     shifts is {:.3} mm and {:.3} deg \
                      (--max-shift)",
                     mm_from_m(shift.distance_m),
                     shift.angle_rad / DEG,
@@ -254,7 +256,8 @@ impl Job<'_> {
     /// No targets can be inserted where they are needed.
     fn failed(&self, motion: usize, whole_m: f64, why: &str) -> Finding {
         let message = format!(
-            "the path of this move is up to {:.3} mm off the wanted one (limit {:.3} mm), and no targets can be inserted: {why}",
+            "the path of this move is up to {:.3} mm off the wanted one (limit {:.3} mm), and no \
+             targets can be inserted: {why}",
             mm_from_m(whole_m),
             mm_from_m(self.limit_m)
         );

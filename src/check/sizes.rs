@@ -42,11 +42,13 @@ pub(super) fn unlikely(profile: &Profile, cell: &Cell, meshes: &Meshes) -> Vec<F
             continue;
         }
         let message = format!(
-            "the mesh of `{name}` is {} mm long if its unit is a millimetre, and {described}: at most {SMALLER} times as much is \
+            "the mesh of `{name}` is {} mm long if its unit is a millimetre, and {described}: at \
+             most {SMALLER} times as much is \
              believed",
             mm(long_m)
         );
-        let hint = "`scale: 1000` next to `mesh` says that the file is in metres, `scale: 1` that it is in millimetres";
+        let hint = "`scale: 1000` next to `mesh` says that the file is in metres, `scale: 1` that \
+            it is in millimetres";
         found.push(Finding::of_file("mesh-unit", Severity::Error, &mesh.file, message).hint(hint));
     }
     found

@@ -391,7 +391,8 @@ impl Compensate {
         match header.outputs.as_slice() {
             [] => {
                 text += &layout::fitted(
-                    "nothing is written: not every target could be compensated (--keep-going leaves those as they are)",
+                    "nothing is written: not every target could be compensated (--keep-going \
+                     leaves those as they are)",
                 );
             }
             _ if output.quiet || self.is_to_stream() => {}

@@ -7,7 +7,8 @@ use crate::task::{Blame, Failure};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 /// How a fault of poseshift itself is reported.
-pub(super) const REPORT_IT: &str = "this is a fault of poseshift, nothing is written: please report it with the line above, the \
+pub(super) const REPORT_IT: &str = "this is a fault of poseshift, nothing is written: please \
+    report it with the line above, the \
                              command, its files, and what `poseshift --version` says";
 
 /// The text for standard error.

@@ -16,9 +16,12 @@ use std::path::{Path, PathBuf};
 /// Turn ballbar lengths into tool poses with uncertainty
 #[derive(Args)]
 #[command(
-    after_help = "LENGTHS: design (e.g. 123/123), b12_mm, b23_mm, b31_mm, t12_mm, t23_mm, t31_mm, r11_mm, r21_mm, r31_mm, \
-r12_mm, r22_mm, r23_mm; optional mode (1 to 4) or a rough pose x_mm, y_mm, z_mm, qw, qx, qy, qz; q1_deg…q6_deg for -o.\nWith --taught: three points \
-and --base-mm give the frame of the base balls. With --reach: the 72 measurable poses and the joints that go there."
+    after_help = "LENGTHS: design (e.g. 123/123), b12_mm, b23_mm, b31_mm, t12_mm, t23_mm, t31_mm, \
+        r11_mm, r21_mm, r31_mm, \
+r12_mm, r22_mm, r23_mm; optional mode (1 to 4) or a rough pose x_mm, y_mm, z_mm, qw, qx, qy, qz; \
+    q1_deg…q6_deg for -o.\nWith --taught: three points \
+and --base-mm give the frame of the base balls. With --reach: the 72 measurable poses and the \
+    joints that go there."
 )]
 pub(super) struct Hexapod {
     /// Lengths, one setting a row

@@ -41,7 +41,8 @@ use std::ffi::OsString;
     arg_required_else_help = true
 )]
 #[command(
-    after_help = "Exit status: 0 done; 1 done, and the answer is no (nothing is written); 2 could not do it; 3 a fault of poseshift itself."
+    after_help = "Exit status: 0 done; 1 done, and the answer is no (nothing is written); 2 could \
+        not do it; 3 a fault of poseshift itself."
 )]
 pub(crate) struct CommandLine {
     #[command(subcommand)]

@@ -14,8 +14,10 @@ use std::path::PathBuf;
 /// Find the rigid transform that maps the points of FROM into TO
 #[derive(Args)]
 #[command(
-    after_help = "Points: CSV with x_mm,y_mm,z_mm; optional id (rows are matched by it), weight or sigma_mm, nx,ny,nz \
-(outward normal).\nFeatures: FROM with feature (point, sphere, hole, plane), several rows of TO with the same id are its \
+    after_help = "Points: CSV with x_mm,y_mm,z_mm; optional id (rows are matched by it), weight or \
+        sigma_mm, nx,ny,nz \
+(outward normal).\nFeatures: FROM with feature (point, sphere, hole, plane), several rows of TO \
+    with the same id are its \
 touches.\nWith --frame one file of touches is enough; 3-2-1 takes a column datum (1, 2, 3)."
 )]
 pub(super) struct Register {

@@ -105,8 +105,15 @@ pub(super) fn tool(text: &str, profile: &Profile) -> Result<(Option<String>, Mou
     });
     let found = found.ok_or_else(|| {
         Failure::with_hint(
-            format!("--tool {text}: `{value}` is neither a tool of the profile nor x,y,z,rx,ry,rz in mm and degrees"),
-            nearest::hint(value, "tools of the profile", profile.tools.keys().map(String::as_str)),
+            format!(
+                "--tool {text}: `{value}` is neither a tool of the profile nor x,y,z,rx,ry,rz \
+                in mm and degrees"
+            ),
+            nearest::hint(
+                value,
+                "tools of the profile",
+                profile.tools.keys().map(String::as_str),
+            ),
         )
     })?;
     Ok((name, found))

@@ -269,7 +269,8 @@ fn unused(job: &Job, target: TargetId) -> Finding {
         "no move in these files uses {}: its tool and work frame are unknown",
         job.ground.name_of(target)
     );
-    let hint = "give the files that use it together, or --tool and --frame for it, or --keep-going to leave it as it is";
+    let hint = "give the files that use it together, or --tool and --frame for it, or --keep-going \
+        to leave it as it is";
     job.ground
         .at_target("target-unused", Severity::Error, target, message, hint)
 }

@@ -22,7 +22,8 @@ pub(super) fn leave(program: &mut Program, sources: &[Source], findings: &mut Ve
         }
         let (line, _) = declared.line_column(target.offset as usize);
         let message = format!(
-            "this move goes to {}, which is declared in {} line {line}: that file is read for its declarations only",
+            "this move goes to {}, which is declared in {} line {line}: that file is read for its \
+             declarations only",
             target
                 .name
                 .as_ref()

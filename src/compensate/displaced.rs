@@ -41,14 +41,16 @@ pub(super) fn check(
             continue;
         };
         let name = ground.name_of(target);
-        let hint = "give the point a target of its own if it must be exact; --max-derived-error raises the limit";
+        let hint = "give the point a target of its own if it must be exact; --max-derived-error \
+            raises the limit";
         let finding = match &motion.displacement {
             Displacement::None => continue,
             Displacement::Unknown => {
                 let near = somehow().filter_map(|shift| landing(job, approach, fake, &shift));
                 let most = near.map(|gap| gap.distance_m).fold(0.0, f64::max);
                 let message = format!(
-                    "a point derived from {name} at run time takes its correction along: up to {:.0} mm from it that is {:.3} mm off \
+                    "a point derived from {name} at run time takes its correction along: up to \
+                     {:.0} mm from it that is {:.3} mm off \
                      (the limit is {:.3} mm)",
                     mm_from_m(SOMEHOW_M),
                     mm_from_m(most),
@@ -66,7 +68,8 @@ pub(super) fn check(
                     .meant(job)
                     .separation(&(ground.placed(approach.frame as usize).nominal * *fake));
                 let message = format!(
-                    "the running program writes numbers over some of a copy of {name}: these lose a correction of {:.3} mm (the limit \
+                    "the running program writes numbers over some of a copy of {name}: these lose \
+                     a correction of {:.3} mm (the limit \
                      is {:.3} mm)",
                     mm_from_m(lost.distance_m),
                     mm_from_m(limit_m)
@@ -97,7 +100,8 @@ pub(super) fn check(
                     Severity::Note
                 };
                 let message = format!(
-                    "a point derived from {name} takes its correction along and lands {:.3} mm off its own wanted pose",
+                    "a point derived from {name} takes its correction along and lands {:.3} mm off \
+                     its own wanted pose",
                     mm_from_m(gap.distance_m)
                 );
                 ground.at_move("displaced-target", severity, motion, message, hint)

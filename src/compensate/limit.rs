@@ -76,14 +76,16 @@ impl Limits {
             None => "ten times what this profile's effects usually do, at most 20 mm and 2 deg",
         };
         let message = format!(
-            "the correction shifts {} by {shift_mm:.3} mm and {shift_deg:.3} deg; the limit is {:.3} mm and {:.3} deg ({whence})",
+            "the correction shifts {} by {shift_mm:.3} mm and {shift_deg:.3} deg; the limit is \
+             {:.3} mm and {:.3} deg ({whence})",
             job.ground.name_of(approach.target as usize),
             mm_from_m(limit.distance_m),
             limit.angle_rad / DEG,
         );
         let asked = |shift: f64, limit: f64| (1.05 * shift.max(limit) * 10.0).ceil() / 10.0;
         let hint = format!(
-            "check the effects of the profile and the tool's load; --max-shift {}mm,{}deg allows it",
+            "check the effects of the profile and the tool's load; --max-shift {}mm,{}deg allows \
+             it",
             asked(shift_mm, mm_from_m(limit.distance_m)),
             asked(shift_deg, limit.angle_rad / DEG),
         );
@@ -184,7 +186,8 @@ pub(super) fn not_finite_finding(job: &Job, approach: &Approach, what: &str) -> 
         Severity::Error,
         target,
         message,
-        "look for a number out of all bounds in the effects, masses and frames of the profile and in the tool",
+        "look for a number out of all bounds in the effects, masses and frames of the profile and \
+         in the tool",
     )
 }
 
@@ -216,8 +219,12 @@ pub(super) fn check_models(ground: &Ground, findings: &mut Vec<Finding>) {
                 "not-finite",
                 Severity::Error,
                 motion,
-                format!("the model of the {name} with tool `{tool}` gives a pose that is not finite"),
-                "look for a number out of all bounds in the effects, masses and frames of the profile and in the tool",
+                format!(
+                    "the model of the {name} with tool `{tool}` gives a pose that is not \
+                    finite"
+                ),
+                "look for a number out of all bounds in the effects, masses and frames of the \
+                 profile and in the tool",
             ));
         }
     }

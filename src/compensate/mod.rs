@@ -173,13 +173,15 @@ pub enum CompensateError {
     Arm(#[from] Unsupported),
     /// There is nothing to correct.
     #[error(
-        "the profile has no effect that moves the tool: the program would be marked as compensated and be the same"
+        "the profile has no effect that moves the tool: the program would be marked as compensated \
+         and be the same"
     )]
     NothingToCorrect,
     /// Not one of several targets can be reached from where the base stands, but from the origin
     /// they can.
     #[error(
-        "none of the {targets} targets is within reach from kinematics.base, which is at ({:.0}, {:.0}, {:.0}) mm; with the base at the \
+        "none of the {targets} targets is within reach from kinematics.base, which is at ({:.0}, \
+         {:.0}, {:.0}) mm; with the base at the \
          origin {in_reach} are",
         base_mm[0], base_mm[1], base_mm[2]
     )]

@@ -26,7 +26,8 @@ pub(super) fn rounding(
         Severity::Error
     };
     let message = format!(
-        "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg off its wanted pose; the limit is 0.010 mm and 0.010 deg (the shift is {:.3} mm, {:.3} deg)",
+        "rounding to the file's decimals leaves {} {:.3} mm and {:.3} deg off its wanted pose; the \
+         limit is 0.010 mm and 0.010 deg (the shift is {:.3} mm, {:.3} deg)",
         job.ground.name_of(approach.target as usize),
         mm_from_m(rounding.distance_m),
         rounding.angle_rad / DEG,
@@ -59,7 +60,8 @@ pub(super) fn corners(job: &Job, approaches: &[Approach]) -> Vec<Finding> {
     }
     let note = |(count, first): &(usize, &Move)| {
         let message = format!(
-            "corners are cut at {count} targets of this file, here first: joints with backlash are taken to come from the side of \
+            "corners are cut at {count} targets of this file, here first: joints with backlash are \
+             taken to come from the side of \
              the programmed path to the target"
         );
         let (id, hint) = ("corner-direction", "stop at targets that must be exact");
@@ -70,7 +72,8 @@ pub(super) fn corners(job: &Job, approaches: &[Approach]) -> Vec<Finding> {
 
 pub(super) fn kept_configuration(job: &Job, approach: &Approach, joint: usize) -> Finding {
     let message = format!(
-        "the correction takes joint {} of {} across the border of its configuration data, which are those of other \
+        "the correction takes joint {} of {} across the border of its configuration data, which \
+         are those of other \
          targets too and stay: a joint move would come out a turn away",
         joint + 1,
         job.ground.name_of(approach.target as usize)
@@ -151,7 +154,8 @@ pub(super) fn failure(job: &Job, approach: &Approach, outcome: &Outcome) -> Find
             let limits = &mechanism.joints[joint];
             let at = outcome.q[joint] / DEG;
             let message = format!(
-                "to reach {name} joint {} must go to {at:.3} deg; its limits are {:.3} to {:.3} deg",
+                "to reach {name} joint {} must go to {at:.3} deg; its limits are {:.3} to {:.3} \
+                 deg",
                 joint + 1,
                 limits.min_rad / DEG,
                 limits.max_rad / DEG
@@ -202,7 +206,8 @@ pub(super) fn singularity(job: &Job, approach: &Approach, outcome: &Outcome) -> 
         return None;
     };
     let message = format!(
-        "{} is {distance} from the {which} singularity: the correction turns a joint by {by:.2} deg",
+        "{} is {distance} from the {which} singularity: the correction turns a joint by {by:.2} \
+         deg",
         job.ground.name_of(approach.target as usize)
     );
     let hint = "the move may be fast there; check it slowly";
@@ -236,7 +241,8 @@ pub(super) fn other_posture(job: &Job, approach: &Approach, outcome: &Outcome) -
         .map(|q| format!("{:.1}", q / DEG))
         .collect();
     let message = format!(
-        "{} is near a singularity, where this arm can have another posture on the same branch: joints {} deg are meant",
+        "{} is near a singularity, where this arm can have another posture on the same branch: \
+         joints {} deg are meant",
         job.ground.name_of(approach.target as usize),
         q.join(", ")
     );

@@ -156,7 +156,8 @@ fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
         each.push(format!("and {more} more"));
     }
     let message = format!(
-        "the robot comes to {} in {} ways that one fake target cannot serve (another tool, work frame, posture, or side from \
+        "the robot comes to {} in {} ways that one fake target cannot serve (another tool, work \
+         frame, posture, or side from \
          which a joint comes); with the best common numbers each would miss by: {}",
         ground.name_of(target),
         group.len(),

@@ -51,7 +51,8 @@ pub(super) fn offers(job: &Job, approach: &Approach) -> Option<String> {
     let mut offers = Vec::new();
     if let Some((_, outcome)) = &answers.flip {
         offers.push(format!(
-            "--at-singularity flip: it lands with joint 5 at {:.3} deg and joint 4 turned by {:.1} deg",
+            "--at-singularity flip: it lands with joint 5 at {:.3} deg and joint 4 turned by {:.1} \
+             deg",
             outcome.q[4] / DEG,
             (outcome.q[JOINT_4] - approach.nominal_q[JOINT_4]).abs() / DEG
         ));
@@ -102,7 +103,8 @@ pub(super) fn settle(
         };
         if let Some(how) = how {
             let message = format!(
-                "{} is at the wrist's singularity, where the real arm has no posture on the meant side; {how}",
+                "{} is at the wrist's singularity, where the real arm has no posture on the meant \
+                 side; {how}",
                 job.ground.name_of(approach.target as usize)
             );
             findings.push(job.ground.at_target(

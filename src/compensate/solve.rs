@@ -90,7 +90,8 @@ fn tell_unknown(job: &Job, approaches: &[Approach], findings: &mut Vec<Finding>)
         };
         let apart = from(-1.0).separation(&from(1.0)).distance_m;
         let message = format!(
-            "nothing says from which side joint {} with backlash comes to {}: it is taken to stand in the middle, and the tool may \
+            "nothing says from which side joint {} with backlash comes to {}: it is taken to stand \
+             in the middle, and the tool may \
              be {:.3} mm off",
             joints.join(", "),
             ground.name_of(approach.target as usize),
@@ -257,7 +258,8 @@ fn unsettled(job: &Job, approach: &Approach, direction: [i8; 6]) -> Finding {
         .shape
         == Shape::Pose;
     let message = format!(
-        "from which side a joint comes to {} depends on the correction itself: the {} may be off by {:.3} mm",
+        "from which side a joint comes to {} depends on the correction itself: the {} may be off \
+         by {:.3} mm",
         ground.name_of(approach.target as usize),
         if is_pose { "tool" } else { "joint target" },
         mm_from_m(a.separation(&b).distance_m)

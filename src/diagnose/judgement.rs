@@ -252,7 +252,8 @@ fn objections(
     reasons.extend(outdone(attempt, found));
     if let Some(series) = series(attempt, found) {
         reasons.push(format!(
-            "{} effects at joint {} are functions of its angle alone: together they may imitate one that is not known",
+            "{} effects at joint {} are functions of its angle alone: together they may imitate \
+             one that is not known",
             series.members.len(),
             series.joint + 1
         ));
@@ -283,7 +284,8 @@ fn objections(
     reasons.extend(pushing(&attempt.refit));
     if found.is_empty() && nobody_knows(attempt) {
         reasons.push(format!(
-            "nothing states the noise, and {:.0} numbers beyond what is fitted are too few to tell it: state sigma_mm or repeat poses",
+            "nothing states the noise, and {:.0} numbers beyond what is fitted are too few to tell \
+             it: state sigma_mm or repeat poses",
             attempt.refit.fit.freedom
         ));
     }
@@ -308,7 +310,8 @@ fn pushing(refit: &Refit) -> Vec<String> {
         let parameter = &effect.definition().parameters[beyond.slot.parameter];
         let value = effect.parameters[beyond.slot.parameter] / parameter.unit.in_si();
         format!(
-            "{} fits the measurements with {} = {value:.2e}, {:.0} standard deviations below zero: no spring is like that, \
+            "{} fits the measurements with {} = {value:.2e}, {:.0} standard deviations below zero: \
+             no spring is like that, \
              something else is missing or the masses are wrong",
             effect.label(),
             parameter.key,
@@ -335,10 +338,12 @@ fn outdone(attempt: &Attempt, found: &[Found]) -> Vec<String> {
         );
         match of.len() {
             1 => format!(
-                "{label} looks like the answer among the effects known, but {name} explains more ({against})"
+                "{label} looks like the answer among the effects known, but {name} explains more \
+                 ({against})"
             ),
             n => format!(
-                "{label} and {} more look like answers among the effects known, but {name} explains more than each ({against})",
+                "{label} and {} more look like answers among the effects known, but {name} \
+                 explains more than each ({against})",
                 n - 1
             ),
         }

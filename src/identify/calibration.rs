@@ -527,7 +527,8 @@ fn refuse_other_world(profile: &Profile, base: &Pose) -> Result<(), IdentifyErro
     }
     Err(IdentifyError::Suspicious {
         message: format!(
-            "the base is {:.1} mm and {:.1} deg from where the profile has it, and `external_axes` of the profile stand in the profile's world",
+            "the base is {:.1} mm and {:.1} deg from where the profile has it, and `external_axes` \
+             of the profile stand in the profile's world",
             mm_from_m(far),
             turned / DEG
         ),

@@ -276,10 +276,12 @@ pub(super) fn candidates_where(
             if draws > DRAWS * (found.len() + 1) {
                 return Err(IdentifyError::Suspicious {
                     message: format!(
-                        "of {draws} random configurations {} meet the constraints; {count} are needed",
+                        "of {draws} random configurations {} meet the constraints; {count} are \
+                         needed",
                         found.len()
                     ),
-                    hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates; shapes of the profile that touch \
+                    hint: "a larger box, fewer keep-outs, a wider cone, or fewer --candidates; \
+                        shapes of the profile that touch \
                            wherever the arm is are too large"
                         .into(),
                 });

@@ -38,7 +38,9 @@ impl SelectionError {
     pub fn hint(&self) -> String {
         match self {
             Self::UnknownEffect { id } => nearest::hint(id, "names", super::parameters::words()),
-            _ => "`poseshift effects` lists every effect with its parameters; write joint_compliance:2-6 or link_geometry:3.beta_deg".into(),
+            _ => "`poseshift effects` lists every effect with its parameters; write \
+                joint_compliance:2-6 or link_geometry:3.beta_deg"
+                .into(),
         }
     }
 }
@@ -98,7 +100,8 @@ pub enum IdentifyError {
     },
     /// A point far from all others.
     #[error(
-        "{line}: the point is {away_mm:.0} mm from the middle of the others, of which half are within {half_mm:.0} mm; the limit is {FAR_OFF} times as far"
+        "{line}: the point is {away_mm:.0} mm from the middle of the others, of which half are \
+         within {half_mm:.0} mm; the limit is {FAR_OFF} times as far"
     )]
     FarOff {
         /// Which row.
@@ -137,7 +140,8 @@ pub enum IdentifyError {
     NoParameters,
     /// The iteration did not come to rest.
     #[error(
-        "not solved after {passes} passes: the last step was {step:.2e} of the typical size, the limit is {limit:.0e}"
+        "not solved after {passes} passes: the last step was {step:.2e} of the typical size, the \
+         limit is {limit:.0e}"
     )]
     NotConverged {
         /// Passes over the data.
@@ -155,18 +159,35 @@ impl IdentifyError {
     pub fn hint(&self) -> String {
         match self {
             Self::UnknownTool { tool, known, .. } if known.is_empty() => {
-                format!("write it under `tools` of the profile: `{tool}: {{frame: {{x_mm: …, rz_deg: …}}}}`; or leave the column tool out and points are on the flange")
+                format!(
+                    "write it under `tools` of the profile: `{tool}: {{frame: {{x_mm: …, \
+                    rz_deg: …}}}}`; or leave the column tool out and points are on the flange"
+                )
             }
-            Self::UnknownTool { tool, known, .. } => {
-                nearest::hint(tool, "tools of the profile", known.iter().map(String::as_str))
-            }
+            Self::UnknownTool { tool, known, .. } => nearest::hint(
+                tool,
+                "tools of the profile",
+                known.iter().map(String::as_str),
+            ),
             Self::AmbiguousTool { .. } => "add a column tool".into(),
-            Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or --fix".into(),
+            Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or \
+                --fix"
+                .into(),
             Self::Suspicious { hint, .. } => hint.clone(),
-            Self::FarOff { .. } => "is a decimal point lost, or is the row in another unit? correct it or leave it out".into(),
-            Self::NoStart { .. } => "measure at least 5 configurations in which every joint moves; or give the base in the profile".into(),
-            Self::Feature { .. } => "touch it more often and farther apart, or give its numbers: cx_mm,cy_mm,cz_mm, radius_mm, nx,ny,nz".into(),
-            Self::NotConverged { .. } => "identify less (--level 1 first), or look at the rows with the largest residuals".into(),
+            Self::FarOff { .. } => "is a decimal point lost, or is the row in another unit? \
+                correct it or leave it out"
+                .into(),
+            Self::NoStart { .. } => {
+                "measure at least 5 configurations in which every joint moves; \
+                or give the base in the profile"
+                    .into()
+            }
+            Self::Feature { .. } => "touch it more often and farther apart, or give its numbers: \
+                cx_mm,cy_mm,cz_mm, radius_mm, nx,ny,nz"
+                .into(),
+            Self::NotConverged { .. } => "identify less (--level 1 first), or look at the rows \
+                with the largest residuals"
+                .into(),
             _ => String::new(),
         }
     }

@@ -93,11 +93,13 @@ pub fn agree(measurements: &Measurements, profile: &Profile) -> Result<(), Ident
         let Some(axis) = axes.get(k) else {
             if measurements.rows.iter().any(stood(k)) {
                 let message = format!(
-                    "the measurements have a column {}, and `external_axes` of the profile lists {} axes",
+                    "the measurements have a column {}, and `external_axes` of the profile lists \
+                     {} axes",
                     found.unwrap_or(mm),
                     axes.len()
                 );
-                let hint = "describe the axis under `external_axes` (`poseshift profile add-track`), or leave the column out";
+                let hint = "describe the axis under `external_axes` (`poseshift profile \
+                    add-track`), or leave the column out";
                 return Err(refused(message, hint));
             }
             continue;
@@ -120,7 +122,8 @@ pub fn agree(measurements: &Measurements, profile: &Profile) -> Result<(), Ident
                 described(k),
                 row.line
             );
-            let hint = "say where the axis stood in every row; where it was locked at its zero, measure with a profile without `external_axes`";
+            let hint = "say where the axis stood in every row; where it was locked at its zero, \
+                measure with a profile without `external_axes`";
             return Err(refused(message, hint));
         }
     }

@@ -81,7 +81,8 @@ pub enum MeasurementFault {
     #[error("no rows")]
     NoRows,
     /// A cell that is no finite number.
-    #[error("column {column}: {} is not a finite number", if found.is_empty() { "an empty cell".to_owned() } else { format!("`{found}`") })]
+    #[error("column {column}: {} is not a finite number", if found.is_empty() { "an empty \
+        cell".to_owned() } else { format!("`{found}`") })]
     NotFinite {
         /// The column.
         column: &'static str,
@@ -123,7 +124,8 @@ pub enum MeasurementFault {
         earlier: usize,
     },
     /// A row with both a position and a distance, or with neither.
-    #[error("the row has {} a position and a distance; it must have one of them", if *both { "both" } else { "neither" })]
+    #[error("the row has {} a position and a distance; it must have one of \
+        them", if *both { "both" } else { "neither" })]
     Kind {
         /// Both, or neither.
         both: bool,
@@ -152,22 +154,32 @@ impl MeasurementError {
                 hint.join(" ")
             }
             MeasurementFault::NotFinite { found, .. } if found.contains(',') => {
-                "decimals have a comma or a point, all of a file the same, and thousands have no sign".into()
+                "decimals have a comma or a point, all of a file the same, and thousands have no \
+                 sign"
+                    .into()
             }
             MeasurementFault::NotFinite { .. } => {
-                "leave the row out where it was not measured, or all cells of the kind that was not".into()
+                "leave the row out where it was not measured, or all cells of the kind that was \
+                 not"
+                .into()
             }
             MeasurementFault::NotUnit { .. } => {
                 "qw,qx,qy,qz, the scalar first; angles are read with --euler".into()
             }
             MeasurementFault::TooLarge { .. } => {
-                "is a decimal point lost, or is it an error code of the device? correct the number or leave the row out".into()
+                "is a decimal point lost, or is it an error code of the device? correct the number \
+                 or leave the row out"
+                    .into()
             }
             MeasurementFault::Kind { .. } => {
-                "leave the cells of the other kind empty: x_mm,y_mm,z_mm or distance_mm,from_x_mm,from_y_mm,from_z_mm".into()
+                "leave the cells of the other kind empty: x_mm,y_mm,z_mm or \
+                 distance_mm,from_x_mm,from_y_mm,from_z_mm"
+                    .into()
             }
             MeasurementFault::Contradiction { .. } => {
-                "one name is one feature: the same contact, cx_mm,cy_mm,cz_mm, radius_mm and nx,ny,nz in every row, or empty cells".into()
+                "one name is one feature: the same contact, cx_mm,cy_mm,cz_mm, radius_mm and \
+                 nx,ny,nz in every row, or empty cells"
+                    .into()
             }
             _ => String::new(),
         }

@@ -260,14 +260,19 @@ fn stations(
     let c = &request.constraints;
     if c.inside.is_some() || !c.keep_out.is_empty() || c.sight.is_some() {
         return Err(IdentifyError::Suspicious {
-            message: "boxes of the world and the place of the device are not minded where a track carries the base".into(),
-            hint: "leave them out and look where the plan goes, or plan each place of the rail with a profile that stands there and has no `external_axes`".into(),
+            message: "boxes of the world and the place of the device are not minded where a track \
+                carries the base"
+                .into(),
+            hint: "leave them out and look where the plan goes, or plan each place of the rail \
+                with a profile that stands there and has no `external_axes`"
+                .into(),
         });
     }
     if request.stations < 2 || given != request.given_stands.len() {
         return Err(IdentifyError::Suspicious {
             message: format!(
-                "{} places along the track, and {} of {given} given configurations say where they are: at least 2 places, and all",
+                "{} places along the track, and {} of {given} given configurations say where they \
+                 are: at least 2 places, and all",
                 request.stations,
                 request.given_stands.len()
             ),

@@ -375,7 +375,8 @@ impl Problem {
             if effect.kind == Kind::ComplianceKnee && effect.parameters[0] == 0.0 {
                 return Err(IdentifyError::Missing {
                     id: definition.id,
-                    need: "a torque_n_m in the profile to begin with (`poseshift diagnose` searches it)",
+                    need: "a torque_n_m in the profile to begin with (`poseshift diagnose` \
+                        searches it)",
                 });
             }
             let asked = selection

@@ -50,7 +50,8 @@ impl Stop {
     pub fn describe(self) -> String {
         match self {
             Self::Step(step) => format!(
-                "the last step was {step:.1e} of the parameters' typical sizes (limit {STEP_LIMIT:.0e})"
+                "the last step was {step:.1e} of the parameters' typical sizes (limit \
+                 {STEP_LIMIT:.0e})"
             ),
             Self::Fall(part) => {
                 format!("the sum of squares fell by {part:.1e} of itself (limit {FALL_LIMIT:.0e})")

@@ -63,10 +63,12 @@ impl Refit {
         match self {
             Self::No => None,
             Self::Judged => Some(
-                "Base, tool and points were fitted to these rows first, of the controller's model too.",
+                "Base, tool and points were fitted to these rows first, of the controller's model \
+                 too.",
             ),
             Self::Others => Some(
-                "Base, tool and points were fitted to the rows not marked for `validate`, of the controller's model too.",
+                "Base, tool and points were fitted to the rows not marked for `validate`, of the \
+                 controller's model too.",
             ),
         }
     }

@@ -44,7 +44,8 @@ pub enum RowsError {
     },
     /// Nothing of this arm.
     #[error(
-        "{key} of row {row} differs by {found:.3} {unit} from the nominal one, more than {limit} {unit}"
+        "{key} of row {row} differs by {found:.3} {unit} from the nominal one, more than {limit} \
+         {unit}"
     )]
     TooDifferent {
         /// Which number.

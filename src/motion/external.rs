@@ -294,7 +294,8 @@ impl Settler<'_> {
             Ok(positioner) => positioner,
             Err(_) if of_joints => None,
             Err((id, why)) => {
-                let hint = "describe it under `external_axes` of the profile (positioners: name, axes with at, limits; see docs/external-axes.md)";
+                let hint = "describe it under `external_axes` of the profile (positioners: name, \
+                    axes with at, limits; see docs/external-axes.md)";
                 return self.block(at, id, &why, hint);
             }
         };
@@ -386,7 +387,8 @@ impl Settler<'_> {
         self.measured[axis] = None;
         let [value, low, high] = [value, low, high].map(|m| (mm_from_m(m) * 1e3).round() / 1e3);
         let message = format!(
-            "external axis {} goes to {value} mm; its rail was measured from {low} to {high} mm, and powers say nothing beyond",
+            "external axis {} goes to {value} mm; its rail was measured from {low} to {high} mm, \
+             and powers say nothing beyond",
             self.axes[axis].name()
         );
         let hint = "measure the rail as far as programs use it";
@@ -410,10 +412,12 @@ impl Settler<'_> {
         let source = &self.sources[file as usize];
         let (line, _) = source.line_column(offset as usize);
         let why = format!(
-            "external axis {name} does not follow targets since line {line} of {}, and nothing says where it stands",
+            "external axis {name} does not follow targets since line {line} of {}, and nothing \
+             says where it stands",
             source.name
         );
-        let hint = "activate its unit before the move; a unit that carries nothing a pose depends on stands in `other:` under `external_axes` of the profile";
+        let hint = "activate its unit before the move; a unit that carries nothing a pose depends \
+            on stands in `other:` under `external_axes` of the profile";
         (why, hint)
     }
 
@@ -421,7 +425,8 @@ impl Settler<'_> {
     fn tell_direction(&mut self, at: usize, axis: usize) {
         let motion = &self.program.moves[at];
         let message = format!(
-            "nothing says from which side external axis {} with backlash comes here: it is taken to stand in the middle",
+            "nothing says from which side external axis {} with backlash comes here: it is taken \
+             to stand in the middle",
             self.axes[axis].name()
         );
         let hint = "come to the target on a move that is certainly before it, from another value";
@@ -472,7 +477,8 @@ fn carrier(
         Some(at) if external.positioners[at].follows == Follows::Never => Err((
             "positioner-unknown",
             format!(
-                "the unit `{name}` carries the work frame, and the profile says `follows: never` of it"
+                "the unit `{name}` carries the work frame, and the profile says `follows: never` \
+                 of it"
             ),
         )),
         Some(at) => Ok(Some(at)),

@@ -29,7 +29,8 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
             let off = tool.flange_from_tool.translation;
             let largest = off.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
             let message = format!(
-                "{named} is {} mm from the flange at most in each coordinate; below 1 mm the limit is reached where metres are \
+                "{named} is {} mm from the flange at most in each coordinate; below 1 mm the limit \
+                 is reached where metres are \
                  taken for millimetres",
                 (mm_from_m(largest) * 1e6).round() / 1e6
             );
@@ -38,7 +39,8 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
                 severity,
                 motion,
                 message,
-                "write it in the unit of the language (mm; metres in URScript), or 0 for the flange itself",
+                "write it in the unit of the language (mm; metres in URScript), or 0 for the \
+                 flange itself",
             ));
         }
         let (payload, load) = (ground.profile.payload_kg, tool.load);
@@ -49,7 +51,10 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
                 "load-beyond-payload",
                 severity,
                 motion,
-                format!("the load of {named} is {mass_kg} kg; robot.payload_kg of the profile is {payload} kg"),
+                format!(
+                    "the load of {named} is {mass_kg} kg; robot.payload_kg of the profile is \
+                    {payload} kg"
+                ),
                 "masses are in kg; correct the load, or robot.payload_kg",
             ));
         }

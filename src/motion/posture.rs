@@ -116,7 +116,8 @@ pub(super) fn choose(
         .join(", ");
     if start.is_some() {
         let message = format!(
-            "no solution at {name} has the configuration that the file gives; the one nearest to the target before is taken \
+            "no solution at {name} has the configuration that the file gives; the one nearest to \
+             the target before is taken \
              (joints {shown} deg)"
         );
         let hint =
@@ -131,7 +132,8 @@ pub(super) fn choose(
         return nearest(&|_| true);
     }
     let message = format!(
-        "no solution at {name} has the configuration that the file gives, and no target before tells how the robot comes here \
+        "no solution at {name} has the configuration that the file gives, and no target before \
+         tells how the robot comes here \
          (nearest: joints {shown} deg)"
     );
     let hint =
@@ -203,7 +205,8 @@ fn unclear(ground: &Ground, target: TargetId, ambiguous: &Ambiguous) -> Finding 
     };
     let candidates: Vec<String> = ambiguous.candidates.iter().map(joints).collect();
     let message = format!(
-        "{} postures at {} have the configuration that the file gives, and no straight path from a target before leads to one of \
+        "{} postures at {} have the configuration that the file gives, and no straight path from a \
+         target before leads to one of \
          them (joints {} deg)",
         candidates.len(),
         ground.name_of(target),
@@ -221,7 +224,8 @@ fn unclear(ground: &Ground, target: TargetId, ambiguous: &Ambiguous) -> Finding 
 /// Neither the file nor the move before tells the posture.
 fn assumed(ground: &Ground, target: TargetId, posture: &Posture) -> Finding {
     let message = format!(
-        "neither configuration data nor a move before tell in which posture the robot comes to {}: joints {} deg are assumed",
+        "neither configuration data nor a move before tell in which posture the robot comes to {}: \
+         joints {} deg are assumed",
         ground.name_of(target),
         posture.q.map(|q| format!("{:.1}", q / DEG)).join(", ")
     );
@@ -358,7 +362,8 @@ fn out_of_reach(
         let joint = arm.mechanism().beyond_limit(&q, LIMIT_RAD).unwrap_or(0);
         let limits = &arm.mechanism().joints[joint];
         format!(
-            "{} is reachable on no branch within the joint limits (nearest: joint {} at {:.2} deg, limits {:.2} to {:.2})",
+            "{} is reachable on no branch within the joint limits (nearest: joint {} at {:.2} deg, \
+             limits {:.2} to {:.2})",
             ground.name_of(*target),
             joint + 1,
             q[joint] / DEG,
@@ -385,7 +390,8 @@ fn elsewhere(ground: &Ground, asked: &Asked, near: &[f64; 6]) -> Option<String> 
     Branch::ALL.into_iter().any(reaches).then(|| {
         let [x, y, z] = base.translation.map(mm_from_m);
         format!(
-            "with the base at the origin it is within reach: kinematics.base of the profile is at ({x:.0}, {y:.0}, {z:.0}) mm"
+            "with the base at the origin it is within reach: kinematics.base of the profile is at \
+             ({x:.0}, {y:.0}, {z:.0}) mm"
         )
     })
 }

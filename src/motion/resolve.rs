@@ -525,7 +525,8 @@ impl Resolver<'_, '_> {
             return;
         }
         let message = format!(
-            "from here on moves to elements of arrays are not checked: there are more than {MOST_USES}"
+            "from here on moves to elements of arrays are not checked: there are more than \
+             {MOST_USES}"
         );
         let hint = "give fewer files in one call";
         let severity = Severity::Error;
@@ -578,7 +579,8 @@ impl Resolver<'_, '_> {
     }
 
     fn computed(&mut self, place: Place) {
-        let message = "the position that this move goes to is known at run time only; the move stays as it is";
+        let message = "the position that this move goes to is known at run time only; the move \
+            stays as it is";
         let hint = "write the position with numbers where it must be exact";
         let severity = Severity::Warning;
         self.report
@@ -834,7 +836,8 @@ impl Resolver<'_, '_> {
             self.report.block(
                 target,
                 "frame-chosen-at-run-time",
-                "a routine that is not in the files is called and may set another tool or work frame",
+                "a routine that is not in the files is called and may set another tool or work \
+                 frame",
                 "give the file with the routine too, or set both behind the call",
                 because,
             );
@@ -855,7 +858,8 @@ impl Resolver<'_, '_> {
                 target,
                 "target-assigned-at-run-time",
                 "the running program changes this target; it stays as it is",
-                "correct the value where the program computes it, or keep the target out of the path",
+                "correct the value where the program computes it, or keep the target out of the \
+                 path",
                 because,
             );
         }
@@ -878,8 +882,10 @@ impl Resolver<'_, '_> {
             self.report.block(
                 target as usize,
                 "target-passed-to-routine",
-                "this target is given to a routine that is not in the files, which may use it with any tool and work frame",
-                "give the file with the routine too, or move to the target where its tool and work frame are named",
+                "this target is given to a routine that is not in the files, which may use it with \
+                 any tool and work frame",
+                "give the file with the routine too, or move to the target where its tool and work \
+                 frame are named",
                 because,
             );
         }
@@ -890,7 +896,8 @@ impl Resolver<'_, '_> {
             self.report.block(
                 target as usize,
                 "too-many-uses",
-                "a move may go to this and to so many other targets that they are not distinguished",
+                "a move may go to this and to so many other targets that they are not \
+                 distinguished",
                 "give fewer files in one call",
                 None,
             );
@@ -966,7 +973,8 @@ impl Resolver<'_, '_> {
             };
             if said.insert(variable) {
                 let message = format!(
-                    "nothing in the files calls the routine that writes {} here: other routines are taken to have what is declared",
+                    "nothing in the files calls the routine that writes {} here: other routines \
+                     are taken to have what is declared",
                     of.name
                 );
                 let hint = "give the file that calls it too";

@@ -30,7 +30,8 @@ pub struct Given {
 pub enum MeasuredFrameError {
     /// The program has another value.
     #[error(
-        "the program declares work frame `{name}` {distance_mm:.4} mm and {angle_deg:.5} deg from the measured one"
+        "the program declares work frame `{name}` {distance_mm:.4} mm and {angle_deg:.5} deg from \
+         the measured one"
     )]
     Conflict {
         /// Its name.
@@ -56,7 +57,8 @@ impl MeasuredFrameError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Conflict { .. } => {
-                "write the measured frame into the program and controller, and leave --wobj out; or keep the declared frame and give the part's displacement with --work-offset"
+                "write the measured frame into the program and controller, and leave --wobj out; \
+                 or keep the declared frame and give the part's displacement with --work-offset"
             }
             Self::Unused { .. } => "names are as the program writes them",
         }
@@ -103,7 +105,8 @@ pub enum GivenError {
     },
     /// The files tell it themselves.
     #[error(
-        "{option} {name}: the files define {what} `{name}` themselves, and the controller computes with that"
+        "{option} {name}: the files define {what} `{name}` themselves, and the controller computes \
+         with that"
     )]
     Defined {
         /// The option.
@@ -207,7 +210,8 @@ impl Missing {
             );
         }
         format!(
-            "neither the program files nor the profile nor the command line say where {what} `{name}` is"
+            "neither the program files nor the profile nor the command line say where {what} \
+             `{name}` is"
         )
     }
 

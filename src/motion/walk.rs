@@ -457,10 +457,12 @@ impl Walker<'_, '_> {
         if motion.configured && !posture::holds(configuration, branch, &q) {
             let shown = q.map(|q| format!("{:.1}", q / DEG)).join(", ");
             let mut message = format!(
-                "the path to {} ends in another configuration than the file gives (joints {shown} deg)",
+                "the path to {} ends in another configuration than the file gives (joints {shown} \
+                 deg)",
                 ground.name_of(target)
             );
-            let hint = "check the configuration data, and that robot, tool and frame are those of the program";
+            let hint = "check the configuration data, and that robot, tool and frame are those of \
+                the program";
             let (id, severity) = if self.walk_options.strict {
                 (CONFIGURATION_CHANGE, Severity::Error)
             } else {
@@ -555,7 +557,8 @@ impl Walker<'_, '_> {
                 "an angle of {shown} in {what} of {}; the limit is {limit:.3}",
                 ground.name_of(target),
             ),
-            "is it in the unit of the language (radians in URScript, else degrees)? write angles of a few rotations at most",
+            "is it in the unit of the language (radians in URScript, else degrees)? write angles \
+             of a few rotations at most",
         ));
     }
 }

@@ -106,7 +106,8 @@ pub enum AxesError {
         error: FeatureError,
     },
     /// Another joint moves.
-    #[error("sweep of joint {joint}: joint {other} moves too, by {moved_deg:.4} deg (limit {limit_deg:.4} deg){}", coupling_hint(*.coupled))]
+    #[error("sweep of joint {joint}: joint {other} moves too, by {moved_deg:.4} deg (limit \
+        {limit_deg:.4} deg){}", coupling_hint(*.coupled))]
     Moves {
         /// From 1.
         joint: usize,
@@ -121,7 +122,8 @@ pub enum AxesError {
     },
     /// The swept joint hardly moves.
     #[error(
-        "sweep of joint {joint}: it turns by {turned_deg:.3} deg only (limit {limit_deg:.1} deg); is the column sweep right, and are the angles in degrees?"
+        "sweep of joint {joint}: it turns by {turned_deg:.3} deg only (limit {limit_deg:.1} deg); \
+         is the column sweep right, and are the angles in degrees?"
     )]
     Short {
         /// From 1.
@@ -133,7 +135,8 @@ pub enum AxesError {
     },
     /// Measured and commanded angles do not belong together.
     #[error(
-        "sweep of joint {joint}: the points turn by {measured_deg:.2} deg where the joint turns by {commanded_deg:.2} deg: angles in radians, another joint, or rows in another order"
+        "sweep of joint {joint}: the points turn by {measured_deg:.2} deg where the joint turns by \
+         {commanded_deg:.2} deg: angles in radians, another joint, or rows in another order"
     )]
     Unlike {
         /// From 1.
@@ -145,7 +148,8 @@ pub enum AxesError {
     },
     /// Sweeps that should share a posture do not.
     #[error(
-        "sweeps of joints {first} and {second} differ in joint {other} by {gap_deg:.4} deg: both must be made in one posture"
+        "sweeps of joints {first} and {second} differ in joint {other} by {gap_deg:.4} deg: both \
+         must be made in one posture"
     )]
     Posture {
         /// From 1.
@@ -171,7 +175,8 @@ pub enum AxesError {
 
 fn coupling_hint(coupled: bool) -> &'static str {
     if coupled {
-        ": the controller's angle counts the swept joint in; command it so that the mechanical joint stands still"
+        ": the controller's angle counts the swept joint in; command it so that the mechanical \
+         joint stands still"
     } else {
         ""
     }

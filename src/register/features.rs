@@ -28,7 +28,8 @@ pub enum FeatureError {
     },
     /// Touches that do not spread in enough directions.
     #[error(
-        "the touches of the {shape} lie in a {lie}: they extend across it by {across:.1e} of their length (limit {limit:.0e})"
+        "the touches of the {shape} lie in a {lie}: they extend across it by {across:.1e} of their \
+         length (limit {limit:.0e})"
     )]
     Flat {
         /// What was to be fitted.

@@ -171,7 +171,8 @@ impl Frame {
         let t = self.to_from_from.translation.map(mm_from_m);
         let q = self.to_from_from.rotation.quaternion().0;
         let mut text = format!(
-            "poseshift: {FORMAT}\npose: {{x_mm: {}, y_mm: {}, z_mm: {}, quaternion: [{}, {}, {}, {}]}}\n",
+            "poseshift: {FORMAT}\npose: {{x_mm: {}, y_mm: {}, z_mm: {}, quaternion: [{}, {}, {}, \
+             {}]}}\n",
             t[0], t[1], t[2], q[0], q[1], q[2], q[3]
         );
         let ok = "a string takes all text";
@@ -180,7 +181,8 @@ impl Frame {
             let r = sigma.rotation_rad.map(|r| r / DEG);
             writeln!(
                 text,
-                "sigma: {{x_mm: {:.6}, y_mm: {:.6}, z_mm: {:.6}, rx_deg: {:.7}, ry_deg: {:.7}, rz_deg: {:.7}}}",
+                "sigma: {{x_mm: {:.6}, y_mm: {:.6}, z_mm: {:.6}, rx_deg: {:.7}, ry_deg: {:.7}, \
+                 rz_deg: {:.7}}}",
                 p[0], p[1], p[2], r[0], r[1], r[2]
             )
             .expect(ok);

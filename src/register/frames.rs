@@ -47,7 +47,8 @@ pub enum FrameError {
     },
     /// Points and planes that leave a motion open.
     #[error(
-        "points and planes leave a motion free: {motion} (smallest singular value {smallest:.1e} of the largest)"
+        "points and planes leave a motion free: {motion} (smallest singular value {smallest:.1e} \
+         of the largest)"
     )]
     Free {
         /// Which motion.

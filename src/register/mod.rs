@@ -73,7 +73,8 @@ pub enum RegisterError {
     },
     /// Points in a line.
     #[error(
-        "collinear: {set} extends across its line by {across:.1e} of its length (limit {limit:.0e}); the turn about the line is not determined"
+        "collinear: {set} extends across its line by {across:.1e} of its length (limit \
+         {limit:.0e}); the turn about the line is not determined"
     )]
     Collinear {
         /// Which set.
@@ -85,7 +86,8 @@ pub enum RegisterError {
     },
     /// Points that have nothing to do with each other.
     #[error(
-        "the sets are unlike each other: no rotation relates them (correlation across the main direction {across:.1e}); are the rows in the same order?"
+        "the sets are unlike each other: no rotation relates them (correlation across the main \
+         direction {across:.1e}); are the rows in the same order?"
     )]
     Unlike {
         /// Ratio of singular values of the correlation.
@@ -99,7 +101,8 @@ pub enum RegisterError {
     },
     /// A mirror image.
     #[error(
-        "mirrored: TO is a mirror image of FROM (rigid rmsd {rigid_mm:.3} mm, mirrored {mirrored_mm:.3} mm)"
+        "mirrored: TO is a mirror image of FROM (rigid rmsd {rigid_mm:.3} mm, mirrored \
+         {mirrored_mm:.3} mm)"
     )]
     Mirrored {
         /// What the best rotation leaves, mm.
@@ -139,7 +142,8 @@ impl RegisterError {
             Self::Collinear { .. } => "measure at least one more point well off the line",
             Self::Coincident { .. } => "are the coordinates in metres? files are in mm",
             Self::Mirrored { .. } => {
-                "one of the sets has an axis turned round, or two coordinates swapped: check the measuring device's frame"
+                "one of the sets has an axis turned round, or two coordinates swapped: check the \
+                 measuring device's frame"
             }
             Self::Units { .. } => "files are in mm; convert the other set",
             Self::NoAgreement { .. } => "check that the rows of the files belong together",

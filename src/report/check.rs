@@ -72,7 +72,8 @@ pub(crate) fn text(found: &Checked) -> String {
     }
     if let Some(least) = min_clearance_mm {
         lines.push(format!(
-            "  clearance      never less than {least:.3} mm; {collisions} moves touch something, {too_near} come too near"
+            "  clearance      never less than {least:.3} mm; {collisions} moves touch something, \
+             {too_near} come too near"
         ));
         if nominal_collisions > 0 {
             lines.push(format!(

@@ -37,7 +37,8 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
     }
     if compensated > 0 {
         lines.push(format!(
-            "  real tool off by  mean {before_mm:.3} mm, largest {max_before_mm:.3} mm before; mean {after_mm:.4} mm, largest {max_rounding_mm:.4} mm after"
+            "  real tool off by  mean {before_mm:.3} mm, largest {max_before_mm:.3} mm before; \
+             mean {after_mm:.4} mm, largest {max_rounding_mm:.4} mm after"
         ));
         lines.push(format!(
             "  shift     mean {mean_shift_mm:.3} mm, largest {max_shift_mm:.3} mm"
@@ -46,7 +47,8 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
             "  residual  largest {max_residual_mm:.1e} mm (of the search)"
         ));
         lines.push(format!(
-            "  rounding  largest {max_rounding_mm:.4} mm, {max_rounding_deg:.4} deg (what the file's decimals cost)"
+            "  rounding  largest {max_rounding_mm:.4} mm, {max_rounding_deg:.4} deg (what the \
+             file's decimals cost)"
         ));
     }
     let MethodCounts { pose_shift, newton } = methods;

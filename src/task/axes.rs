@@ -193,7 +193,8 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
 
 fn left_out(outlier: &Outlier, joint: usize, line: usize, name: &str) -> Finding {
     let message = format!(
-        "left out: {:.3} mm from where the other rows of joint {}'s sweep have it; they are off by {:.4} mm (rms)",
+        "left out: {:.3} mm from where the other rows of joint {}'s sweep have it; they are off by \
+         {:.4} mm (rms)",
         mm_from_m(outlier.off_m),
         joint + 1,
         mm_from_m(outlier.others_m)

@@ -237,7 +237,8 @@ pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
 fn weak_rotation(problem: &Problem, name: &str) -> Option<Finding> {
     (problem.spread_rad[1] < WEAK_RAD).then(|| {
         let message = format!(
-            "the poses rotate by {:.2} deg only about the second direction: above {:.0} deg is well",
+            "the poses rotate by {:.2} deg only about the second direction: above {:.0} deg is \
+             well",
             problem.spread_rad[1] / DEG,
             WEAK_RAD / DEG
         );
@@ -249,7 +250,8 @@ fn weak_rotation(problem: &Problem, name: &str) -> Option<Finding> {
 fn not_accepted(corners: &Refinement, name: &str) -> Option<Finding> {
     (!corners.accepted).then(|| {
         let message = format!(
-            "the refinement by corners is left out: left-out corners are {:.4} mm off with it and {:.4} mm without",
+            "the refinement by corners is left out: left-out corners are {:.4} mm off with it and \
+             {:.4} mm without",
             mm_from_m(corners.left_out_m),
             mm_from_m(corners.before_m)
         );

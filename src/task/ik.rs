@@ -74,7 +74,8 @@ pub fn ik(
     table.require(&POSE)?;
     let has_near = NEAR.iter().all(|c| table.has(c));
     if !all && !has_near && !table.has("branch") {
-        let hint = "branch is a number from 0 to 7: 4 behind axis 1, 2 behind the lower arm, 1 joint 5 negative";
+        let hint = "branch is a number from 0 to 7: 4 behind axis 1, 2 behind the lower arm, 1 \
+            joint 5 negative";
         return Err(Failure::with_hint(
             "the table has neither a column branch nor near1_deg…near6_deg; or ask for --all",
             hint,

@@ -73,7 +73,8 @@ impl<'a> Loader<'a> {
             }
             if mesh.open_edges > 0 {
                 self.notes.push(format!(
-                    "{name}: the mesh is open ({} edges): its surface is looked at, not what is inside",
+                    "{name}: the mesh is open ({} edges): its surface is looked at, not what is \
+                     inside",
                     mesh.open_edges
                 ));
             }

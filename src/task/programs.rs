@@ -124,7 +124,8 @@ pub fn refuse_unlikely(file: &ProfileFile) -> Result<(), Failure> {
             "{}: the controller is calibrated itself, and the profile has no effects to apply",
             file.name
         );
-        let hint = "a calibrated controller needs the effects that it applies (`controller.effects`; of a UR, `poseshift profile \
+        let hint = "a calibrated controller needs the effects that it applies \
+            (`controller.effects`; of a UR, `poseshift profile \
                     import-ur`) and those of the real arm";
         return Err(Failure::with_hint(message, hint));
     }
@@ -241,12 +242,15 @@ pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
         CompensateError::NothingToCorrect => Failure::with_hint(
             error.to_string(),
-            "`poseshift calibrate` identifies effects; with --work-offset the part is moved without any",
+            "`poseshift calibrate` identifies effects; with --work-offset the part is moved \
+             without any",
         ),
         CompensateError::BaseElsewhere { .. } => Failure::with_hint(
             error.to_string(),
-            "kinematics.base is where the controller has the robot, not where a measuring device saw it: write the controller's there \
-             (`poseshift profile set`), or calibrate again with --base controller; nothing is written",
+            "kinematics.base is where the controller has the robot, not where a measuring device \
+             saw it: write the controller's there \
+             (`poseshift profile set`), or calibrate again with --base controller; nothing is \
+                 written",
         ),
         CompensateError::NothingInReach { .. } => Failure::with_hint(
             error.to_string(),

@@ -53,7 +53,8 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
         }
         Kind::Backlash => format!("{joint} runs {}° ahead when it reverses", deg(p[0])),
         Kind::PayloadError => format!(
-            "The load on the flange is {} kg heavier than the profile says, its centre of gravity {} mm elsewhere",
+            "The load on the flange is {} kg heavier than the profile says, its centre of gravity \
+             {} mm elsewhere",
             digits(p[0]),
             mm(length(&p[1..4]))
         ),

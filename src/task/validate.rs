@@ -267,7 +267,8 @@ fn too_few(name: &str, error: &IdentifyError) -> Failure {
     };
     Failure::with_hint(
         format!(
-            "{name}: {rows} rows give {numbers} numbers; base and tool, which the comparison fits, have {parameters} \
+            "{name}: {rows} rows give {numbers} numbers; base and tool, which the comparison fits, \
+             have {parameters} \
              unknowns: more numbers are needed"
         ),
         "validate on more configurations: 20 and more say something of the workspace",
@@ -292,11 +293,14 @@ fn seen_before(
         .count();
     (seen > 0 && hashes.iter().any(is_used)).then(|| {
         let message = format!(
-            "the profile was calibrated with this file: {seen} of {} rows are not news to it, and its error on them is too small",
+            "the profile was calibrated with this file: {seen} of {} rows are not news to it, and \
+             its error on them is too small",
             rows.len()
         );
-        Finding::of_file("seen-before", Severity::Warning, name, message)
-            .hint("mark rows `validate` in the column `set` before calibrating, measure others, or use --folds")
+        Finding::of_file("seen-before", Severity::Warning, name, message).hint(
+            "mark rows `validate` in the column `set` before calibrating, measure others, or \
+                use --folds",
+        )
     })
 }
 

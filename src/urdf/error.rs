@@ -64,7 +64,8 @@ pub enum UrdfError {
     },
     /// A base that moves against the arm.
     #[error(
-        "joint `{joint}` moves link `{base}` against the arm that ends in `{tip}`: the world stands still"
+        "joint `{joint}` moves link `{base}` against the arm that ends in `{tip}`: the world \
+         stands still"
     )]
     MovingBase {
         /// The base.
@@ -132,7 +133,8 @@ pub enum UrdfError {
     },
     /// A mesh scaled differently along its axes, or turned inside out.
     #[error(
-        "the mesh of link `{link}` has the scale {scale:?}; the same positive scale on each axis is needed"
+        "the mesh of link `{link}` has the scale {scale:?}; the same positive scale on each axis \
+         is needed"
     )]
     Scale {
         /// The link.
@@ -142,7 +144,8 @@ pub enum UrdfError {
     },
     /// The chain does not do what the URDF does.
     #[error(
-        "the chain differs from the URDF by {gap_m:e} m and {gap_rad:e} rad; at most 1e-9 is allowed"
+        "the chain differs from the URDF by {gap_m:e} m and {gap_rad:e} rad; at most 1e-9 is \
+         allowed"
     )]
     Differs {
         /// Largest distance, metres.
@@ -157,19 +160,30 @@ impl UrdfError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
-            Self::Xacro => "install xacro (`pip install xacro`, or ROS), then it is expanded here; or run `xacro FILE > robot.urdf` elsewhere and give that".into(),
+            Self::Xacro => {
+                "install xacro (`pip install xacro`, or ROS), then it is expanded here; \
+                or run `xacro FILE > robot.urdf` elsewhere and give that"
+                    .into()
+            }
             Self::NoLink { link, known } => {
                 nearest::hint(link, "links", known.iter().map(String::as_str))
             }
-            Self::MovingBase { .. } => "--base names a link that is fixed to the foot of the arm".into(),
+            Self::MovingBase { .. } => "--base names a link that is fixed to the foot of the \
+                arm"
+            .into(),
             Self::SeveralTips { .. } => "--tip names the link that the tool is mounted on".into(),
             Self::Roots { .. } => "--base names the link that stands still".into(),
             Self::NotSix { found, .. } if *found > 6 => {
-                "an arm of more than six axes has endlessly many postures at a pose, and no program tells which: --base and --tip choose six axes where the others stand still".into()
+                "an arm of more than six axes has endlessly many postures at a pose, and no \
+                 program tells which: --base and --tip choose six axes where the others stand \
+                 still"
+                    .into()
             }
             Self::NotSix { .. } => "--base and --tip choose a part of the robot".into(),
             Self::Mesh { .. } => {
-                "--package-path FOLDER (the folder that holds the package, or NAME=FOLDER), or --no-shapes".into()
+                "--package-path FOLDER (the folder that holds the package, or NAME=FOLDER), or \
+                 --no-shapes"
+                    .into()
             }
             Self::Scale { .. } => "--no-shapes leaves the shapes out".into(),
             _ => String::new(),

@@ -61,7 +61,8 @@ pub fn urdf_text(drawing: &Drawing) -> String {
     );
     let fixed = |name: &str, parent: &str, child: &str, pose: &Pose| {
         format!(
-            "  <joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{}</joint>\n",
+            "  <joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child \
+             link=\"{child}\"/>{}</joint>\n",
             origin(pose)
         )
     };
@@ -75,13 +76,16 @@ pub fn urdf_text(drawing: &Drawing) -> String {
         };
         let mass = drawing.masses[i].map_or_else(String::new, |(kg, [x, y, z])| {
             format!(
-                "<inertial><origin xyz=\"{x} {y} {z}\"/><mass value=\"{kg}\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>"
+                "<inertial><origin xyz=\"{x} {y} {z}\"/><mass value=\"{kg}\"/><inertia ixx=\"0\" \
+                 ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>"
             )
         });
         let speed = drawing.speeds[i].unwrap_or(0.0);
         out += &format!(
-            "  <link name=\"link_{joint}\">{mass}</link>\n  <joint name=\"joint_{joint}\" type=\"revolute\"><parent link=\"{above}\"/><child link=\"link_{joint}\"/>{}\
-             <axis xyz=\"0 0 1\"/><limit lower=\"{lower}\" upper=\"{upper}\" effort=\"0\" velocity=\"{speed}\"/></joint>\n",
+            "  <link name=\"link_{joint}\">{mass}</link>\n  <joint name=\"joint_{joint}\" \
+             type=\"revolute\"><parent link=\"{above}\"/><child link=\"link_{joint}\"/>{}\
+             <axis xyz=\"0 0 1\"/><limit lower=\"{lower}\" upper=\"{upper}\" effort=\"0\" \
+                 velocity=\"{speed}\"/></joint>\n",
             origin(&drawing.axes.steps[i])
         );
     }

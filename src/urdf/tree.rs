@@ -260,7 +260,8 @@ impl<'a> Tree<'a> {
             if self.foot(name).0 == root {
                 if *name != root {
                     notes.push(format!(
-                        "the world is link `{name}`, {whose}: {} in the root `{root}`; --base {root} has the root instead",
+                        "the world is link `{name}`, {whose}: {} in the root `{root}`; --base \
+                         {root} has the root instead",
                         place(&self.foot(name).1)
                     ));
                 }
@@ -272,7 +273,8 @@ impl<'a> Tree<'a> {
             && norm(self.foot(foot).1.translation) > 1e-9
         {
             notes.push(format!(
-                "link `base_link` is {} in the root `{root}`, as on a pedestal: --base base_link leaves that out",
+                "link `base_link` is {} in the root `{root}`, as on a pedestal: --base base_link \
+                 leaves that out",
                 place(&self.foot(foot).1)
             ));
         }
@@ -408,7 +410,8 @@ impl<'a> Tree<'a> {
         self.contents((foot, base_from_foot), &mut arm, choice, &mut rounding)?;
         if rounding.by > 0.0 {
             arm.notes.push(format!(
-                "angles of frames within {:.1e} rad of a multiple of 45 deg are taken as exact; --exact-angles takes them as written",
+                "angles of frames within {:.1e} rad of a multiple of 45 deg are taken as exact; \
+                 --exact-angles takes them as written",
                 rounding.by
             ));
         }

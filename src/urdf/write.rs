@@ -63,7 +63,9 @@ pub fn profile_text(arm: &UrdfArm, about: &About) -> Result<(String, Vec<String>
     )];
     top.extend(notes.iter().cloned());
     top.push(
-        "Joints of the controller are taken to be those of the URDF: compare sense and zero with the pendant.".into(),
+        "Joints of the controller are taken to be those of the URDF: compare sense and zero with \
+         the pendant."
+            .into(),
     );
     let names: Vec<String> = arm.joints.iter().map(|joint| joint.name.clone()).collect();
     let comments = Comments {
@@ -161,7 +163,8 @@ fn missing_masses(bodies: &[Body]) -> Option<String> {
         )),
         [first, rest @ ..] if rest.len() > 2 && rest.iter().all(|b| b.mass_kg == first.mass_kg) => {
             Some(format!(
-                "every mass is {} kg, which is no arm: before a calibration with compliance put the real ones under `bodies`",
+                "every mass is {} kg, which is no arm: before a calibration with compliance put \
+                 the real ones under `bodies`",
                 first.mass_kg
             ))
         }

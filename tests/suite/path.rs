@@ -27,7 +27,10 @@ pub fn given(language: &str, count: u32) -> Option<(&'static str, String)> {
         .map(|n| format!("  movel(pPath[{n}],artifact,mPath)\r\n"))
         .collect();
     (language == "val3").then(|| {
-        let head = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<Programs xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">\r\n  <Program name=\"start\" access=\"public\">\r\n    <Code><![CDATA[\r\nbegin\r\n  movej(jStart,artifact,mPath)\r\n";
+        let head = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<Programs \
+            xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">\r\n  <Program name=\"start\" \
+            access=\"public\">\r\n    <Code><![CDATA[\r\nbegin\r\n  \
+            movej(jStart,artifact,mPath)\r\n";
         let tail = "end\r\n]]></Code>\r\n  </Program>\r\n</Programs>";
         ("start.pgx", format!("{head}{moves}{tail}"))
     })
@@ -40,7 +43,10 @@ pub fn profile(language: &str) -> String {
     assert!(text.contains(own));
     text.replace(
         own,
-        &format!("controller: {{language: {language}, model: nominal, pulses_per_deg: [1000, 1000, 1000, 1000, 1000, 1000]}}"),
+        &format!(
+            "controller: {{language: {language}, model: nominal, pulses_per_deg: [1000, 1000, \
+            1000, 1000, 1000, 1000]}}"
+        ),
     )
 }
 
@@ -115,19 +121,47 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
     let mut moves = String::new();
     let [q1, q2, q3, q4, q5, q6] = start;
     let head = match language {
-        "rapid" => format!("MODULE Path\r\n  PROC main()\r\n    MoveAbsJ [[{q1:.4},{q2:.4},{q3:.4},{q4:.4},{q5:.4},{q6:.4}],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\r\n"),
-        "krl" => format!("&ACCESS RVP\r\nDEF path ( )\r\nBAS (#TOOL,1)\r\n$BASE={{X 0,Y 0,Z 0,A 0,B 0,C 0}}\r\nPTP {{A1 {q1:.4},A2 {q2:.4},A3 {q3:.4},A4 {q4:.4},A5 {q5:.4},A6 {q6:.4}}}\r\n"),
-        "fanuc" => "/PROG  PATH\r\n/MN\r\n   1:  UFRAME_NUM=0 ;\r\n   2:  UTOOL_NUM=1 ;\r\n   3:J P[1] 20% FINE ;\r\n".into(),
+        "rapid" => format!(
+            "MODULE Path\r\n  PROC main()\r\n    MoveAbsJ \
+         [[{q1:.4},{q2:.4},{q3:.4},{q4:.4},{q5:.4},{q6:.4}],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\r\n"
+        ),
+        "krl" => format!(
+            "&ACCESS RVP\r\nDEF path ( )\r\nBAS (#TOOL,1)\r\n$BASE={{X 0,Y 0,Z 0,A \
+         0,B 0,C 0}}\r\nPTP {{A1 {q1:.4},A2 {q2:.4},A3 {q3:.4},A4 {q4:.4},A5 {q5:.4},A6 \
+         {q6:.4}}}\r\n"
+        ),
+        "fanuc" => "/PROG  PATH\r\n/MN\r\n   1:  UFRAME_NUM=0 ;\r\n   2:  UTOOL_NUM=1 ;\r\n   3:J \
+         P[1] 20% FINE ;\r\n"
+            .into(),
         "urscript" => {
             let [q1, q2, q3, q4, q5, q6] = joints(0);
-            format!("def path():\n  movej([{q1:.6},{q2:.6},{q3:.6},{q4:.6},{q5:.6},{q6:.6}], a=1.2, v=0.25)\n")
+            format!(
+                "def path():\n  movej([{q1:.6},{q2:.6},{q3:.6},{q4:.6},{q5:.6},{q6:.6}], \
+                a=1.2, v=0.25)\n"
+            )
         }
         "inform" => {
             let [q1, q2, q3, q4, q5, q6] = start.map(|q| (q * 1000.0).round());
-            format!("/JOB\r\n//NAME PATH\r\n//POS\r\n///NPOS {},0,0,0,0,0\r\n///TOOL 1\r\n///POSTYPE PULSE\r\n///PULSE\r\nC00000={q1},{q2},{q3},{q4},{q5},{q6}\r\n///POSTYPE BASE\r\n///RECTAN\r\n///RCONF 0,0,0,0,0,0,0,0\r\n", count + 1)
+            format!(
+                "/JOB\r\n//NAME PATH\r\n//POS\r\n///NPOS {},0,0,0,0,0\r\n///TOOL \
+                1\r\n///POSTYPE PULSE\r\n///PULSE\r\nC00000={q1},{q2},{q3},{q4},{q5},{q6}\r\n///POSTYPE BASE\r\n///RECTAN\r\n///RCONF 0,0,0,0,0,0,0,0\r\n",
+                count + 1
+            )
         }
-        "val3" => format!("<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<Database xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">\r\n  <Datas>\r\n    <Data name=\"jStart\" access=\"private\" xsi:type=\"array\" type=\"jointRx\" size=\"1\">\r\n      <Value key=\"0\" j1=\"{q1:.4}\" j2=\"{q2:.4}\" j3=\"{q3:.4}\" j4=\"{q4:.4}\" j5=\"{q5:.4}\" j6=\"{q6:.4}\" />\r\n    </Data>\r\n    <Data name=\"pPath\" access=\"private\" xsi:type=\"array\" type=\"pointRx\" size=\"{count}\">\r\n"),
-        "kawasaki" => format!(".PROGRAM path()\n  BASE NULL\n  JMOVE #[{q1:.4},{q2:.4},{q3:.4},{q4:.4},{q5:.4},{q6:.4}]\n"),
+        "val3" => format!(
+            "<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<Database \
+         xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
+         xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">\r\n  <Datas>\r\n    <Data \
+         name=\"jStart\" access=\"private\" xsi:type=\"array\" type=\"jointRx\" \
+         size=\"1\">\r\n      <Value key=\"0\" j1=\"{q1:.4}\" j2=\"{q2:.4}\" j3=\"{q3:.4}\" \
+         j4=\"{q4:.4}\" j5=\"{q5:.4}\" j6=\"{q6:.4}\" />\r\n    </Data>\r\n    <Data \
+         name=\"pPath\" access=\"private\" xsi:type=\"array\" type=\"pointRx\" \
+         size=\"{count}\">\r\n"
+        ),
+        "kawasaki" => format!(
+            ".PROGRAM path()\n  BASE NULL\n  JMOVE \
+         #[{q1:.4},{q2:.4},{q3:.4},{q4:.4},{q5:.4},{q6:.4}]\n"
+        ),
         "csv" => "id,x_mm,y_mm,z_mm,qw,qx,qy,qz\n".into(),
         _ => panic!("the path is not written in {language}"),
     };
@@ -135,7 +169,9 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
     if language == "fanuc" {
         let _ = write!(
             moves,
-            "P[1]{{\r\n   GP1:\r\n    UF : 0, UT : 1,\r\n\tJ1= {q1:10.3} deg,\tJ2= {q2:10.3} deg,\tJ3= {q3:10.3} deg,\r\n\tJ4= {q4:10.3} deg,\tJ5= {q5:10.3} deg,\tJ6= {q6:10.3} deg\r\n}};\r\n"
+            "P[1]{{\r\n   GP1:\r\n    UF : 0, UT : 1,\r\n\tJ1= {q1:10.3} deg,\tJ2= {q2:10.3} \
+             deg,\tJ3= {q3:10.3} deg,\r\n\tJ4= {q4:10.3} deg,\tJ5= {q5:10.3} deg,\tJ6= {q6:10.3} \
+             deg\r\n}};\r\n"
         );
     }
     if language == "inform" {
@@ -162,7 +198,9 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
             "fanuc" => {
                 let _ = write!(
                     moves,
-                    "P[{}]{{\r\n   GP1:\r\n    UF : 0, UT : 1,        CONFIG : 'F U T, 0, 0, 0',\r\n\tX ={x:10.3}  mm,\tY ={y:10.3}  mm,\tZ ={z:10.3}  mm,\r\n\tW ={rx:10.3} deg,\tP ={ry:10.3} deg,\tR ={rz:10.3} deg\r\n}};\r\n",
+                    "P[{}]{{\r\n   GP1:\r\n    UF : 0, UT : 1,        CONFIG : 'F U T, 0, 0, \
+                     0',\r\n\tX ={x:10.3}  mm,\tY ={y:10.3}  mm,\tZ ={z:10.3}  mm,\r\n\tW \
+                     ={rx:10.3} deg,\tP ={ry:10.3} deg,\tR ={rz:10.3} deg\r\n}};\r\n",
                     n + 2
                 );
                 write!(text, "{:4}:L P[{}] 250mm/sec CNT50 ;\r\n", n + 4, n + 2)
@@ -171,7 +209,8 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
                 let ([x, y, z], [rx, ry, rz]) = ([x, y, z].map(|mm| mm * 1e-3), numbers.vector);
                 writeln!(
                     text,
-                    "  movel(p[{x:.6},{y:.6},{z:.6},{rx:.6},{ry:.6},{rz:.6}], a=1.2, v=0.1, r=0.001)"
+                    "  movel(p[{x:.6},{y:.6},{z:.6},{rx:.6},{ry:.6},{rz:.6}], a=1.2, v=0.1, \
+                     r=0.001)"
                 )
             }
             "inform" => {
@@ -186,7 +225,8 @@ pub fn program(language: &str, count: u32, every: u32) -> String {
                 let [rx, ry, rz] = numbers.xyz;
                 write!(
                     text,
-                    "      <Value key=\"{n}\" x=\"{x:.3}\" y=\"{y:.3}\" z=\"{z:.3}\" rx=\"{rx:.4}\" ry=\"{ry:.4}\" rz=\"{rz:.4}\" fatherId=\"world[0]\" />\r\n"
+                    "      <Value key=\"{n}\" x=\"{x:.3}\" y=\"{y:.3}\" z=\"{z:.3}\" \
+                     rx=\"{rx:.4}\" ry=\"{ry:.4}\" rz=\"{rz:.4}\" fatherId=\"world[0]\" />\r\n"
                 )
             }
             "kawasaki" => {

@@ -200,7 +200,8 @@ fn program() -> String {
     let mut out = format!(
         "DEF WELD()\r\nTOOL_DATA[1] = {{FRAME: X {x:.1}, Y {y:.1}, Z {z:.1}, A 0, B 0, C 0}}\r\n\
          LOAD_DATA[1] = {{M {:.1}, CM {{X 0, Y 0, Z 0, A 0, B 0, C 0}}, J {{X 0, Y 0, Z 0}}}}\r\n\
-         BASE_DATA[1] = {{FRAME: X 0, Y 0, Z 0, A 0, B 0, C 0}}\r\nBAS(#TOOL,1)\r\nBAS(#BASE,1)\r\nPTP {{E6AXIS: {}}}\r\n",
+         BASE_DATA[1] = {{FRAME: X 0, Y 0, Z 0, A 0, B 0, C \
+             0}}\r\nBAS(#TOOL,1)\r\nBAS(#BASE,1)\r\nPTP {{E6AXIS: {}}}\r\n",
         TOOL.1,
         axes.join(", ")
     );
@@ -315,7 +316,8 @@ fn a_urdf_and_a_tracker_file_become_a_program_that_lands_where_it_should() {
     run(
         path,
         &format!(
-            "profile from-urdf @arm.urdf --language krl --tool TOOL_DATA[1]={x},{y},{z},0,0,0,{} -o arm.yaml",
+            "profile from-urdf @arm.urdf --language krl --tool TOOL_DATA[1]={x},{y},{z},0,0,0,{} \
+             -o arm.yaml",
             TOOL.1
         ),
     );
@@ -326,7 +328,8 @@ fn a_urdf_and_a_tracker_file_become_a_program_that_lands_where_it_should() {
     let found = json(
         path,
         "calibrate --profile arm.yaml --joints @joints.csv --points @tracker.csv \
-         --columns id=Pose,id=Punkt,q1=J1,q2=J2,q3=J3,q4=J4,q5=J5,q6=J6,x=X,y=Y,z=Z --units m,rad -o calibrated.yaml",
+         --columns id=Pose,id=Punkt,q1=J1,q2=J2,q3=J3,q4=J4,q5=J5,q6=J6,x=X,y=Y,z=Z --units m,rad \
+             -o calibrated.yaml",
     );
     // the base is the controller's; the tracker stands where it stands, but for what of the base
     // cannot be distinguished from it
@@ -360,7 +363,8 @@ fn a_urdf_and_a_tracker_file_become_a_program_that_lands_where_it_should() {
     // the profile keeps how the tables name their columns
     let judged = json(
         path,
-        "validate --profile calibrated.yaml --joints @joints_held_out.csv --points @tracker_held_out.csv",
+        "validate --profile calibrated.yaml --joints @joints_held_out.csv --points \
+         @tracker_held_out.csv",
     );
     let mean = |model: &str| {
         judged["position"][model]["mean_mm"]

@@ -20,50 +20,60 @@ struct Shipped {
 const ROBOTS: [Shipped; 8] = [
     Shipped {
         yaml: include_str!("../../robots/abb_irb120.yaml"),
-        tool: "frame: {x_mm: 50, y_mm: 25, z_mm: 100, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 2.6, cog_mm: [-23, 0, 100]",
+        tool: "frame: {x_mm: 50, y_mm: 25, z_mm: 100, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            2.6, cog_mm: [-23, 0, 100]",
         bodies: "",
         soft: 3e-5,
     },
     Shipped {
         yaml: include_str!("../../robots/kuka_kr210_r2700.yaml"),
-        tool: "frame: {x_mm: 120, y_mm: -80, z_mm: 250, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 90, cog_mm: [40, 20, 160]",
+        tool: "frame: {x_mm: 120, y_mm: -80, z_mm: 250, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            90, cog_mm: [40, 20, 160]",
         bodies: "",
         soft: 2e-7,
     },
     Shipped {
         yaml: include_str!("../../robots/universal_robots_ur5.yaml"),
-        tool: "frame: {x_mm: 40, y_mm: -30, z_mm: 120, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 2.2, cog_mm: [10, 15, 60]",
+        tool: "frame: {x_mm: 40, y_mm: -30, z_mm: 120, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            2.2, cog_mm: [10, 15, 60]",
         bodies: "",
         soft: 8e-6,
     },
     Shipped {
         yaml: include_str!("../../robots/universal_robots_ur10.yaml"),
-        tool: "frame: {x_mm: -60, y_mm: 45, z_mm: 150, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 6, cog_mm: [-20, 10, 80]",
+        tool: "frame: {x_mm: -60, y_mm: 45, z_mm: 150, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            6, cog_mm: [-20, 10, 80]",
         bodies: "",
         soft: 4e-6,
     },
     Shipped {
         yaml: include_str!("../../robots/fanuc_lrmate200ic.yaml"),
-        tool: "frame: {x_mm: 70, y_mm: -20, z_mm: 110, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 2, cog_mm: [30, 0, 60]",
+        tool: "frame: {x_mm: 70, y_mm: -20, z_mm: 110, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            2, cog_mm: [30, 0, 60]",
         bodies: "",
         soft: 3e-5,
     },
     Shipped {
         yaml: include_str!("../../robots/fanuc_r2000ic_165f.yaml"),
-        tool: "frame: {x_mm: 180, y_mm: 60, z_mm: 300, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 110, cog_mm: [60, -30, 180]",
+        tool: "frame: {x_mm: 180, y_mm: 60, z_mm: 300, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            110, cog_mm: [60, -30, 180]",
         bodies: "",
         soft: 2e-7,
     },
     Shipped {
         yaml: include_str!("../../robots/staubli_tx2_90l.yaml"),
-        tool: "frame: {x_mm: 60, y_mm: 30, z_mm: 140, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 5, cog_mm: [20, 10, 70]",
-        bodies: "bodies:\n  - {link: 2, mass_kg: 28, cog_mm: [230, 0, 180]}\n  - {link: 3, mass_kg: 16, cog_mm: [20, 0, 40]}\n  - {link: 4, mass_kg: 12, cog_mm: [0, 0, -180]}\n",
+        tool: "frame: {x_mm: 60, y_mm: 30, z_mm: 140, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            5, cog_mm: [20, 10, 70]",
+        bodies: "bodies:\n  - {link: 2, mass_kg: 28, cog_mm: [230, 0, 180]}\n  - {link: 3, \
+            mass_kg: 16, cog_mm: [20, 0, 40]}\n  - {link: 4, mass_kg: 12, cog_mm: [0, 0, -180]}\n",
         soft: 3e-6,
     },
     Shipped {
         yaml: include_str!("../../robots/yaskawa_ma1400.yaml"),
-        tool: "frame: {x_mm: -40, y_mm: 20, z_mm: 320, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 3, cog_mm: [-30, 5, 120]",
-        bodies: "bodies:\n  - {link: 2, mass_kg: 26, cog_mm: [260, 0, 60]}\n  - {link: 3, mass_kg: 24, cog_mm: [60, 20, 30]}\n  - {link: 4, mass_kg: 12, cog_mm: [0, 0, -250]}\n",
+        tool: "frame: {x_mm: -40, y_mm: 20, z_mm: 320, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: \
+            3, cog_mm: [-30, 5, 120]",
+        bodies: "bodies:\n  - {link: 2, mass_kg: 26, cog_mm: [260, 0, 60]}\n  - {link: 3, mass_kg: \
+            24, cog_mm: [60, 20, 30]}\n  - {link: 4, mass_kg: 12, cog_mm: [0, 0, -250]}\n",
         soft: 2e-6,
     },
 ];

@@ -107,7 +107,8 @@ impl Job<'_> {
             (reported.touches, message)
         } else {
             let message = format!(
-                "the {name} arm's {a} comes within {:.3} mm of {b}, required {:.3} mm, {place}{comparison}",
+                "the {name} arm's {a} comes within {:.3} mm of {b}, required {:.3} mm, \
+                 {place}{comparison}",
                 mm_from_m(found.clearance_m),
                 mm_from_m(found.required_m)
             );

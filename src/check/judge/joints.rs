@@ -159,7 +159,8 @@ impl Job<'_> {
             .find(|&i| (q[i] - stop.q[i]).abs() > SAME_RAD && !(aligned && (i == 3 || i == 5)));
         if let Some(i) = other {
             let message = format!(
-                "the target's configuration cannot be reached on this path: joint {} comes to {:.1} deg, and the target has {:.1}",
+                "the target's configuration cannot be reached on this path: joint {} comes to \
+                 {:.1} deg, and the target has {:.1}",
                 i + 1,
                 q[i] / DEG,
                 stop.q[i] / DEG

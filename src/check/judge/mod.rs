@@ -115,7 +115,8 @@ impl Job<'_> {
     fn judge_path(&self, index: usize, report: &MoveReport, findings: &mut Vec<Finding>) {
         let Some(path) = &report.path else { return };
         if !path.certified {
-            let message = "bounds between samples cannot be guaranteed here: the move passes near a singularity, or the controller's own chain is calibrated";
+            let message = "bounds between samples cannot be guaranteed here: the move passes near \
+                a singularity, or the controller's own chain is calibrated";
             findings.push(self.subject.finding(
                 self.walk.motion(index),
                 "path-uncertified",
@@ -129,7 +130,8 @@ impl Job<'_> {
         };
         if path.bound.distance_m > limit {
             let message = format!(
-                "the real tool is up to {:.3} mm from the wanted path (limit {:.3} mm; {:.3} mm at {:.0} % of the move)",
+                "the real tool is up to {:.3} mm from the wanted path (limit {:.3} mm; {:.3} mm at \
+                 {:.0} % of the move)",
                 mm_from_m(path.bound.distance_m),
                 mm_from_m(limit),
                 mm_from_m(path.sampled.distance_m),

@@ -122,7 +122,8 @@ impl<'e, 'a> Document<'e, 'a> {
             nodes += 1 + node.children.len();
             if nodes > MOST_NODES || depth > DEEPEST {
                 return Err(node.fault(format!(
-                    "more than {MOST_NODES} nodes, or {DEEPEST} in each other: do nodes name each other in a circle?"
+                    "more than {MOST_NODES} nodes, or {DEEPEST} in each other: do nodes name each \
+                     other in a circle?"
                 )));
             }
             let world = above.after(&local(node)?);

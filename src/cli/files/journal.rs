@@ -129,7 +129,8 @@ struct WrittenEntry {
 }
 
 /// For whoever finds it.
-const WHAT: &str = "a run of poseshift that was stopped while it wrote here: the next one that reads or writes in this folder finishes or undoes it";
+const WHAT: &str = "a run of poseshift that was stopped while it wrote here: the next one that \
+    reads or writes in this folder finishes or undoes it";
 
 impl Journal {
     /// The bytes of the file that stands in a folder; names in that folder do not say where it is.
@@ -309,7 +310,8 @@ pub(super) fn foreign(path: &Path, why: &str) -> Failure {
     Failure::with_hint(
         format!("{}: {why}", name_of(path)),
         format!(
-            "nothing is read or written in a folder with a run that was stopped and cannot be finished; to keep its files as they \
+            "nothing is read or written in a folder with a run that was stopped and cannot be \
+             finished; to keep its files as they \
              are, remove this one and those next to it that begin with {PREFIX}"
         ),
     )

@@ -263,7 +263,8 @@ impl Files {
                         "{} is read{as_read} and would be written over",
                         name_of(output)
                     ),
-                    "name another file for what is written; --in-place of `compensate` says that it is meant",
+                    "name another file for what is written; --in-place of `compensate` says that \
+                     it is meant",
                 ));
             }
             let other = taken.insert(place, output);

@@ -14,7 +14,8 @@ use std::path::PathBuf;
 /// that is
 #[derive(Args)]
 #[command(
-    after_help = "With --json and no form, the JSON has the geometry with what was identified of it, and every effect."
+    after_help = "With --json and no form, the JSON has the geometry with what was identified of \
+        it, and every effect."
 )]
 pub(super) struct Export {
     /// The profile

@@ -118,7 +118,8 @@ impl FromUrdf {
             let last = &said[said.len().saturating_sub(4)..];
             return Err(Failure::with_hint(
                 format!("xacro cannot expand {}: {}", file.name, last.join("; ")),
-                "--xacro-arg NAME:=VALUE gives what the file asks for; packages are found where ROS_PACKAGE_PATH or a sourced ROS has them",
+                "--xacro-arg NAME:=VALUE gives what the file asks for; packages are found where \
+                 ROS_PACKAGE_PATH or a sourced ROS has them",
             ));
         }
         Ok(Source::new(file.name, run.stdout))

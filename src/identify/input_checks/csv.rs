@@ -46,7 +46,9 @@ pub fn doubled(line: usize, header: &str, first: Option<&str>) -> Option<NotCsv>
         line: line + 1,
         column: 1,
         message: format!("{found} cells; the header has {names}"),
-        hint: "are decimals written with a comma? write them with a point, or separate cells with semicolons or tabs".into(),
+        hint: "are decimals written with a comma? write them with a point, or separate cells with \
+            semicolons or tabs"
+            .into(),
     })
 }
 
@@ -65,7 +67,8 @@ pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
             line,
             column: at - start + 1,
             message: "not UTF-8 text".into(),
-            hint: "save the table as CSV in UTF-8 (from Latin-1: `iconv -f latin1 -t utf8 FILE`; from UTF-16: `iconv -f utf16 -t utf8 FILE`)"
+            hint: "save the table as CSV in UTF-8 (from Latin-1: `iconv -f latin1 -t utf8 FILE`; \
+                from UTF-16: `iconv -f utf16 -t utf8 FILE`)"
                 .into(),
         });
     }

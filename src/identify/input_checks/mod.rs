@@ -19,7 +19,8 @@ use super::line::Line;
 /// the file as it is may be of an uncalibrated arm.
 const BETTER: f64 = 4.0;
 /// The way out where nothing fits.
-const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in its unit? `--loss tukey` if single rows are wrong";
+const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in \
+    its unit? `--loss tukey` if single rows are wrong";
 /// Residuals beyond this many of their stated standard deviations, or below one over it, are
 /// reported.
 const SIGMA_FACTOR: f64 = 3.0;
@@ -63,18 +64,21 @@ fn suspicious(message: String, hint: &str) -> IdentifyError {
 fn sigma(times: f64) -> Option<Remark> {
     if times > SIGMA_FACTOR {
         let message = format!(
-            "residuals are {times:.1} times the stated standard deviations: they are too small by that, or the model misses something"
+            "residuals are {times:.1} times the stated standard deviations: they are too small by \
+             that, or the model misses something"
         );
         let hint = if times > 300.0 {
             "is sigma_mm in millimetres?"
         } else {
-            "sigma_mm is one standard deviation of a coordinate; `poseshift diagnose` looks for what the model misses"
+            "sigma_mm is one standard deviation of a coordinate; `poseshift diagnose` looks for \
+             what the model misses"
         };
         return Some(remark("sigma-small", WHOLE_FILE, message, hint));
     }
     (times < SIGMA_FACTOR.recip()).then(|| {
         let message = format!(
-            "residuals are {times:.3} times the stated standard deviations: they are too large by a factor of {:.0}",
+            "residuals are {times:.3} times the stated standard deviations: they are too large by \
+             a factor of {:.0}",
             times.max(1e-9).recip()
         );
         let hint = "sigma_mm is one standard deviation of a coordinate in mm, not in micrometres";

@@ -59,7 +59,8 @@ pub(crate) fn check_fit(
     if missed > HOPELESS_M {
         return Err(suspicious(
             format!(
-                "the fitted model misses by {:.1} mm rms (base and tool alone fitted: {:.1} mm): no arm is that far from its drawing",
+                "the fitted model misses by {:.1} mm rms (base and tool alone fitted: {:.1} mm): \
+                 no arm is that far from its drawing",
                 mm_from_m(missed),
                 mm_from_m(frames)
             ),
@@ -74,7 +75,8 @@ pub(crate) fn check_fit(
                 angle / DEG,
                 mm_from_m(missed)
             ),
-            "qw,qx,qy,qz turn the tool into the world's frame, the scalar first; without these columns positions alone count",
+            "qw,qx,qy,qz turn the tool into the world's frame, the scalar first; without these \
+             columns positions alone count",
         ));
     }
     let mut remarks = Vec::new();
@@ -83,11 +85,13 @@ pub(crate) fn check_fit(
             "poor-fit",
             WHOLE_FILE,
             format!(
-                "the fitted model misses by {:.3} mm and {:.3} deg rms, more than a calibrated arm does",
+                "the fitted model misses by {:.3} mm and {:.3} deg rms, more than a calibrated arm \
+                 does",
                 mm_from_m(missed),
                 angle / DEG
             ),
-            "look at the outliers, the tool and the masses; `poseshift diagnose` looks for what is missing",
+            "look at the outliers, the tool and the masses; `poseshift diagnose` looks for what is \
+             missing",
         ));
     }
     let times = times_sigma(after).filter(|_| !problem.sigma_assumed);
@@ -166,9 +170,11 @@ pub(crate) fn check_touches(
         if let Some(then) = times_sigma(&misses).filter(|then| BETTER * then < times) {
             return Err(suspicious(
                 format!(
-                    "the touches miss by {times:.1} times their standard deviation; if {supposes}, {then:.1} times"
+                    "the touches miss by {times:.1} times their standard deviation; if {supposes}, \
+                     {then:.1} times"
                 ),
-                "probe_radius_mm is the radius of the probe's ball; nx,ny,nz point out of the material",
+                "probe_radius_mm is the radius of the probe's ball; nx,ny,nz point out of the \
+                 material",
             ));
         }
     }
@@ -181,7 +187,8 @@ pub(crate) fn check_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Rem
     let missed = usual(after.iter().map(|miss| miss.length_m))?;
     let expected = expected_m.filter(|e| *e > FAR_OFF_M && *e > super::SIGMA_FACTOR * missed)?;
     let message = format!(
-        "the fitted model misses these rows by {:.3} mm rms, and postures elsewhere within the joint limits by {:.2} mm as it is to be expected",
+        "the fitted model misses these rows by {:.3} mm rms, and postures elsewhere within the \
+         joint limits by {:.2} mm as it is to be expected",
         mm_from_m(missed),
         mm_from_m(expected)
     );
@@ -194,14 +201,16 @@ pub(crate) fn check_reach(expected_m: Option<f64>, after: &[Miss]) -> Option<Rem
 pub(crate) fn check_rows(outliers: &[Outlier]) -> Option<Remark> {
     let worst = outliers.iter().max_by(|a, b| a.times.total_cmp(&b.times))?;
     let message = format!(
-        "{} row{} not fit the others, the worst misses by {:.3} mm, {:.1} times the typical residual (limit {:.1})",
+        "{} row{} not fit the others, the worst misses by {:.3} mm, {:.1} times the typical \
+         residual (limit {:.1})",
         outliers.len(),
         if outliers.len() == 1 { " does" } else { "s do" },
         mm_from_m(worst.length_m),
         worst.times,
         worst.limit
     );
-    let hint = "was the beam lost, the reflector not seated, the robot still moving? leave wrong rows out; `--loss tukey` ignores them";
+    let hint = "was the beam lost, the reflector not seated, the robot still moving? leave wrong \
+        rows out; `--loss tukey` ignores them";
     Some(remark("outliers", worst.line.clone(), message, hint))
 }
 
@@ -228,7 +237,8 @@ pub(crate) fn check_values(
     unusual.sort_by(|a, b| b.0.total_cmp(&a.0));
     if let Some((times, p)) = unusual.first() {
         let message = format!(
-            "{} comes out as {}, {:.0} times its typical size ({} values are beyond {UNUSUAL} times); base and tool alone leave {frames_rms_mm:.1} mm",
+            "{} comes out as {}, {:.0} times its typical size ({} values are beyond {UNUSUAL} \
+             times); base and tool alone leave {frames_rms_mm:.1} mm",
             p.key,
             in_unit(p, value(p)),
             value(p).abs() / p.scale,

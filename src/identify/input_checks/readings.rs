@@ -14,8 +14,10 @@ pub(super) struct Reading {
     pub exchanged: Option<[&'static str; 2]>,
 }
 
-const IN_MILLIMETRES: &str = "x_mm,y_mm,z_mm and distance_mm are millimetres: with others their unit is in their names (x_m), or map them with --columns and --units m";
-const IN_DEGREES: &str = "q1_deg…q6_deg are degrees: with others their unit is in their names (q1_rad), or map them with --columns and --units rad";
+const IN_MILLIMETRES: &str = "x_mm,y_mm,z_mm and distance_mm are millimetres: with others their \
+    unit is in their names (x_m), or map them with --columns and --units m";
+const IN_DEGREES: &str = "q1_deg…q6_deg are degrees: with others their unit is in their names \
+    (q1_rad), or map them with --columns and --units rad";
 const SAME_ORDER: &str = "check that joints and points are in the same order and none is missing";
 
 /// What was observed with lengths by a factor.
@@ -113,7 +115,8 @@ impl Readings<'_> {
             let names = ["x_mm", "y_mm", "z_mm"];
             self.add(
                 format!("the columns {} and {} are swapped", names[a], names[b]),
-                "the device's frame must be right-handed: look at the order of its columns and which way its axes point",
+                "the device's frame must be right-handed: look at the order of its columns and \
+                 which way its axes point",
                 |_, row| row.observed = exchanged(row.observed, a, b),
             );
             if let Some(added) = self.all.last_mut() {

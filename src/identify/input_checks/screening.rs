@@ -93,7 +93,8 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
         let most = (0..6).map(range).fold(0.0, f64::max) / DEG;
         return Err(suspicious(
             format!(
-                "all {} rows have the same pose: no joint moves by more than {most:.3} deg, and {:.1} deg are needed{}",
+                "all {} rows have the same pose: no joint moves by more than {most:.3} deg, and \
+                 {:.1} deg are needed{}",
                 rows.len(),
                 STILL_RAD / DEG,
                 duplicates(rows).map_or_else(String::new, |copies| format!("; {}", copies.message))
@@ -106,7 +107,8 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
             "joint-never-moved",
             WHOLE_FILE,
             format!(
-                "joint {} never moves by more than {:.3} deg: its parameters cannot be distinguished from those of its neighbours",
+                "joint {} never moves by more than {:.3} deg: its parameters cannot be \
+                 distinguished from those of its neighbours",
                 joint + 1,
                 range(*joint) / DEG
             ),
@@ -146,7 +148,8 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
             let most = (0..6).map(range).fold(0.0, f64::max) / DEG;
             return Err(suspicious(
                 format!(
-                    "all {} measured points are in one place, within {:.4} mm, though the joints move by up to {most:.1} deg",
+                    "all {} measured points are in one place, within {:.4} mm, though the joints \
+                     move by up to {most:.1} deg",
                     rows.len(),
                     mm_from_m(long)
                 ),
@@ -159,7 +162,8 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
             refuse_far_off(measurements)?;
             return Err(suspicious(
                 format!(
-                    "the measured points lie on one line: they spread {:.3} mm along it and {:.4} mm across",
+                    "the measured points lie on one line: they spread {:.3} mm along it and {:.4} \
+                     mm across",
                     mm_from_m(long),
                     mm_from_m(wide)
                 ),
@@ -196,7 +200,8 @@ pub fn duplicates(rows: &[Measurement]) -> Option<Remark> {
         "duplicate-rows",
         (*line).clone(),
         format!(
-            "{} rows repeat an earlier one to the last digit, the first in {line} that of {earlier}: they count twice",
+            "{} rows repeat an earlier one to the last digit, the first in {line} that of \
+             {earlier}: they count twice",
             twice.len()
         ),
         "a device never repeats itself exactly: leave copies out",
@@ -286,11 +291,13 @@ pub fn check_start(
     {
         return Err(suspicious(
             format!(
-                "the orientations do not fit the positions: half of them are more than {:.1} deg from any one orientation of the tool on the flange, and positions fit to {:.1} mm",
+                "the orientations do not fit the positions: half of them are more than {:.1} deg \
+                 from any one orientation of the tool on the flange, and positions fit to {:.1} mm",
                 apart / DEG,
                 mm_from_m(start.rms_m)
             ),
-            "qw,qx,qy,qz turn the tool into the world's frame, the scalar first; without these columns positions alone count",
+            "qw,qx,qy,qz turn the tool into the world's frame, the scalar first; without these \
+             columns positions alone count",
         ));
     }
     let mut remarks = moved_tools(profile, start);
@@ -305,7 +312,8 @@ pub fn check_start(
                 "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame",
                 tilt / DEG
             ),
-            "right where the device is tilted: gravity stays as `kinematics.base` has it; where the robot is mounted so, write that into `kinematics.base`",
+            "right where the device is tilted: gravity stays as `kinematics.base` has it; where \
+             the robot is mounted so, write that into `kinematics.base`",
         ));
     }
     if let Some(count) = start.fixed_points.filter(|count| *count < 3) {
@@ -313,10 +321,12 @@ pub fn check_start(
             "base-not-determined",
             WHOLE_FILE,
             format!(
-                "distances from {count} fixed point{} do not tell how the base is turned: it is as in the profile, and its place follows from that",
+                "distances from {count} fixed point{} do not tell how the base is turned: it is as \
+                 in the profile, and its place follows from that",
                 if count == 1 { "" } else { "s" }
             ),
-            "believe the arm's own values only; distances from three fixed points, or some positions, determine the base",
+            "believe the arm's own values only; distances from three fixed points, or some \
+             positions, determine the base",
         ));
     }
     Ok(remarks)
@@ -330,11 +340,14 @@ pub fn gravity_by_device(tilt_rad: f64, better: f64, gravity_m_s2: Vector) -> Re
         "gravity-by-device",
         WHOLE_FILE,
         format!(
-            "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame, and the arm bends as if the device were level: \
-             chi-squared is {better:.0} less than with gravity as the profile has it; gravity_m_s2 is ({x:.3}, {y:.3}, {z:.3}) now",
+            "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame, \
+             and the arm bends as if the device were level: \
+             chi-squared is {better:.0} less than with gravity as the profile has it; gravity_m_s2 \
+                 is ({x:.3}, {y:.3}, {z:.3}) now",
             tilt_rad / DEG
         ),
-        "right where the robot is mounted so; where the device was tilted, look for what else bends the arm",
+        "right where the robot is mounted so; where the device was tilted, look for what else \
+         bends the arm",
     )
 }
 
@@ -370,7 +383,8 @@ fn check_reading(profile: &Profile, measurements: &Measurements) -> Result<(), I
     let (supposes, as_well) = expected(&fits, profile);
     Err(suspicious(
         format!(
-            "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, where they spread {:.1} mm; if {}, {:.1} of {:.1} mm{as_well}",
+            "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, \
+             where they spread {:.1} mm; if {}, {:.1} of {:.1} mm{as_well}",
             mm_from_m(start.rms_m),
             mm_from_m(start.spread_m),
             supposes,
@@ -412,8 +426,13 @@ fn expected(fits: &[Fit], profile: &Profile) -> (String, String) {
         return (supposes, why + &others);
     }
     (
-        "they are a mirror image (two of the columns x_mm, y_mm, z_mm are swapped, or an axis points the other way)".into(),
-        format!("; which it is does not show: axis 1 then is off where the profile has it by {tilts}") + &others,
+        "they are a mirror image (two of the columns x_mm, y_mm, z_mm are swapped, or an axis \
+         points the other way)"
+            .into(),
+        format!(
+            "; which it is does not show: axis 1 then is off where the profile has it by \
+            {tilts}"
+        ) + &others,
     )
 }
 
@@ -440,7 +459,8 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
                     "the point measured on tool `{name}` is {:.1} mm from where the profile has it",
                     mm_from_m(gap)
                 ),
-                "is it the tool of the profile? where tool_frame is identified its deviation is found",
+                "is it the tool of the profile? where tool_frame is identified its deviation is \
+                 found",
             ));
         }
     }
@@ -467,7 +487,8 @@ pub fn check_fixed_tool(profile: &Profile, start: &Start) -> Result<(), Identify
         .collect();
     Err(suspicious(
         format!(
-            "with the tool where the profile has it the measurements miss the robot by {:.1} mm rms, else by {:.1} mm: {}",
+            "with the tool where the profile has it the measurements miss the robot by {:.1} mm \
+             rms, else by {:.1} mm: {}",
             mm_from_m(believed),
             mm_from_m(start.rms_m),
             listed.join("; ")
@@ -484,7 +505,8 @@ pub fn check_rest(error: IdentifyError, start: &Start) -> IdentifyError {
     }
     suspicious(
         format!(
-            "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, and with more parameters {error}",
+            "the measurements do not fit the robot: {:.1} mm rms with the best base and tool, and \
+             with more parameters {error}",
             mm_from_m(start.rms_m)
         ),
         NOT_OF_THIS_ROBOT,

@@ -65,9 +65,11 @@ pub fn input_checks(
         }
         if missed_m > POOR_M {
             remarks.push(remark(
-                "poor-fit", WHOLE_FILE,
+                "poor-fit",
+                WHOLE_FILE,
                 format!(
-                    "base and tool explain the sweeps to {:.2} mm rms only: few arms are so far from their drawing",
+                    "base and tool explain the sweeps to {:.2} mm rms only: few arms are so far \
+                     from their drawing",
                     mm_from_m(missed_m)
                 ),
                 "is it this robot? does one joint move at a time, and the point not on the flange?",
@@ -79,9 +81,11 @@ pub fn input_checks(
         let [distance_m, drawn_m] = relation.distance_m;
         if (angle - drawn).abs() > UNLIKE.0 || (distance_m - drawn_m).abs() > UNLIKE.1 {
             remarks.push(remark(
-                "axes-unlike", WHOLE_FILE,
+                "axes-unlike",
+                WHOLE_FILE,
                 format!(
-                    "axes {} and {} are {:.3} deg and {:.2} mm apart; in the profile {:.3} deg and {:.2} mm",
+                    "axes {} and {} are {:.3} deg and {:.2} mm apart; in the profile {:.3} deg and \
+                     {:.2} mm",
                     relation.joints[0] + 1,
                     relation.joints[1] + 1,
                     angle / DEG,
@@ -101,9 +105,11 @@ pub fn input_checks(
             remarks.push(Remark {
                 warning: false,
                 ..remark(
-                    "tool-elsewhere", WHOLE_FILE,
+                    "tool-elsewhere",
+                    WHOLE_FILE,
                     format!(
-                        "the measured point is {:.1} mm from where the profile has the tool `{name}`",
+                        "the measured point is {:.1} mm from where the profile has the tool \
+                         `{name}`",
                         mm_from_m(gap_m)
                     ),
                     "is another point measured, or a joint counted the other way?",
@@ -159,9 +165,13 @@ fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(
     }
     Err(IdentifyError::Suspicious {
         message: format!(
-            "the sweeps do not fit the robot: base and tool from them miss the points by {:.1} mm rms",
+            "the sweeps do not fit the robot: base and tool from them miss the points by {:.1} mm \
+             rms",
             mm_from_m(missed_m)
         ),
-        hint: "is it this robot? every column in its unit and its order, and one joint moving at a time?".into(),
+        hint:
+            "is it this robot? every column in its unit and its order, and one joint moving at a \
+            time?"
+                .into(),
     })
 }

@@ -47,7 +47,9 @@ pub(crate) fn before(
         for remark in &mut found {
             if remark.id == "tool-elsewhere" {
                 remark.hint =
-                    "is it the tool of the profile? --refit-frames fits base, tool and points first".into();
+                    "is it the tool of the profile? --refit-frames fits base, tool and points \
+                     first"
+                        .into();
             }
         }
         remarks.extend(found);
@@ -69,9 +71,11 @@ pub(crate) fn after(
     });
     if let Some((_, frames)) = missed.filter(|(_, frames)| frames.rms >= HOPELESS_MM) {
         remarks.push(remark(
-            "poor-fit", WHOLE_FILE,
+            "poor-fit",
+            WHOLE_FILE,
             format!(
-                "the nominal arm misses by {:.1} mm rms with base and tool fitted to these rows: no arm is that far from its drawing",
+                "the nominal arm misses by {:.1} mm rms with base and tool fitted to these rows: \
+                 no arm is that far from its drawing",
                 frames.rms
             ),
             "is it this robot, this order of rows? every column in its unit?",
@@ -81,10 +85,12 @@ pub(crate) fn after(
         let (message, hint) = if refit == Refit::No {
             (
                 format!(
-                    "the real model misses by {:.3} mm rms, the nominal arm with base and tool fitted to these rows by {:.3} mm",
+                    "the real model misses by {:.3} mm rms, the nominal arm with base and tool \
+                     fitted to these rows by {:.3} mm",
                     real.rms, frames.rms
                 ),
-                "was the device, the robot or the tool set up anew? --refit-frames fits base, tool and points first",
+                "was the device, the robot or the tool set up anew? --refit-frames fits base, tool \
+                 and points first",
             )
         } else {
             (
@@ -92,7 +98,8 @@ pub(crate) fn after(
                     "the real model misses by {:.3} mm rms, more than the nominal arm: {:.3} mm",
                     real.rms, frames.rms
                 ),
-                "is it the profile of this arm? was the arm repaired or its joints set anew since the calibration?",
+                "is it the profile of this arm? was the arm repaired or its joints set anew since \
+                 the calibration?",
             )
         };
         remarks.push(remark("worse-than-nominal", WHOLE_FILE, message, hint));

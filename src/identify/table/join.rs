@@ -68,10 +68,12 @@ impl Table {
         let counts = [0, 1].map(|file| self.grids[file].rows.len());
         if counts[0] != counts[1] {
             let message = format!(
-                "{joints} has {} rows, {points} has {}: without a column id in both they are joined in their order",
+                "{joints} has {} rows, {points} has {}: without a column id in both they are \
+                 joined in their order",
                 counts[0], counts[1]
             );
-            let hint = "give both a column id (--columns id=Their name), or leave out the rows that were not measured";
+            let hint = "give both a column id (--columns id=Their name), or leave out the rows \
+                that were not measured";
             return Err(fault(1, 0, message, hint));
         }
         let message = format!(
@@ -142,7 +144,11 @@ impl Table {
                 );
                 let near = nearest::nearest(id, known.keys().copied());
                 let hint = near.first().map_or_else(
-                    || "other names in both files? without a column id in one of them rows are joined in their order".to_owned(),
+                    || {
+                        "other names in both files? without a column id in one of them rows are \
+                        joined in their order"
+                            .to_owned()
+                    },
                     |near| format!("did you mean `{near}`?"),
                 );
                 return Err(fault(1, line(1, at), message, hint));
@@ -154,7 +160,8 @@ impl Table {
                     "the id `{id}` stands in line {}, too, of {points}",
                     line(1, earlier)
                 );
-                let hint = "of several reflectors each row needs its name in a column point; other readings need other ids";
+                let hint = "of several reflectors each row needs its name in a column point; other \
+                    readings need other ids";
                 return Err(fault(1, line(1, at), message, hint));
             }
             rows.push(Row {

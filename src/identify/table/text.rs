@@ -193,7 +193,8 @@ impl Grid {
         for (line, row) in &rows {
             if row.len() != header.len() {
                 let message = format!("{} cells; the header has {}", row.len(), header.len());
-                let hint = "is it a table? the first line names its columns, and every row has as many cells";
+                let hint = "is it a table? the first line names its columns, and every row has as \
+                    many cells";
                 return Err(fault(*line, 1, message, hint));
             }
         }

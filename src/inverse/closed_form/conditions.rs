@@ -28,7 +28,8 @@ pub enum Unsupported {
     },
     /// Neither a spherical wrist, nor one with axis 6 offset from axis 5, nor three parallel axes.
     #[error(
-        "no closed-form inverse: alpha of row 4 is {alpha_4_deg} deg, so axes 2, 3 and 4 are not parallel; and axes 4 \
+        "no closed-form inverse: alpha of row 4 is {alpha_4_deg} deg, so axes 2, 3 and 4 are not \
+         parallel; and axes 4 \
          and 5 do not meet: {key} of row {row} is {found_mm} mm where 0 is needed"
     )]
     Wrist {
@@ -43,7 +44,8 @@ pub enum Unsupported {
     },
     /// An offset that three parallel axes do not allow.
     #[error(
-        "no closed-form inverse: axes 2, 3 and 4 are parallel, and a of row {row} is {found_mm} mm where 0 is needed"
+        "no closed-form inverse: axes 2, 3 and 4 are parallel, and a of row {row} is {found_mm} mm \
+         where 0 is needed"
     )]
     ParallelOffset {
         /// Row, from 1.

@@ -10,7 +10,8 @@ pub(super) struct Backlash;
 impl Equation for Backlash {
     const DEFINITION: Definition = Definition {
         id: "backlash",
-        summary: "a joint stands half the width before or after its command, by the direction in which it last moved (negative width: it lags)",
+        summary: "a joint stands half the width before or after its command, by the direction in \
+            which it last moved (negative width: it lags)",
         equation: "δq = width/2 · direction",
         source: "A. Nubiola, thesis, table 2.3",
         site: &[SiteKey::Joint],

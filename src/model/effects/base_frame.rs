@@ -12,7 +12,8 @@ impl Equation for BaseFrame {
     const DEFINITION: Definition = Definition {
         id: "base_frame",
         summary: "the base stands elsewhere than the profile says",
-        equation: "real world_from_base = world_from_base · Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz)",
+        equation: "real world_from_base = world_from_base · Trans(x, y, z) · Rx(rx) · Ry(ry) · \
+            Rz(rz)",
         source: "A. Nubiola, thesis, eq. I.2",
         site: &[],
         parameters: &frame_parameters(2.0, 0.2),

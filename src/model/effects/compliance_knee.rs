@@ -10,9 +10,12 @@ pub(super) struct ComplianceKnee;
 impl Equation for ComplianceKnee {
     const DEFINITION: Definition = Definition {
         id: "compliance_knee",
-        summary: "a gearbox is softer near zero load: an additional compliance up to the torque of the knee",
-        equation: "δq = rad_per_n_m · clamp(τ, −torque_n_m, +torque_n_m), on top of joint_compliance",
-        source: "A. Nubiola, thesis, sec. 2.5; the piecewise linear torsional stiffness K1, K2 of strain wave gears' data sheets",
+        summary: "a gearbox is softer near zero load: an additional compliance up to the torque of \
+            the knee",
+        equation: "δq = rad_per_n_m · clamp(τ, −torque_n_m, +torque_n_m), on top of \
+            joint_compliance",
+        source: "A. Nubiola, thesis, sec. 2.5; the piecewise linear torsional stiffness K1, K2 of \
+            strain wave gears' data sheets",
         site: &[SiteKey::Joint],
         parameters: &[
             Parameter { key: "torque_n_m", unit: Unit::NewtonMetre, prior_sigma: 20.0 },

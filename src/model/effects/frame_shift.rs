@@ -10,7 +10,8 @@ pub(super) struct FrameShift;
 impl Equation for FrameShift {
     const DEFINITION: Definition = Definition {
         id: "frame_shift",
-        summary: "the measuring device or the base moved during the session: a step from one row on (an effect of the data)",
+        summary: "the measuring device or the base moved during the session: a step from one row \
+            on (an effect of the data)",
         equation: "rows from `row` on: Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz) · world_from_tool",
         source: "A. Nubiola, thesis, eq. I.2, from a change point on",
         site: &[SiteKey::Row],

@@ -10,9 +10,11 @@ pub(super) struct FrictionBacklash;
 impl Equation for FrictionBacklash {
     const DEFINITION: Definition = Definition {
         id: "friction_backlash",
-        summary: "friction in the gear holds a joint short of its command, in proportion to its torque (negative: it lags)",
+        summary: "friction in the gear holds a joint short of its command, in proportion to its \
+            torque (negative: it lags)",
         equation: "δq = rad_per_n_m · |τ| · direction",
-        source: "Coulomb friction in proportion to the load, wound up by the gear's stiffness: A. C. Bittencourt, S. Gunnarsson, \"Static friction in a robot joint\" (2012)",
+        source: "Coulomb friction in proportion to the load, wound up by the gear's stiffness: A. \
+            C. Bittencourt, S. Gunnarsson, \"Static friction in a robot joint\" (2012)",
         site: &[SiteKey::Joint],
         parameters: &[Parameter { key: "rad_per_n_m", unit: Unit::RadPerNm, prior_sigma: 5e-6 }],
         needs: &[Need::Masses, Need::Directions],

@@ -11,9 +11,12 @@ pub(super) struct LinkGeometry;
 impl Equation for LinkGeometry {
     const DEFINITION: Definition = Definition {
         id: "link_geometry",
-        summary: "one link is longer, twisted or mounted at another angle than drawn; theta is the joint offset",
-        equation: "A = Rx(α + alpha) · Trans(a + a) · Ry(beta) · Rz(θ + theta + q) · Trans(0, 0, d + d)",
-        source: "J. J. Craig (modified Denavit–Hartenberg); S. Hayati (1985) for beta; A. Nubiola, thesis, Annex I",
+        summary: "one link is longer, twisted or mounted at another angle than drawn; theta is the \
+            joint offset",
+        equation: "A = Rx(α + alpha) · Trans(a + a) · Ry(beta) · Rz(θ + theta + q) · Trans(0, 0, d \
+            + d)",
+        source: "J. J. Craig (modified Denavit–Hartenberg); S. Hayati (1985) for beta; A. Nubiola, \
+            thesis, Annex I",
         site: &[SiteKey::Link],
         parameters: &[
             Parameter { key: "alpha_deg", unit: Unit::Degree, prior_sigma: 0.1 },

@@ -10,9 +10,11 @@ pub(super) struct MeasurementScale;
 impl Equation for MeasurementScale {
     const DEFINITION: Definition = Definition {
         id: "measurement_scale",
-        summary: "the measuring device's lengths are wrong in proportion: refraction, a scale bar, a frequency (an effect of the data)",
+        summary: "the measuring device's lengths are wrong in proportion: refraction, a scale bar, \
+            a frequency (an effect of the data)",
         equation: "measured place = (1 + ppm · 1e-6) · place in the frame of the measurements",
-        source: "ISO 10360-10, range error of laser trackers; refraction of air: P. E. Ciddor (1996)",
+        source: "ISO 10360-10, range error of laser trackers; refraction of air: P. E. Ciddor \
+            (1996)",
         site: &[],
         parameters: &[Parameter { key: "ppm", unit: Unit::Ppm, prior_sigma: 50.0 }],
         needs: &[Need::Places],

@@ -11,8 +11,10 @@ pub(super) struct PayloadError;
 impl Equation for PayloadError {
     const DEFINITION: Definition = Definition {
         id: "payload_error",
-        summary: "the tool on the flange is heavier, or its centre of gravity elsewhere, than the profile says; shows only through compliance",
-        equation: "real mass = mass + mass_kg, real cog = cog + (cog_x, cog_y, cog_z), in the flange frame; enters every torque and moment",
+        summary: "the tool on the flange is heavier, or its centre of gravity elsewhere, than the \
+            profile says; shows only through compliance",
+        equation: "real mass = mass + mass_kg, real cog = cog + (cog_x, cog_y, cog_z), in the \
+            flange frame; enters every torque and moment",
         source: "A. Nubiola, thesis, eqs. I.5–I.10",
         site: &[SiteKey::Tool],
         parameters: &[

@@ -12,7 +12,8 @@ impl Equation for PositionerAxis {
         id: "positioner_axis",
         summary: "an axis of a positioner is elsewhere than the controller has it",
         equation: "axis · Trans(x, y, 0) · Rx(rx) · Ry(ry)",
-        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
+        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial \
+            error motion)",
         site: &[SiteKey::Axis],
         parameters: &[
             Parameter { key: "x_mm", unit: Unit::Millimetre, prior_sigma: 1.0 },

@@ -12,7 +12,8 @@ impl Equation for PositionerPlate {
         id: "positioner_plate",
         summary: "the plate sits elsewhere on the last axis of a positioner",
         equation: "plate · Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz)",
-        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
+        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial \
+            error motion)",
         site: &[SiteKey::Axis],
         parameters: &frame_parameters(1.0, 0.1),
         needs: &[],

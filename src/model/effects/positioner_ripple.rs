@@ -12,7 +12,8 @@ impl Equation for PositionerRipple {
         id: "positioner_ripple",
         summary: "the gear of a positioner errs periodically",
         equation: "cos · cos(n · angle) + sin · sin(n · angle), n the order",
-        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
+        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial \
+            error motion)",
         site: &[SiteKey::Axis, SiteKey::Order],
         parameters: &[
             Parameter { key: "cos_deg", unit: Unit::Degree, prior_sigma: 0.01 },

@@ -11,8 +11,10 @@ impl Equation for PositionerRunout {
     const DEFINITION: Definition = Definition {
         id: "positioner_runout",
         summary: "an axis of a positioner wobbles as it rotates",
-        equation: "cos · cos(n · angle) + sin · sin(n · angle) along x, y or z of the axis as it stands; across the axis order 1 is the plate’s x and y",
-        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
+        equation: "cos · cos(n · angle) + sin · sin(n · angle) along x, y or z of the axis as it \
+            stands; across the axis order 1 is the plate’s x and y",
+        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial \
+            error motion)",
         site: &[SiteKey::Axis, SiteKey::Along("xyz"), SiteKey::Order],
         parameters: &[
             Parameter { key: "cos_mm", unit: Unit::Millimetre, prior_sigma: 0.05 },

@@ -12,7 +12,8 @@ impl Equation for PositionerScale {
         id: "positioner_scale",
         summary: "an axis of a positioner goes farther or less far than commanded",
         equation: "angle · (1 + ratio)",
-        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
+        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial \
+            error motion)",
         site: &[SiteKey::Axis],
         parameters: &[
             Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 1e-4 },

@@ -12,7 +12,8 @@ impl Equation for PositionerZero {
         id: "positioner_zero",
         summary: "an axis of a positioner shows zero at another angle",
         equation: "angle + deg",
-        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial error motion)",
+        source: "rigid motions of a rotary axis (ISO 230-7: tilt, eccentricity, axial and radial \
+            error motion)",
         site: &[SiteKey::Axis],
         parameters: &[
             Parameter { key: "deg", unit: Unit::Degree, prior_sigma: 0.05 },

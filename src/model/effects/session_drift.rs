@@ -13,8 +13,10 @@ const SHORTEST: f64 = 0.1;
 impl Equation for SessionDrift {
     const DEFINITION: Definition = Definition {
         id: "session_drift",
-        summary: "a joint drifts from row to row; without `joint` the base or the device does (an effect of the data)",
-        equation: "δq = angle_deg · (1 − exp(−row / constant_rows)); the base by (x_mm, y_mm, z_mm) along the world's axes likewise",
+        summary: "a joint drifts from row to row; without `joint` the base or the device does (an \
+            effect of the data)",
+        equation: "δq = angle_deg · (1 − exp(−row / constant_rows)); the base by (x_mm, y_mm, \
+            z_mm) along the world's axes likewise",
         source: "first-order heating (Newton's law of cooling), rows read at an even pace",
         site: &[SiteKey::JointOrBase],
         parameters: &[

@@ -10,9 +10,12 @@ pub(super) struct Settling;
 impl Equation for Settling {
     const DEFINITION: Definition = Definition {
         id: "settling",
-        summary: "a joint is read before it has come to rest: a part of its last move is still missing (negative: it has gone too far)",
-        equation: "δq = −share · (q − q before), the angles of the row and of the posture before it",
-        source: "creep of a first-order lag: A. Ruderman, F. Hoffmann, T. Bertram, \"Modeling and identification of elastic robot joints with hysteresis and backlash\" (2009)",
+        summary: "a joint is read before it has come to rest: a part of its last move is still \
+            missing (negative: it has gone too far)",
+        equation: "δq = −share · (q − q before), the angles of the row and of the posture before \
+            it",
+        source: "creep of a first-order lag: A. Ruderman, F. Hoffmann, T. Bertram, \"Modeling and \
+            identification of elastic robot joints with hysteresis and backlash\" (2009)",
         site: &[SiteKey::Joint],
         parameters: &[Parameter { key: "share", unit: Unit::Ratio, prior_sigma: 2e-4 }],
         needs: &[Need::Moves],

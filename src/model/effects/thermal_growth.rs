@@ -11,7 +11,8 @@ impl Equation for ThermalGrowth {
     const DEFINITION: Definition = Definition {
         id: "thermal_growth",
         summary: "the arm is longer when it is warm: all its lengths grow alike with temperature",
-        equation: "a, d = (1 + per_k · (T − reference_c)) · a, d: the last link's origin moves by that part of its distance from the base",
+        equation: "a, d = (1 + per_k · (T − reference_c)) · a, d: the last link's origin moves by \
+            that part of its distance from the base",
         source: "linear thermal expansion; 2.3e-5 /K for aluminium, 1.2e-5 /K for steel",
         site: &[],
         parameters: &[

@@ -12,7 +12,8 @@ impl Equation for ToolFrame {
     const DEFINITION: Definition = Definition {
         id: "tool_frame",
         summary: "the tool's tip is elsewhere on the flange than the program or profile says",
-        equation: "real flange_from_tool = flange_from_tool · Trans(x, y, z) · Rx(rx) · Ry(ry) · Rz(rz)",
+        equation: "real flange_from_tool = flange_from_tool · Trans(x, y, z) · Rx(rx) · Ry(ry) · \
+            Rz(rz)",
         source: "A. Nubiola, thesis, eq. I.2",
         site: &[SiteKey::Tool],
         parameters: &frame_parameters(1.0, 0.2),

@@ -10,7 +10,8 @@ pub(super) struct ToolSlip;
 impl Equation for ToolSlip {
     const DEFINITION: Definition = Definition {
         id: "tool_slip",
-        summary: "the tool or reflector slipped on the flange during the session: a step from one row on (an effect of the data)",
+        summary: "the tool or reflector slipped on the flange during the session: a step from one \
+            row on (an effect of the data)",
         equation: "rows from `row` on: world_from_tool · Trans(x, y, z)",
         source: "A. Nubiola, thesis, eq. I.2, from a change point on",
         site: &[SiteKey::Row],

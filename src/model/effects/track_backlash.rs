@@ -12,7 +12,8 @@ impl Equation for TrackBacklash {
         id: "track_backlash",
         summary: "a linear axis stands elsewhere when it comes from the other side",
         equation: "half of width_mm along the rail in the direction of the last motion",
-        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
+        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate \
+            integration of track motions\", SciTePress (2006), as polynomials of the travel",
         site: &[SiteKey::Axis],
         parameters: &[
             Parameter { key: "width_mm", unit: Unit::Millimetre, prior_sigma: 0.05 },

@@ -12,7 +12,8 @@ impl Equation for TrackDirection {
         id: "track_direction",
         summary: "a linear axis runs in another direction than the controller has it",
         equation: "travel along Ry(y) · Rz(z) · x of the rail; z is up, y = z × x",
-        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
+        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate \
+            integration of track motions\", SciTePress (2006), as polynomials of the travel",
         site: &[SiteKey::Axis],
         parameters: &[
             Parameter { key: "y_deg", unit: Unit::Degree, prior_sigma: 0.05 },

@@ -10,9 +10,12 @@ pub(super) struct TrackRipple;
 impl Equation for TrackRipple {
     const DEFINITION: Definition = Definition {
         id: "track_ripple",
-        summary: "the error of a linear axis repeats with the pitch of its rack or the segments of its rail",
-        equation: "cos · (cos(2π travel / period) − 1) + sin · sin(2π travel / period) along x, y or z of the rail",
-        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
+        summary: "the error of a linear axis repeats with the pitch of its rack or the segments of \
+            its rail",
+        equation: "cos · (cos(2π travel / period) − 1) + sin · sin(2π travel / period) along x, y \
+            or z of the rail",
+        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate \
+            integration of track motions\", SciTePress (2006), as polynomials of the travel",
         site: &[SiteKey::Axis, SiteKey::Along("xyz"), SiteKey::Period],
         parameters: &[
             Parameter { key: "cos_mm", unit: Unit::Millimetre, prior_sigma: 0.05 },

@@ -11,8 +11,10 @@ impl Equation for TrackRotation {
     const DEFINITION: Definition = Definition {
         id: "track_rotation",
         summary: "the carriage rolls, pitches or yaws along a linear axis",
-        equation: "Rx(Σ deg · sⁿ) · Ry(…) · Rz(…) about the base’s origin along the rail’s axes; s from −1 to 1 over the limits",
-        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
+        equation: "Rx(Σ deg · sⁿ) · Ry(…) · Rz(…) about the base’s origin along the rail’s axes; s \
+            from −1 to 1 over the limits",
+        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate \
+            integration of track motions\", SciTePress (2006), as polynomials of the travel",
         site: &[SiteKey::Axis, SiteKey::About("xyz"), SiteKey::Degree(1, 4)],
         parameters: &[
             Parameter { key: "deg", unit: Unit::Degree, prior_sigma: 0.02 },

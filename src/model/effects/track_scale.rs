@@ -12,7 +12,8 @@ impl Equation for TrackScale {
         id: "track_scale",
         summary: "a linear axis goes farther or less far than commanded",
         equation: "travel · (1 + ratio), counted from the middle of its limits",
-        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
+        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate \
+            integration of track motions\", SciTePress (2006), as polynomials of the travel",
         site: &[SiteKey::Axis],
         parameters: &[
             Parameter { key: "ratio", unit: Unit::Ratio, prior_sigma: 1e-4 },

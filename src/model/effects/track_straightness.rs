@@ -11,8 +11,10 @@ impl Equation for TrackStraightness {
     const DEFINITION: Definition = Definition {
         id: "track_straightness",
         summary: "a linear axis is bent",
-        equation: "mm · sⁿ along y or z of the rail, n the degree, s from −1 to 1 over the axis’ limits",
-        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate integration of track motions\", SciTePress (2006), as polynomials of the travel",
+        equation: "mm · sⁿ along y or z of the rail, n the degree, s from −1 to 1 over the axis’ \
+            limits",
+        source: "J. Kleinkes, W. Neddermeyer, M. Schnell, \"Improved method for highly accurate \
+            integration of track motions\", SciTePress (2006), as polynomials of the travel",
         site: &[SiteKey::Axis, SiteKey::Along("yz"), SiteKey::Degree(2, 6)],
         parameters: &[
             Parameter { key: "mm", unit: Unit::Millimetre, prior_sigma: 0.3 },

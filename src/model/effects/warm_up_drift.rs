@@ -13,8 +13,10 @@ const SHORTEST_S: f64 = 1.0;
 impl Equation for WarmUpDrift {
     const DEFINITION: Definition = Definition {
         id: "warm_up_drift",
-        summary: "a joint drifts to its warm place while the robot warms up; without `joint` the base does",
-        equation: "δq = angle_deg · (1 − exp(−time_s / time_constant_s)); the base by (x_mm, y_mm, z_mm) along the world's axes likewise",
+        summary: "a joint drifts to its warm place while the robot warms up; without `joint` the \
+            base does",
+        equation: "δq = angle_deg · (1 − exp(−time_s / time_constant_s)); the base by (x_mm, y_mm, \
+            z_mm) along the world's axes likewise",
         source: "first-order heating (Newton's law of cooling)",
         site: &[SiteKey::JointOrBase],
         parameters: &[

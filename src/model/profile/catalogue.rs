@@ -177,7 +177,8 @@ impl CatalogueArm {
             top.push(format!("A second file: {}.", self.second_source));
         }
         top.push(
-            "Lengths agree in 28 of 29 pairs of independent files of one arm; ranges differ in 17: set min_deg, max_deg and".into(),
+            "Lengths agree in 28 of 29 pairs of independent files of one arm; ranges differ in 17: \
+             set min_deg, max_deg and".into(),
         );
         top.push("  speed_deg_s from the data sheet of this very variant.".into());
         if let Some(c) = profile.mechanism.coupling.first() {
@@ -187,10 +188,13 @@ impl CatalogueArm {
         top.push(self.tip());
         top.extend(flange_remark(&profile.link6_from_flange));
         top.push(
-            "Senses and zeros of the joints are the file's: compare them, and the flange with tool 0, with the pendant in two postures.".into(),
+            "Senses and zeros of the joints are the file's: compare them, and the flange with tool \
+             0, with the pendant in two postures.".into(),
         );
         top.push(
-            "Masses: none here. Effects of compliance see the tool alone until `bodies` has the masses of the links.".into(),
+            "Masses: none here. Effects of compliance see the tool alone until `bodies` has the \
+             masses of the links."
+                .into(),
         );
         if !self.note.is_empty() {
             top.push(format!("Note: {}.", self.note));
@@ -210,10 +214,12 @@ impl CatalogueArm {
                 self.root
             ),
             root if self.pedestal_mm.is_empty() => format!(
-                "World: link `{root}` of the file; whether the controller counts from there is not known: compare a pose with the pendant."
+                "World: link `{root}` of the file; whether the controller counts from there is not \
+                 known: compare a pose with the pendant."
             ),
             root => format!(
-                "World: link `{root}`, the foot; the file puts it {} mm above its own world, on a pedestal that is left out here.",
+                "World: link `{root}`, the foot; the file puts it {} mm above its own world, on a \
+                 pedestal that is left out here.",
                 self.pedestal_mm
             ),
         }
@@ -227,7 +233,8 @@ impl CatalogueArm {
                 self.tip
             ),
             tip => format!(
-                "Flange: link `{tip}` of the file, where it ends; compare its distance and its axes with tool 0 on the pendant."
+                "Flange: link `{tip}` of the file, where it ends; compare its distance and its \
+                 axes with tool 0 on the pendant."
             ),
         }
     }
@@ -240,7 +247,9 @@ const ALONG: f64 = 0.999;
 pub(crate) fn flange_remark(link6_from_flange: &Pose) -> Option<String> {
     let is_along = link6_from_flange.rotation.0[2][2].abs() > ALONG;
     (!is_along).then(|| {
-        "The flange's z is not along axis 6, as it is of a controller's tool 0: turn `flange` until both agree.".into()
+        "The flange's z is not along axis 6, as it is of a controller's tool 0: turn `flange` \
+         until both agree."
+            .into()
     })
 }
 
@@ -250,10 +259,12 @@ pub(crate) fn coupled(c: &Coupling) -> [String; 2] {
     let sign = if c.ratio < 0.0 { '-' } else { '+' };
     [
         format!(
-            "Coupling: the controller counts J{joint} together with J{on}: the joint turns by J{joint} {sign} J{on} (`coupling`). Compare a posture with"
+            "Coupling: the controller counts J{joint} together with J{on}: the joint turns by \
+             J{joint} {sign} J{on} (`coupling`). Compare a posture with"
         ),
         format!(
-            "  J{on} away from zero with the pendant. The range of J{joint} holds whichever of the two the file means: set it from the data sheet."
+            "  J{on} away from zero with the pendant. The range of J{joint} holds whichever of the \
+             two the file means: set it from the data sheet."
         ),
     ]
 }

@@ -294,7 +294,8 @@ mod tests {
     use super::*;
 
     const TEXT: &str = "# ümlaut: stays\nrobot: {model: \"a b\", serial: unknown}   # who\n\
-        kinematics:\n  joints:\n    - {min_deg: -1, max_deg: 2}   # one\n    - {min_deg: -3, max_deg: 4}\n  flange: {x_mm: 0}\n\
+        kinematics:\n  joints:\n    - {min_deg: -1, max_deg: 2}   # one\n    - {min_deg: -3, \
+            max_deg: 4}\n  flange: {x_mm: 0}\n\
         tools: {}\ncontroller:\n  # which\n  model: nominal   # it is\nlast: 1\n";
 
     fn changed(path: &str, value: &str, old: &str, new: &str) {

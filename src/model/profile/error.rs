@@ -232,7 +232,8 @@ pub enum Fault {
     },
     /// A tool so small that its lengths must be in another unit.
     #[error(
-        "the frame of tool `{tool}` is {largest_mm} mm from the flange at most in each coordinate; below 1 mm it is none, or in metres"
+        "the frame of tool `{tool}` is {largest_mm} mm from the flange at most in each coordinate; \
+         below 1 mm it is none, or in metres"
     )]
     TinyTool {
         /// The tool.
@@ -284,7 +285,9 @@ impl ProfileError {
         match &self.fault {
             Fault::Effect(error) => error.hint(),
             Fault::EffectOfData { .. } => {
-                "leave it out; `poseshift diagnose` finds it in measurements and repairs their analysis".into()
+                "leave it out; `poseshift diagnose` finds it in measurements and repairs their \
+                 analysis"
+                    .into()
             }
             Fault::DuplicateEffect { .. } => "add the two up into one entry".into(),
             Fault::Format {
@@ -311,10 +314,20 @@ impl ProfileError {
             }
             Fault::MovingPlane { .. } => "a box does the same".into(),
             Fault::EffectsOfNominal => "set `model: calibrated`, or take the effects away".into(),
-            Fault::Large { .. } => "is it in the unit of its key? `large: true` with `reason: \"…\"` in the entry says that it is meant".into(),
-            Fault::LargeWithoutReason { .. } => "write `large: true, reason: \"…\"`, or leave both out".into(),
-            Fault::BeyondPayload { .. } => "masses are in kg; correct the tool or robot.payload_kg".into(),
-            Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange itself".into(),
+            Fault::Large { .. } => "is it in the unit of its key? `large: true` with `reason: \
+                \"…\"` in the entry says that it is meant"
+                .into(),
+            Fault::LargeWithoutReason { .. } => {
+                "write `large: true, reason: \"…\"`, or leave both \
+                out"
+                .into()
+            }
+            Fault::BeyondPayload { .. } => "masses are in kg; correct the tool or \
+                robot.payload_kg"
+                .into(),
+            Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange \
+                itself"
+                .into(),
             Fault::EndlessAngle { .. } => "angles are in degrees, between -360 and 360".into(),
             Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
             Fault::UpAlong => "give `up` across the rail: for a lift [1, 0, 0]".into(),
@@ -323,7 +336,10 @@ impl ProfileError {
                 "list the axes under `external_axes`".into()
             }
             Fault::NoSuchAxis { listed, .. } => {
-                let listed = listed.iter().zip(1..).map(|(name, n)| format!("{n} is {name}"));
+                let listed = listed
+                    .iter()
+                    .zip(1..)
+                    .map(|(name, n)| format!("{n} is {name}"));
                 listed.collect::<Vec<_>>().join(", ")
             }
             Fault::NotSix { .. } => "only arms with six revolute joints are supported".into(),

@@ -361,7 +361,8 @@ pub(crate) fn section(axes: &ExternalAxes) -> String {
     for axis in &axes.track {
         let mm = |m: f64| number(mm_from_m(m));
         out += &format!(
-            "    - {{axis: {}, direction: [{}], up: [{}], zero_mm: {}, min_mm: {}, max_mm: {}, coordinates: {}",
+            "    - {{axis: {}, direction: [{}], up: [{}], zero_mm: {}, min_mm: {}, max_mm: {}, \
+             coordinates: {}",
             quoted(&axis.axis),
             numbers(axis.direction),
             numbers(axis.up),

@@ -26,7 +26,9 @@ pub struct Maker {
 /// found. ABB's arms with a rod: ros-industrial/abb_driver, `J23_coupled`.
 pub const MAKERS: &[Maker] = &[
     Maker {
-        remark: "ABB's controllers count axis 3 of arms with a parallel rod (IRB 2400, 4400) together with axis 2: `profile set` with kinematics.coupling=[{joint: 3, \"on\": 2, ratio: -1}]",
+        remark: "ABB's controllers count axis 3 of arms with a parallel rod (IRB 2400, 4400) \
+            together with axis 2: `profile set` with kinematics.coupling=[{joint: 3, \"on\": 2, \
+            ratio: -1}]",
         ..maker("ABB", "rapid", &["abb", "irb"])
     },
     maker("KUKA", "krl", &["kuka"]),

@@ -81,7 +81,8 @@ fn the_controller_of_a_text_is_replaced_and_nothing_else() {
     let effects = link_geometry(CONF, &profile).expect("a calibration");
     let block = UR5.replace(
         "controller: {language: urscript, model: nominal}",
-        "controller:   # of the cell\n  language: urscript\n\n  # still\n  model: nominal\n\n# the arm",
+        "controller:   # of the cell\n  language: urscript\n\n  # still\n  model: nominal\n\n# the \
+         arm",
     );
     let crlf = UR5.replace('\n', "\r\n");
     for text in [UR5, &block, &crlf] {

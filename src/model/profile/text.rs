@@ -118,7 +118,8 @@ pub fn made(profile: &Profile, comments: &Comments) -> String {
             format!("language: {}, ", quoted(language))
         });
     out += &format!(
-        "poseshift: {FORMAT}\nrobot: {{manufacturer: {}, model: {}, serial: {}}}\ncontroller: {{{language}model: nominal}}\n\
+        "poseshift: {FORMAT}\nrobot: {{manufacturer: {}, model: {}, serial: {}}}\ncontroller: \
+         {{{language}model: nominal}}\n\
          kinematics:\n  base: {}\n  joints:\n",
         quoted(&profile.manufacturer),
         quoted(&profile.model),

@@ -110,7 +110,8 @@ impl UrError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Unknown | Self::Missing { .. } => {
-                "calibration.conf is in the folder .urcontrol of the controller; `ros2 launch ur_calibration` writes the other"
+                "calibration.conf is in the folder .urcontrol of the controller; `ros2 launch \
+                 ur_calibration` writes the other"
             }
             Self::NotTheTable { .. } => "take a built-in profile: `poseshift robots` lists them",
             Self::Rows(_) => "is this the nominal profile of this type of arm?",

@@ -96,7 +96,8 @@ fn of_robot(profile: &Profile) -> impl Iterator<Item = &Effect> {
 }
 
 /// First line of a profile whose calibration is not that of the file it was made from.
-const IDENTIFIED: &str = "# Its calibration was identified by poseshift from measurements (quality and provenance below). The other comments are of the\n\
+const IDENTIFIED: &str = "# Its calibration was identified by poseshift from measurements (quality \
+    and provenance below). The other comments are of the\n\
      # profile that it started from: what they say of effects is not of this one.\n";
 
 /// Why an effect that was identified may be beyond the usual.

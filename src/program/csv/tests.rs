@@ -19,7 +19,8 @@ fn values(program: &Program, target: usize) -> Vec<f64> {
 #[test]
 fn poses_in_any_order_of_columns_with_names_of_tool_and_frame() {
     let text = "# made by hand\r\nid,qw,qx,qy,qz,speed,z_mm,y_mm,x_mm,tool,frame,branch\r\n\
-                a,1,0,0,0,fast,3,-2.50,\" 1.5 \",gun,bench,0\r\n\r\n# half\r\n\"b, \"\"c\",0,1,0,0,slow,6,5,4,gun,world,5\r\n";
+                a,1,0,0,0,fast,3,-2.50,\" 1.5 \",gun,bench,0\r\n\r\n# half\r\n\"b, \
+                    \"\"c\",0,1,0,0,slow,6,5,4,gun,world,5\r\n";
     let program = read(text).expect("a table");
     assert_eq!(values(&program, 0), [1.5, -2.5, 3.0, 1.0, 0.0, 0.0, 0.0]);
     assert_eq!(values(&program, 1)[..3], [4.0, 5.0, 6.0]);
@@ -278,4 +279,5 @@ const MUTATIONS: [(usize, &str); 12] = [
     (0, "-"),
 ];
 
-const SAMPLE: &str = "id,x_mm,y_mm,z_mm,qw,qx,qy,qz,branch,tool\n# c\n1,\"1.0\",2,3,1,0,0,0,3,\"a\"\"b\"\n\n2, 4 ,5,6,0,1,0,0,0,t\r\n";
+const SAMPLE: &str = "id,x_mm,y_mm,z_mm,qw,qx,qy,qz,branch,tool\n# \
+    c\n1,\"1.0\",2,3,1,0,0,0,3,\"a\"\"b\"\n\n2, 4 ,5,6,0,1,0,0,0,t\r\n";

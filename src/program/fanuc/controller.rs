@@ -102,12 +102,14 @@ impl Why {
             Self::LineTracking => ("moving-frame", "the program follows a conveyor", moving),
             Self::Computed => (
                 "computed-target",
-                "only the running program knows the position (a register); what goes there stays as it is",
+                "only the running program knows the position (a register); what goes there stays \
+                 as it is",
                 "write the position as a point of the program where it must be exact",
             ),
             Self::Missing => (
                 "target-not-in-files",
-                "the point that this move goes to is not in /POS of this file; this move is not compensated",
+                "the point that this move goes to is not in /POS of this file; this move is not \
+                 compensated",
                 "export the program again, whole",
             ),
             Self::FrameAssigned => (
@@ -122,7 +124,8 @@ impl Why {
             ),
             Self::Corrected => (
                 "corrected-by-sensor",
-                "from here on a sensor or a search corrects moves: each goes to its point, compensated, and what the sensor adds",
+                "from here on a sensor or a search corrects moves: each goes to its point, \
+                 compensated, and what the sensor adds",
                 "look whether the sensor was set up with the same arm",
             ),
             Self::Uninitialised => (
@@ -137,7 +140,8 @@ impl Why {
             ),
             Self::Configuration => (
                 "configuration-not-understood",
-                "these configuration data are not those of an arm with six joints and a spherical wrist",
+                "these configuration data are not those of an arm with six joints and a spherical \
+                 wrist",
                 six,
             ),
             Self::Ambiguous => (
@@ -310,7 +314,8 @@ impl Controller {
         for (number, of) in [key.0, key.1].into_iter().zip(&mut self.kinds) {
             let Some(number) = number else { continue };
             let text = format!(
-                "another {} is selected here than the {number} of points that are gone to: the controller stops at such a move",
+                "another {} is selected here than the {number} of points that are gone to: the \
+                 controller stops at such a move",
                 of.what
             );
             let remark = of.taught.entry(number).or_insert_with(|| {

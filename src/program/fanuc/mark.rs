@@ -77,7 +77,8 @@ mod tests {
 
     #[test]
     fn remarks_go_behind_the_last_line_with_the_next_numbers() {
-        let text = "/PROG A\r\n/MN\r\n   1:J P[1] 100% FINE TB .10sec,P-SPS ;\r\n      1:  X ;\r\n      9:  Y ;\r\n       ------ ;\r\n   2:  END ;\r\n/POS\r\n/END\r\n";
+        let text = "/PROG A\r\n/MN\r\n   1:J P[1] 100% FINE TB .10sec,P-SPS ;\r\n      1:  X \
+            ;\r\n      9:  Y ;\r\n       ------ ;\r\n   2:  END ;\r\n/POS\r\n/END\r\n";
         let found = marked(text);
         let lines: Vec<&str> = found.split("\r\n").collect();
         assert_eq!(lines[7], "   3:  !poseshift compensated this file ;");

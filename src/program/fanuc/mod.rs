@@ -74,14 +74,17 @@ static ABOUT: About = About {
         "CONFIG flags and turns, where an axis leaves its turn or the arm changes sides",
     ],
     leaves: &[
-        "groups 2 and up, values of extended axes, instructions, names, attributes, line ends, encoding",
+        "groups 2 and up, values of extended axes, instructions, names, attributes, line ends, \
+         encoding",
         "points that no move uses",
         "moves to position registers that are no copies of points, with a warning",
-        "offsets of moves (Offset, Tool_Offset, VOFFSET): the moved point takes the correction along, a warning says so",
+        "offsets of moves (Offset, Tool_Offset, VOFFSET): the moved point takes the correction \
+         along, a warning says so",
         "SYSFRAME.VA and FRAME.DG, which tell tools and user frames",
     ],
     refuses: &[
-        "increments (INC), moves with RTCP, COORD or line tracking, extended axes away from zero that the profile does not describe",
+        "increments (INC), moves with RTCP, COORD or line tracking, extended axes away from zero \
+         that the profile does not describe",
         "points that were never taught, or of robots with other axes",
         "tools and user frames that the running program assigns or chooses",
     ],

@@ -52,7 +52,8 @@ pub(super) fn bad_value(at: usize, length: usize) -> Fault {
     Fault::bad_value(
         at..at + length,
         "coordinate, or number of a tool or frame",
-        "a plain number of at most 1000000 is wanted; angles of tools and frames go to 720 deg, their numbers to 255",
+        "a plain number of at most 1000000 is wanted; angles of tools and frames go to 720 deg, \
+         their numbers to 255",
     )
 }
 

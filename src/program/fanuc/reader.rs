@@ -394,7 +394,8 @@ impl Reader<'_> {
     fn finish(mut self) -> Script {
         for (place, register) in std::mem::take(&mut self.copies) {
             if !self.reads_any && !self.read.contains(&register) {
-                let message = "a point is copied into a register here, which nothing in the files goes to; it takes its correction along";
+                let message = "a point is copied into a register here, which nothing in the files \
+                    goes to; it takes its correction along";
                 let hint = "look where the register is used, or give those programs too";
                 self.say(place, "target-copied", Severity::Warning, message, hint);
             }

@@ -505,8 +505,10 @@ fn is_data(name: &[u8]) -> bool {
 /// Whether an instruction may be a macro of the user's, which is a call: words of the language, and
 /// those with an index or an assignment, are none.
 fn is_macro(name: &[u8], text: &[u8]) -> bool {
-    let known = "ABORT ABBRUCH ARC BREAK CASE COL CONTINUE DEFAULT ENABLE END ENDE IF WENN JOINT_MAX_SPEED LINEAR_MAX_SPEED \
-        LOCK MOVE OFFSET OVERRIDE PAUSE RESET RESUME_PROG RETURN_PATH_DSBL SEMAPHORE SKIP STOP TIMER TOOL_OFFSET UALM \
+    let known = "ABORT ABBRUCH ARC BREAK CASE COL CONTINUE DEFAULT ENABLE END ENDE IF WENN \
+        JOINT_MAX_SPEED LINEAR_MAX_SPEED \
+        LOCK MOVE OFFSET OVERRIDE PAUSE RESET RESUME_PROG RETURN_PATH_DSBL SEMAPHORE SKIP STOP \
+            TIMER TOOL_OFFSET UALM \
         UNLOCK VOFFSET WAIT WARTEN WEAVE WELD";
     let plain = !text.iter().any(|b| matches!(b, b'[' | b'='));
     plain && !is_one_of(name, known) && name.first().is_some_and(|b| *b != b'$')

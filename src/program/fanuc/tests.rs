@@ -20,7 +20,8 @@ const POSE: Layout = Layout {
 /// A point as controllers write it.
 fn pose(number: &str, head: &str) -> String {
     format!(
-        "P[{number}]{{\n   GP1:\n\t{head}\n\tX =  1922.978  mm,\tY =  -163.122  mm,\tZ =   -54.328  mm,\n\tW =  -179.532 deg,\tP =      .193 deg,\tR =     -.287 deg\n}};\n"
+        "P[{number}]{{\n   GP1:\n\t{head}\n\tX =  1922.978  mm,\tY =  -163.122  mm,\tZ =   \
+         -54.328  mm,\n\tW =  -179.532 deg,\tP =      .193 deg,\tR =     -.287 deg\n}};\n"
     )
 }
 
@@ -30,7 +31,9 @@ fn usual(number: &str) -> String {
 
 fn joints(number: &str) -> String {
     format!(
-        "P[{number}]{{\n   GP1:\n\tUF : 2, UT : 1,\t\n\tJ1=   -41.180 deg,\tJ2=     1.000 deg,\tJ3=     2.000 deg,\n\tJ4=     3.000 deg,\tJ5=     4.000 deg,\tJ6=      .500 deg\n}};\n"
+        "P[{number}]{{\n   GP1:\n\tUF : 2, UT : 1,\t\n\tJ1=   -41.180 deg,\tJ2=     1.000 \
+         deg,\tJ3=     2.000 deg,\n\tJ4=     3.000 deg,\tJ5=     4.000 deg,\tJ6=      .500 \
+         deg\n}};\n"
     )
 }
 
@@ -117,7 +120,8 @@ fn joint_points_are_six_angles() {
 fn other_groups_are_left_alone() {
     let groups = usual("1").replace(
         "\n};",
-        "\n   GP2:\n\tUF : 0, UT : 7,\t\n\tJ1=   300.000  mm\n   GP3:\n\tUF : F, UT : 1,\n\tJ1= ********  mm\n};",
+        "\n   GP2:\n\tUF : 0, UT : 7,\t\n\tJ1=   300.000  mm\n   GP3:\n\tUF : F, UT : 1,\n\tJ1= \
+         ********  mm\n};",
     );
     let alone = "P[2]{\n   GP2:\n\tUF : 0, UT : 1,\n\tJ1=     1.000 deg,\tJ2=     2.000 deg\n};\n";
     let program = read(
@@ -133,7 +137,12 @@ fn other_groups_are_left_alone() {
 
 #[test]
 fn german_listings_are_read_like_others() {
-    let text = b"/PROG  UP1\n/EIGN.\nKOMMENTAR\t= \"Gr\xf6\xdfe\";\nPROG_GR\xd6\xdfE = 1;\n/APPL\n/MN\n   1:  BENUTZER_NUM=0 ;\n   2:  WKZ_NUM=24 ;\n   3:J P[1] 100% CNT0 ACC100 ZEIT VOR    .10sek,P-SPS    ;\n      1:  FB-PSPS (AN) ;\n       ------ ;\n   4:J P[1] 100% FEIN WKZ_Offset,PR[1] ;\n/POS\nP[1]{\n   GP1:\n\tUF : 0, UT : 24,\t\tKONFIG : 'F D B, 0, 1, 0',\n\tX =   -46.468  mm,\tY =  -827.851  mm,\tZ =  1594.398  mm,\n\tW =   165.784 deg,\tP =    10.653 deg,\tR =    -4.457 deg\n};\n/END\n";
+    let text = b"/PROG  UP1\n/EIGN.\nKOMMENTAR\t= \"Gr\xf6\xdfe\";\nPROG_GR\xd6\xdfE = \
+        1;\n/APPL\n/MN\n   1:  BENUTZER_NUM=0 ;\n   2:  WKZ_NUM=24 ;\n   3:J P[1] 100% CNT0 ACC100 \
+        ZEIT VOR    .10sek,P-SPS    ;\n      1:  FB-PSPS (AN) ;\n       ------ ;\n   4:J P[1] 100% \
+        FEIN WKZ_Offset,PR[1] ;\n/POS\nP[1]{\n   GP1:\n\tUF : 0, UT : 24,\t\tKONFIG : 'F D B, 0, \
+        1, 0',\n\tX =   -46.468  mm,\tY =  -827.851  mm,\tZ =  1594.398  mm,\n\tW =   165.784 \
+        deg,\tP =    10.653 deg,\tR =    -4.457 deg\n};\n/END\n";
     let source = Source::new("up1.ls", text.to_vec());
     assert!(Fanuc.recognises(&source));
     let program = crate::motion::read(&Fanuc, &[source], &Settings::default()).expect("read");
@@ -159,7 +168,9 @@ fn a_point_without_configuration_data_has_six_numbers() {
 
 #[test]
 fn free_layouts_of_post_processors_are_read() {
-    let point = "P[1]{\n        GP1:\n        UF : 1, UT : 1,        CONFIG: 'N U T, 0, 0, 0',\n        X = 1348.2 mm,\tY =\t1E1\tmm, Z=-.5mm,\n        W = 90.0 deg, P = -90 deg, R = +0.0 deg\n}\n";
+    let point = "P[1]{\n        GP1:\n        UF : 1, UT : 1,        CONFIG: 'N U T, 0, 0, \
+        0',\n        X = 1348.2 mm,\tY =\t1E1\tmm, Z=-.5mm,\n        W = 90.0 deg, P = -90 deg, R \
+        = +0.0 deg\n}\n";
     let program = read("L P[1] 100mm/sec FINE;", point);
     assert_eq!(
         values(&program, 0)[..6],
@@ -221,10 +232,24 @@ fn tool_and_frame_0_are_known_and_others_come_from_the_controllers_files() {
     );
     assert_eq!(program.tools[0].flange_from_tool, Some(Pose::identity()));
     assert_eq!(program.frames[0].world_from_frame, Some(Pose::identity()));
-    let variables = "[*SYSTEM*]$CELL_FLOOR  Storage: SHADOW  Access: RW  : POSITION =\n  Group: 1   Config: N D B, 0, 0, 0\n  X:     9.000   Y:     9.000   Z:     9.000\n  W:     0.000   P:     0.000   R:     0.000\n\n\
-        [*SYSTEM*]$MNUFRAME  Storage: SHADOW  Access: RW  : ARRAY[4,20] OF POSITION\n    [1,1] = \n  Group: 1   Config: N D B, 0, 0, 0\n  X:     7.000   Y:     7.000   Z:     7.000\n  W:     0.000   P:     0.000   R:     0.000\n    [1,2] = \n  Group: 1   Config: N D B, 0, 0, 0\n  X:   884.000   Y: -3329.790   Z:  -133.190\n  W:     0.000   P:      .370   R:    90.000\n    [1,3] =  Uninitialized\n    [2,2] = \n  Group: 2   Config: \n  X:     1.000   Y:     0.000   Z:     0.000\n  W:     0.000   P:     0.000   R:     0.000\n\n\
-        [*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[2,20] OF POSITION\n  [1,1] = 'GRIP X: 7' Group: 1\n    X:   0.000   Y:   0.000   Z: 150.000\n    W:   0.000   P:   0.000   R:   0.000\n[*SYSTEM*]$MNUTOOLNUM  Storage: CMOS  Access: RW  : ARRAY[2] OF BYTE\n  [1] = 1\n";
-    let list = "F Number: F270477\n$VERSION: V9.30126\n\nTool Frame\n  -1.3  -1090.6   150.1  -180.0     0.0   -90.0 SSW\n\nJog Frame\n   5.0     0.0     0.0     0.0     0.0     0.0 \n\nUser Frame\n   0.0     0.0     0.0     0.0     0.0     0.0 \n 884.0  -3329.8   -133.2      .1      .0    90.0 FIX 1\n";
+    let variables = "[*SYSTEM*]$CELL_FLOOR  Storage: SHADOW  Access: RW  : POSITION =\n  Group: \
+        1   Config: N D B, 0, 0, 0\n  X:     9.000   Y:     9.000   Z:     9.000\n  W:     0.000   \
+        P:     0.000   R:     0.000\n\n\
+        [*SYSTEM*]$MNUFRAME  Storage: SHADOW  Access: RW  : ARRAY[4,20] OF POSITION\n    [1,1] = \
+            \n  Group: 1   Config: N D B, 0, 0, 0\n  X:     7.000   Y:     7.000   Z:     7.000\n  \
+            W:     0.000   P:     0.000   R:     0.000\n    [1,2] = \n  Group: 1   Config: N D B, \
+            0, 0, 0\n  X:   884.000   Y: -3329.790   Z:  -133.190\n  W:     0.000   P:      .370   \
+            R:    90.000\n    [1,3] =  Uninitialized\n    [2,2] = \n  Group: 2   Config: \n  \
+            X:     1.000   Y:     0.000   Z:     0.000\n  W:     0.000   P:     0.000   R:     \
+            0.000\n\n\
+        [*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[2,20] OF POSITION\n  [1,1] = 'GRIP \
+            X: 7' Group: 1\n    X:   0.000   Y:   0.000   Z: 150.000\n    W:   0.000   P:   \
+            0.000   R:   0.000\n[*SYSTEM*]$MNUTOOLNUM  Storage: CMOS  Access: RW  : ARRAY[2] OF \
+            BYTE\n  [1] = 1\n";
+    let list = "F Number: F270477\n$VERSION: V9.30126\n\nTool Frame\n  -1.3  -1090.6   150.1  \
+        -180.0     0.0   -90.0 SSW\n\nJog Frame\n   5.0     0.0     0.0     0.0     0.0     0.0 \
+        \n\nUser Frame\n   0.0     0.0     0.0     0.0     0.0     0.0 \n 884.0  -3329.8   \
+        -133.2      .1      .0    90.0 FIX 1\n";
     let text = listing("1:J P[1] 100% FINE ;", &usual("1"));
     for (files, tool, frame) in [
         (vec![("s.va", variables)], 0.150, -3.32979),
@@ -304,7 +329,9 @@ fn broken_text_is_an_error_with_its_place() {
         (
             " 1922.978",
             " 19-2",
-            "a.ls:10:7: `19-2` is no coordinate, or number of a tool or frame: a plain number of at most 1000000 is wanted; angles of tools and frames go to 720 deg, their numbers to 255",
+            "a.ls:10:7: `19-2` is no coordinate, or number of a tool or frame: a plain number of \
+             at most 1000000 is wanted; angles of tools and frames go to 720 deg, their numbers to \
+             255",
         ),
         (
             "X =",

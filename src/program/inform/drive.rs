@@ -6,7 +6,8 @@ use crate::program::drive::Step;
 /// A position a move, in pulses; lines end as the controller's do.
 pub(super) fn drive(steps: &[Step], pulses_per_deg: [f64; 6]) -> String {
     let mut head = format!(
-        "/JOB\n//NAME MEASURE\n//POS\n///NPOS {},0,0,0,0,0\n///TOOL 0\n///POSTYPE PULSE\n///PULSE\n",
+        "/JOB\n//NAME MEASURE\n//POS\n///NPOS {},0,0,0,0,0\n///TOOL 0\n///POSTYPE \
+         PULSE\n///PULSE\n",
         steps.len()
     );
     let mut moves = "//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\n".to_owned();

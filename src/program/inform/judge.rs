@@ -83,7 +83,8 @@ impl Reader<'_> {
             }
             if variables > 0 {
                 let message = format!(
-                    "moves go to {variables} position variable(s) of this job; other jobs of the controller may change them"
+                    "moves go to {variables} position variable(s) of this job; other jobs of the \
+                     controller may change them"
                 );
                 let hint = "make sure that only the jobs given here set them";
                 let job = &self.positions.jobs[at];
@@ -149,7 +150,8 @@ impl Reader<'_> {
             if self.called.contains(&routine) {
                 continue;
             }
-            let message = "the job starts with a rectangular position, and RCONF does not tell its wrist: the solution with the \
+            let message = "the job starts with a rectangular position, and RCONF does not tell its \
+                wrist: the solution with the \
                            joints nearest to zero is taken";
             let hint = "start with a joint position (PULSE or ANGLE)";
             let severity = Severity::Warning;
@@ -167,7 +169,8 @@ impl Reader<'_> {
         for (place, number) in std::mem::take(&mut self.copied) {
             if named.contains(&number) {
                 let message = format!(
-                    "a position is computed from P{number:03}, which may be compensated for other moves"
+                    "a position is computed from P{number:03}, which may be compensated for other \
+                     moves"
                 );
                 let hint = "look where the new position is used";
                 self.say("target-copied", Severity::Warning, place, message, hint);

@@ -58,21 +58,25 @@ static ABOUT: About = About {
     name: "Yaskawa INFORM",
     extensions: &["jbi", "cnd"],
     rewrites: &[
-        "C and P positions that MOVJ, MOVL, MOVC or MOVS go to: RECTAN in base, robot and user coordinates",
+        "C and P positions that MOVJ, MOVL, MOVC or MOVS go to: RECTAN in base, robot and user \
+         coordinates",
         "PULSE and ANGLE positions, the former where the profile tells pulses_per_deg",
     ],
     leaves: &[
         "RCONF, external axes (BC, EC, BP, EX), speeds, positions that no move goes to",
-        "moves to places that the running program computes (local and indexed variables) or reads from the robot: reported",
+        "moves to places that the running program computes (local and indexed variables) or reads \
+         from the robot: reported",
         "PULSE positions without pulses_per_deg: reported",
         "TOOL.CND and UFRAME.CND, which tell tools and user frames",
         "comments, line ends, encoding, header",
     ],
     refuses: &[
         "P variables of which instructions write some numbers",
-        "moves while a shift (SFTON) may be on, incremental (IMOV), search (SRCH) and coordinated (SMOV) moves",
+        "moves while a shift (SFTON) may be on, incremental (IMOV), search (SRCH) and coordinated \
+         (SMOV) moves",
         "tools and frames that the running program sets (MFRAME, SETTOOL), tool coordinates",
-        "positions of a second robot, with base or station axes that are not at zero, or without six axes",
+        "positions of a second robot, with base or station axes that are not at zero, or without \
+         six axes",
     ],
     has: "line /JOB",
 };

@@ -475,7 +475,8 @@ impl<'a> Reader<'a> {
         let remark = Remark::error(
             "external-axis-unknown",
             text,
-            "describe the axis under `external_axes` of the profile (BC1…, EC1…), or write the position in robot coordinates (POSTYPE ROBOT) or in pulses",
+            "describe the axis under `external_axes` of the profile (BC1…, EC1…), or write the \
+             position in robot coordinates (POSTYPE ROBOT) or in pulses",
         );
         let builder = &mut self.builder;
         let reason = &mut self.here.external[usize::from(is_station)];

@@ -40,7 +40,8 @@ impl Cause {
             ),
             Self::FrameCopied => (
                 "frame-chosen-at-run-time",
-                "positions with other tools or frames are copied into the variable that the move goes to",
+                "positions with other tools or frames are copied into the variable that the move \
+                 goes to",
                 "move to each of the positions by its own name",
             ),
             Self::Shifted => (
@@ -56,7 +57,8 @@ impl Cause {
             Self::Relative => (
                 "moving-frame",
                 "the job is relative (RJ) to a station: its user frame turns with the station",
-                "relative jobs of stations are not compensated: write the positions in a fixed frame, and the station under `external_axes` with `follows: always`",
+                "relative jobs of stations are not compensated: write the positions in a fixed \
+                 frame, and the station under `external_axes` with `follows: always`",
             ),
             Self::Incremental => (
                 "relative-move",
@@ -100,14 +102,17 @@ impl Cause {
             ),
             Self::Computed => (
                 "computed-target",
-                "the position that this move goes to is known at run time only; the move stays as it is",
+                "the position that this move goes to is known at run time only; the move stays as \
+                 it is",
                 "move to a C position or a P variable by its number where it must be exact",
             ),
             Self::Pulses => (
                 "pulses-per-degree-unknown",
-                "positions of this job are in pulses, and the profile does not say how many make a degree: they stay as they are, and \
+                "positions of this job are in pulses, and the profile does not say how many make a \
+                 degree: they stay as they are, and \
                  where the robot is there is not known",
-                "add `pulses_per_deg: [S, L, U, R, B, T]` to the profile (ALL.PRM, or pulses and angles on the pendant)",
+                "add `pulses_per_deg: [S, L, U, R, B, T]` to the profile (ALL.PRM, or pulses and \
+                 angles on the pendant)",
             ),
         }
     }

@@ -25,7 +25,8 @@ fn read(text: &str) -> Program {
 /// A job of these positions and instructions.
 fn job(positions: &str, instructions: &str) -> String {
     format!(
-        "/JOB\n//NAME A\n//POS\n{positions}\n//INST\n///DATE 2024/01/01 10:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\n{instructions}\nEND\n"
+        "/JOB\n//NAME A\n//POS\n{positions}\n//INST\n///DATE 2024/01/01 10:00\n///ATTR \
+         SC,RW\n///GROUP1 RB1\nNOP\n{instructions}\nEND\n"
     )
 }
 
@@ -46,10 +47,12 @@ fn ids(program: &Program) -> Vec<&str> {
 #[test]
 fn header_lines_hold_until_they_are_set_anew() {
     let positions = format!(
-        "///NPOS 4,0,0,1,0,0\n///TOOL 0\n///POSTYPE PULSE\n///PULSE\nC00000=0,10,-20,30,-40,50\n{USER}C00001={P6}\n\
+        "///NPOS 4,0,0,1,0,0\n///TOOL 0\n///POSTYPE \
+         PULSE\n///PULSE\nC00000=0,10,-20,30,-40,50\n{USER}C00001={P6}\n\
          ///USER 4\nC00002= 1, -2.5 ,3,.5,+20.,-30,7.5\n///TOOL 5\n///POSTYPE BASE\nC00003={P6}\nP00018={P6}"
     );
-    let moves = "MOVJ C00000 VJ=0.78\n'MOVL C00009\n  MOVL C00001 V=100.0\n//MOVL C00007 V=1\nMOVJ C00002 VJ=5\nMOVL C00003\nMOVL P018 V=5";
+    let moves = "MOVJ C00000 VJ=0.78\n'MOVL C00009\n  MOVL C00001 V=100.0\n//MOVL C00007 V=1\nMOVJ \
+        C00002 VJ=5\nMOVL C00003\nMOVL P018 V=5";
     let settings = Settings {
         pulses_per_deg: Some([1000.0; 6]),
         ..Settings::default()
@@ -154,7 +157,8 @@ fn pulses_and_angles_are_joints() {
 #[test]
 fn arcs_go_through_each_two_points_behind_the_first() {
     use Motion::{ArcEnd, ArcVia, Linear};
-    let moves = "MOVL C00000\nMOVC C00001\nMOVC C00002\nTIMER T=1.00\nMOVC C00003\nMOVL C00004\nMOVC C00005\nMOVC C00006";
+    let moves = "MOVL C00000\nMOVC C00001\nMOVC C00002\nTIMER T=1.00\nMOVC C00003\nMOVL \
+        C00004\nMOVC C00005\nMOVC C00006";
     let program = read(&job(&format!("{USER}{}", points(7)), moves));
     let motions: Vec<_> = program.moves.iter().map(|m| m.motion).collect();
     assert_eq!(
@@ -237,7 +241,8 @@ fn what_states_the_first_solution_is_reported() {
 #[test]
 fn a_moved_base_axis_does_not_matter_to_robot_coordinates_and_joints() {
     let positions = format!(
-        "///TOOL 0\n///POSTYPE ROBOT\n///RECTAN\n{}///POSTYPE ANGLE\n///ANGLE\nC00005={P6}\nBC00001=500",
+        "///TOOL 0\n///POSTYPE ROBOT\n///RECTAN\n{}///POSTYPE \
+         ANGLE\n///ANGLE\nC00005={P6}\nBC00001=500",
         points(1)
     );
     let program = read(&job(&positions, "MOVL C00000 BC00001\nMOVJ C00005 BC00001"));
@@ -247,9 +252,22 @@ fn a_moved_base_axis_does_not_matter_to_robot_coordinates_and_joints() {
 #[test]
 fn condition_files_tell_tools_and_frames() {
     let sources = [
-        Source::new("TOOL.CND", b"//TOOL 3\n///NAME GUN\n0.000,0.000,120.000,0.0000,0.0000,0.0000\n0.0,0.0,50.0\n2.000\n0,0,0\n".to_vec()),
-        Source::new("UFRAME.CND", b"//UFRAME 12\n///NAME\n////BUSER 100.000,0.000,0.000,0.0000,0.0000,0.0000\n".to_vec()),
-        Source::new("A.JBI", job(&format!("{USER}{}", points(1)), "MOVL C00000").into_bytes()),
+        Source::new(
+            "TOOL.CND",
+            b"//TOOL 3\n///NAME \
+            GUN\n0.000,0.000,120.000,0.0000,0.0000,0.0000\n0.0,0.0,50.0\n2.000\n0,0,0\n"
+                .to_vec(),
+        ),
+        Source::new(
+            "UFRAME.CND",
+            b"//UFRAME 12\n///NAME\n////BUSER \
+            100.000,0.000,0.000,0.0000,0.0000,0.0000\n"
+                .to_vec(),
+        ),
+        Source::new(
+            "A.JBI",
+            job(&format!("{USER}{}", points(1)), "MOVL C00000").into_bytes(),
+        ),
     ];
     let program = crate::motion::read(&Inform, &sources, &Settings::default()).expect("files");
     let pose = program.tools[0].flange_from_tool.expect("a tool");

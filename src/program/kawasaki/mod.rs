@@ -49,7 +49,8 @@ static ABOUT: About = About {
     name: "Kawasaki AS",
     extensions: &["as", "pg"],
     rewrites: &[
-        "transformations of .TRANS that JMOVE, LMOVE, HMOVE, C1MOVE, C2MOVE, LAPPRO and JAPPRO go to",
+        "transformations of .TRANS that JMOVE, LMOVE, HMOVE, C1MOVE, C2MOVE, LAPPRO and JAPPRO go \
+         to",
         "TRANS(…) written out in a move",
         "joints (.JOINTS, #[…])",
     ],

@@ -21,7 +21,8 @@ impl Cause {
             Self::Computed => (
                 "computed-target",
                 Severity::Warning,
-                "the position that this move goes to is known at run time only; the move stays as it is",
+                "the position that this move goes to is known at run time only; the move stays as \
+                 it is",
                 "move to a name of .TRANS or .JOINTS where it must be exact",
             ),
             Self::Partial => (
@@ -33,7 +34,8 @@ impl Cause {
             Self::Axes => (
                 "target-not-six-axes",
                 Severity::Error,
-                "the target does not have six numbers: it has another axis (JT7), or is one of another arm",
+                "the target does not have six numbers: it has another axis (JT7), or is one of \
+                 another arm",
                 "only robots with six joints and without other axes are compensated",
             ),
             Self::Assigned => (
@@ -45,7 +47,8 @@ impl Cause {
             Self::Relative => (
                 "relative-move",
                 Severity::Warning,
-                "the move starts where the robot stands, and the text does not tell where: it stays as it is",
+                "the move starts where the robot stands, and the text does not tell where: it \
+                 stays as it is",
                 "move to a name of .TRANS or .JOINTS where it must be exact",
             ),
             Self::Search => (
@@ -57,7 +60,8 @@ impl Cause {
             Self::Switched => (
                 "configuration-not-understood",
                 Severity::Error,
-                "the program switches the arm's configuration (LEFTY, RIGHTY, ABOVE, BELOW, UWRIST, DWRIST) before this move",
+                "the program switches the arm's configuration (LEFTY, RIGHTY, ABOVE, BELOW, \
+                 UWRIST, DWRIST) before this move",
                 "go to joints (#name) with the configuration that is wanted instead",
             ),
         };

@@ -7,8 +7,10 @@ use crate::program::{Displacement, Motion, Move, Shape};
 
 mod robust;
 
-const POINTS: &str = ".TRANS\np1 100.000000 900.000000 200.000000 10.000000 180.000000 0.000000\np[1] 1 2 3 4 5 6\np[2] 1 2 3 4 5 7\n\
-    grip 0 0 150 0 0 0\noff 0 0 -50 0 0 0\n.END\n.JOINTS\n#home 0.000000 20.000000 -80.000000 0.000000 -80.000000 0.000000\n.END\n";
+const POINTS: &str = ".TRANS\np1 100.000000 900.000000 200.000000 10.000000 180.000000 \
+    0.000000\np[1] 1 2 3 4 5 6\np[2] 1 2 3 4 5 7\n\
+    grip 0 0 150 0 0 0\noff 0 0 -50 0 0 0\n.END\n.JOINTS\n#home 0.000000 20.000000 -80.000000 \
+        0.000000 -80.000000 0.000000\n.END\n";
 
 fn read_files(texts: &[&str]) -> Result<Program, ReadError> {
     let sources: Vec<_> = texts
@@ -97,7 +99,8 @@ fn angles_stay_on_the_branch_of_the_file() {
 #[test]
 fn moves_go_to_names_and_to_what_is_written_out() {
     let program = read(
-        "SPEED 250 MM/S ALWAYS\nACCURACY 2 ALWAYS\nTOOL grip\nBASE NULL\nJMOVE #home ; LMOVE p1\n10 LMOVE P1\nSPEED 10 MM/S\n\
+        "SPEED 250 MM/S ALWAYS\nACCURACY 2 ALWAYS\nTOOL grip\nBASE NULL\nJMOVE #home ; LMOVE \
+         p1\n10 LMOVE P1\nSPEED 10 MM/S\n\
          HMOVE TRANS(1, 2,-3.5,4,5,6)\nC1MOVE p[1]\nC2MOVE p[2]\nJMOVE #[1,2,3,4,5,6]\nLAPPRO p1,50\nLDEPART 30\nTYPE \"LMOVE p1\"",
     );
     let found: Vec<_> = program
@@ -156,7 +159,8 @@ fn moves_go_to_names_and_to_what_is_written_out() {
 #[test]
 fn what_is_added_to_a_position_displaces_it() {
     let program = read(
-        "TOOL NULL\nBASE NULL\nJMOVE #home\nLMOVE p1+off\nLMOVE p1-off\nLMOVE SHIFT(p1 BY 10,,-5)\nLMOVE p1+RZ(90)\nLMOVE p1+q\nLMOVE p1\nDRAW 0,5\nTDRAW 0,0,7\nDRAW x",
+        "TOOL NULL\nBASE NULL\nJMOVE #home\nLMOVE p1+off\nLMOVE p1-off\nLMOVE SHIFT(p1 BY \
+         10,,-5)\nLMOVE p1+RZ(90)\nLMOVE p1+q\nLMOVE p1\nDRAW 0,5\nTDRAW 0,0,7\nDRAW x",
     );
     let shifts: Vec<_> = program
         .moves
@@ -179,7 +183,8 @@ fn what_is_added_to_a_position_displaces_it() {
 #[test]
 fn tools_are_followed_and_programs_called() {
     let text = format!(
-        ".PROGRAM main()\nTOOL grip\nBASE TRANS(10,0,0)\nCALL go(p1,3)\nIF x>2 THEN\nJMOVE #home\nELSE\nGOTO 100\nEND\nFOR i=1 TO 2\nLMOVE p[i]\nEND\n100 LMOVE p[1]\n.END\n\
+        ".PROGRAM main()\nTOOL grip\nBASE TRANS(10,0,0)\nCALL go(p1,3)\nIF x>2 THEN\nJMOVE \
+         #home\nELSE\nGOTO 100\nEND\nFOR i=1 TO 2\nLMOVE p[i]\nEND\n100 LMOVE p[1]\n.END\n\
          .PROGRAM go(.a,.n)\nLMOVE .a\n.END\n{POINTS}"
     );
     let program = read_files(&[&text]).expect("a program");
@@ -249,8 +254,10 @@ fn what_is_not_sure_is_refused_or_reported() {
 #[test]
 fn other_sections_are_passed_over() {
     let text = format!(
-        ".NETCONF 192.168.0.2,\"x\"\n.ROBOTDATA1\nZSYSTEM 1 2 3\np1 not numbers\n.END\n.SYSDATA\nTOOL 0.0\n.END\n.AUXDATA\nLMOVE p1\n.END\n\
-         .PROGRAM a()\n.x[1] = 3\n  .tool = 5\nTOOL NULL\nBASE NULL\nLMOVE p1\n.END\n{POINTS}.REALS\nx = 5\n.END\n"
+        ".NETCONF 192.168.0.2,\"x\"\n.ROBOTDATA1\nZSYSTEM 1 2 3\np1 not \
+         numbers\n.END\n.SYSDATA\nTOOL 0.0\n.END\n.AUXDATA\nLMOVE p1\n.END\n\
+         .PROGRAM a()\n.x[1] = 3\n  .tool = 5\nTOOL NULL\nBASE NULL\nLMOVE \
+             p1\n.END\n{POINTS}.REALS\nx = 5\n.END\n"
     );
     let program = read_files(&[&text]).expect("a save");
     assert_eq!(program.moves.len(), 1);

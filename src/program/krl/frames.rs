@@ -309,7 +309,9 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
     }
     if missing > 0 && given > 0 {
         return Err(Remark {
-            text: "the running program changes a part of the tool or base, and the files do not tell the rest".into(),
+            text: "the running program changes a part of the tool or base, and the files do not \
+                tell the rest"
+                .into(),
             hint: "give the $config.dat that declares it, too",
             ..frame_assigned()
         });

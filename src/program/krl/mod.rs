@@ -58,7 +58,8 @@ static ABOUT: About = About {
     name: "KUKA KRL",
     extensions: &["src", "dat", "sub"],
     rewrites: &[
-        "E6POS, E3POS, POS and FRAME that moves go to: in data lists, GLOBAL, in $config.dat, arrays, and written out in \
+        "E6POS, E3POS, POS and FRAME that moves go to: in data lists, GLOBAL, in $config.dat, \
+         arrays, and written out in \
          PTP, LIN, CIRC, SPTP, SLIN, SCIRC, SPL",
         "E6AXIS and AXIS targets",
         "S and T, where an axis crosses zero or the arm changes sides",

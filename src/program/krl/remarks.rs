@@ -31,7 +31,8 @@ pub(super) fn assigned() -> Remark {
 pub(super) fn passed() -> Remark {
     Remark::error(
         "target-passed-to-routine",
-        "elements of this array are given to a routine that is not in the files, which may use them with any tool and base",
+        "elements of this array are given to a routine that is not in the files, which may use \
+         them with any tool and base",
         "give the file with the routine too, or move to the target where its tool and base are set",
     )
 }
@@ -47,7 +48,8 @@ pub(super) fn ambiguous() -> Remark {
 pub(super) fn accurate() -> Remark {
     Remark::error(
         "absolutely-accurate",
-        "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets itself",
+        "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets \
+         itself",
         "switch the correction of the controller off, or --force",
     )
 }
@@ -68,7 +70,8 @@ pub(super) fn computed() -> Remark {
 pub(super) fn copied() -> Remark {
     Remark::error(
         "target-copied",
-        "this move goes to a position that the program computes from targets, which may be corrected for other moves",
+        "this move goes to a position that the program computes from targets, which may be \
+         corrected for other moves",
         "write the position with numbers",
     )
 }
@@ -112,7 +115,8 @@ pub(super) fn moving() -> Remark {
 pub(super) fn of_another_robot() -> Remark {
     Remark::error(
         "two-robots",
-        "the base is on a kinematic of another controller (COOP_KRC_INDEX): where it stands only that one knows",
+        "the base is on a kinematic of another controller (COOP_KRC_INDEX): where it stands only \
+         that one knows",
         "moves on another robot's part are not compensated",
     )
 }
@@ -148,7 +152,10 @@ pub(super) fn carried() -> Remark {
     Remark {
         id: "load-chosen-at-run-time",
         severity: Severity::Warning,
-        text: "only the running program knows the load that is set here; moves are taken with that of the tool".into(),
+        text:
+            "only the running program knows the load that is set here; moves are taken with that \
+            of the tool"
+                .into(),
         hint: "write the load with numbers, or choose an entry of LOAD_DATA",
     }
 }

@@ -293,7 +293,8 @@ fn accurate_targets(script: &mut Script, kept: &[bool], settings: &Settings, sou
         if !settings.accept_absolutely_accurate {
             script.refused.push((id, remark));
         } else if kept[id] && reported.replace(target.file) != Some(target.file) {
-            let message = "S of this target has bit 4 (16): taught on an absolutely accurate robot; it is compensated all \
+            let message = "S of this target has bit 4 (16): taught on an absolutely accurate \
+                robot; it is compensated all \
                            the same, as all of its kind in this file";
             let hint =
                 "the correction of the controller must be off, or the robot is corrected twice";
@@ -322,7 +323,8 @@ fn long_lines(sources: &[Source], script: &mut Script, kept: &[bool]) {
         let end = memchr::memchr2(b'\n', b'\r', rest).map_or(at + rest.len(), |end| at + end);
         if end - start > limit {
             let message = format!(
-                "this line has {} characters; with new numbers it may exceed the {LONGEST_LINE} that the controller takes",
+                "this line has {} characters; with new numbers it may exceed the {LONGEST_LINE} \
+                 that the controller takes",
                 end - start
             );
             let (id, severity) = ("long-line", Severity::Warning);

@@ -41,8 +41,10 @@ fn read(text: &str) -> Program {
 }
 
 /// A data list with points 1 to 3, home, and an FDAT.
-const DATA: &str = "&ACCESS RVP\r\nDEFDAT M\r\n;FOLD EXTERNAL DECLARATIONS;%{PE}\r\nEXT BAS (BAS_COMMAND :IN,REAL :IN )\r\n;ENDFOLD\r\n\
-    DECL E6POS XP1={X 1.0,Y 2.0,Z 3.0,A 10.0,B 20.0,C 30.0,S 2,T 35,E1 0.0,E2 0.0,E3 0.0,E4 0.0,E5 0.0,E6 0.0}\r\n\
+const DATA: &str = "&ACCESS RVP\r\nDEFDAT M\r\n;FOLD EXTERNAL DECLARATIONS;%{PE}\r\nEXT BAS \
+    (BAS_COMMAND :IN,REAL :IN )\r\n;ENDFOLD\r\n\
+    DECL E6POS XP1={X 1.0,Y 2.0,Z 3.0,A 10.0,B 20.0,C 30.0,S 2,T 35,E1 0.0,E2 0.0,E3 0.0,E4 0.0,E5 \
+        0.0,E6 0.0}\r\n\
     DECL FDAT FP1={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \",TQ_STATE FALSE}\r\n\
     DECL PDAT PPDAT1={VEL 100.0,ACC 100.0,APO_DIST 100.0,APO_MODE #CPTP}\r\n\
     E6POS XP2={x 4.0,y 5.0,z 6.0,a 0.0,b 0.0,c 0.0,s 2,t 35}\r\n\
@@ -294,10 +296,12 @@ fn points_handed_to_routines_are_refused() {
 
 #[test]
 fn arrays_have_elements_of_their_own() {
-    let data = "DEFDAT M PUBLIC\nDECL GLOBAL E6POS work[2]\nwork[1]={X 1,Y 0,Z 0,A 0,B 0,C 0,S 2,T 2}\n\
+    let data = "DEFDAT M PUBLIC\nDECL GLOBAL E6POS work[2]\nwork[1]={X 1,Y 0,Z 0,A 0,B 0,C 0,S 2,T \
+        2}\n\
         WORK[2]={X 2,Y 0,Z 0,A 0,B 0,C 0,S 2,T 2}\n;work[2]={X 100.0,Y 0,Z 0,A 0,B 0,C 0}\n\
         DECL POS grid[2,2]\ngrid[1,2]={X 3,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
-    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN work[2]\nLIN grid[1,2]\nFOR i=1 TO 2\nLIN work[i]\nENDFOR\nEND\n";
+    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN work[2]\nLIN grid[1,2]\nFOR i=1 TO \
+        2\nLIN work[i]\nENDFOR\nEND\n";
     let program = read_files(&[("a/m.dat", data), ("A/M.SRC", text)]);
     assert_eq!(to(&program), ["WORK[2]", "grid[1,2]", "work[1]", "WORK[2]"]);
     assert_eq!(ids(&program), [""; 0]);
@@ -305,7 +309,8 @@ fn arrays_have_elements_of_their_own() {
 
 #[test]
 fn global_points_of_another_list_are_found_and_local_ones_are_not() {
-    let points = "DEFDAT POINTS PUBLIC\nDECL GLOBAL E6POS park={X 1,Y 0,Z 0,A 0,B 0,C 0}\nDECL E6POS mine={X 1,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
+    let points = "DEFDAT POINTS PUBLIC\nDECL GLOBAL E6POS park={X 1,Y 0,Z 0,A 0,B 0,C 0}\nDECL \
+        E6POS mine={X 1,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
     let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN park\nLIN mine\nEND\n";
     let program = read_files(&[("points.dat", points), ("m.src", text)]);
     assert_eq!(to(&program), ["park", "?"]);
@@ -409,7 +414,8 @@ fn relative_moves_from_an_unknown_position_are_errors() {
 #[test]
 fn points_of_accurate_robots_are_refused_unless_accepted() {
     let data = "DEFDAT M\nDECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 0,C 0,S 18,T 35}\nENDDAT\n";
-    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN XP1\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0,S 'B10110',T 2}\nEND\n";
+    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN XP1\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0,S \
+        'B10110',T 2}\nEND\n";
     let files = [("m.src", text), ("m.dat", data)];
     let program = read_files(&files);
     assert_eq!(ids(&program), ["absolutely-accurate"; 2]);
@@ -431,11 +437,14 @@ fn points_of_accurate_robots_are_refused_unless_accepted() {
 
 #[test]
 fn data_of_other_kinds_are_no_targets() {
-    let data = "DEFDAT M\nDECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 100.0}\nDECL FRAME offset={X 1,Y 2,Z 3,A 0,B 0,C 0}\n\
+    let data = "DEFDAT M\nDECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 100.0}\nDECL FRAME \
+        offset={X 1,Y 2,Z 3,A 0,B 0,C 0}\n\
         LOAD_DATA[1]={M 5.0,CM {X 0.0,Y 0.0,Z 80.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}\n\
-        DECL BOX ws={X 1.0,Y 2.0,Z 3.0,A 0.0,B 0.0,C 0.0,X1 1.0,Y1 1.0,Z1 1.0,X2 0.0,Y2 0.0,Z2 0.0,MODE #INSIDE}\n\
+        DECL BOX ws={X 1.0,Y 2.0,Z 3.0,A 0.0,B 0.0,C 0.0,X1 1.0,Y1 1.0,Z1 1.0,X2 0.0,Y2 0.0,Z2 \
+            0.0,MODE #INSIDE}\n\
         DECL E6POS REF_PT={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2,T 2}\nENDDAT\n";
-    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\n$WORKSPACE[1]={X 1,Y 2,Z 3,A 0,B 0,C 0,X1 1,Y1 1,Z1 1,X2 0,Y2 0,Z2 0,MODE #INSIDE}\n\
+    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\n$WORKSPACE[1]={X 1,Y 2,Z 3,A 0,B 0,C 0,X1 \
+        1,Y1 1,Z1 1,X2 0,Y2 0,Z2 0,MODE #INSIDE}\n\
         ;LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\nEND\n";
     let program = read_files(&[("m.src", text), ("m.dat", data)]);
     assert_eq!(program.targets.len(), 2);
@@ -457,7 +466,9 @@ fn line_ends_and_encodings_of_all_kinds_pass() {
         let program = read(&text.join(end));
         assert_eq!(program.moves.len(), 1, "{end:?}");
     }
-    let latin = b"DEF m()\n;Gr\xf6\xdfe\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND".to_vec();
+    let latin = b"DEF m()\n;Gr\xf6\xdfe\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN {X 1,Y 2,Z 3,A 0,B \
+        0,C 0}\nEND"
+        .to_vec();
     let program = crate::motion::read(&Krl, &[Source::new("m.src", latin)], &Settings::default());
     assert_eq!(program.expect("a program").moves.len(), 1);
 }

@@ -57,7 +57,8 @@ static ABOUT: About = About {
     name: "ABB RAPID",
     extensions: &["mod", "modx", "prg", "sys", "sysx"],
     rewrites: &[
-        "robtargets: CONST, PERS, VAR, LOCAL, TASK, arrays, and written out in any Move, Arc, Trigg or Search instruction",
+        "robtargets: CONST, PERS, VAR, LOCAL, TASK, arrays, and written out in any Move, Arc, \
+         Trigg or Search instruction",
         "jointtargets of MoveAbsJ",
         "confdata, where an axis leaves its quarter turn or the arm changes sides",
     ],

@@ -324,7 +324,8 @@ impl Translator<'_> {
             self.say("sync-move", Severity::Note, message.into(), hint);
         }
         if parts.corrected {
-            let message = "a sensor corrects the path here (\\Corr): the targets are compensated, what the sensor adds is not";
+            let message = "a sensor corrects the path here (\\Corr): the targets are compensated, \
+                what the sensor adds is not";
             self.say("corrected-by-sensor", Severity::Warning, message.into(), "");
         }
     }

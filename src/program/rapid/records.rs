@@ -118,7 +118,8 @@ impl Parts<'_> {
         if empty {
             return Err(Remark::error(
                 "moving-frame",
-                "the user frame is not fixed (ufprog FALSE), and ufmec names no unit that carries it",
+                "the user frame is not fixed (ufprog FALSE), and ufmec names no unit that carries \
+                 it",
                 "name the unit, or set ufprog TRUE",
             ));
         }

@@ -154,8 +154,10 @@ fn every_kind_of_declaration_and_array_is_a_target() {
 #[test]
 fn displacements_add_up_and_unknown_ones_are_reported() {
     let program = path(
-        "CONST num up:=30;\nMoveL offs(p1,1,-2,+3),v5,z5,t;\nMoveL OFFS(Offs(p1,0,0,5),0,0,-up),v5,z5,t;\n\
-         MoveL RelTool(p1,0,0,10\\Rz:=90),v5,z5,t;\nMoveL Reltool(OFFS(p1,-50,100,100),0,0,0\\Rx:=180),v5,z5,t;\n\
+        "CONST num up:=30;\nMoveL offs(p1,1,-2,+3),v5,z5,t;\nMoveL \
+         OFFS(Offs(p1,0,0,5),0,0,-up),v5,z5,t;\n\
+         MoveL RelTool(p1,0,0,10\\Rz:=90),v5,z5,t;\nMoveL \
+             Reltool(OFFS(p1,-50,100,100),0,0,0\\Rx:=180),v5,z5,t;\n\
          MoveL Offs(p1,0,0,height),v5,z5,t;\nMoveL MirPos(p1,mirror),v5,z5,t;",
     );
     let by: Vec<_> = program
@@ -187,7 +189,8 @@ fn odd_instructions_find_their_arguments() {
     let program = path(
         "MoveLDO p1, v1000, z30, t2, do1, 1;\nTriggL p1,v5,gunon\\T2:=x,z5,t\\WObj:=w;\n\
          SearchL\\Stop, di1, found, p2, v5, t;\nMoveL p1\\ID:=10,v5\\V:=3,z5\\Z:=1,t;\n\
-         MoveL p2,v100,Clad1,z2,laser,\\WObj:=w;\nDrillL p2,v5,drill,z1,t;\nArcLStart p1,v5,sm,wd,fine,t;",
+         MoveL p2,v100,Clad1,z2,laser,\\WObj:=w;\nDrillL p2,v5,drill,z1,t;\nArcLStart \
+             p1,v5,sm,wd,fine,t;",
     );
     assert_eq!(to(&program), ["p1", "p1", "p2", "p1", "p2", "p2", "p1"]);
     let tools: Vec<_> = program
@@ -211,7 +214,8 @@ fn comments_and_strings_hold_no_targets() {
 fn monitoring_of_the_configuration_follows_confl_and_confj() {
     let program = path(
         "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p1,v5,z5,t;\nMoveJ p1,v5,z5,t;\nConfJ \\Off;\n\
-         MoveJ p1,v5,z5,t;\nConfL \\On;\nMoveC p1,p2,v5,z5,t;\nENDPROC\nPROC b()\nMoveJ p1,v5,z5,t;",
+         MoveJ p1,v5,z5,t;\nConfL \\On;\nMoveC p1,p2,v5,z5,t;\nENDPROC\nPROC b()\nMoveJ \
+             p1,v5,z5,t;",
     );
     let configured: Vec<_> = program.moves.iter().map(|m| m.configured).collect();
     assert_eq!(configured, [true, false, true, false, true, true, true]);
@@ -365,7 +369,8 @@ fn parameters_by_reference_are_written_back() {
 #[test]
 fn functions_give_positions_and_move() {
     let program = path(
-        "MoveL f(p1),v5,z5,t;\nMoveL Offs(f(p2),0,0,5),v5,z5,t;\nMoveC f(p1),f(p2),v5,z5,t;\nok:=g(1)+1;\n\
+        "MoveL f(p1),v5,z5,t;\nMoveL Offs(f(p2),0,0,5),v5,z5,t;\nMoveC \
+         f(p1),f(p2),v5,z5,t;\nok:=g(1)+1;\n\
          ENDPROC\nFUNC robtarget f(robtarget a)\nRETURN Offs(a,1,2,3);\nENDFUNC\n\
          FUNC num g(num x)\nMoveL p3,v5,z5,t;\nRETURN 1;\nENDFUNC\nPROC last()",
     );
@@ -422,7 +427,8 @@ fn late_bound_calls_find_their_routines() {
 #[test]
 fn handlers_may_run_between_any_statements() {
     let program = path(
-        "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p2,v5,z5,t;\nERROR\nIF ERRNO=1 THEN\nMoveL p3,v5,z5,t;\nRETRY;\n\
+        "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p2,v5,z5,t;\nERROR\nIF ERRNO=1 THEN\nMoveL \
+         p3,v5,z5,t;\nRETRY;\n\
          ENDIF\nRAISE;",
     );
     let all: Vec<_> = to(&program).into_iter().zip(&program.moves).collect();
@@ -502,7 +508,8 @@ fn blocks_and_jumps_lead_where_they_say() {
 #[test]
 fn moves_that_nobody_understands_are_there() {
     let program = path(
-        "MoveL p1,v5,z5,t;\nMoveL rec.p,v5,z5,t;\nPathRecMoveBwd;\nEGMRunPose e,1;\nMoveJ pHome,v5,z5,t;\nMoveL p2,v5,z5,t;",
+        "MoveL p1,v5,z5,t;\nMoveL rec.p,v5,z5,t;\nPathRecMoveBwd;\nEGMRunPose e,1;\nMoveJ \
+         pHome,v5,z5,t;\nMoveL p2,v5,z5,t;",
     );
     assert_eq!(to(&program), ["p1", "?", "?", "?", "?", "p2"]);
     assert_eq!(
@@ -550,7 +557,8 @@ fn sensors_that_correct_a_path_are_reported_once_a_place() {
 #[test]
 fn wrist_mode_lasts_until_it_is_left() {
     let program = path(
-        "MoveL p1,v5,z5,t;\nSingArea\\Wrist;\nsub;\nMoveL p2,v5,z5,t;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;\nSingArea\\Off;",
+        "MoveL p1,v5,z5,t;\nSingArea\\Wrist;\nsub;\nMoveL p2,v5,z5,t;\nENDPROC\nPROC sub()\nMoveL \
+         p1,v5,z5,t;\nSingArea\\Off;",
     );
     let free: Vec<_> = program.moves.iter().map(|m| m.free_orientation).collect();
     assert_eq!(free, [false, false, true]);
@@ -664,7 +672,8 @@ fn work_pieces_in_hand_and_moving_frames_are_refused() {
         );
     }
     let program = path(
-        "PERS tooldata x:=[FALSE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nMoveL p1,v5,z5,x;",
+        "PERS tooldata x:=[FALSE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nMoveL \
+         p1,v5,z5,x;",
     );
     assert_eq!(ids(&program), ["stationary-tool"]);
     let program = path("MoveL p1,v5,z5,tools{i};\nMoveL p2,v5,z5,t\\WObj:=w{2};");
@@ -678,7 +687,8 @@ fn an_active_displacement_blocks_what_it_may_reach() {
         path("MoveL p1,v5,z5,t;\nPDispSet d;\nMoveL p2,v5,z5,t;\nPDispOff;\nMoveL p3,v5,z5,t;");
     assert_eq!(blocked(&program), ["p2"]);
     let program = path(
-        "PDispOn p9,t;\nsub;\nPDispOff;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;\nENDPROC\nPROC c()\nMoveL p2,v5,z5,t;",
+        "PDispOn p9,t;\nsub;\nPDispOff;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;\nENDPROC\nPROC \
+         c()\nMoveL p2,v5,z5,t;",
     );
     assert_eq!(blocked(&program), ["p1"]);
     let program = path("EOffsSet e;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;");
@@ -693,7 +703,8 @@ fn an_active_displacement_blocks_what_it_may_reach() {
 fn local_data_hide_others_and_double_names_are_ambiguous() {
     let declare = |local: &str, x: i32| {
         format!(
-            "{local}CONST robtarget p:=[[{x},0,0],[1,0,0,0],CONF;\nPROC r{x}()\nMoveL p,v5,z5,tool0;\nENDPROC\n"
+            "{local}CONST robtarget p:=[[{x},0,0],[1,0,0,0],CONF;\nPROC r{x}()\nMoveL \
+             p,v5,z5,tool0;\nENDPROC\n"
         )
     };
     let file = |name: &str, body: &str| format!("MODULE {name}\n{body}ENDMODULE\n");
@@ -719,9 +730,11 @@ fn local_data_hide_others_and_double_names_are_ambiguous() {
 #[test]
 fn missing_semicolons_short_ifs_and_headers_do_not_hide_moves() {
     let program = read(
-        "%%%\n VERSION:1\n LANGUAGE:ENGLISH\n%%%\n\nMODULE m(SYSMODULE, NOSTEPIN)\nPROC a()\n SetDO d, 1\n SetDO d, 0\n\
+        "%%%\n VERSION:1\n LANGUAGE:ENGLISH\n%%%\n\nMODULE m(SYSMODULE, NOSTEPIN)\nPROC a()\n \
+         SetDO d, 1\n SetDO d, 0\n\
          IF di1=1 MoveL [[1,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n TEST n\n CASE 1,2:\n\
-         MoveL [[4,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n DEFAULT:\n Stop;\n ENDTEST\n FOR i FROM 1 TO 3 DO\n\
+         MoveL [[4,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n DEFAULT:\n Stop;\n ENDTEST\n FOR i FROM 1 TO \
+             3 DO\n\
          MoveL [[5,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n ENDFOR\nERROR\n RETRY;\nENDPROC\nENDMODULE",
     );
     assert_eq!((program.targets.len(), program.moves.len()), (3, 3));

@@ -210,7 +210,8 @@ impl Modes {
         let displaced = script.value(Held::Remark(remark));
         let remark = script.remark(Remark::error(
             "external-offset-unknown",
-            "external axes are shifted by an amount that only the running program knows (EOffsOn, or EOffsSet without numbers)",
+            "external axes are shifted by an amount that only the running program knows (EOffsOn, \
+             or EOffsSet without numbers)",
             "write EOffsSet with numbers, or switch it off with EOffsOff before the move",
         ));
         let shifted = script.value(Held::Remark(remark));
@@ -686,7 +687,10 @@ impl Translator<'_> {
                 remarks.push(if seven {
                     Remark::error(
                         "seven-axis-arm",
-                        format!("{name} is {value} and cfx has hundreds: it is the seventh joint of the arm"),
+                        format!(
+                            "{name} is {value} and cfx has hundreds: it is the seventh joint \
+                            of the arm"
+                        ),
                         "only arms with six joints are compensated",
                     )
                 } else {

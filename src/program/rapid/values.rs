@@ -42,22 +42,31 @@ impl Translator<'_> {
 
     /// A position that only the running program knows.
     pub(super) fn computed(&mut self) -> Expr {
-        Expr::Unknown(self.builder.script.remark(Remark {
-            id: "computed-target",
-            severity: Severity::Warning,
-            text: "the position that this move goes to is known at run time only; the move stays as it is"
-                .into(),
-            hint: AT_RUN_TIME,
-        }))
+        Expr::Unknown(
+            self.builder.script.remark(Remark {
+                id: "computed-target",
+                severity: Severity::Warning,
+                text:
+                    "the position that this move goes to is known at run time only; the move stays \
+                as it is"
+                        .into(),
+                hint: AT_RUN_TIME,
+            }),
+        )
     }
 
     fn computed_name(&mut self, name: Symbol) -> Expr {
-        Expr::Unknown(self.remark(name, |name| Remark {
-            id: "computed-target",
-            severity: Severity::Warning,
-            text: format!("{name}, where this move goes to, is known at run time only; the move stays as it is")
+        Expr::Unknown(self.remark(name, |name| {
+            Remark {
+                id: "computed-target",
+                severity: Severity::Warning,
+                text: format!(
+                    "{name}, where this move goes to, is known at run time only; the move \
+                stays as it is"
+                )
                 .into(),
-            hint: AT_RUN_TIME,
+                hint: AT_RUN_TIME,
+            }
         }))
     }
 
@@ -218,7 +227,8 @@ impl Translator<'_> {
             Expr::Unknown(self.builder.script.remark(Remark {
                 id: "target-has-expressions",
                 severity: Severity::Warning,
-                text: "parts of the target that this move goes to are expressions, not numbers; it stays as it is"
+                text: "parts of the target that this move goes to are expressions, not numbers; it \
+                    stays as it is"
                     .into(),
                 hint: "write the target with numbers in the offline system",
             }))

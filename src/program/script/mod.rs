@@ -333,7 +333,8 @@ impl Remark {
         Self::error(
             "external-axis-unknown",
             format!("external axis {name} is {to}, and the profile does not say what that carries"),
-            "describe it under `external_axes` of the profile: as an axis of `track:` or of one of `positioners:`, or in `other:` where it moves nothing that a pose depends on",
+            "describe it under `external_axes` of the profile: as an axis of `track:` or of one of \
+             `positioners:`, or in `other:` where it moves nothing that a pose depends on",
         )
     }
 }

@@ -101,13 +101,15 @@ impl Common {
         let expressions = remark(
             "target-has-expressions",
             Severity::Warning,
-            "parts of the pose that this move goes to are expressions, not numbers; the move stays as it is",
+            "parts of the pose that this move goes to are expressions, not numbers; the move stays \
+             as it is",
             "write the target with numbers in the offline system",
         );
         let not_called = remark(
             "computed-target",
             Severity::Warning,
-            "this move goes to a parameter of a function that the file does not call; the move stays as it is",
+            "this move goes to a parameter of a function that the file does not call; the move \
+             stays as it is",
             "give the call too, or write the target in the move",
         );
         let frame_computed = remark(
@@ -490,7 +492,8 @@ impl Goals<'_, '_, '_> {
                 let remark = Remark::error(
                     "angle-too-large",
                     format!(
-                        "the rotation vector of its feature or tool has a part of {angle}; the limit is 4 pi rad"
+                        "the rotation vector of its feature or tool has a part of {angle}; the \
+                         limit is 4 pi rad"
                     ),
                     "rotation vectors are in radians; d2r(…) turns degrees into them",
                 );

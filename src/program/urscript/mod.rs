@@ -68,7 +68,8 @@ static ABOUT: About = About {
     name: "Universal Robots URScript",
     extensions: &["script", "urscript", "urs"],
     rewrites: &[
-        "poses in movej, movel, movep, movec, and in get_inverse_kin, pose_trans and pose_add there",
+        "poses in movej, movel, movep, movec, and in get_inverse_kin, pose_trans and pose_add \
+         there",
         "poses of variables, parameters, results and lists that moves go to",
         "joints in movej, movel, movep, servoj",
     ],

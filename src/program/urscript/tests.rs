@@ -60,11 +60,16 @@ fn tool_x(program: &Program, number: usize) -> Option<f64> {
 
 #[test]
 fn waypoints_of_the_pendant_are_rewritten_and_their_seeds_stay() {
-    let text = "def Prog():\r\n  set_tcp(p[0.0,0.0,0.1,0.0,0.0,0.0])\r\n  set_payload(1.5, [0.01, 0, .05])\r\n  \
-        global Waypoint_1_p=p[.433025361705, -.467959205379, .522310714714, 1.500318891221, .521427297251, .530987104689]\r\n  \
-        global Waypoint_1_q=[1.9942498207092285, -1.6684614620604457, 1.9330504576312464, -0.2718423169902344, 1.32, 1.4000000000000001E-4]\r\n  \
-        $ 8 \"corner\u{2254}pose_trans(a,p[1,2,3,4,5,6])\"\r\n  while (True):\r\n    $ 2 \"movel(p[\"\r\n    \
-        movej(get_inverse_kin(Waypoint_1_p, qnear=Waypoint_1_q), a=1.39, v=1.04)\r\n    movel(Waypoint_1_p)\r\n  end\r\nend\r\n";
+    let text = "def Prog():\r\n  set_tcp(p[0.0,0.0,0.1,0.0,0.0,0.0])\r\n  set_payload(1.5, [0.01, \
+        0, .05])\r\n  \
+        global Waypoint_1_p=p[.433025361705, -.467959205379, .522310714714, 1.500318891221, \
+            .521427297251, .530987104689]\r\n  \
+        global Waypoint_1_q=[1.9942498207092285, -1.6684614620604457, 1.9330504576312464, \
+            -0.2718423169902344, 1.32, 1.4000000000000001E-4]\r\n  \
+        $ 8 \"corner\u{2254}pose_trans(a,p[1,2,3,4,5,6])\"\r\n  while (True):\r\n    $ 2 \
+            \"movel(p[\"\r\n    \
+        movej(get_inverse_kin(Waypoint_1_p, qnear=Waypoint_1_q), a=1.39, v=1.04)\r\n    \
+            movel(Waypoint_1_p)\r\n  end\r\nend\r\n";
     let program = read(text);
     assert_eq!(to(&program), ["Waypoint_1_p", "Waypoint_1_p"]);
     assert_eq!(program.findings, []);
@@ -88,8 +93,10 @@ fn waypoints_of_the_pendant_are_rewritten_and_their_seeds_stay() {
 fn every_move_and_every_form_of_its_target_is_read() {
     let program = path(
         "movej([0,-1.5,1.5,0,1,0],a=1,v=1)\nmovej(p[.1,.2,.3,0,0,1])\nmovel(pose=p[.1,.2,.3,0,0,1],a=1)\nmovep(p [.1,.2,.3,0,0,1], r=.01)\n\
-         movec(p[.1,.2,.3,0,0,1], pose_to=p[.1,.2,.4,0,0,1], a=0.01, mode=1)\nmovej(get_inverse_kin(p[-.3,.2,.3,0,0,1], qnear=[-3.14,0,0,0,0,0]))\n\
-         movel([0,d2r(1),1,0,1,0])\nmovej([d2r(0),d2r(-90),d2r(90.5), d2r( 0 ),d2r(90),d2r(0)])\nmovel(p[.1,.2,.3,d2r(180),d2r(0),d2r(0)])\n\
+         movec(p[.1,.2,.3,0,0,1], pose_to=p[.1,.2,.4,0,0,1], a=0.01, \
+             mode=1)\nmovej(get_inverse_kin(p[-.3,.2,.3,0,0,1], qnear=[-3.14,0,0,0,0,0]))\n\
+         movel([0,d2r(1),1,0,1,0])\nmovej([d2r(0),d2r(-90),d2r(90.5), d2r( 0 \
+             ),d2r(90),d2r(0)])\nmovel(p[.1,.2,.3,d2r(180),d2r(0),d2r(0)])\n\
          servoj([0,1,2,3,4,5], t=0.008)\nif movel(p[1,\n 2,3,4,\n5,6]): sync() end",
     );
     let kinds: Vec<_> = program.moves.iter().map(|m| m.motion).collect();
@@ -219,7 +226,8 @@ fn what_the_program_computes_stays_and_is_reported() {
 fn look_alikes_are_no_targets() {
     let program = path(
         "# movel(p[1,2,3,4,5,6])\ntextmsg(\"movel(p[1,2,3,4,5,6])\")\nforce_mode(p[1,2,3,4,5,6],[0,0,1,0,0,0],[0,0,1,0,0,0],2,[1,1,1,1,1,1])\n\
-         plane=p[1,2,3,0,0,0]\nrpc.movel(p[1,2,3,4,5,6])\nx = my_movel(p[1,2,3,4,5,6])\nset_gravity([0,0,9.8])",
+         plane=p[1,2,3,0,0,0]\nrpc.movel(p[1,2,3,4,5,6])\nx = \
+             my_movel(p[1,2,3,4,5,6])\nset_gravity([0,0,9.8])",
     );
     assert_eq!((program.targets.len(), program.moves.len()), (0, 0));
     assert_eq!(ids(&program), ["motion-without-target"]);
@@ -342,7 +350,8 @@ fn the_tool_is_the_one_that_is_set_where_the_move_stands() {
 #[test]
 fn names_are_those_of_their_function() {
     let program = read(
-        "def a():\nx=p[1,2,3,0,0,0]\nmovel(x)\nend\ndef b():\nlocal x=p[1,2,3,0,0,1]\nmovel(x)\ndef c():\nmovel(x)\nend\nend\n",
+        "def a():\nx=p[1,2,3,0,0,0]\nmovel(x)\nend\ndef b():\nlocal \
+         x=p[1,2,3,0,0,1]\nmovel(x)\ndef c():\nmovel(x)\nend\nend\n",
     );
     assert_eq!(program.findings, []);
     assert_eq!(program.targets.len(), 2);

@@ -318,7 +318,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 }
                 Event::Tracking(on, offset) => {
                     let held = if on {
-                        Held::Remark(builder.script.remark(Remark::error("moving-frame", "moves along a conveyor, with a path offset or on a part that moves are not compensated", "")))
+                        Held::Remark(builder.script.remark(Remark::error("moving-frame", "moves \
+                            along a conveyor, with a path offset or on a part that moves are not compensated", "")))
                     } else {
                         Held::Flag(false)
                     };
@@ -521,7 +522,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             self.goals.lost_start = false;
             let goal = self.goals.goal(target, function);
             if self.goals.lost_start {
-                let message = "the joints that the inverse starts from are known at run time only; it is taken to start from the present ones";
+                let message = "the joints that the inverse starts from are known at run time only; \
+                    it is taken to start from the present ones";
                 let hint = "write qnear with numbers, or as a variable that is assigned once";
                 let id = "inverse-start-unknown";
                 self.say(step.offset, id, Severity::Warning, message.into(), hint);
@@ -550,7 +552,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             self.block(
                 target,
                 "target-used-as-offset",
-                "this target is the offset of another one too, or has one; compensating it would change that one",
+                "this target is the offset of another one too, or has one; compensating it would \
+                 change that one",
                 "give the offset a variable of its own",
                 at,
             );

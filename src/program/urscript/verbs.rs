@@ -136,32 +136,49 @@ pub(super) fn is_of_language(name: &[u8]) -> bool {
 
 /// Beginnings of names of which there are many: inputs, outputs, registers, sockets, states.
 const FAMILIES: &str = "\
-    get_actual_ get_analog_ get_configurable_ get_digital_ get_euromap_ get_flag get_standard_ get_target_ get_tool_ modbus_ \
-    read_input_ read_output_ read_port_ rtde_ set_analog_ set_configurable_ set_digital_ set_euromap_ set_flag set_runstate_ \
+    get_actual_ get_analog_ get_configurable_ get_digital_ get_euromap_ get_flag get_standard_ \
+        get_target_ get_tool_ modbus_ \
+    read_input_ read_output_ read_port_ rtde_ set_analog_ set_configurable_ set_digital_ \
+        set_euromap_ set_flag set_runstate_ \
     set_standard_ set_tool_ socket_ write_";
 
 /// Other functions of the language.
 const KNOWN: &str = "\
-    abs acos asin assert atan atan2 binary_list_to_integer bool ceil clear_teach_axes conveyor_pulse_decode cos \
-    cross d2r dot enable_external_ft_sensor encoder_enable_pulse_decode encoder_enable_set_tick_count \
+    abs acos asin assert atan atan2 binary_list_to_integer bool ceil clear_teach_axes \
+        conveyor_pulse_decode cos \
+    cross d2r dot enable_external_ft_sensor encoder_enable_pulse_decode \
+        encoder_enable_set_tick_count \
     encoder_get_tick_count encoder_set_tick_count encoder_unwind_delta_tick_count end_force_mode \
-    end_freedrive_mode end_screw_driving end_teach_mode enter_critical exit_critical float floor force \
+    end_freedrive_mode end_screw_driving end_teach_mode enter_critical exit_critical float floor \
+        force \
     force_mode_set_damping force_mode_set_gain_scaling ft_rtde_input_enable get_base_acceleration \
-    get_controller_temp get_conveyor_tick_count get_coriolis_and_centrifugal_torques get_forward_kin \
+    get_controller_temp get_conveyor_tick_count get_coriolis_and_centrifugal_torques \
+        get_forward_kin \
     get_freedrive_status get_gravity get_inverse_kin get_inverse_kin_has_solution get_jacobian \
     get_jacobian_time_derivative get_joint_temp get_joint_torques get_list_length get_mass_matrix \
-    get_path_statistics get_payload get_payload_cog get_payload_inertia get_payload_mass get_robot_id get_sim_mode \
-    get_steptime get_tcp_force get_tcp_offset get_tcp_speed get_vibration_damping halt high_holding_torque_disable \
-    high_holding_torque_enable int integer_to_binary_list interpolate_pose inv is_steady is_within_safety_limits \
+    get_path_statistics get_payload get_payload_cog get_payload_inertia get_payload_mass \
+        get_robot_id get_sim_mode \
+    get_steptime get_tcp_force get_tcp_offset get_tcp_speed get_vibration_damping halt \
+        high_holding_torque_disable \
+    high_holding_torque_enable int integer_to_binary_list interpolate_pose inv is_steady \
+        is_within_safety_limits \
     join kill length log low_holding_torque_disable low_holding_torque_enable make_list max \
-    mc_get_target_rtcp_speed mc_run_motion mc_set_speed_factor min modf norm normalize open_popup path_offset_get \
-    path_offset_set path_offset_set_alpha_filter path_offset_set_max_offset point_dist popup pose_add pose_dist \
-    pose_inv pose_sub pose_trans position_deviation_warning pow powerdown protective_stop r2d random \
-    request_boolean_from_primary_client request_float_from_primary_client request_integer_from_primary_client \
-    request_string_from_primary_client reset_revolution_counter reset_world_model rotvec2rpy round rpc_factory \
-    rpy2rotvec set_base_acceleration set_conveyor_tick_count set_gravity set_input_actions_to_default \
-    set_max_joint_speed set_max_payload set_safety_mode_transition_hardness set_vibration_damping set_watchdog \
-    sign sin sleep sqrt stopj stopl str str_at str_cat str_empty str_find str_len str_sub struct sync tan textmsg \
+    mc_get_target_rtcp_speed mc_run_motion mc_set_speed_factor min modf norm normalize open_popup \
+        path_offset_get \
+    path_offset_set path_offset_set_alpha_filter path_offset_set_max_offset point_dist popup \
+        pose_add pose_dist \
+    pose_inv pose_sub pose_trans position_deviation_warning pow powerdown protective_stop r2d \
+        random \
+    request_boolean_from_primary_client request_float_from_primary_client \
+        request_integer_from_primary_client \
+    request_string_from_primary_client reset_revolution_counter reset_world_model rotvec2rpy round \
+        rpc_factory \
+    rpy2rotvec set_base_acceleration set_conveyor_tick_count set_gravity \
+        set_input_actions_to_default \
+    set_max_joint_speed set_max_payload set_safety_mode_transition_hardness set_vibration_damping \
+        set_watchdog \
+    sign sin sleep sqrt stopj stopl str str_at str_cat str_empty str_find str_len str_sub struct \
+        sync tan textmsg \
     time time_get_raw to_num to_str tool_contact tool_contact_examples tool_wrench_limit_disable \
     tool_wrench_limit_set transpose unlock_protective_stop varmsg wrench_trans xmlrpc zero_wrench";
 

@@ -53,8 +53,10 @@ static ABOUT: About = About {
     name: "Staubli VAL 3",
     extensions: &["pgx", "dtx", "pjx"],
     rewrites: &[
-        "points of the .dtx that movej, movel and movec go to: single, in arrays and collections, of libraries that are given",
-        "numbers that a point leaves out: put in, in the order of the format, and reported one by one",
+        "points of the .dtx that movej, movel and movec go to: single, in arrays and collections, \
+         of libraries that are given",
+        "numbers that a point leaves out: put in, in the order of the format, and reported one by \
+         one",
         "shoulder, elbow and wrist, where a joint crosses zero or the arm changes sides",
         "joints (jointRx), also written out in a program: movej({0,-20,110,0,90,0},tool,mdesc)",
     ],
@@ -66,7 +68,8 @@ static ABOUT: About = About {
     ],
     refuses: &[
         "projects in inches (millimeterUnit=\"false\"), points of arms with four axes",
-        "frames that the running program changes, tools that only it knows, points of one array in different frames",
+        "frames that the running program changes, tools that only it knows, points of one array in \
+         different frames",
         "points that are not in the files: local values, libraries that are not given",
     ],
     has: "Project, Database or Programs of VAL 3",

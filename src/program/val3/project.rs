@@ -155,7 +155,8 @@ impl<'a> World<'a> {
                         return Err(Fault::bad_value(
                             unit.start..unit.end - 1,
                             "millimeterUnit that is read",
-                            "only projects in millimetres are; save the project with millimeterUnit=\"true\"",
+                            "only projects in millimetres are; save the project with \
+                             millimeterUnit=\"true\"",
                         ));
                     }
                 }

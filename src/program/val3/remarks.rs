@@ -18,7 +18,8 @@ pub(super) fn computed() -> Remark {
         severity: Severity::Warning,
         ..Remark::error(
             "computed-target",
-            "the position that this move goes to is known at run time only; the move stays as it is",
+            "the position that this move goes to is known at run time only; the move stays as it \
+             is",
             "move to a point of the .dtx where it must be exact",
         )
     }
@@ -55,7 +56,8 @@ pub(super) fn frame_assigned(name: &str) -> Remark {
 pub(super) fn frame_chosen() -> Remark {
     Remark::error(
         "frame-chosen-at-run-time",
-        "only the running program knows which tool or frame the move has: it is chosen by a variable, or its points have different frames",
+        "only the running program knows which tool or frame the move has: it is chosen by a \
+         variable, or its points have different frames",
         "name the tool in the move, and hang the points of one array on one frame",
     )
 }
@@ -88,7 +90,8 @@ pub(super) fn library(name: &str) -> Remark {
         ..Remark::error(
             "library-at-run-time",
             format!(
-                "{name} is loaded while the program runs: its data are taken to be those of the files"
+                "{name} is loaded while the program runs: its data are taken to be those of the \
+                 files"
             ),
             "give the project that is loaded too, or keep its points out of the path",
         )

@@ -11,7 +11,8 @@ mod robust;
 /// A data file of these declarations.
 fn dtx(data: &str) -> String {
     format!(
-        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Database xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
+        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Database \
+         xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
          xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\"><Datas>\n{data}</Datas></Database>"
     )
 }
@@ -19,13 +20,15 @@ fn dtx(data: &str) -> String {
 fn data(name: &str, kind: &str, values: &[&str]) -> String {
     let values: String = values.iter().map(|v| format!("<Value {v} />\n")).collect();
     format!(
-        "<Data name=\"{name}\" access=\"private\" xsi:type=\"array\" type=\"{kind}\" size=\"9\">\n{values}</Data>\n"
+        "<Data name=\"{name}\" access=\"private\" xsi:type=\"array\" type=\"{kind}\" \
+         size=\"9\">\n{values}</Data>\n"
     )
 }
 
 fn pgx(name: &str, more: &str, code: &str) -> String {
     format!(
-        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Programs xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">\
+        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Programs \
+         xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">\
          <Program name=\"{name}\" access=\"public\">{more}<Code><![CDATA[begin\n{code}\nend]]></Code></Program></Programs>"
     )
 }
@@ -79,7 +82,8 @@ fn numbers_that_are_left_out_are_zero_and_have_their_place() {
     }
     assert!(
         whole.contains(
-            "key=\"0\" x=\"0\" y=\"2.5\" z=\"0\" rx=\"180\" ry=\"0\" rz=\"0\" elbow=\"enegative\" fatherId"
+            "key=\"0\" x=\"0\" y=\"2.5\" z=\"0\" rx=\"180\" ry=\"0\" rz=\"0\" elbow=\"enegative\" \
+             fatherId"
         ),
         "{whole}"
     );
@@ -256,7 +260,8 @@ fn points_are_followed_through_parameters_and_copies() {
         + &data("tA", "tool", &[TOOL])
         + &data("tNow", "tool", &[])
         + &points;
-    let parameter = "<Parameters><Parameter name=\"x_p\" type=\"pointRx\" use=\"value\" xsi:type=\"element\" /></Parameters>";
+    let parameter = "<Parameters><Parameter name=\"x_p\" type=\"pointRx\" use=\"value\" \
+        xsi:type=\"element\" /></Parameters>";
     let files = |code: &str| {
         [
             ("m.dtx", dtx(&all)),
@@ -347,9 +352,12 @@ fn what_the_running_program_changes_is_refused_or_reported() {
 
 #[test]
 fn libraries_are_found_by_their_paths() {
-    let pjx = "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters millimeterUnit=\"true\" />\
-        <Programs><Program file=\"start.pgx\" /></Programs><Libraries><Library alias=\"a\" path=\"Disk://Rack/Rack.pjx\" /></Libraries></Project>";
-    let rack = "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters millimeterUnit=\"true\" />\
+    let pjx = "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters \
+        millimeterUnit=\"true\" />\
+        <Programs><Program file=\"start.pgx\" /></Programs><Libraries><Library alias=\"a\" \
+            path=\"Disk://Rack/Rack.pjx\" /></Libraries></Project>";
+    let rack = "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters \
+        millimeterUnit=\"true\" />\
         <Database><Data file=\"Rack.dtx\" /></Database></Project>";
     let points = dtx(&data("pA", "pointRx", &["key=\"0\" x=\"1\""]));
     let code = pgx(

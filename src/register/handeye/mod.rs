@@ -92,7 +92,8 @@ pub enum HandEyeError {
     },
     /// The robot does not rotate.
     #[error(
-        "the robot's poses do not rotate: {found_deg:.3} deg between them (limit {limit_deg:.2} deg)"
+        "the robot's poses do not rotate: {found_deg:.3} deg between them (limit {limit_deg:.2} \
+         deg)"
     )]
     NoRotation {
         /// Root mean square rotation between poses, degrees.
@@ -101,7 +102,9 @@ pub enum HandEyeError {
         limit_deg: f64,
     },
     /// All rotations about one axis.
-    #[error("all poses rotate about one axis ({:.3}, {:.3}, {:.3}), with {across_deg:.3} deg about others (limit {limit_deg:.2} deg): the camera's place along it is not determined", axis[0], axis[1], axis[2])]
+    #[error("all poses rotate about one axis ({:.3}, {:.3}, {:.3}), with {across_deg:.3} deg about \
+        others (limit {limit_deg:.2} deg): the camera's place along it is not \
+        determined", axis[0], axis[1], axis[2])]
     OneAxis {
         /// The axis in the flange (eye in hand) or base frame.
         axis: [f64; 3],
@@ -112,7 +115,8 @@ pub enum HandEyeError {
     },
     /// Robot and board rotate by different angles.
     #[error(
-        "robot and board turn by different angles: {apart_deg:.2} deg root mean square (limit {limit_deg:.1} deg), most at row {row}: do the rows belong together?"
+        "robot and board turn by different angles: {apart_deg:.2} deg root mean square (limit \
+         {limit_deg:.1} deg), most at row {row}: do the rows belong together?"
     )]
     Angles {
         /// Root mean square difference, degrees.

@@ -137,7 +137,8 @@ fn permutations() -> [[usize; 3]; 6] {
 pub enum HexapodError {
     /// Not two orders of 1, 2 and 3.
     #[error(
-        "design `{found}` is not of the form 123/123: an order of the base balls and one of the tool balls"
+        "design `{found}` is not of the form 123/123: an order of the base balls and one of the \
+         tool balls"
     )]
     Design {
         /// What was given.
@@ -153,7 +154,8 @@ pub enum HexapodError {
     },
     /// Three sides that are no triangle.
     #[error(
-        "{which} is no triangle: {longest} = {found_mm:.4} mm is longer than the other two together ({limit_mm:.4} mm)"
+        "{which} is no triangle: {longest} = {found_mm:.4} mm is longer than the other two \
+         together ({limit_mm:.4} mm)"
     )]
     Triangle {
         /// `the base` or `the tool`.
@@ -166,7 +168,8 @@ pub enum HexapodError {
         limit_mm: f64,
     },
     /// Three spheres that do not meet.
-    #[error("no solution for {point}: the spheres of {} do not meet; {}", names(.lengths), culprit(.changes))]
+    #[error("no solution for {point}: the spheres of {} do not meet; \
+        {}", names(.lengths), culprit(.changes))]
     NoMeeting {
         /// T1, T2 or T3 of the design.
         point: &'static str,
@@ -184,7 +187,8 @@ pub enum HexapodError {
     },
     /// A rough pose that does not tell two modes apart.
     #[error(
-        "the rough pose does not tell the modes {first} and {second} apart: {first_mm:.1} mm and {second_mm:.1} mm away"
+        "the rough pose does not tell the modes {first} and {second} apart: {first_mm:.1} mm and \
+         {second_mm:.1} mm away"
     )]
     Rough {
         /// The nearest.
@@ -198,7 +202,8 @@ pub enum HexapodError {
     },
     /// Taught points that contradict the distances.
     #[error(
-        "the taught points contradict the ballbar: {name} is {taught_mm:.3} mm by the robot and {exact_mm:.3} mm by the ballbar (limit {limit_mm} mm)"
+        "the taught points contradict the ballbar: {name} is {taught_mm:.3} mm by the robot and \
+         {exact_mm:.3} mm by the ballbar (limit {limit_mm} mm)"
     )]
     Taught {
         /// Which distance.

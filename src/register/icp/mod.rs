@@ -88,7 +88,8 @@ pub enum Concern {
     },
     /// A residual that the noise does not explain.
     #[error(
-        "a local minimum, or not the same surface: the residual is {rms_mm:.4} mm and the noise of the points explains {expected_mm:.4} mm (limit {limit} times)"
+        "a local minimum, or not the same surface: the residual is {rms_mm:.4} mm and the noise of \
+         the points explains {expected_mm:.4} mm (limit {limit} times)"
     )]
     Residual {
         /// Of the kept pairs, mm.
@@ -108,7 +109,8 @@ pub enum Concern {
     },
     /// A surface that slides on itself.
     #[error(
-        "the surface leaves a motion free: {motion} (information {ratio:.1e} of the strongest, limit {limit:.1e})"
+        "the surface leaves a motion free: {motion} (information {ratio:.1e} of the strongest, \
+         limit {limit:.1e})"
     )]
     Free {
         /// Which.
@@ -120,7 +122,9 @@ pub enum Concern {
     },
     /// Another pose as good.
     #[error(
-        "another pose fits as well ({other_mm:.4} mm against {rms_mm:.4} mm), turned by {turn_deg:.1} deg: the part is symmetric, or the points do not show what breaks its symmetry"
+        "another pose fits as well ({other_mm:.4} mm against {rms_mm:.4} mm), turned by \
+         {turn_deg:.1} deg: the part is symmetric, or the points do not show what breaks its \
+         symmetry"
     )]
     Ambiguous {
         /// Residual of this one, mm.

@@ -134,7 +134,8 @@ fn show_points(page: &mut Page, frame: &Frame) {
         (true, true) => "The residual of each point, magnified.",
         (false, _) => "One standard deviation as an ellipsoid, magnified.",
         _ => {
-            "The residual of each point, and one standard deviation as an ellipsoid, both magnified."
+            "The residual of each point, and one standard deviation as an ellipsoid, both \
+             magnified."
         }
     };
     page.sections.push(Section::Cell(Box::new(Cell {
@@ -381,7 +382,8 @@ pub(crate) fn hand_eye_page(found: &HandEye) -> Page {
             }
         )],
         answer: format!(
-            "{} poses agree to {:.4} mm and {:.5} deg; a pose left out of the fit to {:.4} mm and {:.5} deg",
+            "{} poses agree to {:.4} mm and {:.5} deg; a pose left out of the fit to {:.4} mm and \
+             {:.5} deg",
             found.poses.len(),
             found.residual_mm,
             found.residual_deg,
@@ -448,7 +450,11 @@ fn show_hand_eye(page: &mut Page, found: &HandEye, in_base: &Ellipsoid) {
     points.first = super::programs::largest(&points.error);
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "Poses".into(),
-        note: format!("Where the flange was, seen from the base; the colour is the residual of each pose. The ellipsoid, magnified, is one standard deviation of the {}.", in_base.of),
+        note: format!(
+            "Where the flange was, seen from the base; the colour is the residual of \
+            each pose. The ellipsoid, magnified, is one standard deviation of the {}.",
+            in_base.of
+        ),
         table: "rows".into(),
         robot: None,
         bodies: Vec::new(),

@@ -481,7 +481,9 @@ impl Page {
             };
             let rows = summary.rows.iter().map(|row| cells("td", row));
             out += &format!(
-                "<div class=\"summary\" tabindex=\"0\" role=\"region\" aria-label=\"Summary\"><table aria-label=\"Summary\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
+                "<div class=\"summary\" tabindex=\"0\" role=\"region\" \
+                 aria-label=\"Summary\"><table \
+                 aria-label=\"Summary\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
                 cells("th", &summary.heads),
                 rows.map(|row| format!("<tr>{row}</tr>\n"))
                     .collect::<String>()

@@ -75,9 +75,16 @@ pub(crate) fn page(found: &Reach) -> Page {
         .map(|(place, name)| Solid::ball(name, *place, BALL_M));
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "In the cell".into(),
-        note: "The origin of the tool's balls at each pose, above the three balls of the base; choose one to see the arm in its first posture. What cannot be measured is red.".into(),
+        note: "The origin of the tool's balls at each pose, above the three balls of the base; \
+            choose one to see the arm in its first posture. What cannot be measured is red."
+            .into(),
         table: "poses".into(),
-        robot: Some(Robot::of(profile, &[tool.flange_from_tool], None, &Meshes::default())),
+        robot: Some(Robot::of(
+            profile,
+            &[tool.flange_from_tool],
+            None,
+            &Meshes::default(),
+        )),
         bodies: bodies.collect(),
         points,
         paths: Vec::new(),

@@ -57,7 +57,8 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
         "given"
     };
     out += &format!(
-        "\nresiduals are {:.2} times the {given} standard deviations; sigmas below are scaled by {:.2}\n",
+        "\nresiduals are {:.2} times the {given} standard deviations; sigmas below are scaled by \
+         {:.2}\n",
         found.sigma_factor, found.applied_factor
     );
     if let Some(expected_mm) = found.expected_error_mm {
@@ -144,13 +145,15 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
     if found.base_replaced {
         let ([x, y, z], [rx, ry, rz]) = (found.base.xyz_mm(), found.base.rxryrz_deg());
         out += &format!(
-            "\nthe base stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg (Rx·Ry·Rz) in the device's frame\n"
+            "\nthe base stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, \
+             {rz:.5}) deg (Rx·Ry·Rz) in the device's frame\n"
         );
     }
     if let Some(device) = &found.world_from_device {
         let ([x, y, z], [rx, ry, rz]) = (device.xyz_mm(), device.rxryrz_deg());
         out += &format!(
-            "\nthe device stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, {rz:.5}) deg (Rx·Ry·Rz) in the controller's world\n"
+            "\nthe device stands at ({x:.3}, {y:.3}, {z:.3}) mm,\n  rotated by ({rx:.5}, {ry:.5}, \
+             {rz:.5}) deg (Rx·Ry·Rz) in the controller's world\n"
         );
         if let Some(sigma) = &found.world_from_device_sigma {
             let ([x, y, z], [rx, ry, rz]) = (sigma.xyz_mm(), sigma.rxryrz_deg());

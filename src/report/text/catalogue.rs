@@ -21,7 +21,8 @@ pub(super) fn robots(found: &Robots, _: Style) -> String {
         );
     }
     text += &format!(
-        "{} robots; where no data sheet is named the numbers are those of one public file: set the limits from the data sheet\n",
+        "{} robots; where no data sheet is named the numbers are those of one public file: set the \
+         limits from the data sheet\n",
         found.robots.len()
     );
     text + "`poseshift profile new --robot NAME` starts a profile from one of them\n"

@@ -83,7 +83,8 @@ fn iso_9283(found: &Validation, style: Style) -> String {
         let all: Vec<_> = std::iter::once(header).chain(rows).collect();
         aligned(&all, style.width)
     };
-    out += "\nrepeated poses, ISO 9283, mm; AP: the mean from the commanded pose, and from the real model's\n";
+    out += "\nrepeated poses, ISO 9283, mm; AP: the mean from the commanded pose, and from the \
+        real model's\n";
     let rows = found.iso_9283.iter().take(most).map(|r| {
         let variation = r
             .multidirectional_variation_mm
@@ -106,7 +107,8 @@ fn iso_9283(found: &Validation, style: Style) -> String {
     if found.iso_9283_distances.is_empty() {
         return out;
     }
-    out += "\ndistances of repeated poses, mm; AD: the mean from the commanded distance, and from the real model's\n";
+    out += "\ndistances of repeated poses, mm; AD: the mean from the commanded distance, and from \
+        the real model's\n";
     let rows = found.iso_9283_distances.iter().take(most).map(|r| {
         let mut row = vec![
             format!("{} to {}", r.line(0), r.line(1)),

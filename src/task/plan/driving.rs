@@ -251,7 +251,8 @@ impl<'a> Driving<'a> {
                 file,
                 motion.line as usize,
                 format!(
-                    "on the path to configuration {} the arm's {a} touches {b}, at {:.0} % of the move",
+                    "on the path to configuration {} the arm's {a} touches {b}, at {:.0} % of the \
+                     move",
                     configurations.get(motion.motion).copied().unwrap_or(0),
                     100.0 * near.at
                 ),

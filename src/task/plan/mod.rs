@@ -227,7 +227,8 @@ fn refuse_nonsense(request: &Request) -> Result<(), Failure> {
         // a unit and back is a rounding more
         if !(0.999e-9..=most * 1.001).contains(&value) {
             return Err(Failure::new(format!(
-                "{option} is {value:e}; it must be greater than 0 (1e-9 or more), and at most {most:e}"
+                "{option} is {value:e}; it must be greater than 0 (1e-9 or more), and at most \
+                 {most:e}"
             )));
         }
     }

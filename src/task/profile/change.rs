@@ -62,7 +62,8 @@ pub fn add_tool(
     if file.profile.tools.contains_key(name) {
         return Err(Failure::with_hint(
             format!("{}: there is a tool `{name}` already", file.name),
-            "another name, or `profile set` with the keys of this one, such as tools.NAME.mass_kg=2.5",
+            "another name, or `profile set` with the keys of this one, such as \
+             tools.NAME.mass_kg=2.5",
         ));
     }
     if name.contains('.') {
@@ -107,7 +108,9 @@ pub(super) fn changed(file: &ProfileFile, text: String, output: &str) -> Result<
     let mut notes = Vec::new();
     if profile.provenance.is_some() && profile.links != file.profile.links {
         notes.push(
-            "the calibration was identified with the earlier nominal rows: it does not hold for these".into(),
+            "the calibration was identified with the earlier nominal rows: it does not hold for \
+             these"
+                .into(),
         );
     }
     Ok(Changed {

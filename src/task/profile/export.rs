@@ -135,7 +135,8 @@ pub fn export(file: &ProfileFile, form: Option<Form>) -> Result<Exported, Failur
             if profile.manufacturer != "Universal Robots" {
                 return Err(Failure::with_hint(
                     format!(
-                        "{}: the arm's maker is {}; the kinematics file is one of Universal Robots' driver",
+                        "{}: the arm's maker is {}; the kinematics file is one of Universal \
+                         Robots' driver",
                         file.name, profile.manufacturer
                     ),
                     "--urdf, --dh-csv or --mdh-csv",
@@ -242,7 +243,8 @@ fn comments(file: &ProfileFile, not_carried: &[String], deviation: &Deviation) -
             .map(|what| format!("not in here: {what}")),
     );
     lines.push(format!(
-        "the real tool is {:.4} mm (mean), at most {:.4} mm, from where this has it, over {} postures",
+        "the real tool is {:.4} mm (mean), at most {:.4} mm, from where this has it, over {} \
+         postures",
         deviation.mean_mm, deviation.max_mm, deviation.postures
     ));
     lines
@@ -341,7 +343,8 @@ fn stated(what: &str, pose: &Pose) -> String {
     let [x, y, z] = [x, y, z].map(|x| mm_from_m(x) + 0.0);
     let [rx, ry, rz] = [rx, ry, rz].map(|a| a / DEG + 0.0);
     format!(
-        "{what}: x_mm {x}, y_mm {y}, z_mm {z}, rx_deg {rx}, ry_deg {ry}, rz_deg {rz} (Trans Rx Ry Rz)"
+        "{what}: x_mm {x}, y_mm {y}, z_mm {z}, rx_deg {rx}, ry_deg {ry}, rz_deg {rz} (Trans Rx Ry \
+         Rz)"
     )
 }
 
@@ -448,7 +451,8 @@ fn ur_kinematics(profile: &Profile, exported: &Geometry, comments: &[String]) ->
         let [x, y, z] = step.translation.map(|x| x + 0.0);
         let [yaw, pitch, roll] = yaw_pitch_roll(&step.rotation);
         out += &format!(
-            "  {name}:\n    x: {x}\n    y: {y}\n    z: {z}\n    roll: {roll}\n    pitch: {pitch}\n    yaw: {yaw}\n"
+            "  {name}:\n    x: {x}\n    y: {y}\n    z: {z}\n    roll: {roll}\n    pitch: \
+             {pitch}\n    yaw: {yaw}\n"
         );
     }
     out

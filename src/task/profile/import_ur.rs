@@ -45,7 +45,8 @@ pub fn import_ur(
     if !profile.effects.is_empty() && !profile.effects.iter().any(is_geometry) {
         return Err(Failure::with_hint(
             format!(
-                "{}: its calibration has effects, but no link geometry; compensation would undo the controller's own",
+                "{}: its calibration has effects, but no link geometry; compensation would undo \
+                 the controller's own",
                 file.name
             ),
             "import into a profile without a calibration, then calibrate",

@@ -78,7 +78,8 @@ impl<'a> Data<'a> {
         self.values.get(name).ok_or_else(|| {
             let names: Vec<&str> = self.sources.iter().map(|s| s.name.as_str()).collect();
             let message = format!("{}: there is no {name}", names.join(", "));
-            let hint = "$machine.dat has the chains, $config.dat the roots (MACHINE_DEF): give the folder of both";
+            let hint = "$machine.dat has the chains, $config.dat the roots (MACHINE_DEF): give the \
+                folder of both";
             Failure::with_hint(message, hint)
         })
     }
@@ -171,7 +172,8 @@ pub(super) fn read(sources: &[Source]) -> Result<Read, Failure> {
         .collect();
     if used.is_empty() {
         let message = "$EX_KIN: every kinematic is #NONE: external axes carry nothing".to_owned();
-        let hint = "values of E1 to E6 in programs are those of axes that carry nothing: name them in `other:`";
+        let hint = "values of E1 to E6 in programs are those of axes that carry nothing: name them \
+            in `other:`";
         return Err(data.refuse(kinds, message, hint));
     }
     for (number, kind) in used {
@@ -254,7 +256,8 @@ fn track(data: &Data, number: usize, axes: &[usize], read: &mut Read) -> Result<
             pulses_per_mm: None,
         });
         read.notes.push(format!(
-            "E{axis}: z of $ERSYSROOT ({}) · $ET{number}_TA1KR …, limits of $SOFTN_END and $SOFTP_END",
+            "E{axis}: z of $ERSYSROOT ({}) · $ET{number}_TA1KR …, limits of $SOFTN_END and \
+             $SOFTP_END",
             data.from(root)
         ));
     }

@@ -158,7 +158,8 @@ impl<'a> File<'a> {
         let length = quaternion.norm();
         if (length - 1.0).abs() > UNIT {
             let message = format!(
-                "base_frame_orient of {} has the length {length:.6}; it may differ from 1 by {UNIT}",
+                "base_frame_orient of {} has the length {length:.6}; it may differ from 1 by \
+                 {UNIT}",
                 entry.name()
             );
             return Err(self.refuse(entry, message, ""));
@@ -194,7 +195,8 @@ impl<'a> File<'a> {
         let arm = arm.filter(|arm| arm.text("upper_joint_bound").is_some());
         let Some(arm) = arm else {
             let message = format!(
-                "nothing says how far {} goes: no ARM of the joint `{joint}` with upper_joint_bound",
+                "nothing says how far {} goes: no ARM of the joint `{joint}` with \
+                 upper_joint_bound",
                 single.name()
             );
             let hint = "describe the axis with `poseshift profile add-track` or `add-positioner`";
@@ -311,7 +313,8 @@ pub(super) fn read(
         let mechanics = mechanics.and_then(|kind| kind.text("mechanics"));
         let (Some("FREE_ROT"), Some(own)) = (mechanics, file.axis(single)) else {
             notes.push(format!(
-                "left out: the unit {name} ({}): the file does not say that it turns about an axis, or which logical axis it is",
+                "left out: the unit {name} ({}): the file does not say that it turns about an \
+                 axis, or which logical axis it is",
                 from(single)
             ));
             continue;

@@ -84,7 +84,8 @@ pub fn new(robot: &str) -> Result<NewProfile, Failure> {
 pub fn way_to_built_in(robot: &str) -> Option<String> {
     let found = new(robot).ok()?.robot;
     Some(format!(
-        "`{found}` is a built-in robot: `poseshift profile new --robot {found} -o {found}.yaml` makes a profile of it"
+        "`{found}` is a built-in robot: `poseshift profile new --robot {found} -o {found}.yaml` \
+         makes a profile of it"
     ))
 }
 

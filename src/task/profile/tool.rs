@@ -20,7 +20,8 @@ pub fn tool(text: &str) -> Result<(String, ToolOfProfile), Failure> {
     let refused = |why: String| {
         Failure::with_hint(
             format!("tool `{text}`: {why}"),
-            "NAME=X,Y,Z,RX,RY,RZ[,KG[,CX,CY,CZ]] in mm, degrees and kg, such as gripper=0,0,150,0,0,90,2.5",
+            "NAME=X,Y,Z,RX,RY,RZ[,KG[,CX,CY,CZ]] in mm, degrees and kg, such as \
+             gripper=0,0,150,0,0,90,2.5",
         )
     };
     let (name, values) = text

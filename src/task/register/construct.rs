@@ -67,7 +67,8 @@ pub(super) fn construct(
         }
         Construction::ThreeTwoOne if datums.iter().any(Option::is_none) && count != 6 => {
             return Err(fail(format!(
-                "{count} touches without a column datum (1, 2 or 3); in order they must be 3 + 2 + 1"
+                "{count} touches without a column datum (1, 2 or 3); in order they must be 3 + 2 + \
+                 1"
             )));
         }
         _ => {}

@@ -143,7 +143,8 @@ fn by_points(
     let sigma = given.unwrap_or_else(|| noise_m(&residuals, used));
     for bad in &rejected {
         let message = format!(
-            "{} is left out: {:.3} mm from where the others put it, {:.1} standard deviations (limit {})",
+            "{} is left out: {:.3} mm from where the others put it, {:.1} standard deviations \
+             (limit {})",
             touched[bad.index].id,
             mm_from_m(bad.distance_m),
             bad.sigmas,
@@ -197,7 +198,8 @@ fn other_scale(scale: &Scale, points: usize, name: &str) -> Option<Finding> {
     (points > 3 && off.abs() > SCALE && off.abs() > 4.0 * scale.sigma).then(|| {
         let [steel, aluminium] = EXPANSION.map(|expansion| off / expansion);
         let message = format!(
-            "TO is {:.6} times as large as FROM (± {:.6}): other units, or a part {steel:+.0} K (steel) or {aluminium:+.0} K (aluminium) from the temperature of its drawing",
+            "TO is {:.6} times as large as FROM (± {:.6}): other units, or a part {steel:+.0} K \
+             (steel) or {aluminium:+.0} K (aluminium) from the temperature of its drawing",
             scale.value, scale.sigma
         );
         warning("scale", name, message)
@@ -222,7 +224,8 @@ fn suspect(
     };
     for bad in found.rejected.iter().filter(|bad| bad.sigmas > SUSPECT) {
         let message = format!(
-            "{} is {:.3} mm from where the others put it, {:.1} standard deviations; it is in the fit",
+            "{} is {:.3} mm from where the others put it, {:.1} standard deviations; it is in the \
+             fit",
             touched[bad.index].id,
             mm_from_m(bad.distance_m),
             bad.sigmas
@@ -266,7 +269,8 @@ fn point(pair: &Pair, radius: f64, to_name: &str) -> Result<Touched, Failure> {
             (None, Some(normal)) => from_m = add(from_m, scale(radius, normal)),
             (None, None) => {
                 let message = format!(
-                    "{to_name}: point {}: --probe-radius-mm needs the outward normal nx,ny,nz of the touched surface in FROM or TO",
+                    "{to_name}: point {}: --probe-radius-mm needs the outward normal nx,ny,nz of \
+                     the touched surface in FROM or TO",
                     from.id
                 );
                 return Err(Failure::with_hint(message, "spheres and holes need none"));

@@ -186,7 +186,12 @@ fn a_cell_s_faults_and_its_missing_mesh_are_reported() {
         "{error}"
     );
     // in millimetres the robot stands in it
-    std::fs::write(&cell, "poseshift: cell/1\nbodies: [{name: c, mesh: c.obj, at: {x_mm: -500, y_mm: -500, z_mm: -100, rx_deg: 0, ry_deg: 0, rz_deg: 0}}]\n").expect("scratch");
+    std::fs::write(
+        &cell,
+        "poseshift: cell/1\nbodies: [{name: c, mesh: c.obj, at: {x_mm: -500, \
+        y_mm: -500, z_mm: -100, rx_deg: 0, ry_deg: 0, rz_deg: 0}}]\n",
+    )
+    .expect("scratch");
     let (status, report) = json(&command);
     assert_eq!(status, 1);
     let first = &report["findings"][0];
@@ -238,7 +243,8 @@ fn only_some_programs_of_a_folder_are_checked_and_the_others_declare() {
         .collect();
     std::fs::write(programs.join("a_main.mod"), rest.join("\n") + "\n").expect("scratch");
     let other = format!(
-        "MODULE other\n{}\n  PROC aside()\n    MoveJ p1,v100,fine,artifact;\n  ENDPROC\nENDMODULE\n",
+        "MODULE other\n{}\n  PROC aside()\n    MoveJ p1,v100,fine,artifact;\n  \
+         ENDPROC\nENDMODULE\n",
         data.join("\n")
     );
     std::fs::write(programs.join("b_data.mod"), other).expect("scratch");
@@ -300,8 +306,10 @@ fn targets_are_split_and_paths_refined_in_one_run() {
     );
     let program = format!(
         "MODULE t\nCONST robtarget p := [[430,0,400],{pose};\nPROC main()\n\
-         MoveAbsJ [[0,-20,0,0,60,0],{joints}],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveL [[430,150,300],{pose},v100,fine,tool0;\n\
-         MoveAbsJ [[0,60,0,0,60,0],{joints}],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveL [[350,-150,420],{pose},v100,fine,tool0;\n\
+         MoveAbsJ [[0,-20,0,0,60,0],{joints}],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveL \
+             [[430,150,300],{pose},v100,fine,tool0;\n\
+         MoveAbsJ [[0,60,0,0,60,0],{joints}],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveL \
+             [[350,-150,420],{pose},v100,fine,tool0;\n\
          ENDPROC\nENDMODULE\n"
     );
     std::fs::write(at("t.mod"), program).expect("scratch");
@@ -344,7 +352,8 @@ fn inserted_targets_are_not_shifted_beyond_the_limit() {
     std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");
     let joints = "[9E9,9E9,9E9,9E9,9E9,9E9]";
     let program = format!(
-        "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ [[-45,0,0,0,60,0],{joints}],v100,fine,tool0;\n\
+        "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ \
+         [[-45,0,0,0,60,0],{joints}],v100,fine,tool0;\n\
          MoveL [[300,-300,300],[0,0,1,0],[-1,0,0,0],{joints}],v100,fine,tool0;\n\
          MoveL [[300,300,300],[0,0,1,0],[0,0,0,0],{joints}],v100,fine,tool0;\nENDPROC\nENDMODULE\n"
     );
@@ -378,7 +387,8 @@ fn inserted_targets_are_not_shifted_beyond_the_limit() {
 fn joints_in_no_unit_at_all_are_refused_before_they_are_followed() {
     let folder = scratch();
     let program = folder.path().join("t.script");
-    let text = "def p():\n  movej([0,-1.5,1.5,-1.5,-1.5,0], a=1, v=1)\n  movej([1e308,-1.5,1.5,-1.5,-1.5,0], a=1, v=1)\nend\n";
+    let text = "def p():\n  movej([0,-1.5,1.5,-1.5,-1.5,0], a=1, v=1)\n  \
+        movej([1e308,-1.5,1.5,-1.5,-1.5,0], a=1, v=1)\nend\n";
     std::fs::write(&program, text).expect("scratch");
     let (status, found) = json(&[
         "check",

@@ -327,7 +327,9 @@ fn a_collision_that_only_compensation_makes_is_found_and_named() {
         })
         .collect();
     let text = format!(
-        "poseshift: cell/1\nbodies:\n  - {{name: ball, sphere_mm: {{radius: 1}}, at: {{x_mm: {}, y_mm: {}, z_mm: {}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\nattached: [{{name: bulge, to: link3, sphere_mm: {{radius: 20}}}}]\npairs: [{}]\n",
+        "poseshift: cell/1\nbodies:\n  - {{name: ball, sphere_mm: {{radius: 1}}, at: {{x_mm: {}, \
+         y_mm: {}, z_mm: {}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\nattached: [{{name: bulge, to: \
+         link3, sphere_mm: {{radius: 20}}}}]\npairs: [{}]\n",
         1e3 * ball[0],
         1e3 * ball[1],
         1e3 * ball[2],

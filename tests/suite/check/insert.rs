@@ -177,13 +177,15 @@ end
         (
             "t.dtx",
             "<?xml version=\"1.0\" encoding=\"utf-8\"?>
-<Database xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">
+<Database xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
+    xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">
   <Datas>
     <Data name=\"jA\" access=\"private\" xsi:type=\"array\" type=\"jointRx\" size=\"1\">
       <Value key=\"0\" j1=\"-35\" j2=\"30\" j3=\"80\" j5=\"70\" />
     </Data>
     <Data name=\"pA\" access=\"private\" xsi:type=\"array\" type=\"pointRx\" size=\"1\">
-      <Value key=\"0\" x=\"600\" y=\"-400.5\" z=\"-150\" rx=\"180\" shoulder=\"lefty\" elbow=\"epositive\" wrist=\"wpositive\" fatherId=\"world[0]\" />
+      <Value key=\"0\" x=\"600\" y=\"-400.5\" z=\"-150\" rx=\"180\" shoulder=\"lefty\" \
+          elbow=\"epositive\" wrist=\"wpositive\" fatherId=\"world[0]\" />
     </Data>
     <Data name=\"pB\" access=\"private\" xsi:type=\"array\" type=\"pointRx\" size=\"3\">
       <Value key=\"1\" x=\"600\" y=\"400.5\" z=\"-150\" rx=\"180\" fatherId=\"world[0]\" />

@@ -93,7 +93,8 @@ fn compare_straight_moves(profile: &Profile) {
             .map(|x| format!("{x:.9}"))
             .join(",");
         let line = format!(
-            "    ConfL\\Off;\n    MoveL [[{t}],[{q}],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n"
+            "    ConfL\\Off;\n    MoveL \
+             [[{t}],[{q}],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n"
         );
         let sources = rapid(&(joint_move(a) + &line));
         let found = run(profile, None, &sources, None, &Options::default());
@@ -319,7 +320,8 @@ fn a_wall_of_1_mm_between_two_targets_is_found_though_no_target_touches_it() {
     let profile = profile(THESIS);
     let cell = |y: f64| {
         let text = format!(
-            "poseshift: cell/1\nclearance_mm: 2\nbodies:\n  - {{name: wall, box_mm: [200, 1, 200], at: {{x_mm: 480, y_mm: {y}, z_mm: 500, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\n"
+            "poseshift: cell/1\nclearance_mm: 2\nbodies:\n  - {{name: wall, box_mm: [200, 1, 200], \
+             at: {{x_mm: 480, y_mm: {y}, z_mm: 500, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\n"
         );
         Cell::from_yaml(&text).expect("a cell")
     };
@@ -381,7 +383,10 @@ fn a_collision_that_only_the_real_arm_has_is_named() {
         .link_frames(&moved(&q, &q, 0.0), &conditions)[6]
         .translation;
     let text = format!(
-        "poseshift: cell/1\nbodies:\n  - {{name: ball, sphere_mm: {{radius: 1}}, at: {{x_mm: {}, y_mm: {}, z_mm: {}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\nattached: [{{name: tip, to: link6, sphere_mm: {{radius: 20}}}}]\npairs: [{{a: link5, b: ball, allow: true}}, {{a: link6, b: ball, allow: true}}, {{a: link4, b: ball, allow: true}}]\n",
+        "poseshift: cell/1\nbodies:\n  - {{name: ball, sphere_mm: {{radius: 1}}, at: {{x_mm: {}, \
+         y_mm: {}, z_mm: {}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\nattached: [{{name: tip, to: \
+         link6, sphere_mm: {{radius: 20}}}}]\npairs: [{{a: link5, b: ball, allow: true}}, {{a: \
+         link6, b: ball, allow: true}}, {{a: link4, b: ball, allow: true}}]\n",
         1e3 * at[0],
         1e3 * at[1],
         1e3 * at[2] - 21.0 - 0.5 * 1e3 * (nominal - real)

@@ -92,12 +92,14 @@ fn dae(metre: f64, up: &str, turned: fn([f64; 3]) -> [f64; 3]) -> String {
          <asset><unit name='unit' meter='{metre}'/><up_axis>{up}</up_axis></asset>\n\
          <library_geometries><geometry id='g'><mesh>\n\
          <source id='s'><float_array id='a' count='24'>{numbers}</float_array><technique_common>\
-         <accessor source='#a' count='8' stride='3'><param name='X' type='float'/></accessor></technique_common></source>\n\
+         <accessor source='#a' count='8' stride='3'><param name='X' \
+             type='float'/></accessor></technique_common></source>\n\
          <vertices id='v'><input semantic='POSITION' source='#s'/></vertices>\n\
          <triangles count='12'><input semantic='VERTEX' source='#v' offset='0'/>\
          <input semantic='NORMAL' source='#s' offset='1'/>\n<p>{indices}</p></triangles>\n\
          </mesh></geometry></library_geometries>\n\
-         <library_visual_scenes><visual_scene id='scene'><node id='n'><translate>{x} {y} {z}</translate>\
+         <library_visual_scenes><visual_scene id='scene'><node id='n'><translate>{x} {y} \
+             {z}</translate>\
          <node><instance_geometry url='#g'/></node></node></visual_scene></library_visual_scenes>\n\
          <scene><instance_visual_scene url='#scene'/></scene>\n</COLLADA>\n"
     )

@@ -32,7 +32,9 @@ pub const THESIS: &str = include_str!("../../../robots/abb_irb120_thesis.yaml");
 /// A RAPID program with the tool of the thesis.
 pub fn rapid(lines: &str) -> Vec<Source> {
     let text = format!(
-        "MODULE t\n  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  PROC main()\n{lines}  ENDPROC\nENDMODULE\n"
+        "MODULE t\n  PERS tooldata artifact := \
+         [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  PROC \
+         main()\n{lines}  ENDPROC\nENDMODULE\n"
     );
     vec![Source::new("t.mod", text.into_bytes())]
 }

@@ -12,10 +12,13 @@ fn urdf(joints: &[([f64; 6], [f64; 3])], more: &str) -> String {
     let mut text = String::from("<robot name=\"r\"><link name=\"l0\"/>");
     for (i, (o, a)) in joints.iter().enumerate() {
         text += &format!(
-            "<link name=\"l{0}\"><inertial><origin xyz=\"0.1 0 0\"/><mass value=\"{0}\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>\
-             <collision><origin xyz=\"0 0 0.05\" rpy=\"0 0.3 0\"/><geometry><cylinder radius=\"0.04\" length=\"0.1\"/></geometry></collision></link>\
+            "<link name=\"l{0}\"><inertial><origin xyz=\"0.1 0 0\"/><mass value=\"{0}\"/><inertia \
+             ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>\
+             <collision><origin xyz=\"0 0 0.05\" rpy=\"0 0.3 0\"/><geometry><cylinder \
+                 radius=\"0.04\" length=\"0.1\"/></geometry></collision></link>\
              <joint name=\"j{0}\" type=\"revolute\"><parent link=\"l{i}\"/><child link=\"l{0}\"/>\
-             <origin xyz=\"{1} {2} {3}\" rpy=\"{4} {5} {6}\"/><axis xyz=\"{7} {8} {9}\"/><limit lower=\"-2.5\" upper=\"2\" effort=\"1\" velocity=\"3\"/></joint>",
+             <origin xyz=\"{1} {2} {3}\" rpy=\"{4} {5} {6}\"/><axis xyz=\"{7} {8} {9}\"/><limit \
+                 lower=\"-2.5\" upper=\"2\" effort=\"1\" velocity=\"3\"/></joint>",
             i + 1,
             o[0],
             o[1],
@@ -29,7 +32,8 @@ fn urdf(joints: &[([f64; 6], [f64; 3])], more: &str) -> String {
         );
     }
     text += &format!(
-        "<link name=\"tool0\"/><joint name=\"f\" type=\"fixed\"><parent link=\"l{}\"/><child link=\"tool0\"/><origin xyz=\"0.1 0.02 0\" rpy=\"0.1 0.2 0.3\"/></joint>{more}</robot>",
+        "<link name=\"tool0\"/><joint name=\"f\" type=\"fixed\"><parent link=\"l{}\"/><child \
+         link=\"tool0\"/><origin xyz=\"0.1 0.02 0\" rpy=\"0.1 0.2 0.3\"/></joint>{more}</robot>",
         joints.len()
     );
     text
@@ -153,22 +157,54 @@ fn what_is_no_chain_of_six_turning_joints_is_refused_by_name() {
     let text = urdf(&usual(), "");
     let error = |text: &str| convert(text).expect_err("refused").to_string();
     let cases = [
-        (text.replace("name=\"j3\" type=\"revolute\"", "name=\"j3\" type=\"prismatic\""), "`j3` is prismatic"),
+        (
+            text.replace(
+                "name=\"j3\" type=\"revolute\"",
+                "name=\"j3\" type=\"prismatic\"",
+            ),
+            "`j3` is \
+            prismatic",
+        ),
         (urdf(&usual()[..5], ""), "5 axes"),
         (
-            urdf(&usual(), "<link name=\"x\"/><joint name=\"j7\" type=\"revolute\"><parent link=\"tool0\"/><child link=\"x\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint>")
-                .replace("tool0", "t"),
+            urdf(
+                &usual(),
+                "<link name=\"x\"/><joint name=\"j7\" type=\"revolute\"><parent \
+                link=\"tool0\"/><child link=\"x\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" \
+                upper=\"1\" effort=\"1\" velocity=\"1\"/></joint>",
+            )
+            .replace("tool0", "t"),
             "7 axes",
         ),
         (
-            urdf(&usual(), "<joint name=\"back\" type=\"fixed\"><parent link=\"tool0\"/><child link=\"l2\"/></joint>"),
+            urdf(
+                &usual(),
+                "<joint name=\"back\" type=\"fixed\"><parent link=\"tool0\"/><child \
+                link=\"l2\"/></joint>",
+            ),
             "two parents",
         ),
-        (text.replace("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>"), "the axis"),
+        (
+            text.replace("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>"),
+            "the axis",
+        ),
         (text.replace("upper=\"2\"", "upper=\"-2.5\""), "the range"),
-        (text.replace("<child link=\"l4\"/>", "<child link=\"nowhere\"/>"), "no link `nowhere`"),
-        (text.replace("<robot name=\"r\">", "<robot xmlns:xacro=\"http://ros.org\" name=\"r\"><xacro:macro name=\"m\"/>"), "xacro"),
-        (text.replace("xyz=\"0.1 0 0.2\"", "xyz=\"nan 0 0.2\""), "NaN"),
+        (
+            text.replace("<child link=\"l4\"/>", "<child link=\"nowhere\"/>"),
+            "no link `nowhere`",
+        ),
+        (
+            text.replace(
+                "<robot name=\"r\">",
+                "<robot xmlns:xacro=\"http://ros.org\" \
+            name=\"r\"><xacro:macro name=\"m\"/>",
+            ),
+            "xacro",
+        ),
+        (
+            text.replace("xyz=\"0.1 0 0.2\"", "xyz=\"nan 0 0.2\""),
+            "NaN",
+        ),
         ("<html/>".into(), ""),
         (text.replace("</robot>", ""), ""),
     ];

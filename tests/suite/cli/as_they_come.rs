@@ -52,10 +52,12 @@ fn near(a: &[[f64; 3]], b: &[[f64; 3]]) {
 #[test]
 fn exports_of_measuring_software_are_read_as_they_are() {
     // the header and two rows of a file of Leica Tracker Pilot, in Latin-1
-    let leica = b"X  [mm],Y  [mm],Z  [mm],U(95)  [mm],U(95) X  [mm],Q0 ,Q1 ,Image RMS  [\xb5m],Temperature  [\xb0C],Time Stamp,Delete\n\
+    let leica = b"X  [mm],Y  [mm],Z  [mm],U(95)  [mm],U(95) X  [mm],Q0 ,Q1 ,Image RMS  \
+        [\xb5m],Temperature  [\xb0C],Time Stamp,Delete\n\
         754,-3193.366,303.745,0.004,0.003,0.227782,-0.114534,0.22,22.8,'11.10.2022 15:06:48.043,\n\
         835.44,-3148.711,256.682,0.01,0.008,0.37518,-0.170711,0.35,22.8,'11.10.2022 15:06:55.562,\n\
-        394.456,-3200.746,-664.155,0.01,0.006,0.388994,-0.204948,0.35,22.8,'11.10.2022 15:07:07.502,\n";
+        394.456,-3200.746,-664.155,0.01,0.006,0.388994,-0.204948,0.35,22.8,'11.10.2022 \
+            15:07:07.502,\n";
     let (read, reported) = joined(leica, &Mapping::default());
     near(&places(&read)[..1], &[[0.754, -3.193_366, 0.303_745]]);
     assert_eq!(
@@ -84,7 +86,8 @@ fn exports_of_measuring_software_are_read_as_they_are() {
         );
     }
     // one row a coordinate, a unit in the name of the column
-    let long = "Name;Control;Nom;Meas [in];Tol;Dev;Test\n1;X;1;1,5;0,1;0,5;Fail\n;Y;2;2;0,1;0;Pass\n;Z;3;3;0,1;0;Pass\n\
+    let long = "Name;Control;Nom;Meas \
+        [in];Tol;Dev;Test\n1;X;1;1,5;0,1;0,5;Fail\n;Y;2;2;0,1;0;Pass\n;Z;3;3;0,1;0;Pass\n\
         2;X;1;1;;0;\n2;Y;1;1;;0;\n2;Z;1;1;;0;\n";
     let (read, reported) = joined(long.as_bytes(), &Mapping::default());
     assert_eq!(reported, ["export-recognised", "not-measured"]);
@@ -101,10 +104,12 @@ fn exports_of_measuring_software_are_read_as_they_are() {
             .contains("not all of X, Y and Z")
     );
     // one row a point: measured ones count, else nominal ones and deviations
-    let wide = "Name\tNom X\tNom Y\tNom Z\tMeas X\tMeas Y\tMeas Z\n1\t1\t2\t3\t4\t5\t6\n2\t1\t2\t3\t4\t5\t6\n3\t1\t2\t3\t7\t8\t9\n";
+    let wide = "Name\tNom X\tNom Y\tNom Z\tMeas X\tMeas Y\tMeas \
+        Z\n1\t1\t2\t3\t4\t5\t6\n2\t1\t2\t3\t4\t5\t6\n3\t1\t2\t3\t7\t8\t9\n";
     let (read, _) = joined(wide.as_bytes(), &Mapping::default());
     near(&places(&read)[2..], &[[0.007, 0.008, 0.009]]);
-    let sums = "Name,X nominal,Y nominal,Z nominal,dX,dY,dZ\n1,100,200,300,0.5,-0.5,0.25\n2,1,1,1,0,0,0\n3,1,1,1,0,0,0\n";
+    let sums = "Name,X nominal,Y nominal,Z \
+        nominal,dX,dY,dZ\n1,100,200,300,0.5,-0.5,0.25\n2,1,1,1,0,0,0\n3,1,1,1,0,0,0\n";
     let (read, _) = joined(sums.as_bytes(), &Mapping::default());
     near(&places(&read)[..1], &[[0.1005, 0.1995, 0.30025]]);
 }

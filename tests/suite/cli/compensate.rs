@@ -187,7 +187,8 @@ fn a_folder_is_rewritten_whole_and_other_files_are_left() {
 
 #[test]
 fn broken_programs_are_refused_with_their_place() {
-    let good = "MODULE m\n  PROC main()\n    MoveL [[374.0,0.0,500.0],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n  \
+    let good = "MODULE m\n  PROC main()\n    MoveL \
+        [[374.0,0.0,500.0],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n  \
                 ENDPROC\nENDMODULE\n";
     let cases = [
         (
@@ -222,7 +223,8 @@ fn broken_programs_are_refused_with_their_place() {
 #[test]
 fn a_target_that_cannot_be_compensated_blocks_the_file_unless_asked_to_go_on() {
     let folder = scratch();
-    let far = "MODULE m\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
+    let far = "MODULE m\n  PROC main()\n    MoveAbsJ \
+        [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
                MoveL [[374,0,500],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
                MoveL [[3740,0,500],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n  ENDPROC\nENDMODULE\n";
     std::fs::write(folder.path().join("a.mod"), far).expect("scratch");
@@ -248,7 +250,8 @@ fn a_target_that_cannot_be_compensated_blocks_the_file_unless_asked_to_go_on() {
 #[test]
 fn unknown_frames_are_asked_for_and_never_taken_as_identity() {
     let folder = scratch();
-    let program = "MODULE m\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tGun;\n    \
+    let program = "MODULE m\n  PROC main()\n    MoveAbsJ \
+        [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tGun;\n    \
                    MoveL [[374.0,0,400.0],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tGun\\WObj:=wPart;\n  \
                    ENDPROC\nENDMODULE\n";
     std::fs::write(folder.path().join("a.mod"), program).expect("scratch");
@@ -283,7 +286,8 @@ fn unknown_frames_are_asked_for_and_never_taken_as_identity() {
 #[test]
 fn decimals_and_joint_targets_are_the_users_choice() {
     let folder = scratch();
-    let program = "MODULE m\n  PROC main()\n    MoveAbsJ [[0.00,0.00,0.00,0.00,30.00,0.00],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
+    let program = "MODULE m\n  PROC main()\n    MoveAbsJ \
+        [[0.00,0.00,0.00,0.00,30.00,0.00],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
                    MoveL [[374,0,500],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n  ENDPROC\nENDMODULE\n";
     std::fs::write(folder.path().join("a.mod"), program).expect("scratch");
     let report = |more: &[&str]| -> serde_json::Value {

@@ -115,7 +115,8 @@ fn what_profiles_cells_and_programs_say_is_shown_by_its_code() {
     );
 
     let cell = format!(
-        "poseshift: cell/1\nbodies:\n  - {{name: {quoted}, box_mm: [4000, 4000, 4000], at: {{x_mm: 0, y_mm: 0, z_mm: 0, \
+        "poseshift: cell/1\nbodies:\n  - {{name: {quoted}, box_mm: [4000, 4000, 4000], at: {{x_mm: \
+         0, y_mm: 0, z_mm: 0, \
          rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\n"
     );
     std::fs::write(path.join("cell.yaml"), cell).expect("scratch");
@@ -249,8 +250,10 @@ fn names_of_a_urdf_are_quoted_and_its_comments_stay_comments() {
     let path = folder.path();
     let joint = |k: usize, axis: &str| {
         format!(
-            "<link name='l{k}'/><joint name='j{k}' type='revolute'><parent link='l{}'/><child link='l{k}'/>\
-             <origin xyz='0 0 0.3'/><axis xyz='{axis}'/><limit lower='-3' upper='3' velocity='2' effort='1'/></joint>",
+            "<link name='l{k}'/><joint name='j{k}' type='revolute'><parent link='l{}'/><child \
+             link='l{k}'/>\
+             <origin xyz='0 0 0.3'/><axis xyz='{axis}'/><limit lower='-3' upper='3' velocity='2' \
+                 effort='1'/></joint>",
             k - 1
         )
     };

@@ -8,9 +8,11 @@ use std::process::{Command, Output, Stdio};
 
 const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
 const SAMPLE: &str = "programs/rapid/olp/in/Deburr.mod";
-const CELL: &str = "poseshift: cell/1\nbodies:\n  - {name: far, mesh: mesh.stl, scale: 1.0, at: {x_mm: 9000, y_mm: 0, z_mm: 0, \
+const CELL: &str = "poseshift: cell/1\nbodies:\n  - {name: far, mesh: mesh.stl, scale: 1.0, at: \
+    {x_mm: 9000, y_mm: 0, z_mm: 0, \
                     rx_deg: 0, ry_deg: 0, rz_deg: 0}}\n";
-const MESH: &str = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 900 0 0\nvertex 0 900 0\nendloop\nendfacet\nendsolid s\n";
+const MESH: &str = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 900 0 0\nvertex \
+    0 900 0\nendloop\nendfacet\nendsolid s\n";
 
 /// A profile, a program, and a cell with a mesh.
 fn world() -> tempfile::TempDir {

@@ -81,7 +81,8 @@ const NEAR_TURN: &str = "430.3495,0.0121,326.0512,179.9895,20.0000,179.9947";
 /// A job that goes to a pose with axis R at this angle, R and T within half a turn as RCONF says.
 fn near_a_turn(pose: &str, motion: &str) -> String {
     format!(
-        "/JOB\n//NAME TURN\n//POS\n///NPOS 2,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\nC00000=0.0,-10.0,-20.0,170.0,60.0,0.0\n\
+        "/JOB\n//NAME TURN\n//POS\n///NPOS 2,0,0,0,0,0\n///TOOL 0\n///POSTYPE \
+         ANGLE\n///ANGLE\nC00000=0.0,-10.0,-20.0,170.0,60.0,0.0\n\
          ///POSTYPE BASE\n///RECTAN\n///RCONF 1,0,0,0,0,0,0,0\nC00001={pose}\n//INST\n///DATE 2024/01/01 10:00\n///ATTR SC,RW\n\
          ///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=5.00\n{motion} C00001\nEND\n"
     )

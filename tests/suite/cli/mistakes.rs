@@ -19,7 +19,8 @@ fn world(folder: &Path) {
     copy("robots/abb_irb120_thesis.yaml", "p.yaml");
     copy("robots/kuka_kr6_r900.yaml", "other.yaml");
     copy("programs/rapid/olp/in/Deburr.mod", "in.mod");
-    let cell = "poseshift: cell/1\nclearance_mm: 5\nbodies:\n  - {name: post, cylinder_mm: {radius: 40, height: 900}, \
+    let cell = "poseshift: cell/1\nclearance_mm: 5\nbodies:\n  - {name: post, cylinder_mm: \
+        {radius: 40, height: 900}, \
                 at: {x_mm: 5000, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}}\n";
     std::fs::write(folder.join("cell.yaml"), cell).expect("scratch");
     let mut random: u64 = 7;

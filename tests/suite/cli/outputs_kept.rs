@@ -151,7 +151,8 @@ fn new_files_and_folders_obey_the_umask() {
     ] {
         let folder = world();
         let line = format!(
-            "umask {umask}; exec \"$POSESHIFT\" compensate in.mod --profile p.yaml -o new/out.mod --report r.html"
+            "umask {umask}; exec \"$POSESHIFT\" compensate in.mod --profile p.yaml -o new/out.mod \
+             --report r.html"
         );
         let output = Command::new("bash")
             .args(["-c", &line])

@@ -72,7 +72,8 @@ fn moves_of_the_program_on_which_the_arm_touches_itself_are_few_and_all_reported
     let plan = run(
         folder.path(),
         &format!(
-            "plan --profile {profile} --count 30 --candidates 500 --starts 1 -o q.csv --program m.mod"
+            "plan --profile {profile} --count 30 --candidates 500 --starts 1 -o q.csv --program \
+             m.mod"
         ),
     );
     let check = run(folder.path(), &format!("check m.mod --profile {profile}"));
@@ -161,7 +162,8 @@ fn simulated_measurements_arrive_as_the_program_does() {
     run(
         folder.path(),
         &format!(
-            "plan --profile {profile} --count 12 --candidates 200 --starts 1 --level 1 -o q.csv --program m.mod"
+            "plan --profile {profile} --count 12 --candidates 200 --starts 1 --level 1 -o q.csv \
+             --program m.mod"
         ),
     );
     run(

@@ -12,12 +12,14 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "plan/1",
     ),
     (
-        "simulate --profile @robots/abb_irb120_thesis.yaml --joints joints.csv --noise-mm 0.02 --seed 1 -o measured.csv",
+        "simulate --profile @robots/abb_irb120_thesis.yaml --joints joints.csv --noise-mm 0.02 \
+         --seed 1 -o measured.csv",
         0,
         "simulation/1",
     ),
     (
-        "calibrate --profile @robots/abb_irb120_thesis.yaml --measurements measured.csv -o calibrated.yaml",
+        "calibrate --profile @robots/abb_irb120_thesis.yaml --measurements measured.csv -o \
+         calibrated.yaml",
         0,
         "calibration/1",
     ),
@@ -37,12 +39,14 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "poses/1",
     ),
     (
-        "compensate @programs/rapid/olp/in/Deburr.mod --profile @robots/abb_irb120_thesis.yaml -o out.mod",
+        "compensate @programs/rapid/olp/in/Deburr.mod --profile @robots/abb_irb120_thesis.yaml -o \
+         out.mod",
         0,
         "compensation/1",
     ),
     (
-        "check out.mod --nominal @programs/rapid/olp/in/Deburr.mod --profile @robots/abb_irb120_thesis.yaml",
+        "check out.mod --nominal @programs/rapid/olp/in/Deburr.mod --profile \
+         @robots/abb_irb120_thesis.yaml",
         0,
         "check/1",
     ),
@@ -68,7 +72,8 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "solutions/1",
     ),
     (
-        "register @docs/measuring/nominal.csv @docs/measuring/probed.csv --at 100,0,0 --sigma-mm 0.05 -v",
+        "register @docs/measuring/nominal.csv @docs/measuring/probed.csv --at 100,0,0 --sigma-mm \
+         0.05 -v",
         0,
         "registration/1",
     ),
@@ -83,7 +88,8 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "hexapod/1",
     ),
     (
-        "hexapod --reach --base-mm 300,300,300 --tool-mm 150,150,150 --frame device.yaml --profile @robots/fanuc_lrmate200ic.yaml",
+        "hexapod --reach --base-mm 300,300,300 --tool-mm 150,150,150 --frame device.yaml --profile \
+         @robots/fanuc_lrmate200ic.yaml",
         0,
         "hexapod/1",
     ),
@@ -112,7 +118,8 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "changed-profile/1",
     ),
     (
-        "profile add-track @robots/abb_irb120.yaml eax_a --direction 1,0,0 --min-mm 0 --max-mm 3000 -o railed.yaml",
+        "profile add-track @robots/abb_irb120.yaml eax_a --direction 1,0,0 --min-mm 0 --max-mm \
+         3000 -o railed.yaml",
         0,
         "changed-profile/1",
     ),

@@ -130,9 +130,12 @@ fn a_profile_of_the_catalogue_says_where_its_numbers_are_from_and_what_is_to_be_
 fn urdf(name: &str, more: &str) -> String {
     let joint = |k: usize, xyz: &str, axis: &str| {
         format!(
-            "<link name=\"link_{k}\"><visual><material name=\"a\"/><material name=\"b\"/><geometry><sphere radius=\"1\"/></geometry></visual></link>\
-             <joint name=\"joint_{k}\" type=\"revolute\"><parent link=\"{}\"/><child link=\"link_{k}\"/><origin xyz=\"{xyz}\"/>\
-             <axis xyz=\"{axis}\"/><limit lower=\"-2\" upper=\"2.5\" effort=\"0\" velocity=\"3\"/></joint>",
+            "<link name=\"link_{k}\"><visual><material name=\"a\"/><material \
+             name=\"b\"/><geometry><sphere radius=\"1\"/></geometry></visual></link>\
+             <joint name=\"joint_{k}\" type=\"revolute\"><parent link=\"{}\"/><child \
+                 link=\"link_{k}\"/><origin xyz=\"{xyz}\"/>\
+             <axis xyz=\"{axis}\"/><limit lower=\"-2\" upper=\"2.5\" effort=\"0\" \
+                 velocity=\"3\"/></joint>",
             if k == 1 {
                 "base_link".into()
             } else {
@@ -149,9 +152,12 @@ fn urdf(name: &str, more: &str) -> String {
         joint(6, "0.1 0 0", "-1 0 0"),
     ];
     format!(
-        "<robot name=\"{name}\"><link name=\"base_link\"/>{}<link name=\"base\"/><joint name=\"b\" type=\"fixed\"><parent link=\"base_link\"/>\
-         <child link=\"base\"/><origin xyz=\"0 0 0.45\" rpy=\"0 0 3.14159\"/></joint><link name=\"tool0\"/><joint name=\"t\" type=\"fixed\">\
-         <parent link=\"link_6\"/><child link=\"tool0\"/><origin rpy=\"0 1.5708 0\"/></joint>{more}</robot>",
+        "<robot name=\"{name}\"><link name=\"base_link\"/>{}<link name=\"base\"/><joint name=\"b\" \
+         type=\"fixed\"><parent link=\"base_link\"/>\
+         <child link=\"base\"/><origin xyz=\"0 0 0.45\" rpy=\"0 0 3.14159\"/></joint><link \
+             name=\"tool0\"/><joint name=\"t\" type=\"fixed\">\
+         <parent link=\"link_6\"/><child link=\"tool0\"/><origin rpy=\"0 1.5708 \
+             0\"/></joint>{more}</robot>",
         joints.concat()
     )
 }
@@ -267,9 +273,13 @@ fn a_urdf_stands_where_its_controller_counts_from() {
 #[test]
 fn what_cannot_be_taken_of_a_urdf_is_refused_with_what_was_meant() {
     let folder = scratch();
-    let cart = "<link name=\"cart\"/><joint name=\"rail\" type=\"prismatic\"><parent link=\"cart\"/><child link=\"base_link\"/><axis xyz=\"1 0 0\"/>\
-                <limit lower=\"0\" upper=\"1\" effort=\"0\" velocity=\"1\"/></joint><link name=\"finger\"/><joint name=\"grip\" type=\"revolute\"><parent link=\"tool0\"/>\
-                <child link=\"finger\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"1\"/></joint>";
+    let cart = "<link name=\"cart\"/><joint name=\"rail\" type=\"prismatic\"><parent \
+        link=\"cart\"/><child link=\"base_link\"/><axis xyz=\"1 0 0\"/>\
+                <limit lower=\"0\" upper=\"1\" effort=\"0\" velocity=\"1\"/></joint><link \
+                    name=\"finger\"/><joint name=\"grip\" type=\"revolute\"><parent \
+                    link=\"tool0\"/>\
+                <child link=\"finger\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" \
+                    effort=\"0\" velocity=\"1\"/></joint>";
     std::fs::write(folder.path().join("a.urdf"), urdf("arm", cart)).expect("scratch");
     for (more, says, hint) in [
         (
@@ -355,8 +365,10 @@ fn a_pedestal_is_reported_and_meshes_are_named_from_the_profile() {
         .replace("<child link=\"base\"/>", "<child link=\"else\"/>")
         .replace(
             "<link name=\"base_link\"/>",
-            "<link name=\"world\"/><joint name=\"p\" type=\"fixed\"><parent link=\"world\"/><child link=\"base_link\"/><origin xyz=\"0 0 0.75\"/></joint>\
-             <link name=\"base_link\"><collision><geometry><mesh filename=\"package://arm_support/meshes/arm.stl\"/></geometry></collision></link>",
+            "<link name=\"world\"/><joint name=\"p\" type=\"fixed\"><parent link=\"world\"/><child \
+             link=\"base_link\"/><origin xyz=\"0 0 0.75\"/></joint>\
+             <link name=\"base_link\"><collision><geometry><mesh \
+                 filename=\"package://arm_support/meshes/arm.stl\"/></geometry></collision></link>",
         );
     std::fs::write(package.join("urdf/arm.urdf"), text).expect("scratch");
     let from = [
@@ -563,11 +575,13 @@ fn calibrated(nominal: &str, folder: &Path) -> Profile {
         String::from("effects:\n    - {effect: base_frame, x_mm: 0.3, rz_deg: 0.02}\n");
     for link in 2..=6 {
         effects += &format!(
-            "    - {{effect: link_geometry, link: {link}, alpha_deg: 0.006, a_mm: 0.13, beta_deg: 0.0{link}, theta_deg: -0.05, d_mm: 0.0{link}}}\n"
+            "    - {{effect: link_geometry, link: {link}, alpha_deg: 0.006, a_mm: 0.13, beta_deg: \
+             0.0{link}, theta_deg: -0.05, d_mm: 0.0{link}}}\n"
         );
     }
     let geometry = text.replace("effects: []", effects.trim_end());
-    effects += "    - {effect: backlash, joint: 3, width_deg: 0.02}\n    - {effect: joint_harmonic, joint: 2, order: 1, cos_deg: 0.01, sin_deg: 0.0}";
+    effects += "    - {effect: backlash, joint: 3, width_deg: 0.02}\n    - {effect: \
+        joint_harmonic, joint: 2, order: 1, cos_deg: 0.01, sin_deg: 0.0}";
     assert!(text.contains("effects: []"));
     text = text.replace("effects: []", &effects);
     std::fs::write(folder.join("real.yaml"), text).expect("scratch");

@@ -34,7 +34,12 @@ fn refused(arguments: &[&str]) -> String {
 fn joints_go_to_poses_and_back() {
     let folder = scratch();
     let joints = folder.path().join("joints with space.csv");
-    std::fs::write(&joints, "# a comment\nid,note,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\nA,x,10,-20,30,40,50,-300\n").expect("scratch");
+    std::fs::write(
+        &joints,
+        "# a \
+        comment\nid,note,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\nA,x,10,-20,30,40,50,-300\n",
+    )
+    .expect("scratch");
     let poses = stdout(&[
         "fk",
         "--profile",

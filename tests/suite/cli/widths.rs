@@ -9,14 +9,18 @@ use std::path::Path;
 const MORE: &[&str] = &[
     "calibrate --profile @robots/abb_irb120_thesis.yaml --measurements measured.csv -v",
     "validate --profile calibrated.yaml --measurements measured.csv -v",
-    "plan --profile @robots/abb_irb120_thesis.yaml --count 40 --candidates 200 --starts 1 -o others.csv",
-    "compensate @programs/krl/cam/in/pocket.src --profile @programs/krl/profile.yaml -o pocket.src -v",
-    "check @programs/rapid/olp/in/Deburr.mod --profile @robots/abb_irb120_thesis.yaml --cell @tests/browser/cell.yaml -v",
+    "plan --profile @robots/abb_irb120_thesis.yaml --count 40 --candidates 200 --starts 1 -o \
+     others.csv",
+    "compensate @programs/krl/cam/in/pocket.src --profile @programs/krl/profile.yaml -o pocket.src \
+     -v",
+    "check @programs/rapid/olp/in/Deburr.mod --profile @robots/abb_irb120_thesis.yaml --cell \
+     @tests/browser/cell.yaml -v",
     "register @docs/measuring/nominal.csv @docs/measuring/touched.csv --robust --at 1000,0,0",
     "register @docs/measuring/drawing.csv @docs/measuring/scan.csv --icp -v",
     "handeye @docs/measuring/robot.csv @docs/measuring/board.csv --setup eye-in-hand -v",
     "hexapod --taught @docs/measuring/taught.csv --base-mm 300.01,299.98,300.02 -o device.yaml",
-    "hexapod --reach --base-mm 300,300,300 --tool-mm 150,150,150 --frame device.yaml --profile @robots/fanuc_lrmate200ic.yaml",
+    "hexapod --reach --base-mm 300,300,300 --tool-mm 150,150,150 --frame device.yaml --profile \
+     @robots/fanuc_lrmate200ic.yaml",
     "profile show calibrated.yaml",
     "profile diff calibrated.yaml @robots/abb_irb120_thesis.yaml",
     "ik --profile calibrated.yaml --poses @docs/measuring/robot.csv",
@@ -109,7 +113,8 @@ fn where_nobody_looks_text_is_eighty_columns_without_colour_and_a_finding_is_one
         reported(show, folder.path(), None),
         reported(show, folder.path(), Some(80))
     );
-    let finds = "compensate @programs/krl/cam/in/pocket.src --profile @programs/krl/profile.yaml -o out.src";
+    let finds = "compensate @programs/krl/cam/in/pocket.src --profile @programs/krl/profile.yaml \
+        -o out.src";
     let (out, _) = reported(finds, folder.path(), None);
     let finding = out
         .lines()

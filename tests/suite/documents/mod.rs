@@ -70,7 +70,8 @@ fn robots() -> String {
     let makers: Vec<String> = makers.collect();
     table
         + &format!(
-            "\nand {all} more from public files, whose limits are to be set from the data sheet: {} (`poseshift robots --search TEXT`).\n",
+            "\nand {all} more from public files, whose limits are to be set from the data sheet: \
+             {} (`poseshift robots --search TEXT`).\n",
             makers.join(", ")
         )
 }

@@ -89,7 +89,8 @@ pub(super) fn arm() -> (Vec<String>, Vec<Fault>) {
 fn rail_cell() -> Cell {
     let rad = f64::to_radians;
     Cell {
-        external: "external_axes:\n  track:\n    - {axis: AXIS1, direction: [0.6, 0.8, 0.0], up: [0, 0, 1], zero_mm: 500, min_mm: 0, max_mm: 3000}\n",
+        external: "external_axes:\n  track:\n    - {axis: AXIS1, direction: [0.6, 0.8, 0.0], up: \
+            [0, 0, 1], zero_mm: 500, min_mm: 0, max_mm: 3000}\n",
         effects: [
             "{effect: track_scale, axis: 1, ratio: 2.5e-4}",
             "{effect: track_direction, axis: 1, y_deg: 0.05, z_deg: -0.04}",
@@ -98,7 +99,8 @@ fn rail_cell() -> Cell {
             "{effect: track_rotation, axis: 1, about: x, degree: 1, deg: 0.06}",
             "{effect: track_rotation, axis: 1, about: y, degree: 2, deg: -0.05}",
             "{effect: track_rotation, axis: 1, about: z, degree: 1, deg: 0.04}",
-            "{effect: track_ripple, axis: 1, along: x, period_mm: 12.566, cos_mm: 0.05, sin_mm: -0.08}",
+            "{effect: track_ripple, axis: 1, along: x, period_mm: 12.566, cos_mm: 0.05, sin_mm: \
+             -0.08}",
             "{effect: track_backlash, axis: 1, width_mm: 0.12}",
         ]
         .map(str::to_owned)
@@ -132,11 +134,14 @@ const PLATE: [f64; 6] = [0.02, -0.01, 0.05, 0.1, -0.2, 0.3];
 
 fn table_cell(axes: usize) -> Cell {
     let rad = f64::to_radians;
-    let one = "        - {axis: AXIS1, at: {x_mm: 700, y_mm: -150, z_mm: 600, rx_deg: 5, ry_deg: 20, rz_deg: 40}, sign: -1, zero_deg: 10, min_deg: -180, max_deg: 180}\n";
-    let two = "        - {axis: AXIS2, at: {x_mm: 40, y_mm: 0, z_mm: 120, rx_deg: -85, ry_deg: 3, rz_deg: 0}, min_deg: -180, max_deg: 180}\n";
+    let one = "        - {axis: AXIS1, at: {x_mm: 700, y_mm: -150, z_mm: 600, rx_deg: 5, ry_deg: \
+        20, rz_deg: 40}, sign: -1, zero_deg: 10, min_deg: -180, max_deg: 180}\n";
+    let two = "        - {axis: AXIS2, at: {x_mm: 40, y_mm: 0, z_mm: 120, rx_deg: -85, ry_deg: 3, \
+        rz_deg: 0}, min_deg: -180, max_deg: 180}\n";
     let head =
         "external_axes:\n  positioners:\n    - name: UNIT\n      follows: FOLLOWS\n      axes:\n";
-    let plate = "      plate: {x_mm: 20, y_mm: -10, z_mm: 50, rx_deg: 5.729577951308232, ry_deg: -11.459155902616464, rz_deg: 17.188733853924695}\n";
+    let plate = "      plate: {x_mm: 20, y_mm: -10, z_mm: 50, rx_deg: 5.729577951308232, ry_deg: \
+        -11.459155902616464, rz_deg: 17.188733853924695}\n";
     let external: String = match axes {
         1 => [head, one, plate].concat(),
         _ => [head, one, two, plate].concat(),
@@ -175,7 +180,8 @@ fn table_cell(axes: usize) -> Cell {
         });
     }
     effects.push(format!(
-        "{{effect: positioner_plate, axis: {axes}, x_mm: 0.6, y_mm: -0.4, z_mm: 0.3, rx_deg: 0.04, ry_deg: -0.05, rz_deg: 0.06}}"
+        "{{effect: positioner_plate, axis: {axes}, x_mm: 0.6, y_mm: -0.4, z_mm: 0.3, rx_deg: 0.04, \
+         ry_deg: -0.05, rz_deg: 0.06}}"
     ));
     Cell {
         external: external.leak(),
@@ -305,7 +311,8 @@ fn program(said: Said, cell: &Cell, lines: &[Line]) -> (&'static str, String) {
                 let n = &line.numbers;
                 let wobj = if tables { "\\WObj:=w" } else { "" };
                 body += &format!(
-                    "MoveAbsJ [[{}],{eax}],v100,fine,t;\nMoveJ [[{}],[{}],[0,0,0,0],{eax}],v100,fine,t{wobj};\n",
+                    "MoveAbsJ [[{}],{eax}],v100,fine,t;\nMoveJ \
+                     [[{}],[{}],[0,0,0,0],{eax}],v100,fine,t{wobj};\n",
                     list(&line.q_deg),
                     list(&n[..3]),
                     list(&n[3..])
@@ -339,7 +346,8 @@ fn program(said: Said, cell: &Cell, lines: &[Line]) -> (&'static str, String) {
                 );
             }
             let base = if tables {
-                "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 15,Y -25,Z 35,A 0,B 0,C 0})"
+                "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 15,Y -25,Z 35,A 0,B 0,C \
+                 0})"
             } else {
                 "$BASE=$WORLD"
             };
@@ -353,7 +361,8 @@ fn program(said: Said, cell: &Cell, lines: &[Line]) -> (&'static str, String) {
             for (k, line) in lines.iter().enumerate() {
                 let (first, second) = (2 * k + 1, 2 * k + 2);
                 moves += &format!(
-                    "   {first}:J P[{first}] 10% FINE    ;\n   {second}:J P[{second}] 10% FINE    ;\n"
+                    "   {first}:J P[{first}] 10% FINE    ;\n   {second}:J P[{second}] 10% FINE    \
+                     ;\n"
                 );
                 let (mut rail, mut group) = (String::new(), String::new());
                 for (name, e) in cell.names[2].iter().zip(&line.e) {
@@ -376,7 +385,9 @@ fn program(said: Said, cell: &Cell, lines: &[Line]) -> (&'static str, String) {
                     q.join(",\t")
                 );
                 points += &format!(
-                    "P[{second}]{{\n   GP1:\n\tUF : 1, UT : 1,\t\t\n\tX = {:.5}  mm,\tY = {:.5}  mm,\tZ = {:.5}  mm,\n\tW = {:.5} deg,\tP = {:.5} deg,\tR = {:.5} deg{rail}{group}\n}};\n",
+                    "P[{second}]{{\n   GP1:\n\tUF : 1, UT : 1,\t\t\n\tX = {:.5}  mm,\tY = {:.5}  \
+                     mm,\tZ = {:.5}  mm,\n\tW = {:.5} deg,\tP = {:.5} deg,\tR = {:.5} \
+                     deg{rail}{group}\n}};\n",
                     n[0], n[1], n[2], n[3], n[4], n[5]
                 );
             }
@@ -396,7 +407,8 @@ fn program(said: Said, cell: &Cell, lines: &[Line]) -> (&'static str, String) {
                     list(&line.e)
                 );
                 points += &format!(
-                    "///TOOL 1\n///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC{second:05}={}\n{stations}{second:05}={}\n",
+                    "///TOOL 1\n///POSTYPE BASE\n///RECTAN\n///RCONF \
+                     0,0,0,0,0,0,0,0\nC{second:05}={}\n{stations}{second:05}={}\n",
                     line.numbers
                         .iter()
                         .map(|x| format!("{x:.5}"))
@@ -405,13 +417,15 @@ fn program(said: Said, cell: &Cell, lines: &[Line]) -> (&'static str, String) {
                     list(&line.e)
                 );
                 moves += &format!(
-                    "MOVJ C{first:05} {stations}{first:05} VJ=5.00\nMOVL C{second:05} {stations}{second:05} V=30.0\n"
+                    "MOVJ C{first:05} {stations}{first:05} VJ=5.00\nMOVL C{second:05} \
+                     {stations}{second:05} V=30.0\n"
                 );
             }
             (
                 "t.JBI",
                 format!(
-                    "/JOB\n//NAME T\n//POS\n{points}//INST\n///DATE 2024/01/01 10:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\n{moves}END\n"
+                    "/JOB\n//NAME T\n//POS\n{points}//INST\n///DATE 2024/01/01 10:00\n///ATTR \
+                     SC,RW\n///GROUP1 RB1\nNOP\n{moves}END\n"
                 ),
             )
         }

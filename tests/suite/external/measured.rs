@@ -17,7 +17,8 @@ use std::path::{Path, PathBuf};
 const NOISE_MM: f64 = 0.03;
 /// What the issue promises along the whole rail, mm.
 const HELD_OUT_MM: f64 = 0.05;
-const TRACK: &str = "external_axes:\n  track:\n    - {axis: E1, direction: [0.6, 0.8, 0.0], up: [0, 0, 1], zero_mm: 500, min_mm: 0, max_mm: 3000}\n";
+const TRACK: &str = "external_axes:\n  track:\n    - {axis: E1, direction: [0.6, 0.8, 0.0], up: \
+    [0, 0, 1], zero_mm: 500, min_mm: 0, max_mm: 3000}\n";
 
 fn rail(faults: Vec<RailFault>) -> Rail {
     Rail {
@@ -51,7 +52,8 @@ fn with_tool(external: &str, effects: &[&str]) -> String {
     let [x, y, z] = t.flange_from_tool.translation.map(|m| 1e3 * m);
     let [rx, ry, rz] = [0.1_f64, 0.2, -0.3].map(f64::to_degrees);
     let own = format!(
-        "tools: {{t: {{frame: {{x_mm: {x}, y_mm: {y}, z_mm: {z}, rx_deg: {rx}, ry_deg: {ry}, rz_deg: {rz}}}, mass_kg: 2.0, cog_mm: [10, 0, 60]}}}}"
+        "tools: {{t: {{frame: {{x_mm: {x}, y_mm: {y}, z_mm: {z}, rx_deg: {rx}, ry_deg: {ry}, \
+         rz_deg: {rz}}}, mass_kg: 2.0, cog_mm: [10, 0, 60]}}}}"
     );
     text.replace("tools: {}", &own)
 }

@@ -3,9 +3,13 @@
 use super::{errors, profile, rapid, run, written};
 use poseshift::model::profile::Profile;
 
-const TRACK: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], zero_mm: 0, min_mm: 0, max_mm: 2000}\n";
-const KRL_TRACK: &str = "external_axes:\n  track:\n    - {axis: E1, direction: [1, 0, 0], zero_mm: 0, min_mm: 0, max_mm: 2000}\n";
-const TABLE: &str = "external_axes:\n  positioners:\n    - name: STN1\n      axes:\n        - {axis: eax_b, at: {x_mm: 600, y_mm: 0, z_mm: 300, rx_deg: 0, ry_deg: 0, rz_deg: 0}, min_deg: -180, max_deg: 180}\n";
+const TRACK: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], zero_mm: \
+    0, min_mm: 0, max_mm: 2000}\n";
+const KRL_TRACK: &str = "external_axes:\n  track:\n    - {axis: E1, direction: [1, 0, 0], zero_mm: \
+    0, min_mm: 0, max_mm: 2000}\n";
+const TABLE: &str = "external_axes:\n  positioners:\n    - name: STN1\n      axes:\n        - \
+    {axis: eax_b, at: {x_mm: 600, y_mm: 0, z_mm: 300, rx_deg: 0, ry_deg: 0, rz_deg: 0}, min_deg: \
+    -180, max_deg: 180}\n";
 const ARM: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
 const RAIL: &str = "{effect: track_scale, axis: 1, ratio: 5.0e-4}";
 const HOME: &str = "MoveAbsJ [[0,0,10,0,60,0],[0,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n";
@@ -70,7 +74,8 @@ fn a_target_at_two_places_of_the_rail_has_two_fake_targets() {
 #[test]
 fn a_target_that_moves_use_at_two_values_is_shared() {
     // an offset makes two of one
-    let data = "CONST robtarget p:=[[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],[100,9E9,9E9,9E9,9E9,9E9]];";
+    let data = "CONST robtarget \
+        p:=[[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],[100,9E9,9E9,9E9,9E9,9E9]];";
     let body =
         format!("{HOME}MoveJ p,v100,fine,t;\nEOffsSet [40,0,0,0,0,0];\nMoveJ p,v100,fine,t;\n");
     assert_eq!(
@@ -224,7 +229,8 @@ fn a_component_that_krl_leaves_out_keeps_its_value() {
         reported(&format!("{home}PTP {{{pose}}}\n")),
         ["external-value-unknown"]
     );
-    let both = "IF x THEN\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 100}\nELSE\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 150}\nENDIF\n";
+    let both = "IF x THEN\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 100}\nELSE\nPTP {A1 0,A2 0,A3 \
+        10,A4 0,A5 60,A6 0,E1 150}\nENDIF\n";
     assert_eq!(
         reported(&format!("{both}PTP {{{pose}}}\n")),
         ["external-value-unknown"]
@@ -300,10 +306,12 @@ fn what_another_robot_or_a_station_carries_is_refused_with_its_reason() {
     // a base on a kinematic of another controller
     let config = |controller: u32| {
         format!(
-            "DEFDAT $CONFIG\nFRAME BASE_DATA[32]\nBASE_DATA[7]={{X 10.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}}\nDECL MACHINE_FRAME_DATA_TYPE x\nMACHINE_FRAME_DAT[7]={{MACH_DEF_INDEX 0,COOP_KRC_INDEX {controller},PARENT[] \" \",GEO \" \"}}\nENDDAT\n"
+            "DEFDAT $CONFIG\nFRAME BASE_DATA[32]\nBASE_DATA[7]={{X 10.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C \
+             0.0}}\nDECL MACHINE_FRAME_DATA_TYPE x\nMACHINE_FRAME_DAT[7]={{MACH_DEF_INDEX 0,COOP_KRC_INDEX {controller},PARENT[] \" \",GEO \" \"}}\nENDDAT\n"
         )
     };
-    let text = "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[7]\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0}\nPTP {X 640,Y 200,Z 700,A 10,B 5,C 170}\nEND\n";
+    let text = "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[7]\nPTP {A1 0,A2 0,A3 10,A4 0,A5 \
+        60,A6 0}\nPTP {X 640,Y 200,Z 700,A 10,B 5,C 170}\nEND\n";
     for (controller, expected) in [(1, &[][..]), (2, &["two-robots"])] {
         let config = config(controller);
         let done = run(
@@ -316,7 +324,9 @@ fn what_another_robot_or_a_station_carries_is_refused_with_its_reason() {
     // a job that is relative to a station
     let job = |attributes: &str, groups: &str| {
         format!(
-            "/JOB\n//NAME T\n//POS\n///NPOS 2,0,0,0,0,0\n///TOOL 1\n///POSTYPE ANGLE\n///ANGLE\nC00000=0,0,10,0,60,0\n///USER 3\n///POSTYPE USER\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00001=640,200,700,170,5,10\n//INST\n///DATE 2024/01/01 10:00\n///ATTR {attributes}\n///FRAME USER 3\n///GROUP1 RB1\n{groups}NOP\nMOVJ C00000 VJ=5.00\nMOVL C00001 V=30.0\nEND\n"
+            "/JOB\n//NAME T\n//POS\n///NPOS 2,0,0,0,0,0\n///TOOL 1\n///POSTYPE \
+             ANGLE\n///ANGLE\nC00000=0,0,10,0,60,0\n///USER 3\n///POSTYPE \
+             USER\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00001=640,200,700,170,5,10\n//INST\n///DATE 2024/01/01 10:00\n///ATTR {attributes}\n///FRAME USER 3\n///GROUP1 RB1\n{groups}NOP\nMOVJ C00000 VJ=5.00\nMOVL C00001 V=30.0\nEND\n"
         )
     };
     for (attributes, groups, expected) in [

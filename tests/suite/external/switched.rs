@@ -4,9 +4,14 @@
 use super::{errors, profile, rapid, run};
 use poseshift::model::profile::Profile;
 
-const TRACK: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], zero_mm: 0, min_mm: 0, max_mm: 2000}\n";
-const CELL: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], zero_mm: 0, min_mm: 0, max_mm: 2000}\n  positioners:\n    - name: STN1\n      axes:\n        - {axis: eax_b, at: {x_mm: 600, y_mm: 0, z_mm: 300, rx_deg: 0, ry_deg: 0, rz_deg: 0}, min_deg: -180, max_deg: 180}\n  other: [GUN]\n";
-const KRL_TRACK: &str = "external_axes:\n  track:\n    - {axis: E1, direction: [1, 0, 0], zero_mm: 0, min_mm: 0, max_mm: 2000}\n";
+const TRACK: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], zero_mm: \
+    0, min_mm: 0, max_mm: 2000}\n";
+const CELL: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], zero_mm: \
+    0, min_mm: 0, max_mm: 2000}\n  positioners:\n    - name: STN1\n      axes:\n        - {axis: \
+    eax_b, at: {x_mm: 600, y_mm: 0, z_mm: 300, rx_deg: 0, ry_deg: 0, rz_deg: 0}, min_deg: -180, \
+    max_deg: 180}\n  other: [GUN]\n";
+const KRL_TRACK: &str = "external_axes:\n  track:\n    - {axis: E1, direction: [1, 0, 0], zero_mm: \
+    0, min_mm: 0, max_mm: 2000}\n";
 const ARM: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
 const HOME: &str = "MoveAbsJ [[0,0,10,0,60,0],[0,0,9E9,9E9,9E9,9E9]],v100,fine,t;\n";
 const GO: &str =
@@ -46,7 +51,9 @@ fn a_unit_that_is_off_stands_where_no_target_says() {
         ),
         (
             format!(
-                "{HOME}DeactUnit TRACK1;\nMoveAbsJ [[0,0,20,0,60,0],[100,0,9E9,9E9,9E9,9E9]]\\NoEOffs,v100,fine,t;\nActUnit TRACK1;\n{GO}"
+                "{HOME}DeactUnit TRACK1;\nMoveAbsJ \
+                 [[0,0,20,0,60,0],[100,0,9E9,9E9,9E9,9E9]]\\NoEOffs,v100,fine,t;\nActUnit \
+                 TRACK1;\n{GO}"
             ),
             &[],
         ),

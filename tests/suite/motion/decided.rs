@@ -31,20 +31,30 @@ fn from_both_sides() -> Vec<(&'static str, String)> {
     let rapid = rapid(
         &format!("CONST robtarget p := [[430,0,400],{P};"),
         &format!(
-            "MoveAbsJ {},v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveAbsJ {},v100,fine,tool0;\nMoveJ p,v100,fine,tool0;",
+            "MoveAbsJ {},v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveAbsJ \
+             {},v100,fine,tool0;\nMoveJ p,v100,fine,tool0;",
             joints("-20"),
             joints("60")
         ),
     );
-    let krl = "DEF t()\nDECL E6POS XP={X 430,Y 0,Z 400,A 0,B 90,C 0,S 2,T 2}\n$TOOL=$NULLFRAME\n$BASE=$WORLD\n\
-               PTP {A1 0,A2 -20,A3 0,A4 0,A5 60,A6 0}\nPTP XP\nPTP {A1 0,A2 60,A3 0,A4 0,A5 60,A6 0}\nPTP XP\nEND\n";
-    let urscript = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  p1 = p[0.43,0.0,0.4,0.0,1.5,0.0]\n  movej([0,-0.35,0,0,1.0,0])\n  movej(p1)\n  \
+    let krl = "DEF t()\nDECL E6POS XP={X 430,Y 0,Z 400,A 0,B 90,C 0,S 2,T \
+        2}\n$TOOL=$NULLFRAME\n$BASE=$WORLD\n\
+               PTP {A1 0,A2 -20,A3 0,A4 0,A5 60,A6 0}\nPTP XP\nPTP {A1 0,A2 60,A3 0,A4 0,A5 60,A6 \
+                   0}\nPTP XP\nEND\n";
+    let urscript = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  p1 = p[0.43,0.0,0.4,0.0,1.5,0.0]\n  \
+        movej([0,-0.35,0,0,1.0,0])\n  movej(p1)\n  \
                     movej([0,1.05,0,0,1.0,0])\n  movej(p1)\nend\n";
-    let fanuc = "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J P[2] 10% FINE ;\n   3:J P[3] 10% FINE ;\n   4:J P[2] 10% FINE ;\n/POS\n\
-                 P[1]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -20.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n\
-                 P[2]{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = 180.000 deg, P = 0.000 deg, R = 0.000 deg\n};\n\
-                 P[3]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = 60.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n/END\n";
-    let inform = "/JOB\n//NAME T\n//POS\n///NPOS 3,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\n\
+    let fanuc = "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J P[2] 10% FINE ;\n   3:J P[3] 10% \
+        FINE ;\n   4:J P[2] 10% FINE ;\n/POS\n\
+                 P[1]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -20.000 deg, J3 = \
+                     0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n\
+                 P[2]{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 \
+                     mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = 180.000 deg, P = 0.000 deg, R = \
+                     0.000 deg\n};\n\
+                 P[3]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = 60.000 deg, J3 = \
+                     0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n/END\n";
+    let inform = "/JOB\n//NAME T\n//POS\n///NPOS 3,0,0,0,0,0\n///TOOL 0\n///POSTYPE \
+        ANGLE\n///ANGLE\n\
         C00000=0.0000,-20.0000,0.0000,0.0000,60.0000,0.0000\nC00001=0.0000,60.0000,0.0000,0.0000,60.0000,0.0000\n\
         ///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00002=430.000,0.000,400.000,180.0000,0.0000,0.0000\n\
         //INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=10.00\nMOVJ C00002 VJ=10.00\n\
@@ -126,8 +136,10 @@ fn an_accepted_error_is_a_warning_and_the_marker_records_it() {
 fn the_marker_of_a_file_names_what_was_accepted() {
     let data =
         format!("CONST robtarget p := [[430,0,400],{P};\nCONST robtarget r := [[400,50,420],{P};");
-    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\n\
-                MoveAbsJ [[0,60,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nMoveJ r,v100,fine,tool0;";
+    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+        p,v100,fine,tool0;\n\
+                MoveAbsJ [[0,60,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+                    p,v100,fine,tool0;\nMoveJ r,v100,fine,tool0;";
     let text = rapid(&data, body);
     let files = [("t.mod", text.as_str())];
     let options = Options {
@@ -214,7 +226,8 @@ fn at_the_singularity_of_the_wrist_the_user_chooses_a_way_out() {
 
 #[test]
 fn files_of_context_are_read_and_stay() {
-    let tools = "MODULE cell\nPERS tooldata tGun := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\nENDMODULE\n";
+    let tools = "MODULE cell\nPERS tooldata tGun := \
+        [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\nENDMODULE\n";
     let main = rapid(
         &format!("CONST robtarget p := [[430,0,300],{P};"),
         "MoveJ p,v100,fine,tGun;",
@@ -315,7 +328,8 @@ fn the_correction_has_a_limit_and_the_displacement_of_the_part_has_none() {
         "t.mod",
         rapid(
             &format!("CONST robtarget p := [[430,0,400],{P};"),
-            "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;",
+            "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+             p,v100,fine,tool0;",
         ),
     )];
     let files: Vec<(&str, &str)> = files.iter().map(|(n, t)| (*n, t.as_str())).collect();
@@ -358,7 +372,8 @@ fn a_written_loop_is_checked_against_its_original() {
     // a move that the robot comes to in two ways has two stops in both programs
     let text = rapid(
         &format!("CONST robtarget p := [[430,0,400],{P};\nCONST robtarget r := [[400,60,420],{P};"),
-        "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nFOR i FROM 1 TO 3 DO\nMoveL p,v100,fine,tool0;\nMoveL r,v100,fine,tool0;\nENDFOR",
+        "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nFOR i FROM 1 TO 3 \
+         DO\nMoveL p,v100,fine,tool0;\nMoveL r,v100,fine,tool0;\nENDFOR",
     );
     let files = [("t.mod", text.as_str())];
     let done = try_with(given(), &[PLAIN], &files).expect("read");

@@ -73,7 +73,8 @@ fn a_routine_that_is_called_in_two_postures_is_judged_in_both() {
 /// How far the tool lands from where it is wanted without correction, mm, with a tool and load set
 /// so; and what is found.
 fn sagging(set: &str) -> (f64, Vec<(Severity, usize)>) {
-    let config = "DEFDAT $CONFIG\nFRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0,Y 0,Z 50,A 0,B 0,C 0}\nLOAD LOAD_DATA[16]\n\
+    let config = "DEFDAT $CONFIG\nFRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0,Y 0,Z 50,A 0,B 0,C \
+        0}\nLOAD LOAD_DATA[16]\n\
         LOAD_DATA[1]={M 3.0,CM {X 0,Y 0,Z 40,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\n\
         LOAD_DATA[2]={M 1.0,CM {X 0,Y 0,Z 40,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\nENDDAT\n";
     let text = format!("DEF t()\n$BASE=$WORLD\n{set}\n{UP}{NEAR}END\n");

@@ -10,8 +10,10 @@ use poseshift::program::{self, Source};
 fn a_target_that_joints_reach_from_both_sides_is_refused_with_both_lines() {
     // row b: joint 2 comes to p from below and from above
     let data = format!("CONST robtarget p := [[430,0,400],{P};");
-    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\n\
-                MoveAbsJ [[0,60,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;";
+    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+        p,v100,fine,tool0;\n\
+                MoveAbsJ [[0,60,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+                    p,v100,fine,tool0;";
     let done = done(&[BACKLASH], &[("t.mod", &rapid(&data, body))]);
     assert_eq!(errors(&done), ["target-shared"]);
     let reported = message(&done, "target-shared");
@@ -24,8 +26,10 @@ fn a_target_that_joints_reach_from_both_sides_is_refused_with_both_lines() {
 #[test]
 fn a_target_reached_twice_in_one_way_has_one_fake_target() {
     let data = format!("CONST robtarget p := [[430,0,400],{P};");
-    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\n\
-                MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;";
+    let body = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+        p,v100,fine,tool0;\n\
+                MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+                    p,v100,fine,tool0;";
     let done = done(&[BACKLASH, PLAIN], &[("t.mod", &rapid(&data, body))]);
     assert_eq!(errors(&done), [""; 0]);
     assert_eq!(done.summary.compensated, 1);
@@ -35,7 +39,8 @@ fn a_target_reached_twice_in_one_way_has_one_fake_target() {
 fn a_straight_move_keeps_the_branch_of_its_path() {
     // row d: the nearest largest joint change is on the other side of the stretched elbow, a3 =
     // atan(35 / 420)
-    let program = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 0,A2 -20,A3 40,A4 0,A5 70,A6 -60}\n\
+    let program = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 0,A2 -20,A3 40,A4 0,A5 \
+        70,A6 -60}\n\
                    LIN {X 859.202,Y 0,Z 364.860,A -160,B 0,C 180}\nEND\n";
     let kr6 = profile_of(
         "robots/kuka_kr6_r900.yaml",
@@ -55,9 +60,11 @@ fn a_straight_move_keeps_the_branch_of_its_path() {
 #[test]
 fn an_assignment_in_a_branch_before_the_move_is_refused_with_both_values() {
     // row h
-    let data = "PERS wobjdata w1 := [FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nVAR num n := 0;";
+    let data = "PERS wobjdata w1 := \
+        [FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nVAR num n := 0;";
     let body = format!(
-        "IF n > 0 THEN\nw1.oframe.trans.x := -20;\nENDIF\nMoveJ [[430,0,400],{P},v100,fine,tool0\\WObj:=w1;"
+        "IF n > 0 THEN\nw1.oframe.trans.x := -20;\nENDIF\nMoveJ \
+         [[430,0,400],{P},v100,fine,tool0\\WObj:=w1;"
     );
     let done = done(&[PLAIN], &[("t.mod", &rapid(data, &body))]);
     assert_eq!(errors(&done), ["target-shared"]);
@@ -112,7 +119,8 @@ fn writes_of_instructions_and_functions_are_seen() {
         "ok := StrToVal(s, p10.trans.x);",
     ] {
         let data = format!(
-            "PERS robtarget p10 := [[430,0,400],{P};\nVAR rawbytes rb;\nVAR iodev io;\nVAR bool ok;\nVAR string s;"
+            "PERS robtarget p10 := [[430,0,400],{P};\nVAR rawbytes rb;\nVAR iodev io;\nVAR bool \
+             ok;\nVAR string s;"
         );
         let body = format!("{write}\nMoveJ p10,v100,fine,tool0;");
         let text = rapid(&data, &body);
@@ -150,7 +158,8 @@ fn a_target_given_to_a_function_that_is_not_in_the_files_is_refused() {
 #[test]
 fn the_tool_of_the_inverse_is_that_of_its_call() {
     // row l
-    let text = "def t():\n  set_tcp(p[0,0,0.15,0,0,0])\n  q = get_inverse_kin(p[0.35,0,0.4,0,3.1415926,0])\n  \
+    let text = "def t():\n  set_tcp(p[0,0,0.15,0,0,0])\n  q = \
+        get_inverse_kin(p[0.35,0,0.4,0,3.1415926,0])\n  \
                 set_tcp(p[0,0,0,0,0,0])\n  movej(q)\nend\nt()\n";
     let done = done(&[PLAIN], &[("t.script", text)]);
     let used: Vec<_> = done
@@ -210,7 +219,8 @@ fn a_profile_that_corrects_nothing_marks_nothing() {
 #[test]
 fn conf_off_lasts_across_calls() {
     // row r
-    let text = "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\ngo;\nENDPROC\n\
+    let text = "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ \
+        [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\ngo;\nENDPROC\n\
          PROC go()\nMoveL [[420,0,400],[0,0,1,0],[1,1,1,1],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n";
     let done = done(&[PLAIN], &[("t.mod", text)]);
     assert!(
@@ -226,8 +236,10 @@ fn conf_off_lasts_across_calls() {
 #[test]
 fn parameters_bind_at_every_call() {
     let text = format!(
-        "MODULE t\nCONST robtarget p1 := [[430,0,400],{P};\nCONST robtarget p2 := [[430,50,400],{P};\n\
-         PROC main()\nrm p1;\nrm p2;\nENDPROC\nPROC rm(robtarget p)\nMoveJ p,v100,fine,tool0;\nENDPROC\nENDMODULE\n"
+        "MODULE t\nCONST robtarget p1 := [[430,0,400],{P};\nCONST robtarget p2 := \
+         [[430,50,400],{P};\n\
+         PROC main()\nrm p1;\nrm p2;\nENDPROC\nPROC rm(robtarget p)\nMoveJ \
+             p,v100,fine,tool0;\nENDPROC\nENDMODULE\n"
     );
     let done = done(&[PLAIN], &[("t.mod", &text)]);
     assert_eq!(errors(&done), [""; 0]);
@@ -237,7 +249,8 @@ fn parameters_bind_at_every_call() {
 #[test]
 fn a_position_that_the_robot_reported_itself_stays() {
     let data = format!("VAR robtarget here;\nCONST robtarget p1 := [[430,0,400],{P};");
-    let body = "MoveJ p1,v100,fine,tool0;\nhere := CRobT(\\Tool:=tool0);\nMoveL here,v100,fine,tool0;\nMoveL p1,v100,fine,tool0;";
+    let body = "MoveJ p1,v100,fine,tool0;\nhere := CRobT(\\Tool:=tool0);\nMoveL \
+        here,v100,fine,tool0;\nMoveL p1,v100,fine,tool0;";
     let done = done(&[PLAIN], &[("t.mod", &rapid(&data, body))]);
     assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
     assert_eq!(done.summary.compensated, 1);
@@ -259,7 +272,8 @@ fn a_dead_point_among_used_ones_stays_with_a_note() {
 #[test]
 fn all_unknown_tools_and_frames_are_named_with_the_options_that_give_them() {
     let body = format!(
-        "MoveJ [[430,0,400],{P},v100,fine,tGun\\WObj:=wLeft;\nMoveJ [[430,0,410],{P},v100,fine,tGrip\\WObj:=wRight;"
+        "MoveJ [[430,0,400],{P},v100,fine,tGun\\WObj:=wLeft;\nMoveJ \
+         [[430,0,410],{P},v100,fine,tGrip\\WObj:=wRight;"
     );
     let refused = try_with(
         Options::default(),
@@ -323,10 +337,12 @@ fn whole_rotations_of_a_joint_move_are_those_of_config() {
     let program = |flip: char, turn: i32| {
         format!(
             "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J P[2] 10% FINE ;\n/POS\n\
-             P[1]{{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -10.000 deg, J3 = 20.000 deg,\n    \
+             P[1]{{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -10.000 deg, J3 = \
+                 20.000 deg,\n    \
              J4 = 10.000 deg, J5 = 50.000 deg, J6 = -290.000 deg\n}};\n\
              P[2]{{\n   GP1:\n    UF : 0, UT : 0, CONFIG : '{flip} U T, 0, 0, {turn}',\n    \
-             X = {x:.3} mm, Y = {y:.3} mm, Z = {z:.3} mm,\n    W = {w:.3} deg, P = {p:.3} deg, R = {r:.3} deg\n}};\n/END\n"
+             X = {x:.3} mm, Y = {y:.3} mm, Z = {z:.3} mm,\n    W = {w:.3} deg, P = {p:.3} deg, R = \
+                 {r:.3} deg\n}};\n/END\n"
         )
     };
     let joint_6 = |turn: i32| -> Vec<f64> {
@@ -353,13 +369,20 @@ fn a_move_to_a_position_that_nobody_understands_does_not_vanish() {
     // row n: the move behind it does not begin where the one before it ended
     let rapid = rapid(
         &format!("CONST robtarget p := [[430,0,400],{P};\nVAR robtarget where;"),
-        "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ fSomewhere(3),v100,fine,tool0;\nMoveL p,v100,fine,tool0;",
+        "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+         fSomewhere(3),v100,fine,tool0;\nMoveL p,v100,fine,tool0;",
     );
-    let fanuc = "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J PR[5] 10% FINE ;\n   3:L P[2] 100mm/sec FINE ;\n/POS\n\
-        P[1]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = 0.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n\
-        P[2]{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = 180.000 deg, P = 0.000 deg, R = 0.000 deg\n};\n/END\n";
-    let urscript = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,-1.0,1.0,0,1.0,0])\n  movel(somewhere(3))\n  movel(p[0.43,0.0,0.4,0.0,1.5,0.0])\nend\n";
-    let inform = "/JOB\n//NAME T\n//POS\n///NPOS 2,0,0,1,0,0\n///TOOL 0\n///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\n\
+    let fanuc = "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J PR[5] 10% FINE ;\n   3:L P[2] \
+        100mm/sec FINE ;\n/POS\n\
+        P[1]{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = 0.000 deg, J3 = 0.000 \
+            deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n};\n\
+        P[2]{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = \
+            0.000 mm, Z = 400.000 mm,\n    W = 180.000 deg, P = 0.000 deg, R = 0.000 \
+            deg\n};\n/END\n";
+    let urscript = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,-1.0,1.0,0,1.0,0])\n  \
+        movel(somewhere(3))\n  movel(p[0.43,0.0,0.4,0.0,1.5,0.0])\nend\n";
+    let inform = "/JOB\n//NAME T\n//POS\n///NPOS 2,0,0,1,0,0\n///TOOL 0\n///POSTYPE \
+        BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\n\
         C00000=430.000,0.000,500.000,180.0000,0.0000,0.0000\nC00001=430.000,0.000,400.000,180.0000,0.0000,0.0000\n\
         //INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=10.00\nMOVJ P[I001] VJ=10.00\nMOVL C00001 V=100.0\nEND\n";
     for (name, text) in [
@@ -382,7 +405,8 @@ fn numbers_written_over_a_part_of_a_copy_lose_their_correction() {
         rapid(
             &format!("CONST robtarget p := [[430,0,300],{P};\nVAR robtarget here;"),
             &format!(
-                "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;\nhere := p;\n{write}\nMoveL here,v100,fine,tool0;"
+                "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+                 p,v100,fine,tool0;\nhere := p;\n{write}\nMoveL here,v100,fine,tool0;"
             ),
         )
     };
@@ -390,7 +414,8 @@ fn numbers_written_over_a_part_of_a_copy_lose_their_correction() {
     assert_eq!(errors(&over), ["target-overwritten"], "{:?}", over.findings);
     let script = |write: &str| {
         format!(
-            "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  p1 = p[0.43,0.0,0.3,0.0,3.14159,0.0]\n  movej([0,0,0,0,1.0,0])\n  movej(p1)\n  \
+            "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  p1 = p[0.43,0.0,0.3,0.0,3.14159,0.0]\n  \
+             movej([0,0,0,0,1.0,0])\n  movej(p1)\n  \
              q = p1\n  {write}\n  movel(q)\nend\n"
         )
     };
@@ -415,8 +440,10 @@ fn numbers_written_over_a_part_of_a_copy_lose_their_correction() {
 fn connecting_a_trap_calls_nothing() {
     let program = |connect: &str| {
         format!(
-            "MODULE t\nCONST robtarget p := [[430,0,300],{P};\nPERS tooldata tA := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\n\
-             VAR intnum i1;\nPROC main()\n{connect}MoveJ p,v100,fine,tA;\nENDPROC\nTRAP tMeas\ntA.tframe.trans.z := 140;\nENDTRAP\nENDMODULE\n"
+            "MODULE t\nCONST robtarget p := [[430,0,300],{P};\nPERS tooldata tA := \
+             [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\n\
+             VAR intnum i1;\nPROC main()\n{connect}MoveJ p,v100,fine,tA;\nENDPROC\nTRAP \
+                 tMeas\ntA.tframe.trans.z := 140;\nENDTRAP\nENDMODULE\n"
         )
     };
     // the trap may run at any time in both: what it writes is uncertain everywhere

@@ -291,7 +291,8 @@ fn straight_moves_land_in_every_language_walked_by_an_independent_inverse() {
             let uncorrected = (uncorrected - wanted.position).norm();
             assert!(
                 miss < TOLERANCE_M,
-                "{name}: move {at} from {:?} to {wanted:?} goes to {fake:?} and is {:.4} mm off (before {:.4})",
+                "{name}: move {at} from {:?} to {wanted:?} goes to {fake:?} and is {:.4} mm off \
+                 (before {:.4})",
                 case.start,
                 miss * 1e3,
                 uncorrected * 1e3

@@ -179,7 +179,8 @@ fn fifty_configurations_hold_on_9905_others_and_their_49_million_pairs() {
     let position = judged.quality.position.expect("positions");
     let distance = judged.distance.expect("pairs");
     println!(
-        "50 -> 9905: mean {:.3} std {:.3} max {:.3} mm; {} pairs: mean {:.3} std {:.3} max {:.3} mm",
+        "50 -> 9905: mean {:.3} std {:.3} max {:.3} mm; {} pairs: mean {:.3} std {:.3} max {:.3} \
+         mm",
         position.mean,
         position.std,
         position.max,

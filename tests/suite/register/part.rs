@@ -39,12 +39,14 @@ fn targets() -> Vec<Pose> {
 
 fn program() -> String {
     let mut text = String::from(
-        "MODULE Part\n  PERS tooldata artifact:=[TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  ",
+        "MODULE Part\n  PERS tooldata \
+         artifact:=[TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  ",
     );
     let [x, y, z] = FRAME.map(|v| v * 1e3);
     writeln!(
         text,
-        "PERS wobjdata wPart:=[FALSE,TRUE,\"\",[[{x},{y},{z}],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n  PROC main()\n    MoveAbsJ [[0,10,10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;"
+        "PERS wobjdata wPart:=[FALSE,TRUE,\"\",[[{x},{y},{z}],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n  \
+         PROC main()\n    MoveAbsJ [[0,10,10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;"
     )
     .expect("text");
     for pose in targets() {
@@ -161,7 +163,8 @@ fn a_measured_work_object_must_agree_with_the_program() {
     std::fs::write(at("part.mod"), program()).expect("scratch");
     let frame = |x: f64| {
         format!(
-            "poseshift: frame/1\npose: {{x_mm: {x}, y_mm: -100, z_mm: 200, rx_deg: 0, ry_deg: 0, rz_deg: 0}}\n"
+            "poseshift: frame/1\npose: {{x_mm: {x}, y_mm: -100, z_mm: 200, rx_deg: 0, ry_deg: 0, \
+             rz_deg: 0}}\n"
         )
     };
     std::fs::write(at("same.yaml"), frame(250.0)).expect("scratch");

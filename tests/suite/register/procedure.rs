@@ -56,7 +56,8 @@ fn hidden_effects(random: &mut StdRng) -> String {
         let (alpha, a, theta) = (even(0.05), even(0.4), even(0.1));
         write!(
             text,
-            "    - {{effect: link_geometry, link: {link}, alpha_deg: {alpha}, a_mm: {a}, theta_deg: {theta}"
+            "    - {{effect: link_geometry, link: {link}, alpha_deg: {alpha}, a_mm: {a}, \
+             theta_deg: {theta}"
         )
         .expect("text");
         // axes 2 and 3 are parallel
@@ -431,7 +432,8 @@ fn a_ballbar_hexapod_calibrates_a_small_arm_in_two_steps() {
     let [before, between, after] =
         ["nominal", "first", "second"].map(|name| mean_and_max(at, &format!("{name}.yaml")));
     println!(
-        "LR Mate, mean and max mm on 400 others: {:.3} {:.3} nominal, {:.3} {:.3} after 46 poses, {:.3} {:.3} after 61; bars within {most:.3} mm",
+        "LR Mate, mean and max mm on 400 others: {:.3} {:.3} nominal, {:.3} {:.3} after 46 poses, \
+         {:.3} {:.3} after 61; bars within {most:.3} mm",
         before.0, before.1, between.0, between.1, after.0, after.1
     );
     assert!(before.0 > 0.5, "{before:?}");

@@ -346,7 +346,10 @@ fn what_cannot_be_done_leaves_no_report_and_an_answer_of_no_has_one() {
     let (status, _, _) = run(&arguments);
     assert!(status == 2 && !page.exists() && !out.exists());
     // one target within reach, one far beyond it
-    let text = "MODULE t\n  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;\n    MoveL [[400.000,0.000,300.000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n    MoveL [[4000.000,0.000,300.000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n  ENDPROC\nENDMODULE\n";
+    let text = "MODULE t\n  PERS tooldata artifact := \
+        [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  PROC main()\n    \
+        MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;\n    MoveL \
+        [[400.000,0.000,300.000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n    MoveL [[4000.000,0.000,300.000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n  ENDPROC\nENDMODULE\n";
     std::fs::write(&program, text).expect("scratch");
     let (status, _, error) = run(&arguments);
     assert_eq!(status, 1, "{error}");
@@ -365,7 +368,10 @@ fn inserted_moves_are_reported_and_drawn_as_a_path_of_their_own() {
         folder.path().join("out.mod"),
         folder.path().join("page.html"),
     );
-    let text = "MODULE t\n  PERS tooldata artifact := [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  CONST robtarget p1 := [[430.123,-200.456,300.789],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  CONST robtarget p2 := [[430.123,200.456,300.789],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;\n    MoveJ p1,v200,fine,artifact;\n    MoveL p2,v100,fine,artifact;\n  ENDPROC\nENDMODULE\n";
+    let text = "MODULE t\n  PERS tooldata artifact := \
+        [TRUE,[[50,25,100],[1,0,0,0]],[2.6,[-23,0,100],[1,0,0,0],0,0,0]];\n  CONST robtarget p1 := \
+        [[430.123,-200.456,300.789],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  CONST \
+        robtarget p2 := [[430.123,200.456,300.789],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;\n    MoveJ p1,v200,fine,artifact;\n    MoveL p2,v100,fine,artifact;\n  ENDPROC\nENDMODULE\n";
     std::fs::write(&program, text).expect("scratch");
     let (status, _, error) = run(&[
         "compensate",

@@ -11,7 +11,9 @@ fn profile() -> Profile {
         .iter()
         .find(|(name, _)| *name == "fanuc_r2000ic_165f")
         .expect("a shipped profile");
-    let effects = "effects: [{effect: link_geometry, link: 3, a_mm: 0.3, theta_deg: 0.05, alpha_deg: 0.02}, {effect: link_geometry, link: 4, theta_deg: 0.06}, {effect: joint_compliance, joint: 2, rad_per_n_m: 1.0e-7}]";
+    let effects = "effects: [{effect: link_geometry, link: 3, a_mm: 0.3, theta_deg: 0.05, \
+        alpha_deg: 0.02}, {effect: link_geometry, link: 4, theta_deg: 0.06}, {effect: \
+        joint_compliance, joint: 2, rad_per_n_m: 1.0e-7}]";
     assert!(nominal.contains("effects: []"));
     Profile::from_yaml(&nominal.replace("effects: []", effects)).expect("a valid profile")
 }
@@ -51,7 +53,8 @@ fn compensated(text: &str) -> (Compensation, String) {
 /// A joint point as controllers write it.
 fn joint_point(number: u32, j: [f64; 6]) -> String {
     format!(
-        "P[{number}]{{\n   GP1:\n\tUF : 2, UT : 1,\t\n\tJ1={:10.3} deg,\tJ2={:10.3} deg,\tJ3={:10.3} deg,\n\tJ4={:10.3} deg,\tJ5={:10.3} deg,\tJ6={:10.3} deg\n}};\n",
+        "P[{number}]{{\n   GP1:\n\tUF : 2, UT : 1,\t\n\tJ1={:10.3} deg,\tJ2={:10.3} \
+         deg,\tJ3={:10.3} deg,\n\tJ4={:10.3} deg,\tJ5={:10.3} deg,\tJ6={:10.3} deg\n}};\n",
         j[0], j[1], j[2], j[3], j[4], j[5]
     )
 }
@@ -64,7 +67,9 @@ fn pose_point(number: u32, flags: &str, j: [f64; 6]) -> String {
     let [x, y, z] = pose.translation.map(mm_from_m);
     let [w, p, r] = notation::nearest_angles(&pose.rotation, [0.0; 3], BEYOND_DEG);
     format!(
-        "P[{number}]{{\n   GP1:\n\tUF : 2, UT : 1,\t\tCONFIG : '{flags}',\n\tX ={x:11.6}  mm,\tY ={y:11.6}  mm,\tZ ={z:11.6}  mm,\n\tW ={w:11.6} deg,\tP ={p:11.6} deg,\tR ={r:11.6} deg\n}};\n"
+        "P[{number}]{{\n   GP1:\n\tUF : 2, UT : 1,\t\tCONFIG : '{flags}',\n\tX ={x:11.6}  mm,\tY \
+         ={y:11.6}  mm,\tZ ={z:11.6}  mm,\n\tW ={w:11.6} deg,\tP ={p:11.6} deg,\tR ={r:11.6} \
+         deg\n}};\n"
     )
 }
 

@@ -61,7 +61,8 @@ fn the_active_tool_is_the_one_that_the_program_selects() {
             vec!["4", "5"],
         ),
         (
-            "SELECT R[1]=1,JMP LBL[1] ;\n       =2,JMP LBL[2] ;\n       ELSE,END ;\nLBL[1] ;\nUTOOL_NUM=4 ;\nJMP LBL[3] ;\nLBL[2] ;\nUTOOL_NUM=5 ;\nLBL[3] ;\nJ P[1] 100% FINE ;",
+            "SELECT R[1]=1,JMP LBL[1] ;\n       =2,JMP LBL[2] ;\n       ELSE,END ;\nLBL[1] \
+             ;\nUTOOL_NUM=4 ;\nJMP LBL[3] ;\nLBL[2] ;\nUTOOL_NUM=5 ;\nLBL[3] ;\nJ P[1] 100% FINE ;",
             vec!["4", "5"],
         ),
         (
@@ -69,7 +70,8 @@ fn the_active_tool_is_the_one_that_the_program_selects() {
             vec!["4", "5"],
         ),
         (
-            "UTOOL_NUM=4 ;\nWAIT DI[1]=ON TIMEOUT,LBL[2] ;\nUTOOL_NUM=5 ;\nLBL[2] ;\nJ P[1] 100% FINE ;",
+            "UTOOL_NUM=4 ;\nWAIT DI[1]=ON TIMEOUT,LBL[2] ;\nUTOOL_NUM=5 ;\nLBL[2] ;\nJ P[1] 100% \
+             FINE ;",
             vec!["4", "5"],
         ),
         (
@@ -225,7 +227,8 @@ fn moves_that_cannot_be_compensated_are_errors() {
 
 #[test]
 fn every_move_of_the_text_is_a_move() {
-    let lines = "J P[2] 1% FINE ;\nJ PR[1] 1% FINE ;\nL PAL_1[BTM] 9mm/sec FINE ;\nL P[9] 9mm/sec FINE ;\nIF R[1]=1,L P[1] 9mm/sec FINE ;\nL @P[2] 9mm/sec FINE ;";
+    let lines = "J P[2] 1% FINE ;\nJ PR[1] 1% FINE ;\nL PAL_1[BTM] 9mm/sec FINE ;\nL P[9] 9mm/sec \
+        FINE ;\nIF R[1]=1,L P[1] 9mm/sec FINE ;\nL @P[2] 9mm/sec FINE ;";
     let program = read(lines, &(usual("1") + &usual("2")));
     let to: Vec<Option<usize>> = program.moves.iter().map(|m| m.target).collect();
     assert_eq!(to, [Some(1), None, None, None, Some(0), Some(1)]);
@@ -236,7 +239,8 @@ fn every_move_of_the_text_is_a_move() {
 
 #[test]
 fn a_skipped_move_ends_at_its_point_or_nobody_knows_where() {
-    let lines = "L P[1] 9mm/sec FINE Skip,LBL[1],PR[3]=LPOS ;\nL P[2] 9mm/sec FINE ;\nEND ;\nLBL[1] ;\nL P[3] 9mm/sec FINE ;";
+    let lines = "L P[1] 9mm/sec FINE Skip,LBL[1],PR[3]=LPOS ;\nL P[2] 9mm/sec FINE ;\nEND \
+        ;\nLBL[1] ;\nL P[3] 9mm/sec FINE ;";
     let program = read(lines, &(usual("1") + &usual("2") + &usual("3")));
     let to: Vec<Option<usize>> = program.moves.iter().map(|m| m.target).collect();
     assert_eq!(to, [Some(0), None, Some(1), Some(2)]);
@@ -248,7 +252,8 @@ fn a_skipped_move_ends_at_its_point_or_nobody_knows_where() {
 #[test]
 fn rows_of_arcs_start_with_a_straight_line() {
     let points: String = (1..=5).map(|k| usual(&k.to_string())).collect();
-    let lines = "A P[1] 9mm/sec FINE ;\nA P[2] 9mm/sec FINE ;\nWAIT 1.0(sec) ;\nA P[3] 9mm/sec FINE ;\nC P[4]\n : P[5] 9mm/sec FINE ;";
+    let lines = "A P[1] 9mm/sec FINE ;\nA P[2] 9mm/sec FINE ;\nWAIT 1.0(sec) ;\nA P[3] 9mm/sec \
+        FINE ;\nC P[4]\n : P[5] 9mm/sec FINE ;";
     let program = read(lines, &points);
     let motions: Vec<Motion> = program.moves.iter().map(|used| used.motion).collect();
     use Motion::{ArcEnd, ArcVia, Linear};
@@ -285,7 +290,8 @@ fn moves_that_a_sensor_corrects_are_reported_once_a_place() {
         ("Track TAST[1]", "Track End"),
     ] {
         let lines = format!(
-            "L P[1] 9mm/sec FINE ;\n{begin} ;\nL P[1] 9mm/sec FINE ;\nL P[2] 9mm/sec FINE ;\n{end} ;\nL P[2] 9mm/sec FINE ;"
+            "L P[1] 9mm/sec FINE ;\n{begin} ;\nL P[1] 9mm/sec FINE ;\nL P[2] 9mm/sec FINE ;\n{end} \
+             ;\nL P[2] 9mm/sec FINE ;"
         );
         let program = read(&lines, &(usual("1") + &usual("2")));
         assert_eq!(ids(&program), ["corrected-by-sensor"], "{begin}");
@@ -319,14 +325,17 @@ fn offsets_of_moves_are_known_at_run_time_only() {
 
 #[test]
 fn comments_remarks_and_strings_are_no_instructions() {
-    let lines = "  1:  !L P[1] 40mm/sec FINE ;\n  2:  --eg:L P[1] 40mm/sec FINE ;\n  3:  //C P[1]\n    :  P[1] 40mm/sec FINE ;\n  4:  MESSAGE[L P[1] now] ;\n  5:  CALL LOG('P[1]') ;\n   : ;\n  6:J P[1] 1% FINE ;\n  7:  ! no end\n";
+    let lines = "  1:  !L P[1] 40mm/sec FINE ;\n  2:  --eg:L P[1] 40mm/sec FINE ;\n  3:  //C \
+        P[1]\n    :  P[1] 40mm/sec FINE ;\n  4:  MESSAGE[L P[1] now] ;\n  5:  CALL LOG('P[1]') \
+        ;\n   : ;\n  6:J P[1] 1% FINE ;\n  7:  ! no end\n";
     let program = read(lines, &usual("1"));
     assert_eq!((program.moves.len(), program.findings.len()), (1, 0));
 }
 
 #[test]
 fn blocks_inside_moves_are_read_as_instructions() {
-    let lines = "   5:J P[2] 100% CNT0 ACC100 TB    .10sec,P-SPS    ;\n      1:  TC_ONLINE (ON) ;\n      2:  UTOOL_NUM=3 ;\n       ------ ;\n   6:J P[1] 100% CNT100 ;\n";
+    let lines = "   5:J P[2] 100% CNT0 ACC100 TB    .10sec,P-SPS    ;\n      1:  TC_ONLINE (ON) \
+        ;\n      2:  UTOOL_NUM=3 ;\n       ------ ;\n   6:J P[1] 100% CNT100 ;\n";
     let text = listing(lines, &(pose("1", ACTIVE) + &pose("2", ACTIVE)));
     let program = read_files(&[("a.ls", &text)]).expect("a program");
     let last = program.moves.last().expect("moves");

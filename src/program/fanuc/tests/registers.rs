@@ -171,7 +171,8 @@ fn a_frame_is_what_a_register_is_copied_from() {
 
 #[test]
 fn a_frame_is_what_the_program_has_just_written() {
-    let numbers = "PR[3,1]=(-30) ;\nPR[3,2]=0 ;\n! a tool ;\nPR[3,3:tool]=40.5 ;\nPR[GP1:3,4]=0 ;\nPR[3,5]=-60 ;\nPR[3,6]=0 ;\n";
+    let numbers = "PR[3,1]=(-30) ;\nPR[3,2]=0 ;\n! a tool ;\nPR[3,3:tool]=40.5 ;\nPR[GP1:3,4]=0 \
+        ;\nPR[3,5]=-60 ;\nPR[3,6]=0 ;\n";
     let behind = "UTOOL[1]=PR[3] ;\nL P[1] 9mm/sec FINE ;";
     let tool = |lines: &str| {
         let program = read(lines, &usual("1"));

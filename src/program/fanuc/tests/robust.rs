@@ -59,8 +59,15 @@ proptest::proptest! {
     }
 }
 
-const VARIABLES: &str = "[*SYSTEM*]$MNUFRAME  Storage: SHADOW  Access: RW  : ARRAY[1,2] OF POSITION\n    [1,1] = \n  Group: 1   Config: N D B, 0, 0, 0\n  X:   884.000   Y: -3329.790   Z:  -133.190\n  W:     0.000   P:      .370   R:    90.000\n    [1,2] =  Uninitialized\n[*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[1,1] OF POSITION\n  [1,1] = 'GRIP' Group: 1\n    X:   0.000   Y:   0.000   Z: 150.000\n    W:   0.000   P:   0.000   R:   0.000\n";
-const LIST: &str = "F Number: F000000\n\nTool Frame\n  -1.3  -90.6   150.1  -180.0     0.0   -90.0 SSW\n\nJog Frame\n   5.0     0.0     0.0     0.0     0.0     0.0 \n\nUser Frame\n ****** ****** ****** ****** ****** ******\n 884.0  -3329.8   -133.2      .1      .0    90.0 FIX 1\n";
+const VARIABLES: &str = "[*SYSTEM*]$MNUFRAME  Storage: SHADOW  Access: RW  : ARRAY[1,2] OF \
+    POSITION\n    [1,1] = \n  Group: 1   Config: N D B, 0, 0, 0\n  X:   884.000   Y: -3329.790   \
+    Z:  -133.190\n  W:     0.000   P:      .370   R:    90.000\n    [1,2] =  \
+    Uninitialized\n[*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[1,1] OF POSITION\n  \
+    [1,1] = 'GRIP' Group: 1\n    X:   0.000   Y:   0.000   Z: 150.000\n    W:   0.000   P:   \
+    0.000   R:   0.000\n";
+const LIST: &str = "F Number: F000000\n\nTool Frame\n  -1.3  -90.6   150.1  -180.0     0.0   -90.0 \
+    SSW\n\nJog Frame\n   5.0     0.0     0.0     0.0     0.0     0.0 \n\nUser Frame\n ****** \
+    ****** ****** ****** ****** ******\n 884.0  -3329.8   -133.2      .1      .0    90.0 FIX 1\n";
 
 /// What mutations cut, and put in its place.
 const MUTATIONS: [(usize, &str); 24] = [
@@ -92,7 +99,10 @@ const MUTATIONS: [(usize, &str); 24] = [
 
 fn sample() -> String {
     listing(
-        "   1:  UFRAME_NUM=2 ;\n   2:J P[1:a] 100% FINE TB .1sec,P-SPS ;\n      1:  CALL X(P[2],'a;b') ;\n       ------ ;\n   3:C P[2]\n    :  P[R[1]] 9mm/sec CNT5 Offset,PR[1] ;\n   4:  //L P[1] ;\n   5:  LBL[1:x] ;\n   6:A P[3] 9mm/sec FINE INC ;\n   7:  PR[1]=P[3] ;\n   8:L PR[1] 9mm/sec FINE ;",
+        "   1:  UFRAME_NUM=2 ;\n   2:J P[1:a] 100% FINE TB .1sec,P-SPS ;\n      1:  CALL \
+         X(P[2],'a;b') ;\n       ------ ;\n   3:C P[2]\n    :  P[R[1]] 9mm/sec CNT5 Offset,PR[1] \
+         ;\n   4:  //L P[1] ;\n   5:  LBL[1:x] ;\n   6:A P[3] 9mm/sec FINE INC ;\n   7:  \
+         PR[1]=P[3] ;\n   8:L PR[1] 9mm/sec FINE ;",
         &(usual("1:\"a]b\"")
             + &joints("2")
             + &usual("3").replace("};", "   GP2:\n\tUF : F, UT : F,\n\tJ1= 1.0 mm\n};")),

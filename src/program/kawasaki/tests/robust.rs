@@ -26,8 +26,10 @@ const MUTATIONS: [(usize, &str); 20] = [
     (0, "\nHERE p1\n"),
 ];
 
-const SAMPLE: &str = ".PROGRAM a(.p)\nTOOL grip\nBASE NULL\nJMOVE #home\nIF x THEN\nLMOVE p1+off\nEND\nCASE n OF\nVALUE 1:\nC1MOVE p[1]\nC2MOVE p[i]\n\
-    ANY:\nLAPPRO SHIFT(p1 BY 1,2,3),5\nEND\nLDEPART 3\nCALL a(p1)\nLMOVE TRANS(1,2,3,4,5,6)\nJOINT SPEED9 TOOL1 #[1,2,3,4,5,6]\n.END\n";
+const SAMPLE: &str = ".PROGRAM a(.p)\nTOOL grip\nBASE NULL\nJMOVE #home\nIF x THEN\nLMOVE \
+    p1+off\nEND\nCASE n OF\nVALUE 1:\nC1MOVE p[1]\nC2MOVE p[i]\n\
+    ANY:\nLAPPRO SHIFT(p1 BY 1,2,3),5\nEND\nLDEPART 3\nCALL a(p1)\nLMOVE TRANS(1,2,3,4,5,6)\nJOINT \
+        SPEED9 TOOL1 #[1,2,3,4,5,6]\n.END\n";
 
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(256))]

@@ -24,7 +24,8 @@ const MOVE: &str = "DEF rm(p:IN, q:OUT)\nDECL E6POS p,q\nLIN p\nLIN q\nEND\n";
 #[test]
 fn positions_are_handed_to_routines_of_the_files() {
     let text = format!(
-        "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nrm(XP1,XP2)\nBAS(#BASE,3)\nrm({{X 1,Y 2,Z 3,A 0,B 0,C 0}},XP3)\nEND\n{MOVE}"
+        "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nrm(XP1,XP2)\nBAS(#BASE,3)\nrm({{X 1,Y 2,Z 3,A 0,B \
+         0,C 0}},XP3)\nEND\n{MOVE}"
     );
     let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
     let mut found: Vec<_> = program
@@ -48,8 +49,10 @@ fn positions_are_handed_to_routines_of_the_files() {
 
 #[test]
 fn elements_are_handed_to_routines_of_the_files() {
-    let data = "DEFDAT M\nDECL E6POS w[2]\nw[1]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nw[2]={X 2,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
-    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nto(w[1])\nFOR i=1 TO 2\nLIN w[i]\nENDFOR\nEND\n\
+    let data = "DEFDAT M\nDECL E6POS w[2]\nw[1]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nw[2]={X 2,Y 0,Z 0,A 0,B \
+        0,C 0}\nENDDAT\n";
+    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nto(w[1])\nFOR i=1 TO 2\nLIN \
+        w[i]\nENDFOR\nEND\n\
         DEF to(p:IN)\nE6POS p\nPTP p\nEND\n";
     let program = read_files(&[("m.src", text), ("m.dat", data)]);
     assert_eq!(to(&program), ["w[1]", "w[2]", "w[1]"]);
@@ -58,7 +61,8 @@ fn elements_are_handed_to_routines_of_the_files() {
 
 #[test]
 fn what_a_routine_writes_through_a_parameter_comes_back() {
-    let text = "DEF M()\nDECL E6POS near\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nabove(near,XP1)\nLIN near\nLIN XP1\nEND\n\
+    let text = "DEF M()\nDECL E6POS near\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nabove(near,XP1)\nLIN \
+        near\nLIN XP1\nEND\n\
         DEF above(out:OUT,p:IN)\nDECL E6POS out,p\nout=p:{X 0,Y 0,Z -50,A 0,B 0,C 0}\nEND\n";
     let program = read_files(&[("m.src", text), ("m.dat", DATA)]);
     assert_eq!(to(&program), ["XP1", "XP1"]);
@@ -68,7 +72,8 @@ fn what_a_routine_writes_through_a_parameter_comes_back() {
 
 #[test]
 fn routines_begin_where_the_caller_is_and_the_caller_goes_on_where_they_end() {
-    let text = "DEF M()\nPTP XP1\nsub()\nLIN XP1\nEND\nDEF sub()\nLIN XP2\nIF $IN[1] THEN\nLIN XP3\nENDIF\nEND\n";
+    let text = "DEF M()\nPTP XP1\nsub()\nLIN XP1\nEND\nDEF sub()\nLIN XP2\nIF $IN[1] THEN\nLIN \
+        XP3\nENDIF\nEND\n";
     let program = read_files(&[("m.src", text), ("m.dat", DATA)]);
     let expected = [
         ("XP1", vec![None]),
@@ -173,7 +178,8 @@ fn routines_of_interrupts_run_at_any_time() {
         "TRIGGER WHEN DISTANCE=1 DELAY=0 DO stop() PRIO=-1",
     ] {
         let text = format!(
-            "DEF M()\n{decl}\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN XP1\nLIN XP2\nEND\nDEF stop()\nBRAKE\n$BASE=$WORLD\nLIN XP3\nEND\n"
+            "DEF M()\n{decl}\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN XP1\nLIN XP2\nEND\nDEF \
+             stop()\nBRAKE\n$BASE=$WORLD\nLIN XP3\nEND\n"
         );
         let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
         assert_eq!(to(&program), ["XP1", "XP1", "XP2", "XP2", "XP3"], "{decl}");
@@ -216,7 +222,8 @@ fn functions_that_are_not_in_the_files_may_move_to_what_they_are_given() {
 
 #[test]
 fn instructions_keep_where_their_parts_stand() {
-    let text = "DEF M()\n  LIN XP1 WITH $VEL={CP 0.25} C_DIS ; way\nCIRC {X 1,Y 2,Z 3,A 0,B 0,C 0} , XP2\nEND\n";
+    let text = "DEF M()\n  LIN XP1 WITH $VEL={CP 0.25} C_DIS ; way\nCIRC {X 1,Y 2,Z 3,A 0,B 0,C 0} \
+        , XP2\nEND\n";
     let program = read_files(&[("m.src", text), ("m.dat", DATA)]);
     let shown: Vec<_> = program
         .instructions

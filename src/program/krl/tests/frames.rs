@@ -2,9 +2,12 @@
 
 use super::*;
 
-const CONFIG: &str = "&ACCESS RV\n&REL 2\nDEFDAT  $CONFIG\nBOOL B_IN\nDECL E6AXIS XHOME={A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\n\
-    FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nTOOL_DATA[2]={x 0,y 0,z 50,a 0,b 90,c 0}\n\
-    FRAME BASE_DATA[32]\nBASE_DATA[1]={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nBASE_DATA[2]={X 500.0,Y 0.0,Z 0.0,A 90.0,B 0.0,C 0.0}\n\
+const CONFIG: &str = "&ACCESS RV\n&REL 2\nDEFDAT  $CONFIG\nBOOL B_IN\nDECL E6AXIS XHOME={A1 0,A2 \
+    -90,A3 90,A4 0,A5 0,A6 0}\n\
+    FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nTOOL_DATA[2]={x 0,y \
+        0,z 50,a 0,b 90,c 0}\n\
+    FRAME BASE_DATA[32]\nBASE_DATA[1]={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nBASE_DATA[2]={X \
+        500.0,Y 0.0,Z 0.0,A 90.0,B 0.0,C 0.0}\n\
     LOAD_DATA[1]={M 5.5,CM {X 10.0,Y 0.0,Z 80.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}\n\
     LOAD_DATA[2]={M -1.0,CM {X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}\n\
     DECL MACHINE_FRAME_DATA_TYPE x\nMACHINE_FRAME_DAT[7]={MACH_DEF_INDEX 2,COOP_KRC_INDEX 0,PARENT[] \" \",GEO \" \"}\nENDDAT\n";
@@ -72,7 +75,8 @@ fn every_way_to_set_tool_and_base_is_understood() {
         "FDAT_ACT=FP9\nBAS(#CP_PARAMS,2)",
     ] {
         let data = "DEFDAT M\nDECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 0,C 0}\n\
-            DECL FDAT FP9={TOOL_NO 2,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \",TQ_STATE FALSE}\nENDDAT\n";
+            DECL FDAT FP9={TOOL_NO 2,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \",TQ_STATE \
+                FALSE}\nENDDAT\n";
         let text = format!("DEF M()\n{set}\nLIN XP1\nEND\n");
         let files = [("$config.dat", CONFIG), ("m.src", &text), ("m.dat", data)];
         let program = read_files(&files);
@@ -86,9 +90,11 @@ fn every_way_to_set_tool_and_base_is_understood() {
 fn inline_forms_of_newer_controllers_set_tool_and_base_in_the_move() {
     let program = in_cell(
         ";FOLD SLIN P1 Vel=2 m/s CPDAT1 Tool[1]:gun Base[2] ;%{PE}\n;FOLD Parameters ;%{h}\n\
-         ;Params IlfProvider=kukaroboter.basistech.inlineforms.movement.spline; Kuka.PointName=P1\n;ENDFOLD\n\
+         ;Params IlfProvider=kukaroboter.basistech.inlineforms.movement.spline; \
+             Kuka.PointName=P1\n;ENDFOLD\n\
          SLIN XP1 WITH $VEL=SVEL_CP(2.0, , LCPDAT1), $TOOL=STOOL2(FP1), $BASE=SBASE(FP1.BASE_NO), \
-         $IPO_MODE=SIPO_MODE(FP1.IPO_FRAME), $LOAD=SLOAD(FP1.TOOL_NO), $ACC=SACC_CP(LCPDAT1) C_Spl\n;ENDFOLD",
+         $IPO_MODE=SIPO_MODE(FP1.IPO_FRAME), $LOAD=SLOAD(FP1.TOOL_NO), $ACC=SACC_CP(LCPDAT1) \
+             C_Spl\n;ENDFOLD",
     );
     assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
     assert_eq!(reported(&program), [""; 0]);
@@ -97,7 +103,8 @@ fn inline_forms_of_newer_controllers_set_tool_and_base_in_the_move() {
 #[test]
 fn frames_written_out_have_their_value() {
     let program = in_cell(
-        "$TOOL={FRAME: X 1,Y 2,Z 3,A 0,B 0,C 90}\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\nLIN XP1\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN XP2\n\
+        "$TOOL={FRAME: X 1,Y 2,Z 3,A 0,B 0,C 90}\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\nLIN \
+         XP1\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN XP2\n\
          BAS(#TOOL,0)\nBAS(#BASE)\nLIN XP3",
     );
     assert_eq!(
@@ -127,7 +134,8 @@ fn translations(program: &Program) -> Vec<Option<f64>> {
 fn entries_that_the_program_writes_have_that_value_from_there_on() {
     let use_it = "BAS(#TOOL,1)\nBAS(#BASE,2)\nLIN XP1";
     let program = path(&format!(
-        "TOOL_DATA[1]={{X 0,Y 0,Z 120,A 0,B 0,C 0}}\nBASE_DATA[2]={{FRAME: X 1,Y 0,Z 0,A 0,B 0,C 0}}\n{use_it}"
+        "TOOL_DATA[1]={{X 0,Y 0,Z 120,A 0,B 0,C 0}}\nBASE_DATA[2]={{FRAME: X 1,Y 0,Z 0,A 0,B 0,C \
+         0}}\n{use_it}"
     ));
     let tool = program.tools[0].flange_from_tool.expect("a tool");
     assert_eq!(tool.translation, [0.0, 0.0, 0.12]);
@@ -289,7 +297,8 @@ fn ways_that_agree_are_followed() {
         "ptp_home()\nBAS(#BASE,1)",
     ] {
         let text = format!(
-            "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1\nEND\nDEF sub()\nBAS(#BASE,1)\nEND\n"
+            "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1\nEND\nDEF \
+             sub()\nBAS(#BASE,1)\nEND\n"
         );
         let program = read_files(&[("$config.dat", CONFIG), ("m.src", &text), ("m.dat", DATA)]);
         assert_eq!(reported(&program), [""; 0], "{set}");
@@ -303,9 +312,11 @@ fn ways_that_agree_are_followed() {
 
 #[test]
 fn routines_take_what_their_callers_have() {
-    let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nsub()\nEND\nDEF sub()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nsub()\nEND\nDEF sub()\nLIN {X 1,Y 2,Z 3,A 0,B \
+        0,C 0}\nEND\n";
     assert_eq!(used(&read(text)), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
-    let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nsub()\nBAS(#BASE,3)\nsub()\nEND\nDEF sub()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nsub()\nBAS(#BASE,3)\nsub()\nEND\nDEF \
+        sub()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     let program = read(text);
     let bases: Vec<_> = used(&program).into_iter().map(|(_, base)| base).collect();
     assert_eq!(bases, ["BASE_DATA[2]", "BASE_DATA[3]"]);
@@ -317,7 +328,8 @@ fn routines_outside_the_files_matter_where_several_frames_are_in_use() {
     let one =
         "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\ngripper(1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     assert_eq!(reported(&read(one)), [""; 0]);
-    let two = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nBAS(#BASE,2)\ngripper(1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    let two = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C \
+        0}\nBAS(#BASE,2)\ngripper(1)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     assert_eq!(reported(&read(two)), ["frame-chosen-at-run-time"]);
 }
 
@@ -340,7 +352,8 @@ fn bases_on_other_kinematics_are_refused() {
     for set in [
         "BAS(#BASE,7)",
         "$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[3].MECH_TYPE,{X 0,Y 0,Z 0,A 0,B 0,C 0})",
-        "SLIN XP1 WITH $BASE=EK(K_ROOT(FP1.BASE_NO),K_TYPE(FP1.BASE_NO),K_OFFS(FP1.BASE_NO)), $APO=SAPO(L) C_SPL",
+        "SLIN XP1 WITH $BASE=EK(K_ROOT(FP1.BASE_NO),K_TYPE(FP1.BASE_NO),K_OFFS(FP1.BASE_NO)), \
+         $APO=SAPO(L) C_SPL",
     ] {
         let program = in_cell(&format!("BAS(#TOOL,1)\nBAS(#BASE,1)\n{set}\nLIN XP1"));
         assert_eq!(reported(&program), ["moving-frame"], "{set}");
@@ -351,7 +364,8 @@ fn bases_on_other_kinematics_are_refused() {
 #[test]
 fn bases_on_a_kinematic_are_those_of_the_unit() {
     let program = in_cell(
-        "BAS(#TOOL,1)\n$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 30,Y 0,Z 0,A 0,B 0,C 0})\nLIN XP1",
+        "BAS(#TOOL,1)\n$BASE=EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,{X 30,Y 0,Z 0,A 0,B \
+         0,C 0})\nLIN XP1",
     );
     let frame = &program.frames[program.moves[0].frame];
     assert!(frame.is_carried());
@@ -364,7 +378,8 @@ fn bases_on_a_kinematic_are_those_of_the_unit() {
 
 #[test]
 fn what_one_of_several_programs_writes_reaches_no_other() {
-    let writes = "DEF a()\nBASE_DATA[2]={X 9,Y 0.0,Z 0,A 90,B 0,C -0.0}\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    let writes = "DEF a()\nBASE_DATA[2]={X 9,Y 0.0,Z 0,A 90,B 0,C \
+        -0.0}\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     let other = "DEF b()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     for (others, expected, ids) in [
         (

@@ -98,7 +98,8 @@ fn axes_at_zero_change_their_bit_of_turn_only_when_they_cross() {
 
 #[test]
 fn bits_are_written_as_bits_and_numbers_as_numbers() {
-    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {X 1,Y 2,Z 3,A 0,B 0,C 0,T 'B100000',S 'B010'}\nEND\n";
+    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {X 1,Y 2,Z 3,A 0,B 0,C 0,T \
+        'B100000',S 'B010'}\nEND\n";
     let program = read(text);
     let numbers = program.numbers_of(&program.targets[0]);
     let spelled: Vec<_> = numbers[6..]

@@ -67,14 +67,18 @@ const MUTATIONS: [(usize, &str); 22] = [
     (0, "LOCAL "),
 ];
 
-const SAMPLE: &str = "%%%\n VERSION:1\n%%%\nMODULE m(SYSMODULE)\nLOCAL CONST robtarget p{2}:=[[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],q];\n\
+const SAMPLE: &str = "%%%\n VERSION:1\n%%%\nMODULE m(SYSMODULE)\nLOCAL CONST robtarget \
+    p{2}:=[[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],q];\n\
     PERS robtarget q:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
     TASK PERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1.5,[0,0,50],[1,0,0,0],0,0,0]];\n\
     PERS wobjdata w:=[FALSE,TRUE,\"\",[[100,0,0],[1,0,0,0]],[[10,0,0],[1,0,0,0]]];\n\
-    PROC main(robtarget a, \\switch on | num x)\n IF di1=1 MoveL p{1}, v100,\\Z:=3, z10,t\\WObj:=w;\n w.uframe:=[[1,2,3],[1,0,0,0]];\n\
+    PROC main(robtarget a, \\switch on | num x)\n IF di1=1 MoveL p{1}, v100,\\Z:=3, \
+        z10,t\\WObj:=w;\n w.uframe:=[[1,2,3],[1,0,0,0]];\n\
     MoveC Offs(q,1,-2,3),RelTool(Offs(q,0,0,1),1,2,3\\Rx:=90),v100,z10,t\\WObj:=w;\n\
-    MoveAbsJ [[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v100,z10,t;\n SearchL\\Stop,d,q,p{i},v1,t;\n\
-    PDispOn q,t;\n sub q;\n FOR i FROM 1 TO 2 DO\n lab: GOTO lab;\n ENDFOR\n TPWrite \"x\"\"y\";\n %\"a\"%;\nERROR\n RETRY;\nENDPROC\nENDMODULE\n";
+    MoveAbsJ [[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v100,z10,t;\n \
+        SearchL\\Stop,d,q,p{i},v1,t;\n\
+    PDispOn q,t;\n sub q;\n FOR i FROM 1 TO 2 DO\n lab: GOTO lab;\n ENDFOR\n TPWrite \"x\"\"y\";\n \
+        %\"a\"%;\nERROR\n RETRY;\nENDPROC\nENDMODULE\n";
 
 #[test]
 fn brackets_without_end_do_not_overflow_the_stack() {

@@ -41,7 +41,8 @@ fn parameters_are_what_calls_give_by_position_and_by_name() {
     // in a feature, with a tool of the call's place
     let program = path(
         "def go(x, t):\nset_tcp(t)\nmovel(x)\nend\nset_tcp(p[3,0,0,0,0,0])\nq=get_inverse_kin(p[1,2,4,0,0,0])\n\
-         go(pose_trans(p[7,0,0,0,0,0],p[1,2,3,0,0,0]), p[1,0,0,0,0,0])\ngo(p[1,2,5,0,0,0], p[2,0,0,0,0,0])\nmovej(q)",
+         go(pose_trans(p[7,0,0,0,0,0],p[1,2,3,0,0,0]), p[1,0,0,0,0,0])\ngo(p[1,2,5,0,0,0], \
+             p[2,0,0,0,0,0])\nmovej(q)",
     );
     assert_eq!(program.findings, []);
     let mut reported: Vec<_> = program
@@ -61,7 +62,8 @@ fn parameters_are_what_calls_give_by_position_and_by_name() {
 #[test]
 fn results_of_functions_are_what_they_return() {
     let program = path(
-        "def home():\nreturn [0,1,2,3,4,5]\nend\ndef place(n):\nif n==1:\nreturn p[1,2,3,0,0,0]\nend\nreturn p[1,2,4,0,0,0]\nend\nmovej(home())\nx=place(i)\nmovel(x)",
+        "def home():\nreturn [0,1,2,3,4,5]\nend\ndef place(n):\nif n==1:\nreturn \
+         p[1,2,3,0,0,0]\nend\nreturn p[1,2,4,0,0,0]\nend\nmovej(home())\nx=place(i)\nmovel(x)",
     );
     assert_eq!((to(&program).len(), program.findings.len()), (3, 0));
 }
@@ -69,7 +71,8 @@ fn results_of_functions_are_what_they_return() {
 #[test]
 fn elements_of_lists_are_any_of_them() {
     let program = path(
-        "w=p[1,2,3,0,0,1]\nway=[p[1,2,3,0,0,0], w, p[1,2,4,0,0,0]]\nmovel(way[2])\ni=0\nwhile i<3:\nmovel(way[i])\ni=i+1\nend",
+        "w=p[1,2,3,0,0,1]\nway=[p[1,2,3,0,0,0], w, p[1,2,4,0,0,0]]\nmovel(way[2])\ni=0\nwhile \
+         i<3:\nmovel(way[i])\ni=i+1\nend",
     );
     assert_eq!(program.findings, []);
     let mut found = to(&program);
@@ -151,7 +154,8 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
 
 #[test]
 fn joints_keep_the_tool_that_is_set_where_they_are_computed() {
-    let text = "set_tcp(p[1,0,0,0,0,0])\nq=get_inverse_kin(p[.1,.2,.3,0,0,0], [0,1,2,3,4,5])\nset_tcp(p[2,0,0,0,0,0])\nmovej(q)\nmovej(get_inverse_kin(p[.1,.2,.4,0,0,0], tcp=p[3,0,0,0,0,0]))\nmovej(p[.1,.2,.5,0,0,0])";
+    let text = "set_tcp(p[1,0,0,0,0,0])\nq=get_inverse_kin(p[.1,.2,.3,0,0,0], \
+        [0,1,2,3,4,5])\nset_tcp(p[2,0,0,0,0,0])\nmovej(q)\nmovej(get_inverse_kin(p[.1,.2,.4,0,0,0], tcp=p[3,0,0,0,0,0]))\nmovej(p[.1,.2,.5,0,0,0])";
     let program = path(text);
     assert_eq!(program.findings, []);
     let tools: Vec<_> = (0..3).map(|k| tool_x(&program, k)).collect();
@@ -306,7 +310,8 @@ fn threads_begin_with_what_is_set_where_they_are_run() {
 fn what_a_condition_never_lets_run_moves_nothing() {
     let text = |condition: &str| {
         format!(
-            "x=p[1,2,3,0,0,0]\nif {condition}:\nwhile a:\nif b:\nmovel(x)\nend\nend\nelse:\nmovel(p[1,2,4,0,0,0])\nend\nmovel(p[1,2,5,0,0,0])"
+            "x=p[1,2,3,0,0,0]\nif {condition}:\nwhile a:\nif \
+             b:\nmovel(x)\nend\nend\nelse:\nmovel(p[1,2,4,0,0,0])\nend\nmovel(p[1,2,5,0,0,0])"
         )
     };
     for (condition, runs) in [

@@ -71,9 +71,12 @@ const MUTATIONS: [(usize, &str); 22] = [
     (0, "get_inverse_kin("),
 ];
 
-const SAMPLE: &str = "def P():\n set_tcp(p[0,0,.1,0,0,0])\n set_payload(1.5,[0,0,.05])\n global W_p=p[.4,-.4,.5,1.5,.5,.53]\n global W_q=[1,-1,1,0,1,1E-4]\n\
-    thread T():\n  run T()\n end\n def sub(x, y):\n  local z=x[2]+1\n  movel(x)\n  if z==1:\n   return 1\n  elif z>2: halt\n  else:\n   set_tcp(y)\n  end\n end\n\
-    $ 3 \"a\"\n while (True):\n  movej(get_inverse_kin(W_p,qnear=W_q),a=1,v=1)\n  movec(p[1,2,3,0,0,0],W_p,mode=1)\n  W_p[2]=.4\n  f=pose_trans(W_p,p[0,0,1,0,0,0])\n\
+const SAMPLE: &str = "def P():\n set_tcp(p[0,0,.1,0,0,0])\n set_payload(1.5,[0,0,.05])\n global \
+    W_p=p[.4,-.4,.5,1.5,.5,.53]\n global W_q=[1,-1,1,0,1,1E-4]\n\
+    thread T():\n  run T()\n end\n def sub(x, y):\n  local z=x[2]+1\n  movel(x)\n  if z==1:\n   \
+        return 1\n  elif z>2: halt\n  else:\n   set_tcp(y)\n  end\n end\n\
+    $ 3 \"a\"\n while (True):\n  movej(get_inverse_kin(W_p,qnear=W_q),a=1,v=1)\n  \
+        movec(p[1,2,3,0,0,0],W_p,mode=1)\n  W_p[2]=.4\n  f=pose_trans(W_p,p[0,0,1,0,0,0])\n\
     movel(pose_add(f,p[d2r(1),0,0,d2r(1),d2r(2),d2r(3)]))\n  movej([d2r(1),d2r(2),d2r(3),d2r(4),d2r(5),d2r(6)])\n  break\n end\n sub(W_p,p[1,2,3,0,0,0])\n textmsg(\"x\")\nend\nP()\n";
 
 #[test]

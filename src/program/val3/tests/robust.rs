@@ -34,7 +34,8 @@ fn numbers_of_one_value_in_two_tags_are_refused() {
     // the second tag has no y: that of the first would be written where the second ends
     let values =
         "<valuePoint index=\"0\"><tpValue x=\"1\" y=\"2\" /><tpValue x=\"3\" /></valuePoint>";
-    let sides = "<valuePoint index=\"0\"><tpValue x=\"1\" /><cpValue wrist=\"wpositive\" /><cpValue wrist=\"wfree\" /></valuePoint>";
+    let sides = "<valuePoint index=\"0\"><tpValue x=\"1\" /><cpValue wrist=\"wpositive\" \
+        /><cpValue wrist=\"wfree\" /></valuePoint>";
     for text in [values, sides] {
         let text = dtx(&format!("<point name=\"pA\">{text}</point>"));
         let error = data_of(text.as_bytes(), 0).expect_err("two tags");
@@ -63,11 +64,15 @@ proptest::proptest! {
     ) {
         let points = data("fA", "frame", &[FRAME, "key=\"1\" fatherId=\"fA[1]\""])
             + &data("tA", "tool", &[TOOL])
-            + &data("pA", "pointRx", &["key=\"0\" y=\"1\" rx=\"180\" wrist=\"wpositive\" fatherId=\"fA[0]\"", "key=\"1\" x=\"2\""])
+            + &data("pA", "pointRx", &["key=\"0\" y=\"1\" rx=\"180\" wrist=\"wpositive\" \
+                fatherId=\"fA[0]\"", "key=\"1\" x=\"2\""])
             + &data("pB", "pointRx", &["key=\"0\" x=\"2\" fatherId=\"fA[1]\""])
             + &data("jA", "jointRx", &["key=\"0\" j2=\"20\""]);
-        let code = "movej(jA,tA,m)\nif bOn==true\nmovel(appro(pA,{0,0,-1,0,0,0}),tA,m)\nendIf\nswitch nN\ncase 1\nmovec(pA[1],pB,tA,m)\n\
-            break\ndefault\npB=compose(pA[nI],fA,trA)\nendSwitch\nwhile true\ncall start()\nendWhile";
+        let code = "movej(jA,tA,m)\nif \
+            bOn==true\nmovel(appro(pA,{0,0,-1,0,0,0}),tA,m)\nendIf\nswitch nN\ncase \
+            1\nmovec(pA[1],pB,tA,m)\n\
+            break\ndefault\npB=compose(pA[nI],fA,trA)\nendSwitch\nwhile true\ncall \
+                start()\nendWhile";
         let texts = [dtx(&points), pgx("start", "", code)];
         let mut bytes = texts.map(String::into_bytes);
         for (at, (cut, text)) in changes {

@@ -173,7 +173,8 @@ fn impossible(page: &mut Page, found: &Diagnosis) {
     page.show(
         "impossible",
         "What would explain it, but cannot be",
-        "The part of the fall of chi-squared that all effects of the kind explain together, with these values: nothing springs against its load.",
+        "The part of the fall of chi-squared that all effects of the kind explain together, with \
+         these values: nothing springs against its load.",
         table,
     );
 }

@@ -34,7 +34,8 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
         ),
         Verdict::Improved => (
             Level::Good,
-            "Improved: rows left out are predicted better with what was found; something is still missing",
+            "Improved: rows left out are predicted better with what was found; something is still \
+             missing",
         ),
         Verdict::NothingMissing => (
             Level::Good,
@@ -155,7 +156,9 @@ fn show_steps(page: &mut Page, of: &Diagnosis) {
         Axis::new("error, rms", "mm"),
     );
     chart.note = if found.held_out.is_some() {
-        "Errors on rows that were not used for the choice; the dashed line is the noise of the measurements.".into()
+        "Errors on rows that were not used for the choice; the dashed line is the noise of the \
+         measurements."
+            .into()
     } else {
         "The dashed line is the noise of the measurements.".into()
     };
@@ -393,7 +396,13 @@ fn show_evidence(page: &mut Page, of: &Diagnosis) {
             ),
         ],
     };
-    page.show("evidence", "Evidence", "The fall of chi-squared and its probability by chance belong to the effect, not to the single parameter.", table);
+    page.show(
+        "evidence",
+        "Evidence",
+        "The fall of chi-squared and its probability by chance \
+        belong to the effect, not to the single parameter.",
+        table,
+    );
 }
 
 fn show_residuals(page: &mut Page, of: &Diagnosis) {
@@ -477,7 +486,9 @@ fn show_residuals(page: &mut Page, of: &Diagnosis) {
     let tools: Vec<_> = problem.tools.iter().map(|t| t.flange_from_tool).collect();
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "Residuals in space".into(),
-        note: "From each measured point to where the model expects it, magnified; the points' colour is the residual.".into(),
+        note: "From each measured point to where the model expects it, magnified; the points' \
+            colour is the residual."
+            .into(),
         table: "rows".into(),
         robot: Some(Robot::of(&profile, &tools, None, &Meshes::default())),
         bodies: Vec::new(),

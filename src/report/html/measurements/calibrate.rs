@@ -124,7 +124,8 @@ fn show_parameters(page: &mut Page, of: &Calibration) {
     page.show(
         "parameters",
         "Parameters",
-        "What these data do not determine stays as it was; \"like\" names what it cannot be separated from.",
+        "What these data do not determine stays as it was; \"like\" names what it cannot be \
+         separated from.",
         table,
     );
     let determined: Vec<&Parameter> = list.iter().filter(|p| p.identifiable).collect();
@@ -171,7 +172,8 @@ fn show_correlations(page: &mut Page, of: &Calibration) {
         return;
     }
     let mut note = format!(
-        "Pairs beyond \u{b1}{STRONG_CORRELATION} move together: these data hardly separate one from the other."
+        "Pairs beyond \u{b1}{STRONG_CORRELATION} move together: these data hardly separate one \
+         from the other."
     );
     if parameters.len() > count {
         note += &format!(" The first {count} of {} parameters.", parameters.len());

@@ -202,7 +202,9 @@ fn show_rows(page: &mut Page, rows: &Rows, robot: &Profile) {
         .collect();
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "Residuals in space".into(),
-        note: "From each measured point to where the model expects it, magnified; the points' colour is the error of the best model.".into(),
+        note: "From each measured point to where the model expects it, magnified; the points' \
+            colour is the error of the best model."
+            .into(),
         table: "rows".into(),
         robot: Some(Robot::of(robot, &tools, None, &Meshes::default())),
         bodies: Vec::new(),

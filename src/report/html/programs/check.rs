@@ -138,16 +138,26 @@ fn page(of: &Checked) -> Page {
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "In the cell".into(),
         note: join(&[
-            "Where the tool is wanted and where the real tool goes. Deviations are magnified; places are true.",
+            "Where the tool is wanted and where the real tool goes. Deviations are magnified; \
+             places are true.",
             &thinned(&rows, moves.len(), "moves"),
         ]),
         table: "moves".into(),
-        robot: Some(Robot::of(of.scenery.profile, &tools, of.scenery.cell, of.scenery.meshes)),
+        robot: Some(Robot::of(
+            of.scenery.profile,
+            &tools,
+            of.scenery.cell,
+            of.scenery.meshes,
+        )),
         bodies: bodies(of.scenery.cell, of.scenery.meshes),
         points,
         paths: vec![real, wanted(0)],
         ellipsoids: Vec::new(),
-        along: Along::Note("Distance of the real tool from where it is wanted, in samples; the bounds between samples are those of each move.".into()),
+        along: Along::Note(
+            "Distance of the real tool from where it is wanted, in samples; the \
+            bounds between samples are those of each move."
+                .into(),
+        ),
     })));
     charts(&mut page, &columns, s.min_clearance_m.is_some());
     let errors_at = |in_joints: bool| -> Vec<f64> {
@@ -346,7 +356,8 @@ fn charts(page: &mut Page, at: &Drawn, bodies: bool) {
     if bodies {
         page.sections.push(chart(
             "Clearance along the path",
-            "The least room on each move, of the real arm and of the nominal one, and what is required.",
+            "The least room on each move, of the real arm and of the nominal one, and what is \
+             required.",
             "clearance",
             "mm",
             vec![

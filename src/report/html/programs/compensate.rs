@@ -86,7 +86,8 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
     if let Some(offset) = of.work_offset {
         let moved = Pose::identity().separation(offset);
         page.lead.push(format!(
-            "the part stands {:.3} mm, {:.4} deg from where the program has it (--work-offset): shifts hold that, errors do not",
+            "the part stands {:.3} mm, {:.4} deg from where the program has it (--work-offset): \
+             shifts hold that, errors do not",
             mm_from_m(moved.distance_m),
             moved.angle_rad / DEG
         ));
@@ -243,11 +244,17 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "In the cell".into(),
         note: join(&[
-            "Where the simulation wants the tool, and where the real tool goes without and with compensation. Deviations are magnified; places are true.",
+            "Where the simulation wants the tool, and where the real tool goes without and with \
+             compensation. Deviations are magnified; places are true.",
             &thinned(&rows, reports.len(), "targets"),
         ]),
         table: "targets".into(),
-        robot: Some(Robot::of(of.scenery.profile, &tools_of(of.scenery.profile, program), of.scenery.cell, of.scenery.meshes)),
+        robot: Some(Robot::of(
+            of.scenery.profile,
+            &tools_of(of.scenery.profile, program),
+            of.scenery.cell,
+            of.scenery.meshes,
+        )),
         bodies: bodies(of.scenery.cell, of.scenery.meshes),
         points,
         paths: vec![uncompensated, wanted(0)],
@@ -255,7 +262,8 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         along: Along::Note(join(&[
             "Distance of the real tool from where it is wanted, between targets too.",
             if s.joint_targets > 0 {
-                "Joint targets stay as they are (--joint-targets correct shifts them): there the error stays, too."
+                "Joint targets stay as they are (--joint-targets correct shifts them): there the \
+                 error stays, too."
             } else {
                 ""
             },

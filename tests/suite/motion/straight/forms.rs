@@ -130,7 +130,10 @@ pub(super) const FORMS: [Form; 6] = [
     },
     Form {
         files: |cases| {
-            let mut text = "/PROG  T\n/ATTR\nOWNER = MNEDITOR;\n/MN\n   1:  UFRAME_NUM=0 ;\n   2:  UTOOL_NUM=0 ;\n".to_owned();
+            let mut text =
+                "/PROG  T\n/ATTR\nOWNER = MNEDITOR;\n/MN\n   1:  UFRAME_NUM=0 ;\n   2:  \
+                UTOOL_NUM=0 ;\n"
+                    .to_owned();
             let mut points = String::new();
             for (at, Case { start, to, .. }) in cases.iter().enumerate() {
                 let (first, line) = (2 * at + 1, 2 * at + 3);
@@ -145,8 +148,12 @@ pub(super) const FORMS: [Form; 6] = [
                 );
                 let _ = write!(
                     points,
-                    "P[{first}]{{\n   GP1:\n\tUF : 0, UT : 0,\t\n\tJ1= {a:.9} deg,\tJ2= {b:.9} deg,\tJ3= {c:.9} deg,\n\tJ4= {d:.9} deg,\tJ5= {e:.9} deg,\tJ6= {f:.9} deg\n}};\n\
-                     P[{}]{{\n   GP1:\n\tUF : 0, UT : 0,\t\tCONFIG : '',\n\tX = {x:.6}  mm,\tY = {y:.6}  mm,\tZ = {z:.6}  mm,\n\tW = {w:.8} deg,\tP = {p:.8} deg,\tR = {r:.8} deg\n}};\n",
+                    "P[{first}]{{\n   GP1:\n\tUF : 0, UT : 0,\t\n\tJ1= {a:.9} deg,\tJ2= {b:.9} \
+                     deg,\tJ3= {c:.9} deg,\n\tJ4= {d:.9} deg,\tJ5= {e:.9} deg,\tJ6= {f:.9} \
+                     deg\n}};\n\
+                     P[{}]{{\n   GP1:\n\tUF : 0, UT : 0,\t\tCONFIG : '',\n\tX = {x:.6}  mm,\tY = \
+                         {y:.6}  mm,\tZ = {z:.6}  mm,\n\tW = {w:.8} deg,\tP = {p:.8} deg,\tR = \
+                         {r:.8} deg\n}};\n",
                     first + 1
                 );
             }
@@ -168,7 +175,8 @@ pub(super) const FORMS: [Form; 6] = [
                 let v = to.rotation.scaled_axis();
                 let _ = write!(
                     text,
-                    "  movej([{a:.11},{b:.11},{c:.11},{d:.11},{e:.11},{f:.11}])\n  movel(p[{x:.9},{y:.9},{z:.9},{:.10},{:.10},{:.10}])\n",
+                    "  movej([{a:.11},{b:.11},{c:.11},{d:.11},{e:.11},{f:.11}])\n  \
+                     movel(p[{x:.9},{y:.9},{z:.9},{:.10},{:.10},{:.10}])\n",
                     v.x, v.y, v.z
                 );
             }
@@ -188,7 +196,8 @@ pub(super) const FORMS: [Form; 6] = [
         files: |cases| {
             let count = cases.len();
             let mut text = format!(
-                "/JOB\n//NAME T\n//POS\n///NPOS {},0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\n",
+                "/JOB\n//NAME T\n//POS\n///NPOS {},0,0,0,0,0\n///TOOL 0\n///POSTYPE \
+                 ANGLE\n///ANGLE\n",
                 2 * count
             );
             let (mut poses, mut moves) = (String::new(), String::new());
