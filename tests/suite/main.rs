@@ -18,6 +18,7 @@ mod physics;
 mod recover;
 mod register;
 mod report;
+mod shapes;
 mod support;
 #[path = "../trial/mod.rs"]
 #[allow(dead_code, reason = "the example prints more of it")]

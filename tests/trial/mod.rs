@@ -4,7 +4,7 @@
 mod device;
 mod groups;
 pub mod hidden;
-mod robots;
+pub mod robots;
 pub mod truth;
 
 use crate::physics::matrix::M4;
@@ -85,7 +85,8 @@ fn at(kind: Kind, index: usize, parameters: &[f64]) -> Effect {
     }
 }
 
-fn joints_of(profile: &Profile, count: usize, random: &mut StdRng) -> Vec<[f64; 6]> {
+/// Joint angles within 85 % of the limits.
+pub fn joints_of(profile: &Profile, count: usize, random: &mut StdRng) -> Vec<[f64; 6]> {
     (0..count)
         .map(|_| {
             profile.mechanism.joints.map(|j| {

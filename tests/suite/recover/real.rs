@@ -42,14 +42,14 @@ fn held_out(profile: &Profile, measurements: &Measurements, level: Level) -> (f6
 }
 
 /// The same with the frames alone, with geometry, and with compliance.
-fn three(profile: &Profile, measurements: &Measurements) -> [f64; 3] {
+pub fn three(profile: &Profile, measurements: &Measurements) -> [f64; 3] {
     let (frames, geometry) = held_out(profile, measurements, Level::Geometry);
     let (_, compliance) = held_out(profile, measurements, Level::Compliance);
     [frames, geometry, compliance]
 }
 
 /// Leaves the orientations out.
-fn positions_alone(measurements: &mut Measurements) {
+pub fn positions_alone(measurements: &mut Measurements) {
     for row in &mut measurements.rows {
         if let Observed::Pose(pose) = &row.observed {
             row.observed = Observed::Position(pose.translation);
@@ -58,7 +58,7 @@ fn positions_alone(measurements: &mut Measurements) {
 }
 
 /// Which configurations are for fitting; the others for validation.
-fn mark(measurements: &mut Measurements, is_for_fit: impl Fn(usize) -> bool) {
+pub fn mark(measurements: &mut Measurements, is_for_fit: impl Fn(usize) -> bool) {
     let configurations = measurements.configurations();
     for (row, number) in measurements.rows.iter_mut().zip(configurations) {
         row.purpose = Some(if is_for_fit(number) {

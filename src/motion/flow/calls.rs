@@ -1,0 +1,158 @@
+//! Calls: what holds in a routine and behind its call.
+
+use super::{Flow, State};
+use crate::motion::before::ANYWHERE;
+use crate::motion::holding::{Atom, Holding, Site};
+use crate::program::script::{
+    Call, DISPLACED_SOMEHOW, Expr, OVERWRITTEN, RoutineId, Statement, VariableId, short,
+};
+use std::rc::Rc;
+
+impl<'a> Flow<'a> {
+    /// What a call itself does before it goes anywhere: arguments are given away, what is shared is
+    /// uncertain.
+    pub(super) fn call(&mut self, instance: u32, call: &Call, site: Site, state: &mut State) {
+        let _ = instance;
+        if !call.foreign {
+            return;
+        }
+        for argument in self.arguments(call) {
+            let held = self.evaluate(state, argument.value, site);
+            for (atom, _) in self.holdings.of(held).to_vec() {
+                if let Atom::Target { target, .. } | Atom::Changed { target } = atom {
+                    self.given_away.push((target, site));
+                }
+            }
+            if let Some(variable) = argument.back.filter(|_| call.callees.is_empty()) {
+                let own = self.changed(variable);
+                let changed = self.holdings.one(own, site);
+                self.set(state, variable, changed);
+            }
+        }
+        let uncertain = self.holdings.one(Atom::Uncertain, site);
+        for variable in 0..self.script.variables.len() {
+            if self.script.variables[variable].shared
+                && let Some(slot) = self.slots[variable]
+            {
+                let held = state.holds[slot as usize];
+                let joined = self.holdings.join(held, uncertain);
+                Rc::make_mut(&mut state.holds)[slot as usize] = joined;
+            }
+        }
+    }
+
+    /// The state behind a call, as far as the routines that it calls have come; `None` where none
+    /// has come to its end.
+    pub(super) fn behind_call(&mut self, instance: u32, statement: u32) -> Option<State> {
+        let Statement::Call(call) = self.script.statements[statement as usize] else {
+            return None;
+        };
+        let call = &self.script.calls[call as usize];
+        let start = self.at_calls.get(&(instance, statement))?.clone();
+        let mut behind = call.foreign.then(|| start.clone());
+        for &routine in &*call.callees {
+            let callee = self.called(instance, statement, routine);
+            let entry = self.entry_of(call, routine, statement, &start);
+            let waiting = &mut self.instances[callee as usize].waiting;
+            if !waiting.contains(&(instance, statement)) {
+                waiting.push((instance, statement));
+            }
+            self.enter(callee, &entry);
+            let Some(exit) = self.instances[callee as usize].exit.clone() else {
+                continue;
+            };
+            let back = self.back_from(&start, &exit, call, routine, instance);
+            behind = Some(match behind {
+                Some(other) => self.join(&other, &back),
+                None => back,
+            });
+        }
+        behind
+    }
+
+    /// The state in which a call enters a routine: what it is given is bound.
+    pub(super) fn entry_of(
+        &mut self,
+        call: &Call,
+        routine: RoutineId,
+        site: Site,
+        start: &State,
+    ) -> State {
+        let mut entry = start.clone();
+        for argument in self.arguments(call) {
+            if let Some(parameter) = argument.parameter
+                && self.script.variables[parameter as usize].routine == Some(routine)
+            {
+                let held = self.evaluate(start, argument.value, site);
+                self.set(&mut entry, parameter, held);
+            }
+        }
+        entry
+    }
+
+    /// Notes with what routines are started that then run concurrently with the others.
+    pub(super) fn start(&mut self, call: &Call, site: Site, state: &State) {
+        for &routine in &*call.callees {
+            let mut entry = self.entry_of(call, routine, site, state);
+            entry.before = self.sets.one(ANYWHERE);
+            if let Some(before) = self.started.get(&routine).cloned() {
+                entry = self.join(&before, &entry);
+            }
+            self.started.insert(routine, entry);
+        }
+    }
+
+    /// The state that a routine leaves, with the caller's own variables as they were.
+    pub(super) fn back_from(
+        &mut self,
+        start: &State,
+        exit: &State,
+        call: &Call,
+        routine: RoutineId,
+        instance: u32,
+    ) -> State {
+        let mut back = exit.clone();
+        let caller = self.instances[instance as usize].routine;
+        if let Some(own) = self.locals.get(&caller) {
+            for &slot in own {
+                let before = start.holds[slot as usize];
+                if back.holds[slot as usize] != before {
+                    Rc::make_mut(&mut back.holds)[slot as usize] = before;
+                }
+            }
+        }
+        for argument in self.arguments(call) {
+            if let (Some(parameter), Some(variable)) = (argument.parameter, argument.back)
+                && self.script.variables[parameter as usize].routine == Some(routine)
+                && self.slots[parameter as usize].is_some()
+            {
+                let held = self.variable(exit, parameter);
+                let written = self.come_back(held, variable);
+                self.set(&mut back, variable, written);
+            }
+        }
+        back
+    }
+
+    /// What a variable holds that was given by reference: of its own position parts may have been
+    /// written.
+    pub(super) fn come_back(&mut self, held: Holding, variable: VariableId) -> Holding {
+        let Expr::Target(own) = self.script.variables[variable as usize].declared else {
+            return held;
+        };
+        let part_written = [DISPLACED_SOMEHOW, OVERWRITTEN].map(|displacement| Atom::Target {
+            target: short(own),
+            displacement,
+        });
+        let mut atoms = self.holdings.of(held).to_vec();
+        if atoms.iter().all(|(atom, _)| !part_written.contains(atom)) {
+            return held;
+        }
+        for (atom, _) in &mut atoms {
+            if part_written.contains(atom) {
+                *atom = Atom::Changed { target: short(own) };
+            }
+        }
+        self.holdings.intern(atoms)
+    }
+}

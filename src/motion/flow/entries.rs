@@ -1,0 +1,212 @@
+//! Where programs start, what runs concurrently, what is kept from run to run, and text that nothing reaches.
+
+use super::{Flow, From, MOST_ROUNDS, NO_INSTANCE, State};
+use crate::motion::before::{ANYWHERE, START};
+use crate::motion::readers::read_elsewhere;
+use crate::program::script::{RoutineId, Start, Statement, VariableId, Written, short};
+use std::rc::Rc;
+
+impl Flow<'_> {
+    /// Routines that run at any time: what they write, others may find at any place.
+    pub(super) fn run_concurrent(&mut self) {
+        let routines = self.script.routines.iter().enumerate();
+        let concurrent: Vec<RoutineId> = routines
+            .filter(|(_, routine)| routine.start == Start::Concurrent)
+            .map(|(at, _)| short(at))
+            .collect();
+        if concurrent.is_empty() {
+            return;
+        }
+        let mut by_others = vec![false; self.script.routines.len()];
+        for statement in &self.script.statements {
+            if let Statement::Start(call) = statement {
+                for &routine in &*self.script.calls[*call as usize].callees {
+                    by_others[routine as usize] = true;
+                }
+            }
+        }
+        self.is_concurrent = true;
+        for _ in 0..MOST_ROUNDS {
+            let before = self.anytime.clone();
+            self.forget();
+            let declared = self.declared_state(ANYWHERE);
+            for &routine in &concurrent {
+                let state = match self.started.get(&routine).cloned() {
+                    Some(state) => self.with_concurrent(state),
+                    // nothing has been seen to start it yet
+                    None if by_others[routine as usize] => continue,
+                    None => declared.clone(),
+                };
+                let instance = self.instance(routine, 0, NO_INSTANCE);
+                self.enter(instance, &state);
+            }
+            self.run_work();
+            if self.anytime == before {
+                break;
+            }
+        }
+        self.is_concurrent = false;
+    }
+
+    /// A state in which all that others write meanwhile may hold.
+    pub(super) fn with_concurrent(&mut self, mut state: State) -> State {
+        let mut holds = state.holds.to_vec();
+        for (variable, &written) in &self.concurrent {
+            if let Some(slot) = self.slots[*variable as usize] {
+                let slot = slot as usize;
+                holds[slot] = self.holdings.join(holds[slot], written);
+            }
+        }
+        state.holds = Rc::new(holds);
+        state
+    }
+
+    pub(super) fn forget(&mut self) {
+        self.instances.clear();
+        self.by_call.clear();
+        self.merged.clear();
+        self.at_labels.clear();
+        self.at_calls.clear();
+        self.reached.clear();
+        self.modes.clear();
+        self.mode_ids.clear();
+        self.last_modes = None;
+        self.chosen.clear();
+        self.instructions.clear();
+        self.size = 0;
+    }
+
+    /// Routines that the controller or the operator starts.
+    pub(super) fn run_entries(&mut self) {
+        let script = self.script;
+        let mut is_called = vec![false; script.routines.len()];
+        for (at, routine) in script.routines.iter().enumerate() {
+            for statement in &script.statements
+                [routine.statements.start as usize..routine.statements.end as usize]
+            {
+                if let Statement::Call(call) = statement {
+                    for &callee in &*script.calls[*call as usize].callees {
+                        is_called[callee as usize] |= callee as usize != at;
+                    }
+                }
+            }
+        }
+        let starts = |(at, routine): (usize, &crate::program::script::Routine)| {
+            let starts = match routine.start {
+                Start::Main => true,
+                Start::Called => !is_called[at],
+                Start::Concurrent => false,
+            };
+            starts.then_some(short(at))
+        };
+        let mut entries: Vec<RoutineId> = script
+            .routines
+            .iter()
+            .enumerate()
+            .filter_map(starts)
+            .collect();
+        if entries.is_empty() {
+            entries = (0..short(script.routines.len())).collect();
+        }
+        let state = self.declared_state(START);
+        let mut instances = Vec::with_capacity(entries.len());
+        for &routine in &entries {
+            let instance = self.instance(routine, 0, NO_INSTANCE);
+            self.enter(instance, &state);
+            instances.push(instance);
+        }
+        for _ in 0..MOST_ROUNDS {
+            self.run_work();
+            let mut changed = false;
+            for &instance in &instances {
+                changed |= self.keep(instance);
+            }
+            if !changed {
+                break;
+            }
+        }
+        if entries.len() > 1 {
+            self.note_operators(&instances);
+        }
+    }
+
+    /// What the controller keeps from run to run is there when the routine starts again; whether
+    /// that is new.
+    pub(super) fn keep(&mut self, instance: u32) -> bool {
+        let of = &self.instances[instance as usize];
+        let (Some(entry), Some(exit)) = (of.entry.clone(), of.exit.clone()) else {
+            return false;
+        };
+        let mut again = entry.clone();
+        for (slot, variable) in self.tracked.iter().enumerate() {
+            if self.script.variables[*variable as usize].kept {
+                let joined = self.holdings.join(entry.holds[slot], exit.holds[slot]);
+                if joined != entry.holds[slot] {
+                    Rc::make_mut(&mut again.holds)[slot] = joined;
+                }
+            }
+        }
+        let changed = again != entry;
+        if changed {
+            self.enter(instance, &again);
+        }
+        changed
+    }
+
+    /// Notes what routines write that only the operator starts, and what others read: these do not
+    /// see it.
+    pub(super) fn note_operators(&mut self, entries: &[u32]) {
+        let script = self.script;
+        let routine_of = |instance: &u32| self.instances[*instance as usize].routine;
+        let entries: Vec<RoutineId> = entries.iter().map(routine_of).collect();
+        let mut written: Vec<(VariableId, RoutineId)> = Vec::new();
+        let mut sites = Vec::new();
+        for &routine in &entries {
+            let of = &script.routines[routine as usize];
+            if of.start == Start::Main {
+                continue;
+            }
+            for at in of.statements.clone() {
+                if let Statement::Write(write) = script.statements[at as usize]
+                    && let Written::One(variable) = script.writes[write as usize].variable
+                    && script.variables[variable as usize].routine.is_none()
+                {
+                    written.push((variable, routine));
+                    sites.push(at);
+                }
+            }
+        }
+        let elsewhere = read_elsewhere(script, &entries, &written);
+        let noted = written.into_iter().zip(sites);
+        let noted = noted.filter(|(written, _)| elsewhere.contains(written));
+        self.by_operator
+            .extend(noted.map(|((variable, _), site)| (variable, site)));
+    }
+
+    /// Text that nothing reaches: its moves start from the declarations.
+    pub(super) fn run_dead(&mut self) {
+        for routine in 0..self.script.routines.len() {
+            let of = &self.script.routines[routine];
+            let mut own = None;
+            for at in of.statements.clone() {
+                let is_move = matches!(self.script.statements[at as usize], Statement::Move(_));
+                if !is_move || self.visited[at as usize] {
+                    continue;
+                }
+                let instance = *own.get_or_insert_with(|| {
+                    let known = self.instances.iter();
+                    let known = known
+                        .enumerate()
+                        .find(|(_, i)| i.routine as usize == routine);
+                    known.map(|(at, _)| short(at))
+                });
+                let instance =
+                    instance.unwrap_or_else(|| self.instance(short(routine), 0, NO_INSTANCE));
+                own = Some(Some(instance));
+                self.dead = Some(instance);
+                self.push(instance, at, From::Dead);
+                self.run_work();
+            }
+        }
+    }
+}

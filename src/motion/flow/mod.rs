@@ -1,0 +1,271 @@
+//! What holds at each move and which moves come before it, whichever way the program runs.
+//!
+//! Forward data flow to a fixed point over the statements of all routines. A routine is gone
+//! through once for each call of it, up to a depth; beyond, and where routines call themselves, its
+//! callers are joined. What variables hold is a [`Holding`], where the robot comes from a
+//! [`Before`]; both only grow, so that it ends.
+//!
+//! # Source
+//! G. A. Kildall, "A unified approach to global program optimization" (1973).
+
+mod calls;
+mod entries;
+mod statements;
+mod variables;
+mod writes;
+
+use super::before::{Before, Sets, Stop};
+use super::holding::{Holding, Holdings, Site};
+use crate::program::script::{
+    Held, Label, ModalId, Part, PartValue, RoutineId, Script, Statement, TableId, ValueId,
+    VariableId, short,
+};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use std::collections::BinaryHeap;
+use std::rc::Rc;
+
+/// Calls inside calls that are distinguished.
+const DEEPEST: u32 = 6;
+/// Statements of all instances of routines: so many times those of the script, and so many more.
+const MOST_TIMES: usize = 3;
+const MOST_MORE: usize = 20_000;
+/// Times that what is kept from run to run, or written at any time, is gone through.
+const MOST_ROUNDS: usize = 8;
+/// Entries of a table that all its writes by unknown numbers may reach; beyond, they hold anywhere.
+const MOST_WRITES: usize = 1_000_000;
+/// Statements gone through, times those of the instances, after which the flow gives up.
+const MOST_VISITS: usize = 200;
+
+/// No caller, or several.
+const NO_INSTANCE: u32 = u32::MAX;
+
+/// What holds where a move begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reached {
+    /// Index in [`Flow::modes`].
+    pub modes: u32,
+    /// `None` where the instruction's own expression says it whatever was before.
+    pub target: Option<Holding>,
+    pub before: Before,
+}
+
+/// With what a move runs, whichever way the program came to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Modes {
+    pub tool: Holding,
+    pub frame: Holding,
+    pub load: Holding,
+    pub configured: Holding,
+    pub wrist: Holding,
+    /// What speaks against the move.
+    pub guard: Holding,
+}
+
+/// A routine as one call of it runs.
+#[derive(Debug)]
+struct Instance {
+    routine: RoutineId,
+    depth: u32,
+    /// Instance that calls it; [`NO_INSTANCE`] where several or none do.
+    caller: u32,
+    /// Stop of its first move.
+    first_stop: Stop,
+    entry: Option<State>,
+    exit: Option<State>,
+    /// Calls that wait for its end: instance and statement.
+    waiting: Vec<(u32, u32)>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct State {
+    /// By slot of the variables that are tracked.
+    holds: Rc<Vec<Holding>>,
+    before: Before,
+}
+
+/// Where to go on, the deepest routine first and there the first statement: [`BinaryHeap`] gives
+/// the largest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Item {
+    depth: u32,
+    /// Counted down from the last one.
+    statement: std::cmp::Reverse<u32>,
+    instance: u32,
+    from: From,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum From {
+    Entry,
+    Label(Label),
+    Call,
+    /// Text that nothing reaches.
+    Dead,
+}
+
+/// The name of a record and what its parts are.
+type Content = (Box<str>, Vec<(u8, u64)>);
+
+/// What a part is, to compare.
+fn bits(value: PartValue) -> (u8, u64) {
+    match value {
+        PartValue::Number(number) => (0, number.to_bits()),
+        PartValue::Flag(flag) => (1, flag.into()),
+        PartValue::Text { empty } => (2, empty.into()),
+        PartValue::Missing => (3, 0),
+        PartValue::Computed => (4, 0),
+    }
+}
+
+/// The flow through a script.
+pub(super) struct Flow<'a> {
+    script: &'a Script,
+    pub holdings: Holdings,
+    pub sets: Sets,
+    /// Values that writes of parts made, behind those of the script.
+    pub made: Vec<Held>,
+    more_parts: Vec<Part>,
+    made_parts: HashMap<(ValueId, u32, u32), Option<ValueId>>,
+    /// Records that writes of parts made, by what is in them: what comes round again is the same.
+    made_records: HashMap<Content, ValueId>,
+    /// Slots of the variables of each routine's own.
+    locals: HashMap<RoutineId, Vec<u32>>,
+    /// The slot of each variable that is tracked.
+    slots: Vec<Option<u32>>,
+    /// What the others hold.
+    fixed: Vec<Holding>,
+    /// Variables in slots.
+    tracked: Vec<VariableId>,
+    /// Tables that are written at so many places by numbers that only the running program knows,
+    /// that what is written holds anywhere.
+    loose: HashSet<TableId>,
+    /// What routines that run at any time may write, by variable.
+    anytime: HashMap<VariableId, Holding>,
+    label_places: Vec<u32>,
+    instances: Vec<Instance>,
+    by_call: HashMap<(u32, u32, RoutineId), u32>,
+    merged: HashMap<RoutineId, u32>,
+    at_labels: HashMap<(u32, Label), (State, bool)>,
+    at_calls: HashMap<(u32, u32), State>,
+    work: BinaryHeap<Item>,
+    visited: Vec<bool>,
+    /// Statements of all instances.
+    size: usize,
+    /// By stop.
+    pub reached: Vec<Option<Reached>>,
+    /// With what moves run, each once.
+    pub modes: Vec<Modes>,
+    mode_ids: HashMap<Modes, u32>,
+    /// Those of the last move, for a move with the same words where variables hold the same.
+    last_modes: Option<(ModalId, Rc<Vec<Holding>>, u32)>,
+    /// What variables hold where a move goes to one of several positions.
+    chosen: HashMap<Stop, Rc<Vec<Holding>>>,
+    /// Instruction of each stop.
+    pub instructions: Vec<u32>,
+    /// Targets that are given to routines that are not in the files, and the call's statement.
+    pub given_away: Vec<(u32, Site)>,
+    /// Where variables are written in routines that nothing in the files calls.
+    pub by_operator: Vec<(VariableId, Site)>,
+    is_concurrent: bool,
+    /// With what routines are started concurrently with others.
+    started: HashMap<RoutineId, State>,
+    /// What those that start others write, by variable.
+    concurrent: HashMap<VariableId, Holding>,
+    /// The instance whose text is gone through that nothing reaches.
+    dead: Option<u32>,
+}
+
+impl<'a> Flow<'a> {
+    /// Follows a script.
+    pub(super) fn of(script: &'a Script) -> Self {
+        let mut label_places = vec![u32::MAX; script.labels as usize];
+        for (at, statement) in script.statements.iter().enumerate() {
+            if let Statement::Label(label) = statement {
+                label_places[*label as usize] = short(at);
+            }
+        }
+        let mut flow = Self {
+            script,
+            holdings: Holdings::new(),
+            sets: Sets::new(),
+            made: Vec::new(),
+            more_parts: Vec::new(),
+            made_parts: HashMap::new(),
+            made_records: HashMap::new(),
+            locals: HashMap::new(),
+            slots: Vec::new(),
+            fixed: Vec::new(),
+            tracked: Vec::new(),
+            loose: HashSet::new(),
+            anytime: HashMap::new(),
+            label_places,
+            instances: Vec::new(),
+            by_call: HashMap::new(),
+            merged: HashMap::new(),
+            at_labels: HashMap::new(),
+            at_calls: HashMap::new(),
+            work: BinaryHeap::new(),
+            visited: vec![false; script.statements.len()],
+            size: 0,
+            reached: Vec::new(),
+            modes: Vec::new(),
+            mode_ids: HashMap::new(),
+            last_modes: None,
+            chosen: HashMap::new(),
+            instructions: Vec::new(),
+            given_away: Vec::new(),
+            by_operator: Vec::new(),
+            is_concurrent: false,
+            started: HashMap::new(),
+            concurrent: HashMap::new(),
+            dead: None,
+        };
+        flow.track();
+        for _ in 0..MOST_ROUNDS {
+            let before = (
+                flow.started.clone(),
+                flow.concurrent.clone(),
+                flow.anytime.clone(),
+            );
+            flow.forget();
+            flow.run_concurrent();
+            flow.run_entries();
+            if flow.started.is_empty()
+                || before
+                    == (
+                        flow.started.clone(),
+                        flow.concurrent.clone(),
+                        flow.anytime.clone(),
+                    )
+            {
+                break;
+            }
+        }
+        flow.run_dead();
+        flow.given_away.sort_unstable();
+        flow.given_away.dedup();
+        flow
+    }
+
+    /// The value of an identifier, the flow's own included.
+    pub(super) fn value(&self, value: ValueId) -> &Held {
+        let at = value as usize;
+        let own = self.script.values.len();
+        if at < own {
+            &self.script.values[at]
+        } else {
+            &self.made[at - own]
+        }
+    }
+
+    /// Where a write stands, or the declaration of what a variable holds.
+    pub(super) fn place_of(&self, site: Site) -> Option<crate::program::script::Place> {
+        let script = self.script;
+        Some(match script.statements.get(site as usize)? {
+            Statement::Move(at) => script.instructions[*at as usize].place,
+            Statement::Write(at) => script.writes[*at as usize].place,
+            Statement::Call(at) | Statement::Start(at) => script.calls[*at as usize].place,
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,400 @@
+//! Statements gone through to a fixed point: work, joins, moves.
+
+use super::{
+    DEEPEST, Flow, From, Instance, Item, MOST_MORE, MOST_TIMES, MOST_VISITS, Modes, NO_INSTANCE,
+    Reached, State,
+};
+use crate::motion::before::{ANYWHERE, Stop};
+use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
+use crate::program::script::{
+    Argument, Call, Expected, Expr, Held, Label, ModalId, RoutineId, Statement, VariableId, short,
+};
+use std::rc::Rc;
+
+impl<'a> Flow<'a> {
+    pub(super) fn arguments(&self, call: &Call) -> &'a [Argument] {
+        &self.script.arguments[call.arguments.start as usize..call.arguments.end as usize]
+    }
+
+    pub(super) fn declared_state(&mut self, before: Stop) -> State {
+        let holds = (0..self.tracked.len())
+            .map(|slot| {
+                let declared = self.script.variables[self.tracked[slot] as usize].declared;
+                self.constant(declared, DECLARED)
+            })
+            .collect();
+        State {
+            holds: Rc::new(holds),
+            before: self.sets.one(before),
+        }
+    }
+
+    pub(super) fn join(&mut self, a: &State, b: &State) -> State {
+        let holds = if Rc::ptr_eq(&a.holds, &b.holds) {
+            Rc::clone(&a.holds)
+        } else {
+            let joined = a
+                .holds
+                .iter()
+                .zip(b.holds.iter())
+                .map(|(a, b)| self.holdings.join(*a, *b))
+                .collect::<Vec<_>>();
+            if joined == *a.holds {
+                Rc::clone(&a.holds)
+            } else {
+                Rc::new(joined)
+            }
+        };
+        State {
+            holds,
+            before: self.sets.union(a.before, b.before),
+        }
+    }
+
+    pub(super) fn instance(&mut self, routine: RoutineId, depth: u32, caller: u32) -> u32 {
+        let of = &self.script.routines[routine as usize];
+        let first_stop = short(self.reached.len());
+        let count = of.instructions.len();
+        self.reached.resize(self.reached.len() + count, None);
+        self.instructions.extend(of.instructions.clone());
+        self.size += of.statements.len();
+        self.instances.push(Instance {
+            routine,
+            depth,
+            caller,
+            first_stop,
+            entry: None,
+            exit: None,
+            waiting: Vec::new(),
+        });
+        short(self.instances.len() - 1)
+    }
+
+    /// The instance of a routine for a call.
+    pub(super) fn called(&mut self, caller: u32, statement: u32, routine: RoutineId) -> u32 {
+        let key = (caller, statement, routine);
+        if let Some(&known) = self.by_call.get(&key) {
+            return known;
+        }
+        let depth = self.instances[caller as usize].depth + 1;
+        let mut chain = caller;
+        let mut is_recursive = false;
+        while chain != NO_INSTANCE {
+            is_recursive |= self.instances[chain as usize].routine == routine;
+            chain = self.instances[chain as usize].caller;
+        }
+        let most = MOST_TIMES * self.script.statements.len() + MOST_MORE;
+        let length = self.script.routines[routine as usize].statements.len();
+        let is_own = depth <= DEEPEST && !is_recursive && self.size + length <= most;
+        let made = if is_own {
+            self.instance(routine, depth, caller)
+        } else if let Some(&known) = self.merged.get(&routine) {
+            known
+        } else {
+            let made = self.instance(routine, DEEPEST + 1, NO_INSTANCE);
+            self.merged.insert(routine, made);
+            made
+        };
+        self.by_call.insert(key, made);
+        made
+    }
+
+    pub(super) fn push(&mut self, instance: u32, statement: u32, from: From) {
+        self.work.push(Item {
+            depth: self.instances[instance as usize].depth,
+            statement: std::cmp::Reverse(statement),
+            instance,
+            from,
+        });
+    }
+
+    /// Joins a state into the beginning of an instance.
+    pub(super) fn enter(&mut self, instance: u32, state: &State) {
+        let joined = match &self.instances[instance as usize].entry {
+            Some(entry) => {
+                let entry = entry.clone();
+                self.join(&entry, state)
+            }
+            None => state.clone(),
+        };
+        let of = &mut self.instances[instance as usize];
+        if of.entry.as_ref() != Some(&joined) {
+            let start = self.script.routines[of.routine as usize].statements.start;
+            of.entry = Some(joined);
+            self.push(instance, start, From::Entry);
+        }
+    }
+
+    pub(super) fn arrive(&mut self, instance: u32, label: Label, state: &State) {
+        let place = self.label_places[label as usize];
+        let key = (instance, label);
+        // the text may have no such label: nothing is known to follow; what is reached is not
+        // reached from dead text
+        if place == u32::MAX || self.dead == Some(instance) && self.visited[place as usize] {
+            return;
+        }
+        let joined = match self.at_labels.get(&key) {
+            Some((old, _)) => {
+                let old = old.clone();
+                let joined = self.join(&old, state);
+                if joined == old {
+                    return;
+                }
+                joined
+            }
+            None => state.clone(),
+        };
+        let queued = matches!(self.at_labels.insert(key, (joined, true)), Some((_, true)));
+        if !queued {
+            self.push(instance, place, From::Label(label));
+        }
+    }
+
+    pub(super) fn run_work(&mut self) {
+        let mut visits = 0_usize;
+        while let Some(item) = self.work.pop() {
+            let most = MOST_VISITS * (self.size + 1000);
+            if visits > most {
+                self.give_up();
+                return;
+            }
+            let (state, at) = match item.from {
+                From::Entry => {
+                    let entry = self.instances[item.instance as usize].entry.clone();
+                    (entry, item.statement.0)
+                }
+                From::Label(label) => {
+                    let Some((state, queued)) = self.at_labels.get_mut(&(item.instance, label))
+                    else {
+                        continue;
+                    };
+                    *queued = false;
+                    (Some(state.clone()), item.statement.0 + 1)
+                }
+                From::Call => (
+                    self.behind_call(item.instance, item.statement.0),
+                    item.statement.0 + 1,
+                ),
+                From::Dead => (Some(self.declared_state(ANYWHERE)), item.statement.0),
+            };
+            if let Some(state) = state {
+                visits += self.run(item.instance, at, state);
+            }
+        }
+    }
+
+    /// Nothing is distinguished any more: everything that is written is unknown.
+    pub(super) fn give_up(&mut self) {
+        self.work.clear();
+        self.chosen.clear();
+        self.holdings.lose_all();
+        let unknown = self.holdings.one(Atom::Anything, DECLARED);
+        let before = self.sets.one(ANYWHERE);
+        for modes in &mut self.modes {
+            for holding in [&mut modes.tool, &mut modes.frame] {
+                if *holding != NOTHING {
+                    *holding = unknown;
+                }
+            }
+        }
+        for reached in self.reached.iter_mut().flatten() {
+            reached.target = reached.target.map(|_| unknown);
+            reached.before = before;
+        }
+    }
+
+    /// Goes from a statement on until the flow parts; how many statements that were.
+    pub(super) fn run(&mut self, instance: u32, mut at: u32, mut state: State) -> usize {
+        let script = self.script;
+        let routine = self.instances[instance as usize].routine;
+        let range = script.routines[routine as usize].statements.clone();
+        let mut visits = 1;
+        while at < range.end {
+            self.visited[at as usize] = true;
+            visits += 1;
+            match script.statements[at as usize] {
+                Statement::Move(instruction) => self.go(instance, instruction, at, &mut state),
+                Statement::Write(write) => {
+                    self.write(&script.writes[write as usize], at, &mut state);
+                }
+                Statement::Call(call) => {
+                    let call = &script.calls[call as usize];
+                    self.call(instance, call, at, &mut state);
+                    if !call.callees.is_empty() {
+                        self.at_calls.insert((instance, at), state);
+                        let before = self.behind_call(instance, at);
+                        match before {
+                            Some(behind) => state = behind,
+                            None => return visits,
+                        }
+                    }
+                }
+                Statement::Start(call) => {
+                    self.start(&script.calls[call as usize], at, &state);
+                }
+                Statement::Label(label) => {
+                    self.arrive(instance, label, &state);
+                    return visits;
+                }
+                Statement::Branch(label) => self.arrive(instance, label, &state),
+                Statement::Jump(label) => {
+                    self.arrive(instance, label, &state);
+                    return visits;
+                }
+                Statement::Return | Statement::Exit => break,
+            }
+            at += 1;
+        }
+        self.leave(instance, &state);
+        visits
+    }
+
+    pub(super) fn leave(&mut self, instance: u32, state: &State) {
+        if self.dead == Some(instance) && self.instances[instance as usize].entry.is_some() {
+            return;
+        }
+        let joined = match &self.instances[instance as usize].exit {
+            Some(exit) => {
+                let exit = exit.clone();
+                self.join(&exit, state)
+            }
+            None => state.clone(),
+        };
+        let of = &mut self.instances[instance as usize];
+        if of.exit.as_ref() != Some(&joined) {
+            of.exit = Some(joined);
+            for (caller, statement) in of.waiting.clone() {
+                self.push(caller, statement, From::Call);
+            }
+        }
+    }
+
+    pub(super) fn go(&mut self, instance: u32, at: u32, site: Site, state: &mut State) {
+        let script = self.script;
+        let instruction = &script.instructions[at as usize];
+        let of = &self.instances[instance as usize];
+        let first = script.routines[of.routine as usize].instructions.start;
+        let stop = of.first_stop + (at - first);
+        let target = match instruction.target {
+            Expr::Absent | Expr::Target(_) | Expr::Value(_) | Expr::Unknown(_) => None,
+            other if self.is_choice(other) => {
+                if !self.is_fixed(other) {
+                    self.chosen.insert(stop, Rc::clone(&state.holds));
+                }
+                None
+            }
+            other => Some(self.evaluate(state, other, site)),
+        };
+        let modes = match &self.last_modes {
+            Some((modal, holds, modes))
+                if *modal == instruction.modal && Rc::ptr_eq(holds, &state.holds) =>
+            {
+                *modes
+            }
+            _ => self.modes(instruction.modal, site, state),
+        };
+        self.reached[stop as usize] = Some(Reached {
+            modes,
+            target,
+            before: state.before,
+        });
+        state.before = self.sets.one(stop);
+    }
+
+    /// With what a move at a place runs.
+    pub(super) fn modes(&mut self, of: ModalId, site: Site, state: &State) -> u32 {
+        let script = self.script;
+        let modal = &script.modals[of as usize];
+        let mut guard = NOTHING;
+        for &variable in &*script.guards[modal.guards as usize] {
+            let one = self.variable(state, variable);
+            guard = self.holdings.join(guard, one);
+        }
+        for expected in &*script.expected[modal.expected as usize] {
+            if let Some(site) = self.differs(state, expected) {
+                let one = self.holdings.one(Atom::Unknown(expected.remark), site);
+                guard = self.holdings.join(guard, one);
+            }
+        }
+        let mut is_anywhere = true;
+        // what the move itself names is written nowhere else: many moves then hold the same
+        let mut held = |value| match value {
+            Expr::Absent | Expr::Value(_) | Expr::Target(_) | Expr::Unknown(_) => {
+                self.evaluate(state, value, DECLARED)
+            }
+            Expr::Variable(_) => self.evaluate(state, value, site),
+            Expr::Element { .. } | Expr::Any { .. } | Expr::Displaced { .. } => {
+                is_anywhere = false;
+                self.evaluate(state, value, site)
+            }
+        };
+        let modes = Modes {
+            tool: held(modal.tool),
+            frame: held(modal.frame),
+            load: held(modal.load),
+            configured: held(modal.configured),
+            wrist: held(modal.wrist),
+            guard,
+        };
+        let all = &mut self.modes;
+        let id = *self.mode_ids.entry(modes).or_insert_with(|| {
+            all.push(modes);
+            short(all.len() - 1)
+        });
+        self.last_modes = is_anywhere.then(|| (of, Rc::clone(&state.holds), id));
+        id
+    }
+
+    /// Whether an expression is one of several, displaced or not: the resolver looks at each of
+    /// them.
+    pub(super) fn is_choice(&self, value: Expr) -> bool {
+        match value {
+            Expr::Any { .. } => true,
+            Expr::Displaced { base, .. } => self.is_choice(self.script.lists[base as usize]),
+            _ => false,
+        }
+    }
+
+    /// What a variable holds at a stop that goes to one of several positions.
+    pub(in crate::motion) fn chosen_at(&mut self, stop: Stop, variable: VariableId) -> Holding {
+        let held = match (self.slots[variable as usize], self.chosen.get(&stop)) {
+            (Some(slot), Some(holds)) => holds[slot as usize],
+            _ => self.fixed[variable as usize],
+        };
+        match self.anytime.get(&variable) {
+            Some(&also) => self.holdings.join(held, also),
+            None => held,
+        }
+    }
+
+    /// Where a variable was given the number that it certainly holds in the place of the one that a
+    /// move expects.
+    pub(super) fn differs(&mut self, state: &State, expected: &Expected) -> Option<Site> {
+        let held = self.variable(state, expected.variable);
+        let atoms = self.holdings.of(held);
+        let is_other = |atom: &Atom| {
+            matches!(atom, Atom::Value(value)
+                if matches!(self.value(*value), Held::Number(number) if *number != expected.number))
+        };
+        let (_, site) = atoms.first()?;
+        atoms
+            .iter()
+            .all(|(atom, _)| is_other(atom))
+            .then_some(*site)
+    }
+
+    /// Whether an expression says the same whatever was before.
+    pub(super) fn is_fixed(&self, value: Expr) -> bool {
+        match value {
+            Expr::Absent | Expr::Target(_) | Expr::Value(_) | Expr::Unknown(_) => true,
+            Expr::Variable(variable) => {
+                self.slots[variable as usize].is_none() && !self.anytime.contains_key(&variable)
+            }
+            Expr::Element { .. } => false,
+            Expr::Displaced { base, .. } => self.is_fixed(self.script.lists[base as usize]),
+            Expr::Any { first, end } => self.script.lists[first as usize..end as usize]
+                .iter()
+                .all(|inner| self.is_fixed(*inner)),
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! What variables hold: which are followed, and the value of an expression.
+
+use super::{Flow, MOST_WRITES, State};
+use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
+use crate::program::script::{
+    DISPLACED_SOMEHOW, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Statement, TableId, VariableId,
+    Written, short,
+};
+use foldhash::{HashMap, HashMapExt};
+use std::rc::Rc;
+
+impl<'a> Flow<'a> {
+    /// Decides which variables are tracked: those with more than one thing to hold.
+    pub(super) fn track(&mut self) {
+        let script = self.script;
+        let count = script.variables.len();
+        let mut writes: Vec<(u32, Site)> = vec![(0, DECLARED); count];
+        let mut whole: Vec<Option<Expr>> = vec![None; count];
+        let mut any: HashMap<TableId, usize> = HashMap::new();
+        for (at, statement) in script.statements.iter().enumerate() {
+            let mut note = |variable: VariableId, value: Option<Expr>| {
+                let (n, site) = &mut writes[variable as usize];
+                *n += 1;
+                *site = short(at);
+                whole[variable as usize] = value;
+            };
+            match statement {
+                Statement::Write(write) => {
+                    let write = &script.writes[*write as usize];
+                    match (write.variable, &write.how) {
+                        (Written::One(variable), How::Whole(value)) => note(variable, Some(*value)),
+                        (Written::One(variable), _) => note(variable, None),
+                        (Written::AnyOf(table), _) => *any.entry(table).or_insert(0_usize) += 1,
+                    }
+                }
+                Statement::Call(call) | Statement::Start(call) => {
+                    let call = &script.calls[*call as usize];
+                    for argument in self.arguments(call) {
+                        for variable in [argument.parameter, argument.back].into_iter().flatten() {
+                            note(variable, None);
+                        }
+                    }
+                    if call.foreign {
+                        // shared variables are uncertain behind it
+                        for (variable, _) in script
+                            .variables
+                            .iter()
+                            .enumerate()
+                            .filter(|(_, v)| v.shared)
+                        {
+                            writes[variable].0 += 1;
+                            whole[variable] = None;
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        for (table, times) in any {
+            let entries = &script.tables[table as usize].entries;
+            let is_loose = times.saturating_mul(entries.len()) > MOST_WRITES;
+            for &variable in entries.values() {
+                writes[variable as usize].0 += 2;
+                whole[variable as usize] = None;
+                if is_loose {
+                    let changed = self.changed(variable);
+                    let changed = self.holdings.one(changed, DECLARED);
+                    self.anytime.insert(variable, changed);
+                }
+            }
+            if is_loose {
+                self.loose.insert(table);
+            }
+        }
+        for variable in 0..count {
+            let declared = script.variables[variable].declared;
+            let (n, site) = writes[variable];
+            // written once, as a whole, from nothing: whoever reads it reads that
+            let once = match (n, whole[variable]) {
+                (0, _) => Some((declared, DECLARED)),
+                (1, Some(value @ (Expr::Target(_) | Expr::Value(_))))
+                    if declared == Expr::Absent =>
+                {
+                    Some((value, site))
+                }
+                _ => None,
+            };
+            if let Some((value, site)) = once {
+                let holding = self.constant(value, site);
+                self.fixed.push(holding);
+                self.slots.push(None);
+            } else {
+                self.fixed.push(NOTHING);
+                let slot = short(self.tracked.len());
+                self.slots.push(Some(slot));
+                self.tracked.push(short(variable));
+                if let Some(routine) = self.script.variables[variable].routine {
+                    self.locals.entry(routine).or_default().push(slot);
+                }
+            }
+        }
+    }
+
+    /// What an expression without variables that are written holds; of one with such variables
+    /// their declarations.
+    pub(super) fn constant(&mut self, value: Expr, site: Site) -> Holding {
+        match value {
+            Expr::Variable(variable) if (variable as usize) < self.fixed.len() => {
+                if self.slots[variable as usize].is_none() {
+                    self.fixed[variable as usize]
+                } else {
+                    let declared = self.script.variables[variable as usize].declared;
+                    self.constant(declared, site)
+                }
+            }
+            Expr::Variable(variable) => {
+                let declared = self.script.variables[variable as usize].declared;
+                if matches!(declared, Expr::Variable(_)) {
+                    return NOTHING;
+                }
+                self.constant(declared, site)
+            }
+            other => self.plain(other, site, &mut |flow, inner| flow.constant(inner, site)),
+        }
+    }
+
+    /// What an expression holds; `of_variable` gives it for a variable.
+    pub(super) fn plain(
+        &mut self,
+        value: Expr,
+        site: Site,
+        of_variable: &mut dyn FnMut(&mut Self, Expr) -> Holding,
+    ) -> Holding {
+        let script = self.script;
+        match value {
+            Expr::Absent => NOTHING,
+            Expr::Target(target) => {
+                let atom = Atom::Target {
+                    target: short(target),
+                    displacement: NOT_DISPLACED,
+                };
+                self.holdings.one(atom, site)
+            }
+            Expr::Value(value) => self.holdings.one(Atom::Value(value), site),
+            Expr::Unknown(remark) => self.holdings.one(Atom::Unknown(remark), site),
+            Expr::Any { first, end } => {
+                let mut all = NOTHING;
+                for inner in &script.lists[first as usize..end as usize] {
+                    let one = of_variable(self, *inner);
+                    all = self.holdings.join(all, one);
+                }
+                all
+            }
+            Expr::Displaced { base, by } => {
+                let base = of_variable(self, script.lists[base as usize]);
+                let atoms = self.holdings.of(base).to_vec();
+                let displaced = atoms.into_iter().map(|(atom, site)| {
+                    let atom = match atom {
+                        Atom::Target {
+                            target,
+                            displacement: NOT_DISPLACED,
+                        } => Atom::Target {
+                            target,
+                            displacement: by,
+                        },
+                        Atom::Target {
+                            target,
+                            displacement,
+                        } => Atom::Target {
+                            target,
+                            displacement: if displacement == OVERWRITTEN {
+                                OVERWRITTEN
+                            } else {
+                                DISPLACED_SOMEHOW
+                            },
+                        },
+                        // except where the robot itself was, nothing is as it is
+                        Atom::Value(value) if *self.value(value) == Held::Actual => Atom::Anything,
+                        other => other,
+                    };
+                    (atom, site)
+                });
+                let displaced = displaced.collect();
+                self.holdings.intern(displaced)
+            }
+            Expr::Variable(_) => of_variable(self, value),
+            Expr::Element { table, number } => {
+                let numbers = of_variable(self, Expr::Variable(number));
+                let mut all = NOTHING;
+                for (atom, site) in self.holdings.of(numbers).to_vec() {
+                    let entry = match atom {
+                        Atom::Value(value) => match self.value(value) {
+                            Held::Number(number) => {
+                                script.tables[table as usize].entries.get(number).copied()
+                            }
+                            _ => None,
+                        },
+                        _ => None,
+                    };
+                    let one = match entry {
+                        Some(variable) => {
+                            let held = of_variable(self, Expr::Variable(variable));
+                            // the selection is what a message names
+                            let atoms = self.holdings.of(held).to_vec();
+                            let placed = atoms
+                                .into_iter()
+                                .map(|(atom, of)| (atom, if of == DECLARED { site } else { of }));
+                            self.holdings.intern(placed.collect())
+                        }
+                        None => self.holdings.one(atom, site),
+                    };
+                    all = self.holdings.join(all, one);
+                }
+                all
+            }
+        }
+    }
+
+    pub(super) fn variable(&mut self, state: &State, variable: VariableId) -> Holding {
+        let held = match self.slots[variable as usize] {
+            Some(slot) => state.holds[slot as usize],
+            None => self.fixed[variable as usize],
+        };
+        match self.anytime.get(&variable) {
+            Some(&also) => self.holdings.join(held, also),
+            None => held,
+        }
+    }
+
+    /// What an expression holds in a state.
+    pub(super) fn evaluate(&mut self, state: &State, value: Expr, site: Site) -> Holding {
+        match value {
+            Expr::Variable(variable) => self.variable(state, variable),
+            other => self.plain(other, site, &mut |flow, inner| {
+                flow.evaluate(state, inner, site)
+            }),
+        }
+    }
+
+    pub(super) fn set(&mut self, state: &mut State, variable: VariableId, holding: Holding) {
+        self.last_modes = None;
+        if self.is_concurrent {
+            let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
+            let joined = self.holdings.join(before, holding);
+            self.anytime.insert(variable, joined);
+        } else if !self.started.is_empty() {
+            let before = self.concurrent.get(&variable).copied().unwrap_or(NOTHING);
+            let joined = self.holdings.join(before, holding);
+            self.concurrent.insert(variable, joined);
+        }
+        if let Some(slot) = self.slots[variable as usize]
+            && state.holds[slot as usize] != holding
+        {
+            Rc::make_mut(&mut state.holds)[slot as usize] = holding;
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Tools and frames of moves.
+
+use super::{Refused, Resolver};
+use crate::motion::holding::Atom;
+use crate::program::script::{Held, NOT_DISPLACED, NamedFrame, Place, ValueId};
+use crate::program::{Frame, FrameId, Load, ReadError, TargetId, Tool, ToolId, Value as Meaning};
+
+impl Resolver<'_, '_> {
+    /// The pose, name and load of what a move has as a tool or frame.
+    pub(super) fn named(
+        &mut self,
+        atom: Atom,
+        is_tool: bool,
+    ) -> Result<Result<NamedFrame, Refused>, ReadError> {
+        let nameless = NamedFrame {
+            on: Box::default(),
+            name: Box::default(),
+            pose: None,
+            load: None,
+        };
+        Ok(match atom {
+            Atom::Value(ValueId::MAX) => Ok(nameless),
+            Atom::Value(value) => match self.flow.value(value).clone() {
+                Held::Frame(frame) => Ok(frame),
+                Held::Record { name, parts, on } => {
+                    let parts = self.flow.parts_of(&parts);
+                    let found = self
+                        .language
+                        .frame_of(is_tool, &name, &parts, self.sources)?;
+                    match found {
+                        Ok(mut frame) => {
+                            frame.on = if on.is_empty() { frame.on } else { on };
+                            Ok(frame)
+                        }
+                        Err(remark) => {
+                            let known = self.report.remark(remark);
+                            Err(Refused::Said(known))
+                        }
+                    }
+                }
+                Held::Number(number) => Ok(NamedFrame {
+                    name: number.to_string().into(),
+                    ..nameless
+                }),
+                Held::Remark(remark) => Err(Refused::Said(remark)),
+                Held::Actual
+                | Held::Load(_)
+                | Held::Flag(_)
+                | Held::ExternalOffset(_)
+                | Held::AxesOff(_) => Err(Refused::NoFrame),
+            },
+            Atom::Target {
+                target,
+                displacement: NOT_DISPLACED,
+            } => self.target_as_frame(target as usize),
+            Atom::Target { .. } | Atom::Changed { .. } | Atom::Anything | Atom::Uncertain => {
+                Err(Refused::Chosen)
+            }
+            Atom::Unknown(remark) => Err(Refused::Said(remark)),
+        })
+    }
+
+    /// A position that stands for a tool or frame.
+    pub(super) fn target_as_frame(&mut self, target: TargetId) -> Result<NamedFrame, Refused> {
+        let program = &*self.report.program;
+        let found = &program.targets[target];
+        let place = Place {
+            file: found.file,
+            offset: found.offset,
+        };
+        let name = found.name.clone().unwrap_or_default();
+        let meaning = crate::program::meaning(self.language, program, self.settings, target);
+        self.as_frames.entry(target).or_insert(place);
+        match meaning.map(|decoded| decoded.value) {
+            Some(Meaning::Pose(pose)) => Ok(NamedFrame {
+                on: Box::default(),
+                name,
+                pose: Some(pose),
+                load: None,
+            }),
+            _ => Err(Refused::NoFrame),
+        }
+    }
+
+    pub(super) fn tool(
+        &mut self,
+        atom: Atom,
+        load: Option<ValueId>,
+    ) -> Result<Result<ToolId, Refused>, ReadError> {
+        if let Some(known) = self.tools.get(&(atom, load)) {
+            return Ok(*known);
+        }
+        let named = self.named(atom, true)?;
+        let own_load = match load.map(|load| self.flow.value(load)) {
+            Some(Held::Load(load)) => Some(*load),
+            _ => None,
+        };
+        let made = named.map(|frame| {
+            let load: Option<Load> = own_load.unwrap_or(frame.load);
+            let tools = &mut self.report.program.tools;
+            tools.push(Tool {
+                name: frame.name.into(),
+                flange_from_tool: frame.pose,
+                load,
+            });
+            tools.len() - 1
+        });
+        self.tools.insert((atom, load), made);
+        Ok(made)
+    }
+
+    pub(super) fn frame(&mut self, atom: Atom) -> Result<Result<FrameId, Refused>, ReadError> {
+        if let Some(known) = self.frames.get(&atom) {
+            return Ok(*known);
+        }
+        let named = self.named(atom, false)?;
+        let made = named.map(|frame| {
+            let frames = &mut self.report.program.frames;
+            frames.push(Frame {
+                name: frame.name.into(),
+                world_from_frame: frame.pose,
+                on: frame.on,
+                stand: None,
+            });
+            frames.len() - 1
+        });
+        self.frames.insert(atom, made);
+        Ok(made)
+    }
+}

@@ -1,0 +1,276 @@
+//! Where moves go.
+
+use super::{Listed, MOST_USES, Refused, Resolver, both};
+use crate::finding::Severity;
+use crate::motion::holding::{Atom, Site};
+use crate::program::script::{Expr, Held, Instruction, NOT_DISPLACED, Place, ValueId};
+use crate::program::{Before, Displacement, Frame, FrameId, Move, Shape, TargetId, Tool, ToolId};
+
+impl Resolver<'_, '_> {
+    /// Lists the moves to an expression that says the same whatever was before, or to each of
+    /// several.
+    pub(super) fn fixed(&mut self, value: Expr, displacement: u32, listed: &mut Listed) {
+        let script = self.script;
+        match value {
+            Expr::Absent | Expr::Element { .. } => self.go_nowhere(listed),
+            Expr::Variable(variable) => {
+                let held = self.flow.chosen_at(listed.stop, variable);
+                for (atom, site) in self.atoms(held) {
+                    self.go_to(atom, Some(site), displacement, listed);
+                }
+            }
+            Expr::Target(target) => self.go_target(target, displacement, listed),
+            Expr::Value(value) => self.go_to(Atom::Value(value), None, displacement, listed),
+            Expr::Unknown(remark) => self.go_to(Atom::Unknown(remark), None, displacement, listed),
+            Expr::Displaced { base, by } => {
+                let by = both(displacement, by);
+                self.fixed(script.lists[base as usize], by, listed);
+            }
+            Expr::Any { first, end } => {
+                let many = self.report.program.moves.len() + (end - first) as usize > MOST_USES;
+                for inner in &script.lists[first as usize..end as usize] {
+                    let own = match *inner {
+                        Expr::Variable(variable) => script.variables[variable as usize].declared,
+                        other => other,
+                    };
+                    if many && matches!(own, Expr::Target(target) if self.used[target]) {
+                        self.too_many(listed.instruction.place);
+                        continue;
+                    }
+                    self.fixed(*inner, displacement, listed);
+                }
+                if first == end {
+                    self.go_nowhere(listed);
+                }
+            }
+        }
+    }
+
+    pub(super) fn too_many(&mut self, place: Place) {
+        if std::mem::replace(&mut self.full, true) {
+            return;
+        }
+        let message = format!(
+            "from here on moves to elements of arrays are not checked: there are more than \
+             {MOST_USES}"
+        );
+        let hint = "give fewer files in one call";
+        let severity = Severity::Error;
+        self.report
+            .say("too-many-uses", severity, place, message, hint);
+    }
+
+    pub(super) fn go_to(
+        &mut self,
+        atom: Atom,
+        site: Option<Site>,
+        displacement: u32,
+        listed: &mut Listed,
+    ) {
+        let script = self.script;
+        match atom {
+            Atom::Target {
+                target,
+                displacement: of,
+            } => self.go_target(target as usize, both(displacement, of), listed),
+            Atom::Changed { target } => {
+                let because = site.and_then(|site| self.flow.place_of(site));
+                self.used[target as usize] = true;
+                self.changed.push((target as usize, because));
+                self.go_nowhere(listed);
+            }
+            Atom::Value(ValueId::MAX) | Atom::Uncertain => self.go_nowhere(listed),
+            Atom::Value(value) => {
+                match self.flow.value(value) {
+                    Held::Actual if displacement == NOT_DISPLACED => self.report.say(
+                        "run-time-position",
+                        Severity::Note,
+                        listed.instruction.place,
+                        "this move goes to where the robot itself was; that is right as it is"
+                            .into(),
+                        "",
+                    ),
+                    Held::Remark(remark) => {
+                        let remark = &script.remarks[*remark as usize];
+                        self.report.say_once(remark, listed.instruction.place);
+                    }
+                    _ => self.computed(listed.instruction.place),
+                }
+                self.go_nowhere(listed);
+            }
+            Atom::Unknown(remark) => {
+                let remark = &script.remarks[remark as usize];
+                self.report.say_once(remark, listed.instruction.place);
+                self.go_nowhere(listed);
+            }
+            Atom::Anything => {
+                self.computed(listed.instruction.place);
+                self.go_nowhere(listed);
+            }
+        }
+    }
+
+    pub(super) fn computed(&mut self, place: Place) {
+        let message = "the position that this move goes to is known at run time only; the move \
+            stays as it is";
+        let hint = "write the position with numbers where it must be exact";
+        let severity = Severity::Warning;
+        self.report
+            .say("computed-target", severity, place, message.into(), hint);
+    }
+
+    /// A move to somewhere: nothing is rewritten, and what follows does not know where it comes
+    /// from.
+    pub(super) fn go_nowhere(&mut self, listed: &Listed) {
+        let (tool, _) = listed.choices.tools[0];
+        let (frame, _) = listed.choices.frames[0];
+        self.push(
+            None,
+            (tool, None),
+            (frame, None),
+            false,
+            Displacement::None,
+            listed,
+        );
+    }
+
+    pub(super) fn go_target(&mut self, target: TargetId, displacement: u32, listed: &Listed) {
+        self.used[target] = true;
+        self.as_written[target] = true;
+        for &(remark, site) in &listed.guards {
+            let because = self.flow.place_of(site);
+            let remark = self.report.remark_of(self.script, remark).clone();
+            let because = because.or(Some(listed.instruction.place));
+            self.report
+                .block(target, remark.id, &remark.text, remark.hint, because);
+        }
+        if let Some((site, tool_alone)) = listed.choices.uncertainty {
+            self.uncertain.push((target, site, tool_alone));
+        }
+        let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
+        let displacement = match self.script.displacements.get(displacement as usize) {
+            Some(displacement) => displacement.clone(),
+            None => Displacement::Unknown,
+        };
+        let choices = &*listed.choices;
+        if !is_joints {
+            for &(why, site, what) in &choices.refused {
+                self.refuse(target, why, site, what, listed.instruction);
+            }
+        }
+        for &(tool, tool_site) in &choices.tools {
+            for &(frame, frame_site) in &choices.frames {
+                let tool = (tool, self.written(tool_site, listed.instruction));
+                let frame = (frame, self.written(frame_site, listed.instruction));
+                for &configured in &choices.configured {
+                    self.push(
+                        Some(target),
+                        tool,
+                        frame,
+                        configured,
+                        displacement.clone(),
+                        listed,
+                    );
+                }
+            }
+        }
+    }
+
+    /// The tool of a joint target whose tool nobody knows.
+    pub(super) fn unknown_tool(&mut self) -> ToolId {
+        let key = (Atom::Anything, None);
+        if let Some(Ok(known)) = self.tools.get(&key) {
+            return *known;
+        }
+        let tools = &mut self.report.program.tools;
+        tools.push(Tool {
+            name: String::new(),
+            flange_from_tool: None,
+            load: None,
+        });
+        let made = tools.len() - 1;
+        self.tools.insert(key, Ok(made));
+        made
+    }
+
+    pub(super) fn unknown_frame(&mut self) -> FrameId {
+        let key = Atom::Anything;
+        if let Some(Ok(known)) = self.frames.get(&key) {
+            return *known;
+        }
+        let frames = &mut self.report.program.frames;
+        frames.push(Frame {
+            name: String::new(),
+            world_from_frame: None,
+            on: Box::default(),
+            stand: None,
+        });
+        let made = frames.len() - 1;
+        self.frames.insert(key, Ok(made));
+        made
+    }
+
+    pub(super) fn refuse(
+        &mut self,
+        target: TargetId,
+        why: Refused,
+        written: Site,
+        what: &str,
+        instruction: &Instruction,
+    ) {
+        let because = self
+            .written(written, instruction)
+            .or(Some(instruction.place));
+        match why {
+            Refused::Said(remark) => {
+                let remark = self.report.remark_of(self.script, remark).clone();
+                self.report
+                    .block(target, remark.id, &remark.text, remark.hint, because);
+            }
+            Refused::Chosen => self.report.block(
+                target,
+                "frame-chosen-at-run-time",
+                &format!("only the running program knows the {what}"),
+                "set the tool and the work frame before the move in the same routine",
+                because,
+            ),
+            Refused::NoFrame => self.report.block(
+                target,
+                "frame-chosen-at-run-time",
+                &format!("what the program gives as its {what} is none"),
+                "set the tool and the work frame before the move in the same routine",
+                because,
+            ),
+        }
+    }
+
+    pub(super) fn push(
+        &mut self,
+        target: Option<TargetId>,
+        (tool, tool_written): (ToolId, Option<Place>),
+        (frame, frame_written): (FrameId, Option<Place>),
+        configured: bool,
+        displacement: Displacement,
+        listed: &Listed,
+    ) {
+        let Listed {
+            at, instruction, ..
+        } = listed;
+        self.report.program.moves.push(Move {
+            file: instruction.place.file,
+            offset: instruction.place.offset,
+            motion: instruction.motion,
+            target,
+            tool,
+            frame,
+            displacement,
+            configured,
+            free_orientation: instruction.free_orientation || listed.choices.free_orientation,
+            instruction: *at,
+            before: Before::Start,
+            tool_written,
+            frame_written,
+            external_state: listed.external_state,
+        });
+    }
+}
