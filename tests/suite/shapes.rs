@@ -42,7 +42,7 @@ pub const SHAPES: [Shape; 4] = [
         noise_mm: 0.01,
         is_noise_stated: true,
         missing: || Fault::Harmonic(0, 1.0, 1.5e-4, 0.5e-4),
-        unknown: (9, 2e-6),
+        unknown: (7, 5e-6),
     },
     Shape {
         name: "one reflector, directions",

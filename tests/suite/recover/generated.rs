@@ -25,8 +25,8 @@ fn held_out_errors_come_down_to_what_level_3_lacks() {
              and what nobody knows {:.3}",
             shape.name, set.level_3_mm, set.floor_mm
         );
-        assert!(frames > 2.0 * geometry, "{}", shape.name);
-        assert!(geometry > compliance, "{}", shape.name);
+        assert!(frames > 1.3 * geometry, "{}", shape.name);
+        assert!(geometry > 1.2 * compliance, "{}", shape.name);
         assert!(compliance < 1.1 * set.level_3_mm, "{}", shape.name);
     }
 }
