@@ -98,7 +98,7 @@ fn robot(folder: &Path) -> Robot {
     let (mut known, mut alarms, mut residual_m) = (Vec::new(), Vec::new(), 0.0);
     for _ in 0..ROUNDS {
         let found = asked(&profile, &measurements).expect("a diagnosis of the rows as they are");
-        residual_m = found.left_m;
+        residual_m = found.residual_m;
         let named = labels(&found);
         alarms = (named.iter().filter(|l| !known.contains(*l)).cloned()).collect();
         known = named;

@@ -11,7 +11,7 @@ use poseshift::finding::Acceptance;
 use poseshift::geometry::Separation;
 use poseshift::geometry::units::{DEG, MM, m_from_mm};
 use poseshift::model::profile::Mounted;
-use poseshift::motion::Turning;
+use poseshift::motion::ToolRotation;
 use poseshift::program::{Language, Source};
 use poseshift::report::{Drawing, check_html, check_junit, check_words, compensation_words};
 use poseshift::task::check as checking;
@@ -399,7 +399,10 @@ pub(crate) fn check(
             turning: word(
                 "orientation",
                 orientation,
-                &[("slerp", Turning::Slerp), ("euler", Turning::Euler)],
+                &[
+                    ("slerp", ToolRotation::Slerp),
+                    ("euler", ToolRotation::Euler),
+                ],
             )?,
             max_path_error_m: max_path_error_mm.map(|mm| mm * MM),
             horizon_m: horizon_mm * MM,

@@ -221,7 +221,7 @@ fn compare_move(
     let far = |i: usize| {
         let tolerance = if i < 3 { tolerances.mm } else { tolerances.deg };
         let gap = (a[i] - b[i]).abs();
-        // an angle and one a whole turn on are the same
+        // an angle and one a whole revolution on are the same
         let gap = if i < 3 {
             gap
         } else {

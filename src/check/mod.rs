@@ -53,7 +53,7 @@ pub mod trace;
 mod uncertainty;
 mod walk;
 
-pub use crate::motion::Turning;
+pub use crate::motion::ToolRotation;
 pub use scene::{Meshes, MissingMesh, Scene};
 
 use crate::compensate::CompensateError;
@@ -80,8 +80,8 @@ const BATCH: usize = 4096;
 pub struct Options {
     /// Tools and work frames for names that the program files do not tell.
     pub given: Given,
-    /// How the controller turns the tool on straight and circular moves.
-    pub turning: Turning,
+    /// How the controller rotates the tool on straight and circular moves.
+    pub turning: ToolRotation,
     /// A path error above this is an error finding, metres.
     pub max_path_error_m: Option<f64>,
     /// Bodies farther apart than this beyond what is required are only known to be, metres.
@@ -98,7 +98,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             given: Given::default(),
-            turning: Turning::Slerp,
+            turning: ToolRotation::Slerp,
             max_path_error_m: None,
             horizon_m: 100.0 * MM,
             limit_margin_rad: 1.0 * DEG,

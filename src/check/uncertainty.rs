@@ -146,7 +146,7 @@ mod tests {
         let real = profile
             .real_model(&tool, &Conditions::default())
             .forward(&q, &Conditions::default());
-        // joint 2 turns about y at a height of 290 mm
+        // joint 2 rotates about y at a height of 290 mm
         let (x, z) = (real.translation[0], real.translation[2] - 0.29);
         let up = spread.sigma_m(&q, &Conditions::default(), Some([0.0, 0.0, 1.0]));
         let forward = spread.sigma_m(&q, &Conditions::default(), Some([1.0, 0.0, 0.0]));

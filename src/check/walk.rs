@@ -12,7 +12,7 @@ use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::model::profile::{Mounted, Profile};
 use crate::motion::arms::Equipped;
-use crate::motion::course::{Course, Leg, ToolCourse, Turning};
+use crate::motion::course::{Course, Leg, ToolCourse, ToolRotation};
 use crate::motion::external::{self, Placed};
 use crate::motion::ground::Ground;
 use crate::motion::plausibility;
@@ -338,7 +338,7 @@ impl Walk {
     }
 
     /// The move from the stop before, where both are known; arcs are one leg at their end.
-    pub(super) fn leg(&self, index: usize, turning: Turning) -> Option<Leg<'_>> {
+    pub(super) fn leg(&self, index: usize, turning: ToolRotation) -> Option<Leg<'_>> {
         let (motion, stop) = (self.motion(index), self.stops.all[index]?);
         if motion.motion == Motion::ArcVia {
             return None;

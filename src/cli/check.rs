@@ -6,7 +6,7 @@ use super::layout;
 use super::programs::{Ignored, gather, read_context};
 use super::progress::Progress;
 use super::{Answer, Output, values};
-use crate::check::{Options, Turning, baseline};
+use crate::check::{Options, ToolRotation, baseline};
 use crate::finding::Acceptance;
 use crate::geometry::units::{DEG, MM};
 use crate::model::profile::Profile;
@@ -215,8 +215,8 @@ impl Check {
         Ok(Options {
             given,
             turning: match self.orientation {
-                Orientation::Slerp => Turning::Slerp,
-                Orientation::Euler => Turning::Euler,
+                Orientation::Slerp => ToolRotation::Slerp,
+                Orientation::Euler => ToolRotation::Euler,
             },
             max_path_error_m: self.max_path_error.map(|mm| mm * MM),
             horizon_m: self.horizon * MM,

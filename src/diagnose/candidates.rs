@@ -11,7 +11,7 @@ use crate::model::effects::{
 };
 use crate::model::{JOINTS, Slot};
 
-/// Harmonics are sought up to this many periods a turn.
+/// Harmonics are sought up to this many periods a revolution.
 pub const MOST_ORDERS: u32 = 12;
 /// Temperatures must range over this to show an effect, °C.
 const WARMER_C: f64 = 0.5;

@@ -97,8 +97,8 @@ pub(super) fn conclude(
         others.remove(i);
         again(&others)
     });
-    let (noise_m, noise_source, left_m) = noise(attempt);
-    let left_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
+    let (noise_m, noise_source, residual_m) = noise(attempt);
+    let residual_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
     Ok(Diagnosis {
         verdict,
@@ -135,8 +135,8 @@ pub(super) fn conclude(
         absorbed_only: spreads[1],
         noise_m,
         noise_source,
-        left_m,
-        left_spots: spots(
+        residual_m,
+        residual_spots: spots(
             &session.problem,
             &session.layout,
             &attempt.refit.estimate,
@@ -145,9 +145,9 @@ pub(super) fn conclude(
             attempt.refit.fit.scale,
         ),
         judged: proof.judged().filter(|_| !attempt.chosen.is_empty()),
-        outliers: outliers(attempt, measurements, &left_lengths),
+        outliers: outliers(attempt, measurements, &residual_lengths),
         remarks,
-        lengths: (present_lengths, left_lengths),
+        lengths: (present_lengths, residual_lengths),
         profile: improved(profile, session, &attempt.refit),
         problem: session.problem.clone(),
         estimate: attempt.refit.estimate.clone(),
@@ -157,13 +157,13 @@ pub(super) fn conclude(
 /// Noise of a coordinate, where it comes from, and the residual of a coordinate, metres.
 fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
     let sigma_m = attempt.sigma_m();
-    let left_m = attempt.refit.fit.scale * sigma_m;
+    let residual_m = attempt.refit.fit.scale * sigma_m;
     if !attempt.session.problem.sigma_assumed {
-        return (sigma_m, NoiseSource::Given, left_m);
+        return (sigma_m, NoiseSource::Given, residual_m);
     }
     match attempt.repeats {
-        Some(repeats) => (repeats.scale * sigma_m, NoiseSource::Repeats, left_m),
-        None => (left_m, NoiseSource::Residuals, left_m),
+        Some(repeats) => (repeats.scale * sigma_m, NoiseSource::Repeats, residual_m),
+        None => (residual_m, NoiseSource::Residuals, residual_m),
     }
 }
 
@@ -221,7 +221,7 @@ fn alternatives(attempt: &Attempt) -> Vec<Alternative> {
 }
 
 /// Rows that what was found does not explain, the farthest first.
-fn outliers(attempt: &Attempt, measurements: &Measurements, left_m: &[f64]) -> Vec<OutlierRow> {
+fn outliers(attempt: &Attempt, measurements: &Measurements, residual_m: &[f64]) -> Vec<OutlierRow> {
     let (layout, refit) = (&attempt.session.layout, &attempt.refit);
     let mut outliers = Vec::new();
     for (row, m) in measurements.rows.iter().enumerate() {
@@ -232,7 +232,7 @@ fn outliers(attempt: &Attempt, measurements: &Measurements, left_m: &[f64]) -> V
             outliers.push(OutlierRow {
                 line: m.line.clone(),
                 id: m.id.clone(),
-                length_m: left_m[row],
+                length_m: residual_m[row],
                 times: length / refit.fit.scale,
             });
         }

@@ -196,9 +196,9 @@ pub struct Diagnosis {
     /// Where from.
     pub noise_source: NoiseSource,
     /// The residual of a coordinate, metres.
-    pub left_m: f64,
+    pub residual_m: f64,
     /// Where the residual lies.
-    pub left_spots: Vec<Spot>,
+    pub residual_spots: Vec<Spot>,
     /// Rows that do not fit.
     pub outliers: Vec<OutlierRow>,
     /// What a person should look at.

@@ -13,7 +13,7 @@ pub(super) const REDUNDANT: f64 = 1e-7;
 /// A column shows nothing where its parameter's typical size moves all numbers together by fewer
 /// standard deviations.
 pub(super) const INVISIBLE: f64 = 0.1;
-/// Turns of re-weighting.
+/// Rounds of re-weighting.
 pub(super) const TURNS: usize = 8;
 /// A parameter beyond its typical size by this factor is one standard deviation off.
 const PRIOR_WIDTH: f64 = 5.0;

@@ -70,7 +70,7 @@ pub(super) enum By {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Function {
     Power(usize, i32),
-    /// Of a joint's angle, so many half periods a turn.
+    /// Of a joint's angle, so many half periods a revolution.
     Periodic(Wave, u32, usize),
     Beyond(usize, f64),
     BentAt(usize, f64),

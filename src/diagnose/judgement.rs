@@ -25,7 +25,8 @@ const CLEAR: f64 = 10.0;
 const SERIES: usize = 2;
 /// So many functions of one joint's angle, two waves among them, are the series of another, too.
 const WAVES: usize = 3;
-/// Waves from so many periods a turn on are those of a gear's teeth; eccentric parts make fewer.
+/// Waves from so many periods a revolution on are those of a gear's teeth; eccentric parts make
+/// fewer.
 const TEETH: f64 = 10.0;
 /// Fewer periods of a wave in the range of its angle are what any slow function looks like.
 const FEW_PERIODS: f64 = 2.0;

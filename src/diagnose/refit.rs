@@ -9,7 +9,7 @@ use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Slot;
 
-/// Turns of Gauss–Newton.
+/// Rounds of Gauss–Newton.
 const TURNS: usize = 4;
 
 /// Effects with values, and the residuals.

@@ -12,8 +12,8 @@ use crate::model::effects::{Effect, Kind, of_arm};
 const MARGIN: f64 = 3.0;
 /// Most effects found.
 const MOST_EFFECTS: usize = 12;
-/// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one turn
-/// a step.
+/// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one
+/// revolution a step.
 const FEW_EFFECTS: usize = 4;
 /// Turns of exchange and removal after a step.
 const MOST_TURNS: usize = 4;

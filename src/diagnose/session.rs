@@ -25,7 +25,7 @@ use crate::model::profile::{ControllerModel, Profile};
 
 /// The device stands where the profile has the base if it is nearer than this, metres.
 const SAME_PLACE_M: f64 = 0.02;
-/// And turned by less, radians.
+/// And rotated by less, radians.
 const SAME_TURN_RAD: f64 = 1.0 * DEG;
 
 /// Numbers beyond the parameters that an estimate of the noise takes.

@@ -28,7 +28,7 @@ pub struct StandIn {
     /// By how much the group is better, in twice a log likelihood, the choice counted.
     pub behind: f64,
     /// What they leave of a coordinate, metres.
-    pub left_m: f64,
+    pub residual_m: f64,
     /// The model with them.
     pub(super) estimate: Estimate,
 }
@@ -244,7 +244,7 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
             gain: f.gain,
             part: f.part,
             behind: f.behind,
-            left_m: refitted.fit.scale * attempt.sigma_m(),
+            residual_m: refitted.fit.scale * attempt.sigma_m(),
             estimate: refitted.estimate,
         }
     };

@@ -53,7 +53,7 @@ impl Feature {
 pub struct Library {
     rows: Vec<Facts>,
     features: Vec<Feature>,
-    /// A turn of each joint, then a motion of the base, then of the tool: name and columns.
+    /// A rotation of each joint, then a motion of the base, then of the tool: name and columns.
     motions: Vec<(String, Vec<Column>)>,
 }
 

@@ -15,12 +15,13 @@ use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey};
 use rayon::prelude::*;
 
-/// Half orders are tried from here on, periods in one turn: below, they are what any slow function
-/// is made of.
+/// Half orders are tried from here on, periods in one revolution: below, they are what any slow
+/// function is made of.
 const HALVES_FROM: u32 = 6;
 /// And up to here: two gears in series.
 const HALVES_TO: u32 = 64;
-/// The highest order: the waves of a strain wave gear of 1 : 160, two each turn of its generator.
+/// The highest order: the waves of a strain wave gear of 1 : 160, two each revolution of its
+/// generator.
 const HIGHEST: u32 = 320;
 /// Peaks of a joint that are looked at.
 const PEAKS: usize = 3;
@@ -54,7 +55,7 @@ pub(super) fn wave(joint: usize, order: u32) -> Effect {
     }
 }
 
-/// What the rows say of a joint: the product of its turn with the residual, its square, and its
+/// What the rows say of a joint: the product of its rotation with the residual, its square, and its
 /// angle.
 struct Seen {
     slopes: Column,
@@ -112,7 +113,7 @@ pub(super) fn peaks(
     let orders = orders();
     let periods: Vec<f64> = orders.iter().map(|n| wave(0, *n).site.periods()).collect();
     let variance = fit.scale * fit.scale;
-    // a wave of no period: the joint's turn alone
+    // a wave of no period: the joint's rotation alone
     let turns: Vec<(Effect, Vec<usize>)> = (0..JOINTS).map(|i| (wave(i, 0), vec![0])).collect();
     let turns = columns_of(problem, estimate, &turns);
     let of_joint = |joint: usize| -> Vec<Effect> {

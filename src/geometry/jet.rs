@@ -134,7 +134,7 @@ impl Ball {
 /// An equation written over [`Scalar`] and evaluated with jets gives bounds that hold everywhere in
 /// the interval, so that what happens between samples is known. Where a bound cannot be given (a
 /// division by what may be zero) the radius is infinite or not a number. An angle of a point is
-/// continued across the cut at π: it is right but for whole turns.
+/// continued across the cut at π: it is right but for whole revolutions.
 ///
 /// # Source
 /// R. E. Moore, "Interval Analysis" (1966); midpoint–radius arithmetic after S. M. Rump (1999).

@@ -16,6 +16,7 @@
 //! assert!(again.separation(&base_from_tool).distance_m < 1e-15);
 //! ```
 
+mod axis_rotation;
 mod convention;
 mod dual;
 mod jet;
@@ -24,9 +25,9 @@ mod pose;
 mod roots;
 mod rotation;
 mod scalar;
-mod turn;
 pub mod units;
 
+pub use axis_rotation::AxisRotation;
 pub use convention::Convention;
 pub use dual::Dual;
 pub use jet::{Ball, Jet};
@@ -35,7 +36,6 @@ pub use pose::{Pose, Separation};
 pub(crate) use roots::roots;
 pub use rotation::{Quaternion, Rotation, wrap};
 pub use scalar::Scalar;
-pub use turn::Turn;
 
 /// A vector or point of three coordinates.
 pub type Vector<S = f64> = [S; 3];

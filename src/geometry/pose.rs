@@ -1,6 +1,6 @@
 //! Rigid motions.
 
-use super::{Quaternion, Rotation, Scalar, Turn, Vector, add, constant, norm, scale, sub};
+use super::{AxisRotation, Quaternion, Rotation, Scalar, Vector, add, constant, norm, scale, sub};
 use std::ops::Mul;
 
 /// A rigid motion `a_from_b`: rotation and translation (metres) that map coordinates in b to
@@ -76,11 +76,11 @@ impl<S: Scalar> Pose<S> {
         }
     }
 
-    /// This motion after a turn about the z axis of b: only two columns change.
+    /// This motion after a rotation about the z axis of b: only two columns change.
     #[inline(always)]
     #[must_use]
-    pub fn turned(&self, turn: Turn<S>) -> Self {
-        let Turn { sine, cosine } = turn;
+    pub fn turned(&self, turn: AxisRotation<S>) -> Self {
+        let AxisRotation { sine, cosine } = turn;
         let mut rotation = self.rotation;
         for [x, y, _] in &mut rotation.0 {
             (*x, *y) = (cosine * *x + sine * *y, cosine * *y - sine * *x);

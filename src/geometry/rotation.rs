@@ -303,7 +303,7 @@ impl Quaternion {
     }
 }
 
-/// The angle in (−π, π] that differs from `angle` by whole turns.
+/// The angle in (−π, π] that differs from `angle` by whole revolutions.
 #[must_use]
 pub fn wrap(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;

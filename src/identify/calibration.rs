@@ -29,7 +29,7 @@ const SMALL_M: f64 = 1e-6;
 /// The profile's base is believed to be in the device's frame where the measured one is nearer than
 /// this, metres.
 const SAME_PLACE_M: f64 = 0.02;
-/// And turned by less than this, radians.
+/// And rotated by less than this, radians.
 const SAME_TURN_RAD: f64 = 1.0 * DEG;
 /// Gravity along the device's z is tried where that is tilted from the profile's by so much,
 /// radians.
@@ -639,7 +639,7 @@ fn device_of(
             });
             std::array::from_fn(|k| {
                 let change = ends[1][k] - ends[0][k];
-                // an angle may pass a half turn between the two
+                // an angle may pass a half revolution between the two
                 let turns = if k < 3 { 0.0 } else { (change / TAU).round() };
                 scale * (change - turns * TAU) / (2.0 * STEP)
             })

@@ -148,7 +148,7 @@ impl<'a> Guard<'a> {
     fn arm_points(&self, q: &[f64; 6]) -> Vec<Vector> {
         let geometry = self.profile.geometry(self.tool);
         let chain = crate::model::Chain::of(&geometry, &self.profile.mechanism);
-        let turns = crate::geometry::Turn::of_each(&self.profile.mechanism.commanded(q));
+        let turns = crate::geometry::AxisRotation::of_each(&self.profile.mechanism.commanded(q));
         let places = chain.link_frames(&turns);
         places[2..].iter().map(|frame| frame.translation).collect()
     }
@@ -214,7 +214,7 @@ impl<'a> Guard<'a> {
 }
 
 /// Random configurations that meet the constraints, as near to zero as they can be: no joint makes
-/// a whole turn in vain. The second value is the part of draws that did.
+/// a whole revolution in vain. The second value is the part of draws that did.
 ///
 /// # Errors
 /// Constraints that no draw meets.
@@ -252,7 +252,7 @@ pub(super) fn candidates_where(
                 hint: "a smaller --margin-deg or --approach-deg".into(),
             });
         }
-        // of a joint that turns more than once, the turn about zero has every posture
+        // of a joint that rotates more than once, the turn about zero has every posture
         range[i] = if low < -PI && high > PI {
             [-PI, PI]
         } else {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, VecDeque};
 
 /// Configurations that are tried as the first one.
 const STARTS: usize = 8;
-/// Turns of looking for a better place of what cannot be reached.
+/// Rounds of looking for a better place of what cannot be reached.
 const REPAIRS: usize = 4;
 
 fn far(a: &[f64; 6], b: &[f64; 6]) -> f64 {

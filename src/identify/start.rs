@@ -8,7 +8,7 @@ use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix4};
 
-/// Turns of improving points and base in alternation.
+/// Rounds of improving points and base in alternation.
 const ALTERNATIONS: usize = 30;
 /// Below this part of the largest spread, a direction counts as not covered.
 const FLAT: f64 = 1e-6;

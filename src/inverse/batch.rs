@@ -19,7 +19,8 @@ pub struct Targets<'a> {
     pub wanted: &'a [Pose],
     /// The branch of each.
     pub branches: &'a [Branch],
-    /// The controller's joint angles that each solution is nearest to by whole turns, radians.
+    /// The controller's joint angles that each solution is nearest to by whole revolutions,
+    /// radians.
     pub near: &'a [[f64; 6]],
 }
 

@@ -3,7 +3,7 @@
 use super::branch::Branch;
 use super::closed_form::{Margins, Stance, is_close};
 use super::pose_shift::Inverse;
-use crate::geometry::{Separation, Turn};
+use crate::geometry::{AxisRotation, Separation};
 
 /// A posture this near to a singularity counts as on either side of it, radians or metres.
 const ON_THE_BORDER: f64 = 1e-9;
@@ -131,13 +131,13 @@ impl Inverse {
     /// Whether a posture of an arm with an offset wrist follows another without a leap; never for
     /// other arms, whose branches end at singularities.
     pub(super) fn follows(&self, q: &[f64; 6], track: &[f64; 6]) -> bool {
-        let turns = |q| Turn::of_each(&self.arm.mechanism().commanded(q));
+        let turns = |q| AxisRotation::of_each(&self.arm.mechanism().commanded(q));
         self.arm.has_offset_wrist() && is_close(&turns(q), &turns(track))
     }
 
     pub(super) fn stance_at(&self, q: &[f64; 6]) -> Stance {
         let commanded = self.arm.mechanism().commanded(q);
-        self.arm.stance(&Turn::of_each(&commanded))
+        self.arm.stance(&AxisRotation::of_each(&commanded))
     }
 
     /// The answer to what is no pose or no posture.

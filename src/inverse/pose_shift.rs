@@ -15,10 +15,10 @@
 //! (1994).
 
 use super::branch::Branch;
-use super::closed_form::{Arm, Turned, is_close};
+use super::closed_form::{Arm, Rotated, is_close};
 use super::newton;
 use super::outcome::{Landed, Method, Methods, Outcome, Spent, Status};
-use crate::geometry::{Pose, Scalar, Separation, Turn, norm, sub};
+use crate::geometry::{AxisRotation, Pose, Scalar, Separation, norm, sub};
 use crate::model::{Conditions, Model};
 
 /// How near the real tool must come: 1e-6 mm.
@@ -49,8 +49,8 @@ pub struct Inverse {
 /// One evaluation of the pose shift.
 #[derive(Clone, Copy)]
 pub(super) struct Step<S> {
-    /// Turns of the mechanical joints.
-    pub turns: [Turn<S>; 6],
+    /// Rotations of the mechanical joints.
+    pub turns: [AxisRotation<S>; 6],
     /// The pose to give to the nominal inverse next.
     pub next: Pose<S>,
     pub distance: S,
@@ -83,7 +83,7 @@ fn evaluate<S: Scalar>(
     conditions: &Conditions,
     wanted: &Pose<S>,
     given: &Pose<S>,
-    Turned { turns, beyond }: Turned<S>,
+    Rotated { turns, beyond }: Rotated<S>,
     near: &[S; 6],
 ) -> Step<S> {
     let angles = if real.reads_angles() {
@@ -122,7 +122,7 @@ enum Shifted {
 
 impl Inverse {
     /// The joint angles with which the real arm brings its tool to `wanted`, on one branch, by
-    /// whole turns nearest to `near`.
+    /// whole revolutions nearest to `near`.
     ///
     /// Where a branch holds several answers (an offset wrist) it is the one that the nearest
     /// nominal answer to `near` leads to.
@@ -341,7 +341,7 @@ impl Inverse {
         }
     }
 
-    fn controller(&self, turns: &[Turn; 6], near: &[f64; 6]) -> [f64; 6] {
+    fn controller(&self, turns: &[AxisRotation; 6], near: &[f64; 6]) -> [f64; 6] {
         let angles = self.arm.angles(turns, near);
         self.arm.mechanism().controller(&angles)
     }

@@ -8,7 +8,7 @@ use crate::geometry::{Pose, Rotation, add, scale, sub, wrap};
 
 /// Steps that the path is cut into at first, and the shortest ones, as parts of it.
 const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 1024.0];
-/// A joint turns by less than this in one step, radians.
+/// A joint rotates by less than this in one step, radians.
 const MOST_STEP_RAD: f64 = 0.35;
 /// Nearer to a fold than this, radians, two answers cannot be distinguished on the path: they are
 /// some three degrees apart.
@@ -32,7 +32,7 @@ pub struct Ambiguous {
 
 impl Arm {
     /// The joint angles of the nominal arm at `to` when its tool goes there on a straight path,
-    /// turning evenly, from where it is at `from`: those on the same connected track.
+    /// rotating evenly, from where it is at `from`: those on the same connected track.
     ///
     /// # Errors
     /// Where the track ends before: out of reach, or at a singularity (for an arm with an offset

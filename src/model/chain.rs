@@ -8,7 +8,7 @@
 use super::effects::Deflection;
 use super::geometry::{Body, Geometry, Link, Mechanism};
 use super::rows::Axes;
-use crate::geometry::{Pose, Rotation, Scalar, Turn, Vector, add, cross, norm, scale, sub};
+use crate::geometry::{AxisRotation, Pose, Rotation, Scalar, Vector, add, cross, norm, scale, sub};
 
 /// Six revolute joints between seven fixed transforms: `world_from_tool = F0 · Rz(u1) · F1 · Rz(u2)
 /// · … · Rz(u6) · F6`, with the mechanical joint angles u in the controller's sense.
@@ -53,7 +53,7 @@ pub struct Frames<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hanging<S = f64> {
     pub(super) mass_kg: [S; 6],
-    /// First moment of that mass about the origin of the turning frame, in that frame, as far as
+    /// First moment of that mass about the origin of the rotating frame, in that frame, as far as
     /// no joint farther out moves it, kg·m.
     pub(super) fixed_moment: [Vector<S>; 6],
 }
@@ -174,10 +174,10 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// `world_from_tool` with these turns of the mechanical joints.
+    /// `world_from_tool` with these rotations of the mechanical joints.
     #[inline(always)]
     #[must_use]
-    pub fn forward(&self, turns: &[Turn<S>; 6]) -> Pose<S> {
+    pub fn forward(&self, turns: &[AxisRotation<S>; 6]) -> Pose<S> {
         let mut pose = self.fixed[0];
         for i in 0..6 {
             pose = pose.turned(turns[i]) * self.fixed[i + 1];
@@ -189,7 +189,11 @@ impl<S: Scalar> Chain<S> {
     /// the joints.
     #[inline(always)]
     #[must_use]
-    pub fn forward_deflected(&self, turns: &[Turn<S>; 6], deflection: &Deflection<S>) -> Pose<S> {
+    pub fn forward_deflected(
+        &self,
+        turns: &[AxisRotation<S>; 6],
+        deflection: &Deflection<S>,
+    ) -> Pose<S> {
         let mut pose = Pose::from_xyz_rxryrz(deflection.world) * self.fixed[0];
         for i in 0..6 {
             let [x, y, z] = deflection.links[i];
@@ -207,7 +211,11 @@ impl<S: Scalar> Chain<S> {
     /// `world_from_link`, the frame after each row, with rotations of the links and the base where
     /// there are any.
     #[must_use]
-    pub fn links(&self, turns: &[Turn<S>; 6], deflection: Option<&Deflection<S>>) -> [Pose<S>; 6] {
+    pub fn links(
+        &self,
+        turns: &[AxisRotation<S>; 6],
+        deflection: Option<&Deflection<S>>,
+    ) -> [Pose<S>; 6] {
         let mut pose = self.fixed[0];
         if let Some(deflection) = deflection {
             pose = Pose::from_xyz_rxryrz(deflection.world) * pose;
@@ -232,7 +240,7 @@ impl<S: Scalar> Chain<S> {
     /// metres.
     #[must_use]
     pub fn reaches(&self, world_from_base: &Pose<S>) -> [S; 6] {
-        let zero = [Turn::none(); 6];
+        let zero = [AxisRotation::none(); 6];
         let links = self.links(&zero, None);
         std::array::from_fn(|i| {
             let before = if i == 0 {
@@ -246,7 +254,7 @@ impl<S: Scalar> Chain<S> {
 
     /// `world_from_link`: the frame after each row of the chain.
     #[must_use]
-    pub fn link_frames(&self, turns: &[Turn<S>; 6]) -> [Pose<S>; 6] {
+    pub fn link_frames(&self, turns: &[AxisRotation<S>; 6]) -> [Pose<S>; 6] {
         let mut pose = self.fixed[0];
         std::array::from_fn(|i| {
             let turning = pose.turned(turns[i]);
@@ -266,7 +274,12 @@ impl<S: Scalar> Chain<S> {
     /// computational scheme for mechanical manipulators" (1980).
     #[inline(always)]
     #[must_use]
-    pub fn torques(&self, turns: &[Turn<S>; 6], loads: &Loads<S>, force_n: Vector) -> [S; 6] {
+    pub fn torques(
+        &self,
+        turns: &[AxisRotation<S>; 6],
+        loads: &Loads<S>,
+        force_n: Vector,
+    ) -> [S; 6] {
         let mut torques = [S::zero(); 6];
         self.pull(
             turns,
@@ -288,7 +301,12 @@ impl<S: Scalar> Chain<S> {
     /// The links' frames and the moments that gravity and a force at the tool exert about their
     /// origins.
     #[must_use]
-    pub fn frames(&self, turns: &[Turn<S>; 6], loads: &Loads<S>, force_n: Vector) -> Frames<S> {
+    pub fn frames(
+        &self,
+        turns: &[AxisRotation<S>; 6],
+        loads: &Loads<S>,
+        force_n: Vector,
+    ) -> Frames<S> {
         let mut pose = self.fixed[0];
         let mut turning = [pose; 6];
         for i in 0..6 {
@@ -330,7 +348,7 @@ impl<S: Scalar> Chain<S> {
     #[inline(always)]
     pub(super) fn pull(
         &self,
-        turns: &[Turn<S>; 6],
+        turns: &[AxisRotation<S>; 6],
         hanging: &Hanging<S>,
         field_in_world: Vector<S>,
         mut each: impl FnMut(usize, Vector<S>, Vector<S>),
@@ -339,7 +357,7 @@ impl<S: Scalar> Chain<S> {
         let mut fields = [field; 6];
         for i in 0..6 {
             let [x, y, z] = self.fixed[i].rotation.transpose() * field;
-            let Turn { sine, cosine } = turns[i];
+            let AxisRotation { sine, cosine } = turns[i];
             field = [cosine * x + sine * y, cosine * y - sine * x, z];
             fields[i] = field;
         }
@@ -347,7 +365,7 @@ impl<S: Scalar> Chain<S> {
         for i in (0..6).rev() {
             moment = add(hanging.fixed_moment[i], moment);
             each(i, moment, fields[i]);
-            let Turn { sine, cosine } = turns[i];
+            let AxisRotation { sine, cosine } = turns[i];
             let [x, y, z] = moment;
             moment = self.fixed[i].rotation * [cosine * x - sine * y, sine * x + cosine * y, z];
         }
@@ -429,7 +447,7 @@ mod tests {
         let force = [30.0, -20.0, 50.0];
         for k in 0..100_i32 {
             let q = std::array::from_fn(|i| (f64::from(k) * (0.7 + i as f64)).sin() * 3.0);
-            let turns = Turn::of_each(&mechanism.commanded(&q));
+            let turns = AxisRotation::of_each(&mechanism.commanded(&q));
             let torques = chain.torques(&turns, &loads, force);
             let frames = chain.frames(&turns, &loads, force);
             let last = frames.links[5] * geometry.link6_from_flange;

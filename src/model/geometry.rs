@@ -38,7 +38,7 @@ pub struct Body<S = f64> {
     pub cog_m: Vector<S>,
 }
 
-/// How a controller's joint angle turns the chain: `chain angle = sign · (q + Σ ratio · q_on) +
+/// How a controller's joint angle rotates the chain: `chain angle = sign · (q + Σ ratio · q_on) +
 /// offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointSense {
@@ -110,8 +110,8 @@ impl Mechanism {
         q
     }
 
-    /// The controller's joint angles, moved by whole turns of mechanical joints so that each is as
-    /// near as can be to `near`.
+    /// The controller's joint angles, moved by whole revolutions of mechanical joints so that each
+    /// is as near as can be to `near`.
     #[must_use]
     pub fn nearest_turns(&self, q: &[f64; 6], near: &[f64; 6]) -> [f64; 6] {
         let (mut u, near) = (self.commanded(q), self.commanded(near));

@@ -9,7 +9,7 @@ use super::chain::{Chain, Loads};
 use super::conditions::Conditions;
 use super::effects::{Deflection, Effect, State};
 use super::geometry::{Geometry, Mechanism};
-use crate::geometry::{Dual, Pose, Scalar, Turn};
+use crate::geometry::{AxisRotation, Dual, Pose, Scalar};
 use std::borrow::Cow;
 
 /// An arm with one tool, ready to be evaluated: joint angles in the controller's sense in, tool
@@ -69,7 +69,7 @@ impl<S: Scalar> Model<S> {
     #[must_use]
     pub fn forward(&self, q: &[S; 6], conditions: &Conditions) -> Pose<S> {
         let commanded = self.mechanism.commanded(q);
-        self.forward_turned(&commanded, &Turn::of_each(&commanded), conditions)
+        self.forward_turned(&commanded, &AxisRotation::of_each(&commanded), conditions)
     }
 
     /// [`Model::forward`] from the mechanical angles in the controller's sense and their sines and
@@ -79,7 +79,7 @@ impl<S: Scalar> Model<S> {
     pub(crate) fn forward_turned(
         &self,
         commanded: &[S; 6],
-        turns: &[Turn<S>; 6],
+        turns: &[AxisRotation<S>; 6],
         conditions: &Conditions,
     ) -> Pose<S> {
         let mut real = *turns;
@@ -101,7 +101,7 @@ impl<S: Scalar> Model<S> {
     #[must_use]
     pub fn link_frames(&self, q: &[S; 6], conditions: &Conditions) -> [Pose<S>; 7] {
         let commanded = self.mechanism.commanded(q);
-        let turns = Turn::of_each(&commanded);
+        let turns = AxisRotation::of_each(&commanded);
         let mut deflection = Deflection::none();
         if !self.deflecting.is_empty() {
             self.deflect(&commanded, &turns, conditions, &mut deflection);
@@ -134,7 +134,7 @@ impl<S: Scalar> Model<S> {
     #[must_use]
     pub fn deflection(&self, q: &[S; 6], conditions: &Conditions) -> Deflection<S> {
         let commanded = self.mechanism.commanded(q);
-        let turns = Turn::of_each(&commanded);
+        let turns = AxisRotation::of_each(&commanded);
         let mut deflection = Deflection::none();
         self.deflect(&commanded, &turns, conditions, &mut deflection);
         deflection
@@ -143,7 +143,7 @@ impl<S: Scalar> Model<S> {
     /// Torque of gravity and external force about each joint in the controller's sense, N·m.
     #[must_use]
     pub fn torques(&self, q: &[S; 6], conditions: &Conditions) -> [S; 6] {
-        let turns = Turn::of_each(&self.mechanism.commanded(q));
+        let turns = AxisRotation::of_each(&self.mechanism.commanded(q));
         let loads = self.loads_in(conditions);
         self.chain.torques(&turns, &loads, conditions.force_n)
     }
@@ -165,7 +165,7 @@ impl<S: Scalar> Model<S> {
     pub(super) fn deflect(
         &self,
         commanded: &[S; 6],
-        turns: &[Turn<S>; 6],
+        turns: &[AxisRotation<S>; 6],
         conditions: &Conditions,
         deflection: &mut Deflection<S>,
     ) {

@@ -32,7 +32,8 @@ pub enum RowsError {
         /// By how much.
         distance_mm: f64,
     },
-    /// The flange is not where the nominal one is, but for a turn about and a shift along axis 6.
+    /// The flange is not where the nominal one is, but for a rotation about and a shift along axis
+    /// 6.
     #[error(
         "the flange is tilted {angle_deg:.6} deg and moved {distance_mm:.6} mm away from axis 6"
     )]
@@ -115,8 +116,8 @@ impl Axes {
             });
         }
         take(&mut links[0], &at);
-        // the given frame of the present axis, seen from the row's frame before its θ: a turn about
-        // z and a shift along it
+        // the given frame of the present axis, seen from the row's frame before its θ: a rotation
+        // about z and a shift along it
         let mut row_from_given = at.pose().inverse() * self.steps[0];
         for i in 1..6 {
             let axis = row_from_given * self.steps[i];
@@ -224,7 +225,7 @@ fn set_turn(link: &mut Link, mechanism: &Mechanism, joint: usize, theta: f64, d:
     link.d_m = d;
 }
 
-/// The angle by whole turns nearest to another.
+/// The angle by whole revolutions nearest to another.
 fn near(angle: f64, to: f64) -> f64 {
     let gap = (angle - to + PI).rem_euclid(TAU) - PI;
     to + gap

@@ -14,7 +14,7 @@ use super::chain::{Chain, Hanging, Loads};
 use super::effects::{Deflection, Effect, State};
 use super::{Conditions, Geometry, Mechanism, Model};
 use crate::geometry::{
-    Dual, Pose, Rotation, Scalar, Turn, Vector, add, constant, cross, dot, scale, sub,
+    AxisRotation, Dual, Pose, Rotation, Scalar, Vector, add, constant, cross, dot, scale, sub,
 };
 
 /// Columns that one pass with dual numbers takes where links bend.
@@ -184,7 +184,12 @@ struct Torques<S = f64> {
 
 impl<S: Scalar> Torques<S> {
     #[inline(always)]
-    fn of(chain: &Chain<S>, turns: &[Turn<S>; 6], hanging: &Hanging<S>, field: Vector<S>) -> Self {
+    fn of(
+        chain: &Chain<S>,
+        turns: &[AxisRotation<S>; 6],
+        hanging: &Hanging<S>,
+        field: Vector<S>,
+    ) -> Self {
         let none = [[S::zero(); 3]; 6];
         let mut all = Self {
             moments: none,
@@ -251,7 +256,7 @@ struct Layout {
 
 impl Layout {
     #[inline(always)]
-    fn of(model: &Model, turns: &[Turn; 6], deflection: &Deflection) -> Self {
+    fn of(model: &Model, turns: &[AxisRotation; 6], deflection: &Deflection) -> Self {
         let chain = &model.chain;
         let mut before = [chain.fixed[0]; 7];
         let mut links = [Pose::identity(); 6];
@@ -289,7 +294,7 @@ impl Layout {
         }
     }
 
-    /// Turn of a joint by one radian in the controller's sense.
+    /// Rotation of a joint by one radian in the controller's sense.
     fn joint(&self, i: usize) -> Motion {
         self.turned(self.before[i].rotation.axis(2), self.before[i].translation)
     }
@@ -409,7 +414,7 @@ impl Sensitivity {
     pub fn evaluate(&self, q: &[f64; 6], conditions: &Conditions, motions: &mut [Motion]) -> Pose {
         let model = &self.model;
         let commanded = model.mechanism.commanded(q);
-        let turns = Turn::of_each(&commanded);
+        let turns = AxisRotation::of_each(&commanded);
         let mut deflection = Deflection::none();
         if !model.deflecting.is_empty() {
             model.deflect(&commanded, &turns, conditions, &mut deflection);
@@ -455,7 +460,7 @@ impl Sensitivity {
     fn add_own_deflections(
         &self,
         commanded: &[f64; 6],
-        turns: &[Turn; 6],
+        turns: &[AxisRotation; 6],
         conditions: &Conditions,
         at: &Deflection,
         layout: &Layout,
@@ -519,7 +524,7 @@ impl Sensitivity {
     fn add_torques(
         &self,
         commanded: &[f64; 6],
-        turns: &[Turn; 6],
+        turns: &[AxisRotation; 6],
         conditions: &Conditions,
         layout: &Layout,
         motions: &mut [Motion],

@@ -26,7 +26,7 @@ const SLACK_RAD: f64 = 1e-8;
 
 /// How a straight or circular move rotates the tool on its path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Turning {
+pub enum ToolRotation {
     /// About one axis at a constant rate (quaternion slerp, two-angle method).
     #[default]
     Slerp,
@@ -52,7 +52,7 @@ pub(crate) enum Course {
 #[derive(Clone, Debug)]
 pub(crate) struct ToolCourse {
     line: Line,
-    turn: Turn,
+    turn: PathRotation,
     /// It is a line on a part that moves.
     ride: Option<Arc<Ride>>,
 }
@@ -72,7 +72,7 @@ enum Line {
 }
 
 #[derive(Clone, Debug)]
-enum Turn {
+enum PathRotation {
     Axis {
         from: Rotation,
         axis: Vector,
@@ -92,7 +92,7 @@ impl ToolCourse {
         from: &Pose,
         via: Option<&Pose>,
         to: &Pose,
-        turning: Turning,
+        turning: ToolRotation,
         ride: Option<Arc<Ride>>,
     ) -> Self {
         let moves = |ride: &Arc<Ride>| ride.bends() || (via.is_some() && ride.moves());
@@ -112,20 +112,20 @@ impl ToolCourse {
 
     /// The straight way.
     #[must_use]
-    pub(crate) fn straight(from: &Pose, to: &Pose, turning: Turning) -> Self {
+    pub(crate) fn straight(from: &Pose, to: &Pose, turning: ToolRotation) -> Self {
         Self {
             line: Line::Straight {
                 from: from.translation,
                 along: sub(to.translation, from.translation),
             },
-            turn: Turn::between(from, to, turning),
+            turn: PathRotation::between(from, to, turning),
             ride: None,
         }
     }
 
     /// The arc through a point; a straight line where the three are on one.
     #[must_use]
-    pub(crate) fn arc(from: &Pose, via: Vector, to: &Pose, turning: Turning) -> Self {
+    pub(crate) fn arc(from: &Pose, via: Vector, to: &Pose, turning: ToolRotation) -> Self {
         let start = from.translation;
         let (u, v) = (sub(via, start), sub(to.translation, start));
         let normal = cross(u, v);
@@ -156,7 +156,7 @@ impl ToolCourse {
                 axes: [first, second],
                 angle_rad,
             },
-            turn: Turn::between(from, to, turning),
+            turn: PathRotation::between(from, to, turning),
             ride: None,
         }
     }
@@ -178,8 +178,8 @@ impl ToolCourse {
     #[must_use]
     pub(crate) fn angle_rad(&self) -> f64 {
         let turned = match &self.turn {
-            Turn::Axis { angle_rad, .. } => angle_rad.abs(),
-            Turn::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
+            PathRotation::Axis { angle_rad, .. } => angle_rad.abs(),
+            PathRotation::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
         };
         let carried = self.ride.as_ref().map_or(0.0, |ride| ride.lengths().1);
         match &self.line {
@@ -214,7 +214,7 @@ impl ToolCourse {
             }
         };
         let rotation = match &self.turn {
-            Turn::Axis {
+            PathRotation::Axis {
                 from,
                 axis,
                 angle_rad,
@@ -225,7 +225,7 @@ impl ToolCourse {
                     about(axis, k(*angle_rad) * s) * from.cast()
                 }
             }
-            Turn::Angles { from, by } => {
+            PathRotation::Angles { from, by } => {
                 let angle = |i: usize| k(from[i]) + k(by[i]) * s;
                 Rotation::about_z(angle(0))
                     * Rotation::about_y(angle(1))
@@ -267,10 +267,10 @@ fn about<S: Scalar>(axis: &Vector, angle: S) -> Rotation<S> {
     ])
 }
 
-impl Turn {
-    fn between(from: &Pose, to: &Pose, turning: Turning) -> Self {
+impl PathRotation {
+    fn between(from: &Pose, to: &Pose, turning: ToolRotation) -> Self {
         match turning {
-            Turning::Slerp => {
+            ToolRotation::Slerp => {
                 let [w, x, y, z] = (to.rotation * from.rotation.transpose()).quaternion().0;
                 let long = norm([x, y, z]);
                 if long < SMALL {
@@ -288,7 +288,7 @@ impl Turn {
                     angle_rad: 2.0 * long.atan2(w.abs()),
                 }
             }
-            Turning::Euler => {
+            ToolRotation::Euler => {
                 let (from, to) = (from.rotation.rzryrx(0.0), to.rotation.rzryrx(0.0));
                 let turn = std::f64::consts::TAU;
                 let by = std::array::from_fn(|i| {
@@ -350,7 +350,7 @@ impl Piece {
 }
 
 impl Leg<'_> {
-    /// The controller's joints at `s`, by whole turns nearest to `near`.
+    /// The controller's joints at `s`, by whole revolutions nearest to `near`.
     pub(crate) fn joints(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
         match &self.course {
             Course::Joint { from, to } => std::array::from_fn(|i| from[i] + s * (to[i] - from[i])),
@@ -553,7 +553,7 @@ mod tests {
             pose([0.5, -0.2, 0.4, 1.1, -0.4, 0.9]),
         );
         let via = [0.4, 0.3, 0.2];
-        for turning in [Turning::Slerp, Turning::Euler] {
+        for turning in [ToolRotation::Slerp, ToolRotation::Euler] {
             for course in [
                 ToolCourse::straight(&a, &b, turning),
                 ToolCourse::arc(&a, via, &b, turning),
@@ -564,7 +564,7 @@ mod tests {
                 }
             }
         }
-        let arc = ToolCourse::arc(&a, via, &b, Turning::Slerp);
+        let arc = ToolCourse::arc(&a, via, &b, ToolRotation::Slerp);
         let nearest = (0..=100_000)
             .map(|k| norm(sub(arc.pose(f64::from(k) / 1e5).translation, via)))
             .fold(f64::INFINITY, f64::min);
@@ -574,7 +574,7 @@ mod tests {
     #[test]
     fn three_points_on_a_line_make_a_line() {
         let (a, b) = (pose([0.0; 6]), pose([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
-        let arc = ToolCourse::arc(&a, [0.4, 0.0, 0.0], &b, Turning::Slerp);
+        let arc = ToolCourse::arc(&a, [0.4, 0.0, 0.0], &b, ToolRotation::Slerp);
         assert!(!arc.is_arc());
         assert!((arc.length_m() - 1.0).abs() < 1e-12);
     }

@@ -38,7 +38,7 @@ pub(crate) mod ride;
 pub(crate) mod setting;
 pub(crate) mod walk;
 
-pub use course::Turning;
+pub use course::ToolRotation;
 pub(crate) use posture::OUT_OF_REACH;
 pub use setting::{Given, GivenError, MeasuredFrameError, Missing, PlacementError};
 

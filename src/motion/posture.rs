@@ -312,7 +312,7 @@ fn configured(
     })
 }
 
-/// The angle, by as few whole turns as can be, that lies in both ranges.
+/// The angle, by as few whole revolutions as can be, that lies in both ranges.
 fn turned_into(angle: f64, range: (f64, f64), limits: (f64, f64)) -> Option<f64> {
     let (low, high) = (range.0.max(limits.0), range.1.min(limits.1));
     let turn = std::f64::consts::TAU;

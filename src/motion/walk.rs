@@ -5,7 +5,7 @@
 //! that of the path itself, followed from the posture before. The direction of a joint is the sign
 //! of its rate at the end of the path; one that stands keeps its last.
 
-use super::course::{Course, Leg, STANDSTILL_RAD_M, ToolCourse, Turning};
+use super::course::{Course, Leg, STANDSTILL_RAD_M, ToolCourse, ToolRotation};
 use super::ground::Ground;
 use super::posture::{self, Asked, Posture};
 use super::ride::Ride;
@@ -38,7 +38,7 @@ const NEAR_WRIST_RAD: f64 = 5.0 * DEG;
 const MOST_THROUGH_RAD: f64 = 20.0 * DEG;
 /// The shortest step of a path.
 const SHORTEST_STEP: f64 = 1.0 / 512.0;
-/// A path that turns the tool by more, or is longer, is followed in several steps.
+/// A path that rotates the tool by more, or is longer, is followed in several steps.
 const MANY_RAD: f64 = 30.0 * DEG;
 const MANY_M: f64 = 0.25;
 /// Nearer to a singularity than this a posture belongs to both branches.
@@ -121,8 +121,8 @@ pub(crate) struct WalkOptions {
     pub strict: bool,
     /// Directions of arrival matter.
     pub directed: bool,
-    /// How the controller turns the tool on its path.
-    pub turning: Turning,
+    /// How the controller rotates the tool on its path.
+    pub turning: ToolRotation,
 }
 
 /// Goes through all moves of a program.

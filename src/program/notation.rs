@@ -56,9 +56,9 @@ pub(super) fn write_angles(pose: &Pose, beyond_deg: f64, n: &mut [f64]) {
 }
 
 /// Angles about x, y, z in degrees, `Rz · Ry · Rx`, as the present ones are written: of the two
-/// triples that every rotation has the one with y beyond a quarter turn only where the present one
-/// is; of the turns of each angle that nearest to the present angle, but within a half turn, and
-/// `beyond_deg` that cannot be seen in the file, where the present one is.
+/// triples that every rotation has the one with y beyond a quarter revolution only where the
+/// present one is; of the turns of each angle that nearest to the present angle, but within a half
+/// revolution, and `beyond_deg` that cannot be seen in the file, where the present one is.
 pub(super) fn nearest_angles(rotation: &Rotation, present: [f64; 3], beyond_deg: f64) -> [f64; 3] {
     let [z, y, x] = rotation.rzryrx(present[0] * DEG).map(|angle| angle / DEG);
     let near = |angles: [f64; 3]| -> [f64; 3] {

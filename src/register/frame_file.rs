@@ -10,8 +10,8 @@
 //! ```
 //!
 //! `pose` is written as in profiles (three angles or a quaternion); `sigma` are standard
-//! uncertainties of the place of FROM's origin and of turns about the axes of TO. Only `poseshift`
-//! and `pose` are required; unknown keys are errors.
+//! uncertainties of the place of FROM's origin and of rotates about the axes of TO. Only
+//! `poseshift` and `pose` are required; unknown keys are errors.
 
 use super::uncertainty::PoseCovariance;
 use crate::geometry::Pose;
@@ -32,7 +32,7 @@ pub const FORMAT: &str = "frame/1";
 pub struct Frame {
     /// Maps coordinates of the first frame (FROM) into the second (TO).
     pub to_from_from: Pose,
-    /// Standard uncertainties: place of FROM's origin in metres, turns about the axes of TO in
+    /// Standard uncertainties: place of FROM's origin in metres, rotates about the axes of TO in
     /// radians.
     pub sigma: Option<Sigma>,
     /// Root mean square distance of the points, metres.
@@ -48,7 +48,7 @@ pub struct Frame {
 pub struct Sigma {
     /// Of the place of FROM's origin along the axes of TO, metres.
     pub position_m: [f64; 3],
-    /// Of turns about the axes of TO, radians.
+    /// Of rotates about the axes of TO, radians.
     pub rotation_rad: [f64; 3],
 }
 

@@ -9,7 +9,7 @@ use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub}
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 /// A point nearer to a line than this part of the line's length does not say which way a frame
-/// turns about it.
+/// rotates about it.
 const NEAR_LINE: f64 = 1e-3;
 
 /// Why touches give no frame.
@@ -361,7 +361,7 @@ fn refuse_free(svd: &linear::Svd) -> Result<(), FrameError> {
         Vector3::new(open[3], open[4], open[5]),
     );
     let (what, v) = if turn.norm() > shift.norm() {
-        ("turning about", turn.normalize())
+        ("rotating about", turn.normalize())
     } else {
         ("sliding along", shift.normalize())
     };

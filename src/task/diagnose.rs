@@ -403,7 +403,7 @@ pub fn diagnose(
                 chi_squared_fall: finite(s.gain),
                 part: finite(s.part),
                 behind: finite(s.behind),
-                left_mm: finite(mm_from_m(s.left_m)),
+                left_mm: finite(mm_from_m(s.residual_m)),
             })
             .collect(),
         unregistered: d
@@ -444,8 +444,8 @@ pub fn diagnose(
             }),
         },
         unexplained: Unexplained {
-            rms_mm: finite(mm_from_m(d.left_m)),
-            spots: d.left_spots.iter().map(Into::into).collect(),
+            rms_mm: finite(mm_from_m(d.residual_m)),
+            spots: d.residual_spots.iter().map(Into::into).collect(),
             function: d.unknown.first().map(|u| u.name.clone()),
         },
         accept: d.accept(),
@@ -455,7 +455,7 @@ pub fn diagnose(
             NoiseSource::Repeats => "repeats",
             NoiseSource::Residuals => "residuals",
         },
-        left_mm: finite(mm_from_m(d.left_m)),
+        left_mm: finite(mm_from_m(d.residual_m)),
         worst_row: WorstRow::of(&d.problem.rows, &all, d.lengths.1.iter().copied()),
         outliers: d
             .outliers

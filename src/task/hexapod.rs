@@ -255,7 +255,7 @@ pub fn base(taught: &Source, base_m: [f64; 3]) -> Result<Base, Failure> {
             ("to".into(), name.clone()),
         ]),
     };
-    let residuals_mm = found.left_m.map(|v| v.map(mm_from_m));
+    let residuals_mm = found.residual_m.map(|v| v.map(mm_from_m));
     Ok(Base {
         base: (&found.robot_from_base).into(),
         rmsd_mm: mm_from_m(found.rms_m),

@@ -76,7 +76,7 @@ pub enum UrdfError {
         joint: String,
     },
     /// A joint that does not turn.
-    #[error("joint `{joint}` is {kind}; only joints that turn are supported")]
+    #[error("joint `{joint}` is {kind}; only joints that rotate are supported")]
     Kind {
         /// The joint.
         joint: String,

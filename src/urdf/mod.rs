@@ -1,6 +1,6 @@
 //! Profiles from URDF files.
 //!
-//! The reader takes the axes of six turning joints on the way from a base to a tip, in any frames
+//! The reader takes the axes of six rotating joints on the way from a base to a tip, in any frames
 //! and in any directions, and derives rows of modified Denavit–Hartenberg parameters from them;
 //! base and flange take up what is left. The profile's text is read again and its chain compared
 //! with the URDF's own at random postures.
@@ -77,7 +77,7 @@ pub struct UrdfArm {
     pub notes: Vec<String>,
 }
 
-/// One turning joint.
+/// One rotating joint.
 #[derive(Clone, Debug)]
 pub struct UrdfJoint {
     /// Its name.
@@ -126,7 +126,7 @@ impl UrdfArm {
     /// Reads a URDF's text.
     ///
     /// # Errors
-    /// If it is no URDF, or the way from base to tip is no chain of six turning joints.
+    /// If it is no URDF, or the way from base to tip is no chain of six rotating joints.
     pub fn read(text: &str, choice: &Choice) -> Result<Self, UrdfError> {
         tree::read(text, choice)
     }

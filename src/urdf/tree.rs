@@ -182,7 +182,7 @@ fn place(pose: &Pose) -> String {
     let mm = [x, y, z].map(|x| (mm_from_m(x) * 1e3).round() / 1e3 + 0.0);
     let deg = [rx, ry, rz].map(|a| (a / DEG * 1e3).round() / 1e3 + 0.0);
     format!(
-        "{} {} {} mm, turned {} {} {} deg",
+        "{} {} {} mm, rotated {} {} {} deg",
         mm[0], mm[1], mm[2], deg[0], deg[1], deg[2]
     )
 }
@@ -545,7 +545,7 @@ fn turning(
     let full = 360.0 * DEG;
     let (min_rad, max_rad) = if joint.joint_type == JointType::Continuous {
         notes.push(format!(
-            "joint `{}` turns without end; its limits here are \u{b1}360 deg",
+            "joint `{}` rotates without end; its limits here are \u{b1}360 deg",
             joint.name
         ));
         (-full, full)

@@ -1,6 +1,6 @@
 //! A second implementation of the physics: plain numbers, 4 × 4 matrices, no code of the product.
 //!
-//! It states every effect in its full form (a base that tilts is turned about its origin, an arm
+//! It states every effect in its full form (a base that tilts is rotated about its origin, an arm
 //! that grows has longer lengths), where the product adds up small motions. Metres, radians,
 //! newtons. See docs/model.md for the equations.
 

@@ -42,6 +42,21 @@ STARTS = {
 }
 # causes that come of the arm, tool or frame that was assumed
 FIT = re.compile("out-of-reach|joint-limit|not-converged|configuration-unknown|branch-lost|within reach")
+# causes that come of an axis that no profile of the catalogue has
+EXTERNAL = re.compile("external-axis-unknown|positioner-unknown|moving-frame|group-without-geometry")
+TRACK = "  track: [{{axis: {}, direction: [{}, {}, 0], up: [0, 0, 1], min_mm: -20000, max_mm: 20000}}]\n"
+STATION = (
+    "  positioners:\n    - name: ST1\n      axes:\n"
+    "        - {axis: EC1, at: {x_mm: 900, y_mm: 0, z_mm: 300, rx_deg: 90, ry_deg: 0, rz_deg: 0}, min_deg: -720, max_deg: 720}\n"
+    "        - {axis: EC2, at: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: -90, ry_deg: 0, rz_deg: 0}, min_deg: -720, max_deg: 720}\n"
+)
+# what may carry the arm or the part, tried where a refusal asks for it: a rail along x or y of the base, a station, or nothing
+AXES = {
+    "fanuc": [TRACK.format("E1", 1, 0), TRACK.format("E1", 0, 1), "  other: [E1]\n"],
+    "inform": [STATION, TRACK.format("BC1", 1, 0), TRACK.format("BC1", 0, 1)],
+    "rapid": [TRACK.format("eax_a", 1, 0), TRACK.format("eax_a", 0, 1), "  other: [eax_a]\n"],
+    "krl": [TRACK.format("E1", 1, 0), TRACK.format("E1", 0, 1), "  other: [E1]\n"],
+}
 NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 
@@ -118,6 +133,15 @@ class Runs:
         self.known = {}
         reported = subprocess.run([binary, "compensate", "--help"], capture_output=True, text=True, check=True)
         self.takes_start = "--start-joints" in reported.stdout
+
+    def with_axes(self, profile, axes):
+        """A profile with external axes, made once."""
+        path = f"{profile[:-5]}_{abs(hash(axes))}.yaml"
+        if not os.path.exists(path):
+            text = open(profile, encoding="utf-8").read()
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text.rstrip("\n") + "\nexternal_axes:\n" + axes)
+        return path
 
     def run(self, language, files, profile, reach, place, start):
         key = (tuple(files), profile, place, start)
@@ -206,13 +230,17 @@ def measure(runs, profiles, language, folder, name):
             for start in starts:
                 for profile, reach in profiles[(MAKERS[language], scale)]:
                     for files in sets:
-                        found = judge(runs.run(language, files, profile, reach, place, start), path)
-                        found.update(arm=os.path.basename(profile)[:-5], scale=scale, files=len(files))
-                        rank = (found["through"], found["good"], -sum(found["causes"].values()))
-                        if best is None or rank > best["rank"]:
-                            best = {**found, "rank": rank}
-                        if found["through"]:
-                            return best
+                        for axes in [None, *AXES.get(language, ())]:
+                            if axes and not EXTERNAL.search(" ".join(best["causes"])) and not best["axes"]:
+                                break
+                            arm = runs.with_axes(profile, axes) if axes else profile
+                            found = judge(runs.run(language, files, arm, reach, place, start), path)
+                            found.update(arm=os.path.basename(profile)[:-5], axes=axes, scale=scale, files=len(files))
+                            rank = (found["through"], found["good"], -sum(found["causes"].values()))
+                            if best is None or rank > best["rank"]:
+                                best = {**found, "rank": rank}
+                            if found["through"]:
+                                return best
                 if not FIT.search(" ".join(best["causes"])):
                     return best
     return best

@@ -1,6 +1,6 @@
-//! Measurements in the shape of those of real robots (rows, columns, reflectors, noise), made by the
-//! independent physics: a robot with errors of its geometry, springs, an effect that level 3 lacks
-//! and one that nobody knows.
+//! Measurements in the shape of those of real robots (rows, columns, reflectors, noise), made by
+//! the independent physics: a robot with errors of its geometry, springs, an effect that level 3
+//! lacks and one that nobody knows.
 
 use crate::physics::matrix::{self, M4};
 use crate::physics::{Fault, Moment, tool_pose};

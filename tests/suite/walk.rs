@@ -60,7 +60,8 @@ const POSES: usize = 120;
 const HELD_OUT: usize = 40;
 const TARGETS: usize = 150;
 
-/// Where the controller counts from, seen from there: `base` is half a turn about z and 0.45 m up.
+/// Where the controller counts from, seen from there: `base` is half a rotation about z and 0.45 m
+/// up.
 fn base_from_base_link() -> M4 {
     times(&turn_z(-PI), &shift([0.0, 0.0, -0.45]))
 }

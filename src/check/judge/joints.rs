@@ -92,7 +92,7 @@ impl Job<'_> {
             .find(|(_, turn)| *turn > std::f64::consts::PI)
         {
             let message = format!(
-                "joint {} turns by {:.1} deg on this move",
+                "joint {} rotates by {:.1} deg on this move",
                 i + 1,
                 turn / DEG
             );
@@ -101,7 +101,7 @@ impl Job<'_> {
                 "large-turn",
                 Severity::Note,
                 message,
-                "cables and hoses turn along",
+                "cables and hoses rotate along",
             ));
         }
         let speeds = &self.subject.profile.joint_speeds;
@@ -113,7 +113,7 @@ impl Job<'_> {
                 && asked.rate_rad[i] / duration > most
             {
                 let message = format!(
-                    "at the programmed speed joint {} would turn at {:.1} deg/s; it can {:.1}",
+                    "at the programmed speed joint {} would rotate at {:.1} deg/s; it can {:.1}",
                     i + 1,
                     asked.rate_rad[i] / duration / DEG,
                     most / DEG

@@ -115,7 +115,7 @@ mod tests {
         let turned = Euler::Xyz.rotation([quarter, 0.0, quarter]);
         let expected = Rotation::about_x(quarter) * Rotation::about_z(quarter);
         assert!((turned.transpose() * expected).angle() < 1e-12);
-        // a turn about z is the same whatever its name
+        // a rotation about z is the same whatever its name
         for Named {
             euler: own,
             columns,

@@ -1,8 +1,8 @@
 //! All answers at a pose, the one nearest to a posture, and their names.
 
 use super::offset::ArmSigns;
-use super::{Arm, Solution, Turned, Wrist};
-use crate::geometry::{Pose, Turn, wrap};
+use super::{Arm, Rotated, Solution, Wrist};
+use crate::geometry::{AxisRotation, Pose, wrap};
 use crate::inverse::Branch;
 
 /// A posture that no joint leaves by more than this, radians, follows the one before.
@@ -34,8 +34,8 @@ impl Arm {
         self.wrist == Wrist::Offset
     }
 
-    /// Every posture that brings the nominal tool to `world_from_tool`, by whole turns nearest to
-    /// `near`, in the order of the branches; joint limits are not looked at.
+    /// Every posture that brings the nominal tool to `world_from_tool`, by whole revolutions
+    /// nearest to `near`, in the order of the branches; joint limits are not looked at.
     ///
     /// Up to eight, up to sixteen with an offset wrist. None out of reach, or where the pose is not
     /// finite.
@@ -53,7 +53,7 @@ impl Arm {
         }
         self.each_root(world_from_tool, &BOTH, &BOTH, |turns| {
             let stance = self.stance(&turns);
-            let q = self.solution(&Turned { turns, beyond: 0.0 }, near).q;
+            let q = self.solution(&Rotated { turns, beyond: 0.0 }, near).q;
             let is_same = |other: &Answer| apart(&other.q, &q) < SAME_RAD;
             if !answers.iter().any(is_same) {
                 let branch = stance.branch();
@@ -74,13 +74,13 @@ impl Arm {
     }
 
     /// The posture that brings the nominal tool to `world_from_tool` on the track of `near`, by
-    /// whole turns nearest to it: on its branch, or with an offset wrist the nearest answer of
-    /// all, since such an arm passes from branch to branch without a singularity.
+    /// whole revolutions nearest to it: on its branch, or with an offset wrist the nearest answer
+    /// of all, since such an arm passes from branch to branch without a singularity.
     ///
     /// Where nothing is in reach [`Solution::beyond`] is positive, as with [`Arm::solve_branch`].
     #[must_use]
     pub fn solve_near(&self, world_from_tool: &Pose, near: &[f64; 6]) -> Solution {
-        let turns = Turn::of_each(&self.mechanism.commanded(near));
+        let turns = AxisRotation::of_each(&self.mechanism.commanded(near));
         if self.wrist != Wrist::Offset {
             let branch = self.stance(&turns).branch();
             return self.solve_branch(world_from_tool, branch, near);
@@ -106,7 +106,7 @@ impl Arm {
         world_from_tool: &Pose,
         fronts: &[f64],
         befores: &[f64],
-        mut each: impl FnMut([Turn; 6]),
+        mut each: impl FnMut([AxisRotation; 6]),
     ) {
         let target = self.last_row(world_from_tool);
         self.offset_roots(&target, fronts, befores, |rows| each(self.turns_of(rows)));
@@ -116,11 +116,11 @@ impl Arm {
     pub(in crate::inverse) fn offset_follow(
         &self,
         world_from_tool: &Pose,
-        posture: &[Turn; 6],
-    ) -> Turned {
+        posture: &[AxisRotation; 6],
+    ) -> Rotated {
         let arm = self.arm_branch(posture);
         if let Some(turns) = self.offset_near(world_from_tool, posture, arm) {
-            return Turned { turns, beyond: 0.0 };
+            return Rotated { turns, beyond: 0.0 };
         }
         let mut nearest = Nearest::to(posture);
         self.each_root(world_from_tool, &BOTH, &BOTH, |turns| nearest.offer(turns));
@@ -138,15 +138,15 @@ impl Arm {
         world_from_tool: &Pose,
         branch: Branch,
         near: &[f64; 6],
-    ) -> Turned {
-        let posture = Turn::of_each(&self.mechanism.commanded(near));
+    ) -> Rotated {
+        let posture = AxisRotation::of_each(&self.mechanism.commanded(near));
         let on_branch = self.stance(&posture).branch() == branch;
         let arm = self.arm_branch(&posture);
         if let Some(turns) = self
             .offset_near(world_from_tool, &posture, arm)
             .filter(|_| on_branch)
         {
-            return Turned { turns, beyond: 0.0 };
+            return Rotated { turns, beyond: 0.0 };
         }
         if on_branch {
             let nearest = self.offset_follow(world_from_tool, &posture);
@@ -163,15 +163,15 @@ impl Arm {
         world_from_tool: &Pose,
         branch: Branch,
         near: &[f64; 6],
-    ) -> Turned {
-        let posture = Turn::of_each(&self.mechanism.commanded(near));
+    ) -> Rotated {
+        let posture = AxisRotation::of_each(&self.mechanism.commanded(near));
         let [front, before, _] = branch.signs();
         let offset = self.offset_near(world_from_tool, &posture, [front, before]);
-        let is_meant = |turns: &[Turn; 6]| {
+        let is_meant = |turns: &[AxisRotation; 6]| {
             self.stance(turns).branch().joint_5_negative == branch.joint_5_negative
         };
         if let Some(turns) = offset.filter(is_meant) {
-            return Turned { turns, beyond: 0.0 };
+            return Rotated { turns, beyond: 0.0 };
         }
         let mut nearest = Nearest::to(&posture);
         self.each_root(world_from_tool, &[front], &[before], |turns| {
@@ -185,15 +185,15 @@ impl Arm {
         })
     }
 
-    fn least(&self, (rows, beyond): ([Turn; 6], f64)) -> Turned {
-        Turned {
+    fn least(&self, (rows, beyond): ([AxisRotation; 6], f64)) -> Rotated {
+        Rotated {
             turns: self.turns_of(rows),
             beyond,
         }
     }
 
     /// The branch of the arm to the meeting point.
-    fn arm_branch(&self, posture: &[Turn; 6]) -> ArmSigns {
+    fn arm_branch(&self, posture: &[AxisRotation; 6]) -> ArmSigns {
         let [front, before, _] = self.stance(posture).branch().signs();
         [front, before]
     }
@@ -202,9 +202,9 @@ impl Arm {
     fn offset_near(
         &self,
         world_from_tool: &Pose,
-        posture: &[Turn; 6],
+        posture: &[AxisRotation; 6],
         arm: ArmSigns,
-    ) -> Option<[Turn; 6]> {
+    ) -> Option<[AxisRotation; 6]> {
         let target = self.last_row(world_from_tool);
         let start = self.row(5, posture[5]);
         let (rows, _) = self.offset_root_near(&target, start, arm)?;
@@ -214,27 +214,27 @@ impl Arm {
 }
 
 /// Whether no joint leaves a posture by more than a track does from one target to the next.
-pub(in crate::inverse) fn is_close(a: &[Turn; 6], b: &[Turn; 6]) -> bool {
+pub(in crate::inverse) fn is_close(a: &[AxisRotation; 6], b: &[AxisRotation; 6]) -> bool {
     is_within(a, b, CLOSE_RAD)
 }
 
-fn is_within(a: &[Turn; 6], b: &[Turn; 6], limit_rad: f64) -> bool {
+fn is_within(a: &[AxisRotation; 6], b: &[AxisRotation; 6], limit_rad: f64) -> bool {
     let least = limit_rad.cos();
     (0..6).all(|i| (a[i] * b[i].inverse()).cosine > least)
 }
 
 /// The posture least far from another by its largest joint.
 struct Nearest<'a> {
-    to: &'a [Turn; 6],
-    best: Option<(f64, [Turn; 6])>,
+    to: &'a [AxisRotation; 6],
+    best: Option<(f64, [AxisRotation; 6])>,
 }
 
 impl<'a> Nearest<'a> {
-    fn to(to: &'a [Turn; 6]) -> Self {
+    fn to(to: &'a [AxisRotation; 6]) -> Self {
         Self { to, best: None }
     }
 
-    fn offer(&mut self, turns: [Turn; 6]) {
+    fn offer(&mut self, turns: [AxisRotation; 6]) {
         let cosines = (0..6).map(|i| (turns[i] * self.to[i].inverse()).cosine);
         let closeness = cosines.fold(f64::INFINITY, f64::min);
         if self.best.is_none_or(|(best, _)| closeness > best) {
@@ -242,12 +242,12 @@ impl<'a> Nearest<'a> {
         }
     }
 
-    fn found(&self) -> Option<Turned> {
-        self.best.map(|(_, turns)| Turned { turns, beyond: 0.0 })
+    fn found(&self) -> Option<Rotated> {
+        self.best.map(|(_, turns)| Rotated { turns, beyond: 0.0 })
     }
 }
 
-/// The largest difference of a joint, by whole turns, radians.
+/// The largest difference of a joint, by whole revolutions, radians.
 fn apart(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     (0..6).map(|i| wrap(a[i] - b[i]).abs()).fold(0.0, f64::max)
 }

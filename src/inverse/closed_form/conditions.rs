@@ -1,7 +1,7 @@
 //! Which kind of closed form an arm has, from the numbers of its chain.
 
 use super::{Arm, Wrist};
-use crate::geometry::{Pose, Rotation, Turn};
+use crate::geometry::{AxisRotation, Pose, Rotation};
 use crate::model::{Chain, Geometry, Link, Mechanism};
 
 /// How far an angle or length of the chain may be from what the closed form needs, radians or
@@ -171,13 +171,13 @@ impl Arm {
         };
         let base_from_turning = Pose::from_translation(l[0].a_m, 0.0, 0.0) * base_from_turning;
         let link6_from_tool = geometry.link6_from_flange * geometry.flange_from_tool;
-        let alpha_6 = Turn::of(l[5].alpha_rad);
+        let alpha_6 = AxisRotation::of(l[5].alpha_rad);
         let back = Pose::from_translation(0.0, 0.0, -l[5].d_m);
         Ok(Self {
             wrist,
             mechanism: mechanism.clone(),
             chain: Chain::of(geometry, mechanism),
-            home: home.map(Turn::of),
+            home: home.map(AxisRotation::of),
             sign,
             turning_from_world: (geometry.world_from_base * base_from_turning).inverse(),
             tool_from_link6: link6_from_tool.inverse() * back,
@@ -191,11 +191,11 @@ impl Arm {
             a2_m: l[1].a_m,
             a3_m: l[2].a_m,
             forearm_m,
-            forearm: Turn::toward(forearm[1], forearm[0]),
+            forearm: AxisRotation::toward(forearm[1], forearm[0]),
             a5_m: l[4].a_m,
             d5_m: l[4].d_m,
-            alpha_4: Turn::of(l[3].alpha_rad),
-            alpha_5: Turn::of(l[4].alpha_rad),
+            alpha_4: AxisRotation::of(l[3].alpha_rad),
+            alpha_5: AxisRotation::of(l[4].alpha_rad),
             alpha_6,
             meeting_in_last_m: [
                 -l[5].a_m,

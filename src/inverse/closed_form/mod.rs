@@ -1,7 +1,7 @@
 //! The nominal inverse in closed form, from the numbers of the chain.
 //!
-//! All kinds of arm share the shoulder (axis 1 turns the arm's plane) and the planar pair of links;
-//! they differ in the wrist. Every step is written over [`Scalar`] without branches, so that
+//! All kinds of arm share the shoulder (axis 1 rotates the arm's plane) and the planar pair of
+//! links; they differ in the wrist. Every step is written over [`Scalar`] without branches, so that
 //! several targets are solved side by side.
 
 #![allow(
@@ -20,7 +20,7 @@ pub(super) use answers::is_close;
 pub use conditions::Unsupported;
 
 use super::branch::Branch;
-use crate::geometry::{Jet, Pose, Rotation, Scalar, Turn, Vector, add};
+use crate::geometry::{AxisRotation, Jet, Pose, Rotation, Scalar, Vector, add};
 use crate::model::{Chain, Mechanism};
 
 /// Joint 5 of an arm with three parallel axes farther than this from alignment, radians, multiplies
@@ -56,7 +56,7 @@ pub struct Arm {
     mechanism: Mechanism,
     chain: Chain,
     /// θ of each row plus the controller's offset.
-    home: [Turn; 6],
+    home: [AxisRotation; 6],
     sign: [f64; 6],
     /// From the world to the frame that axis 1 turns, and from the tool to the last row's frame
     /// without its d.
@@ -76,13 +76,13 @@ pub struct Arm {
     a3_m: f64,
     /// The forearm in frame 3: its length and its direction.
     forearm_m: f64,
-    forearm: Turn,
+    forearm: AxisRotation,
     a5_m: f64,
     d5_m: f64,
     /// α4, α5 and α6, for the offset wrist.
-    alpha_4: Turn,
-    alpha_5: Turn,
-    alpha_6: Turn,
+    alpha_4: AxisRotation,
+    alpha_5: AxisRotation,
+    alpha_6: AxisRotation,
     /// Where axes 4 and 5 meet, in the last row's frame without its d and before joint 6 turns it.
     meeting_in_last_m: Vector,
     /// Sign that turns "in front of the lower arm" into the sine of the elbow.
@@ -103,9 +103,9 @@ pub struct Solution<S = f64> {
 
 /// A solution by its sines and cosines.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turned<S = f64> {
-    /// Turns of the mechanical joints in the controller's sense.
-    pub turns: [Turn<S>; 6],
+pub(super) struct Rotated<S = f64> {
+    /// Rotations of the mechanical joints in the controller's sense.
+    pub turns: [AxisRotation<S>; 6],
     /// As [`Solution::beyond`].
     pub beyond: S,
 }
@@ -144,7 +144,7 @@ pub struct Margins {
     pub wrist_rad: f64,
     /// Angle of the elbow from stretched or folded, radians, in [0, π/2].
     pub elbow_rad: f64,
-    /// Distance of the wrist centre from the plane where the shoulder turns freely, metres.
+    /// Distance of the wrist centre from the plane where the shoulder rotates freely, metres.
     pub shoulder_m: f64,
 }
 
@@ -169,7 +169,7 @@ impl Arm {
     #[must_use]
     pub fn forward(&self, q: &[f64; 6]) -> Pose {
         self.chain
-            .forward(&Turn::of_each(&self.mechanism.commanded(q)))
+            .forward(&AxisRotation::of_each(&self.mechanism.commanded(q)))
     }
 
     /// The joint angles on one branch that bring the nominal tool to `world_from_tool`, by whole
@@ -187,7 +187,7 @@ impl Arm {
         signs: [S; 3],
         near: &[S; 6],
     ) -> Solution<S> {
-        let Turned { turns, beyond } = self.solve_turns(world_from_tool, signs, near);
+        let Rotated { turns, beyond } = self.solve_turns(world_from_tool, signs, near);
         Solution {
             q: self.mechanism.controller(&self.angles(&turns, near)),
             beyond,
@@ -222,14 +222,14 @@ impl Arm {
         world_from_tool: &Pose<S>,
         signs: [S; 3],
         near: &[S; 6],
-    ) -> Turned<S> {
+    ) -> Rotated<S> {
         let target = self.last_row(world_from_tool);
         let (rows, beyond) = match self.wrist {
             Wrist::Spherical => self.solve_spherical(&target, signs, near),
             Wrist::Offset => self.solve_offset(&target, signs, near),
             Wrist::Parallel => self.solve_parallel(&target, signs, near),
         };
-        Turned {
+        Rotated {
             turns: self.turns_of(rows),
             beyond,
         }
@@ -241,9 +241,9 @@ impl Arm {
         self.turning_from_world.cast() * *world_from_tool * self.tool_from_link6.cast()
     }
 
-    /// Turns of the mechanical joints with these turns of the rows of the chain.
+    /// Rotations of the mechanical joints with these rotations of the rows of the chain.
     #[inline(always)]
-    fn turns_of<S: Scalar>(&self, mut rows: [Turn<S>; 6]) -> [Turn<S>; 6] {
+    fn turns_of<S: Scalar>(&self, mut rows: [AxisRotation<S>; 6]) -> [AxisRotation<S>; 6] {
         for i in 0..6 {
             let home = self.home[i].cast();
             rows[i] = (rows[i] * home.inverse()).signed(S::constant(self.sign[i]));
@@ -251,10 +251,10 @@ impl Arm {
         rows
     }
 
-    /// Mechanical joint angles of these turns, by whole turns nearest to the controller's angles
-    /// `near`.
+    /// Mechanical joint angles of these turns, by whole revolutions nearest to the controller's
+    /// angles `near`.
     #[inline(always)]
-    pub(super) fn angles<S: Scalar>(&self, turns: &[Turn<S>; 6], near: &[S; 6]) -> [S; 6] {
+    pub(super) fn angles<S: Scalar>(&self, turns: &[AxisRotation<S>; 6], near: &[S; 6]) -> [S; 6] {
         let turn = S::constant(std::f64::consts::TAU);
         let per_turn = S::constant(std::f64::consts::TAU.recip());
         let near = self.mechanism.commanded(near);
@@ -266,28 +266,31 @@ impl Arm {
         angles
     }
 
-    /// Turn of a row of the chain with this turn of its mechanical joint.
+    /// Rotation of a row of the chain with this rotation of its mechanical joint.
     #[inline(always)]
-    fn row<S: Scalar>(&self, index: usize, turn: Turn<S>) -> Turn<S> {
+    fn row<S: Scalar>(&self, index: usize, turn: AxisRotation<S>) -> AxisRotation<S> {
         turn.signed(S::constant(self.sign[index])) * self.home[index].cast()
     }
 
-    /// `found` where the wrist is clear of alignment, else the turn of row `index` in the posture
-    /// `near`.
+    /// `found` where the wrist is clear of alignment, else the rotation of row `index` in the
+    /// posture `near`.
     #[inline(always)]
     fn unless_aligned<S: Scalar>(
         &self,
         sine: S,
-        found: Turn<S>,
+        found: AxisRotation<S>,
         index: usize,
         near: &[S; 6],
-    ) -> Turn<S> {
+    ) -> AxisRotation<S> {
         let clear = S::constant(WRIST_SINE) - sine.abs();
         if clear.every_below(0.0) {
             return found;
         }
-        let given = self.row(index, Turn::of(self.mechanism.commanded(near)[index]));
-        Turn {
+        let given = self.row(
+            index,
+            AxisRotation::of(self.mechanism.commanded(near)[index]),
+        );
+        AxisRotation {
             sine: clear.choose_less(S::zero(), found.sine, given.sine),
             cosine: clear.choose_less(S::zero(), found.cosine, given.cosine),
         }
@@ -311,27 +314,27 @@ impl Arm {
     }
 
     /// Joint angles of a solution by sines and cosines.
-    pub(super) fn solution(&self, turned: &Turned, near: &[f64; 6]) -> Solution {
+    pub(super) fn solution(&self, turned: &Rotated, near: &[f64; 6]) -> Solution {
         Solution {
             q: self.mechanism.controller(&self.angles(&turned.turns, near)),
             beyond: turned.beyond,
         }
     }
 
-    /// Turn of row 1 and the distance of the wrist centre from axis 1 within the arm's plane.
+    /// Rotation of row 1 and the distance of the wrist centre from axis 1 within the arm's plane.
     #[inline(always)]
-    fn shoulder<S: Scalar>(&self, p: Vector<S>, front: S) -> (Turn<S>, S, S) {
+    fn shoulder<S: Scalar>(&self, p: Vector<S>, front: S) -> (AxisRotation<S>, S, S) {
         let b = S::constant(self.lateral_m);
         let squared = p[0] * p[0] + p[1] * p[1];
         let beyond = (b * b - squared).max(S::zero());
         let r = front * (squared - b * b).max(S::zero()).sqrt();
-        let first = Turn::toward(r * p[1] - b * p[0], r * p[0] + b * p[1]);
+        let first = AxisRotation::toward(r * p[1] - b * p[0], r * p[0] + b * p[1]);
         (first, r, beyond)
     }
 
-    /// Turns of rows 2 and 3 that bring the end of the forearm to (u, v) in the arm's plane.
+    /// Rotations of rows 2 and 3 that bring the end of the forearm to (u, v) in the arm's plane.
     #[inline(always)]
-    fn planar<S: Scalar>(&self, u: S, v: S, before: S) -> (Turn<S>, Turn<S>, S) {
+    fn planar<S: Scalar>(&self, u: S, v: S, before: S) -> (AxisRotation<S>, AxisRotation<S>, S) {
         let (upper, fore) = (S::constant(self.a3_m), S::constant(self.forearm_m));
         let raw = self.elbow_cosine(u, v);
         let one = S::one();
@@ -341,9 +344,9 @@ impl Arm {
             before * S::constant(self.elbow_sign) * (one - cosine * cosine).max(S::zero()).sqrt();
         let along = upper + fore * cosine;
         let across = S::constant(self.s3) * fore * sine;
-        let second = Turn::toward(along * v - across * u, along * u + across * v);
-        // row 3 turns by the elbow's angle less the direction of the forearm in its frame
-        let third = Turn { sine, cosine } * self.forearm.cast().inverse();
+        let second = AxisRotation::toward(along * v - across * u, along * u + across * v);
+        // row 3 rotates by the elbow's angle less the direction of the forearm in its frame
+        let third = AxisRotation { sine, cosine } * self.forearm.cast().inverse();
         (second, third, beyond)
     }
 
@@ -371,12 +374,12 @@ impl Arm {
     /// The branch of a posture and its distances from the singularities.
     #[must_use]
     pub fn posture(&self, q: &[f64; 6]) -> (Branch, Margins) {
-        let stance = self.stance(&Turn::of_each(&self.mechanism.commanded(q)));
+        let stance = self.stance(&AxisRotation::of_each(&self.mechanism.commanded(q)));
         (stance.branch(), stance.margins())
     }
 
     /// Whether a small change of the pose changes little of what the first three joints must reach.
-    /// With three parallel axes that hangs on joint 6, which turns freely where joint 5 aligns
+    /// With three parallel axes that hangs on joint 6, which rotates freely where joint 5 aligns
     /// the wrist.
     pub(super) fn reach_is_steady(&self, stance: &Stance) -> bool {
         self.wrist != Wrist::Parallel || stance.wrist_rad.abs() > STEADY_WRIST_RAD
@@ -384,7 +387,7 @@ impl Arm {
 
     /// On which side of each singularity the mechanical joints stand, and how far from it.
     #[inline(always)]
-    pub(super) fn stance<S: Scalar>(&self, turns: &[Turn<S>; 6]) -> Stance<S> {
+    pub(super) fn stance<S: Scalar>(&self, turns: &[AxisRotation<S>; 6]) -> Stance<S> {
         let [second, third] = [1, 2].map(|i| self.row(i, turns[i]));
         let k = S::constant;
         let elbow = third * self.forearm.cast();
@@ -408,7 +411,12 @@ impl Arm {
 
 /// `Rz(first) · Rx(±90°) · Rz(sum) · Rx(0 or 180°)`.
 #[inline(always)]
-fn arm_rotation<S: Scalar>(first: Turn<S>, sum: Turn<S>, e2: S, flip: S) -> Rotation<S> {
+fn arm_rotation<S: Scalar>(
+    first: AxisRotation<S>,
+    sum: AxisRotation<S>,
+    e2: S,
+    flip: S,
+) -> Rotation<S> {
     let (s1, c1, s, c) = (first.sine, first.cosine, sum.sine, sum.cosine);
     // Rx(±90°) takes (x, y, z) to (x, −e2 z, e2 y)
     Rotation([

@@ -1,7 +1,7 @@
 //! Axes 2, 3 and 4 are parallel.
 
 use super::{Arm, arm_rotation};
-use crate::geometry::{Pose, Rotation, Scalar, Turn};
+use crate::geometry::{AxisRotation, Pose, Rotation, Scalar};
 
 impl Arm {
     #[inline(always)]
@@ -10,7 +10,7 @@ impl Arm {
         target: &Pose<S>,
         [front, before, positive]: [S; 3],
         near: &[S; 6],
-    ) -> ([Turn<S>; 6], S) {
+    ) -> ([AxisRotation<S>; 6], S) {
         let p = target.translation;
         let (first, r, beyond_1) = self.shoulder(p, front);
         let (e2, e5, e6) = (
@@ -24,17 +24,17 @@ impl Arm {
         let m = target.rotation.transpose() * axis_4;
         let side = positive * S::constant(self.wrist_sign);
         let length = (m[0] * m[0] + m[1] * m[1]).sqrt();
-        let fifth = Turn {
+        let fifth = AxisRotation {
             sine: side * length,
             cosine: -(e5 * e6) * m[2],
         };
         let scale = side * e5 / length.max(S::constant(f64::MIN_POSITIVE));
-        let sixth = Turn {
+        let sixth = AxisRotation {
             sine: -(scale * m[1]),
             cosine: scale * m[0],
         };
         let sixth = self.unless_aligned(length, sixth, 5, near);
-        let Turn { sine, cosine } = fifth;
+        let AxisRotation { sine, cosine } = fifth;
         let wrist = Pose::from_rotation(Rotation([
             [cosine, S::zero(), e6 * sine],
             [S::zero(), -(e5 * e6), S::zero()],
@@ -45,9 +45,9 @@ impl Arm {
         let fourth_in_turning = target.rotation * wrist.transpose();
         // into the plane: Rx(−α2) · Rz(−1)
         let turned =
-            arm_rotation(first, Turn::none(), e2, S::one()).transpose() * fourth_in_turning;
+            arm_rotation(first, AxisRotation::none(), e2, S::one()).transpose() * fourth_in_turning;
         let k = &turned.0;
-        let sum = Turn::toward(k[1][0], k[0][0]);
+        let sum = AxisRotation::toward(k[1][0], k[0][0]);
         let (a5, d5) = (S::constant(self.a5_m), S::constant(self.d5_m));
         let end = turned * [a5, -(d5 * e5), S::zero()];
         let [u, v] = [r - S::constant(self.a2_m) - end[0], e2 * p[2] - end[1]];

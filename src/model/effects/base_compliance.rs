@@ -4,7 +4,7 @@ use super::definition::{Definition, Need, Parameter, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Rotation, Scalar, add, cross, sub};
 
-/// The base turns about x and y of its frame in proportion to the moment of the arm about its origin.
+/// The base rotates about x and y of its frame in proportion to the moment of the arm about its origin.
 pub(super) struct BaseCompliance;
 
 impl Equation for BaseCompliance {

@@ -63,7 +63,8 @@ pub enum SiteKey {
     On,
     /// `joint: 1…6`, optional: without it the base
     JointOrBase,
-    /// `order: 1…`, periods in one turn: whole, or in thousandths where the gear's ratio is not
+    /// `order: 1…`, periods in one revolution: whole, or in thousandths where the gear's ratio is
+    /// not
     Order,
     /// `row: 1…`, the row of the measurements from which on it holds
     Row,

@@ -1,4 +1,4 @@
-//! A joint that another one turns along.
+//! A joint that another one rotates along.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};

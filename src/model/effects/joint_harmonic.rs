@@ -4,13 +4,13 @@ use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
-/// an eccentric gear or encoder adds a wave of so many periods in one turn.
+/// an eccentric gear or encoder adds a wave of so many periods in one revolution.
 pub(super) struct JointHarmonic;
 
 impl Equation for JointHarmonic {
     const DEFINITION: Definition = Definition {
         id: "joint_harmonic",
-        summary: "an eccentric gear or encoder adds a wave of so many periods in one turn",
+        summary: "an eccentric gear or encoder adds a wave of so many periods in one revolution",
         equation: "δq = cos · cos(order · q) + sin · sin(order · q)",
         source: "A. Nubiola, thesis, sec. 1.8",
         site: &[SiteKey::Joint, SiteKey::Order],

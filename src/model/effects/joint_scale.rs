@@ -4,13 +4,13 @@ use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
-/// a joint turns more or less than commanded, in proportion.
+/// a joint rotates more or less than commanded, in proportion.
 pub(super) struct JointScale;
 
 impl Equation for JointScale {
     const DEFINITION: Definition = Definition {
         id: "joint_scale",
-        summary: "a joint turns more or less than commanded, in proportion",
+        summary: "a joint rotates more or less than commanded, in proportion",
         equation: "δq = ratio · q",
         source: "A. Nubiola, thesis, level-1 models",
         site: &[SiteKey::Joint],

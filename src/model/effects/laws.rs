@@ -44,7 +44,7 @@ fn pose_with(kind: Kind, parameters: [f64; MOST_PARAMETERS], q: &[f64; 6]) -> Po
     .forward(q, &conditions)
 }
 
-/// Two periods in one turn, or the second row.
+/// Two periods in one revolution, or the second row.
 fn site(kind: Kind) -> Site {
     let place = if kind.definition().begins_at_a_row() {
         SiteKey::Row

@@ -4,7 +4,7 @@ use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::Scalar;
 
-/// A link, and everything behind it, turns about x and y of its frame in proportion to the moment it carries.
+/// A link, and everything behind it, rotates about x and y of its frame in proportion to the moment it carries.
 pub(super) struct LinkCompliance;
 
 impl Equation for LinkCompliance {

@@ -249,8 +249,8 @@ pub struct Site {
     /// Index of the joint it leaks from; of an external axis the direction: 0 is x, 1 is y, 2 is
     /// z.
     pub on: usize,
-    /// Thousandths of periods in one turn; the degree of a power; a period in micrometres; or the
-    /// first row of the measurements, from 1, where an effect begins there.
+    /// Thousandths of periods in one revolution; the degree of a power; a period in micrometres;
+    /// or the first row of the measurements, from 1, where an effect begins there.
     pub order: u32,
     /// Name of the tool; `None` is every tool.
     pub tool: Option<String>,
@@ -285,7 +285,7 @@ impl<S> Effect<S> {
 }
 
 impl Site {
-    /// Periods in one turn, of a wave.
+    /// Periods in one revolution, of a wave.
     #[must_use]
     pub fn periods(&self) -> f64 {
         f64::from(self.order) / f64::from(SiteKey::Order.one())

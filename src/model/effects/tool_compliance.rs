@@ -4,7 +4,7 @@ use super::definition::{Definition, Need, Parameter, Unit};
 use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, cross, sub};
 
-/// The tool turns about x and y of the flange in proportion to the moment of its own weight there.
+/// The tool rotates about x and y of the flange in proportion to the moment of its own weight there.
 pub(super) struct ToolCompliance;
 
 impl Equation for ToolCompliance {

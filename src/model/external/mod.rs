@@ -10,7 +10,7 @@
 //!
 //! Without effects these are what the controller computes with. The arm's own models stand where
 //! the base is with every axis of the track at `zero`: a wanted pose is brought into their world by
-//! the inverse of the track's motion, and gravity turned along.
+//! the inverse of the track's motion, and gravity rotated along.
 //!
 //! # Source
 //! J. Kleinkes, W. Neddermeyer, M. Schnell, "Improved method for highly accurate integration of
@@ -281,7 +281,7 @@ impl ExternalAxes {
     }
 
     /// Where the base really is: the motion in the world from where it stands with every axis at
-    /// zero. It is turned about `origin`, where the base stands nominally, metres.
+    /// zero. It is rotated about `origin`, where the base stands nominally, metres.
     #[must_use]
     pub fn base_real<S: Scalar>(
         &self,

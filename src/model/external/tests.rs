@@ -159,7 +159,7 @@ fn every_parameter_moves_base_or_plate_and_its_derivative_is_exact() {
 
 #[test]
 fn a_second_axis_is_carried_by_the_first() {
-    // the first axis yaws by 0.01 at its end: what the second goes is turned along
+    // the first axis yaws by 0.01 at its end: what the second goes is rotated along
     let all = ExternalAxes {
         track: vec![
             TrackAxis {

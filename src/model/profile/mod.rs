@@ -45,7 +45,7 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 const TINY_M: f64 = 1e-3;
 /// Lengths below this are zero.
 const NO_LENGTH_M: f64 = 1e-9;
-/// No frame is turned by more: two whole turns.
+/// No frame is rotated by more: two whole revolutions.
 const MOST_ANGLE_DEG: f64 = 720.0;
 
 /// One robot: its nominal arm, tools, and what was identified of it.
@@ -570,7 +570,7 @@ pub(crate) fn is_tiny(flange_from_tool: &Pose) -> bool {
     off.iter().all(|m| *m < TINY_M) && off.iter().any(|m| *m > NO_LENGTH_M)
 }
 
-/// No frame is turned by so much.
+/// No frame is rotated by so much.
 fn check_angles(file: &Spanned<PoseFile>) -> Result<(), ProfileError> {
     let angles = [
         ("rx_deg", file.value.rx_deg),

@@ -216,7 +216,7 @@ impl Deltas {
             Pose::from_translation(rows[i].a_m + a[i], 0.0, 0.0)
                 * Pose::from_rotation(Rotation::about_x(rows[i].alpha_rad + alpha[i]))
         };
-        // a turn about an axis and a shift along it change places with the joint's turn
+        // a rotation about an axis and a shift along it change places with the joint's rotation
         Axes {
             steps: std::array::from_fn(|i| match i {
                 0 => before(0),

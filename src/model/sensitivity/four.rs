@@ -1,7 +1,7 @@
 //! The same derivatives, four postures side by side.
 
 use super::{Sensitivity, Torques};
-use crate::geometry::{Dual, Pose, Scalar, Turn, Vector, add, constant, cross, scale, sub};
+use crate::geometry::{AxisRotation, Dual, Pose, Scalar, Vector, add, constant, cross, scale, sub};
 use crate::model::batch::{Four, WIDTH};
 use crate::model::effects::{Deflection, Need, State};
 use crate::model::{Conditions, Model};
@@ -77,7 +77,7 @@ impl FourSensitivities<'_> {
     ) -> Pose<Four> {
         let chain = &self.model.chain;
         let commanded = self.model.mechanism.commanded(q);
-        let turns = Turn::of_each(&commanded);
+        let turns = AxisRotation::of_each(&commanded);
         let mut torques = [Four::zero(); 6];
         let mut real = turns;
         if !self.model.deflecting.is_empty() {
@@ -169,7 +169,7 @@ impl FourSensitivities<'_> {
     fn add_torques(
         &self,
         commanded: &[Four; 6],
-        turns: &[Turn<Four>; 6],
+        turns: &[AxisRotation<Four>; 6],
         torques: &[Four; 6],
         conditions: &Conditions,
         joints: &[FourMotions; 6],

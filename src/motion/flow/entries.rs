@@ -1,4 +1,5 @@
-//! Where programs start, what runs concurrently, what is kept from run to run, and text that nothing reaches.
+//! Where programs start, what runs concurrently, what is kept from run to run, and text that
+//! nothing reaches.
 
 use super::{Flow, From, MOST_ROUNDS, NO_INSTANCE, State};
 use crate::motion::before::{ANYWHERE, START};

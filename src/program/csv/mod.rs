@@ -19,8 +19,8 @@
 //!
 //! # Limits
 //! Cells are separated by commas, and numbers have a point. `GOTO` lines of APT and CL files are
-//! not read: they give a position and the axis of the tool, and a robot's pose has one turn more,
-//! on which the joints depend.
+//! not read: they give a position and the axis of the tool, and a robot's pose has one revolution
+//! more, on which the joints depend.
 
 mod header;
 mod records;

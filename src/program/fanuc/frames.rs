@@ -45,7 +45,7 @@ pub(super) struct BadNumber {
 
 /// Millimetres or degrees.
 const LARGEST: f64 = 1e6;
-/// No tool or frame is turned by more, degrees.
+/// No tool or frame is rotated by more, degrees.
 const MOST_ANGLE: f64 = 720.0;
 
 /// The kinds of files that show frames.

@@ -91,7 +91,7 @@ static ABOUT: About = About {
     has: "/PROG and /MN, or $MNUTOOL and $MNUFRAME,",
 };
 
-/// Printed with three decimals an angle up to this far beyond a half turn is still 180.000.
+/// Printed with three decimals an angle up to this far beyond a half revolution is still 180.000.
 const BEYOND_DEG: f64 = 0.0005;
 /// Numbers of a pose without configuration data.
 const PLAIN: usize = 6;

@@ -13,7 +13,7 @@ use crate::program::notation::pose_of_angles;
 use crate::program::{Load, Number, ReadError, Source, number};
 use foldhash::HashMap;
 
-/// No tool or frame is turned by more, degrees.
+/// No tool or frame is rotated by more, degrees.
 const MOST_ANGLE: f64 = 720.0;
 
 /// What condition files tell, by number; `None` where files differ.

@@ -56,7 +56,7 @@ impl Cause {
             ),
             Self::Relative => (
                 "moving-frame",
-                "the job is relative (RJ) to a station: its user frame turns with the station",
+                "the job is relative (RJ) to a station: its user frame rotates with the station",
                 "relative jobs of stations are not compensated: write the positions in a fixed \
                  frame, and the station under `external_axes` with `follows: always`",
             ),

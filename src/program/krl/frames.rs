@@ -290,7 +290,7 @@ pub(super) fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
     pose_of_angles([x, y, z, c, b, a])
 }
 
-/// No tool or base is turned by more, degrees.
+/// No tool or base is rotated by more, degrees.
 const MOST_ANGLE: f64 = 720.0;
 
 /// See [`crate::program::Language::frame_of`]: X Y Z A B C, and of a tool of the table its load.

@@ -60,7 +60,7 @@ static ABOUT: About = About {
         "robtargets: CONST, PERS, VAR, LOCAL, TASK, arrays, and written out in any Move, Arc, \
          Trigg or Search instruction",
         "jointtargets of MoveAbsJ",
-        "confdata, where an axis leaves its quarter turn or the arm changes sides",
+        "confdata, where an axis leaves its quarter revolution or the arm changes sides",
     ],
     leaves: &[
         "external axes, speeds, zones, tools, work objects, loads",

@@ -88,7 +88,7 @@ fn a_move_names_its_target_tool_and_work_object() {
     let frame = program.frames[only.frame]
         .world_from_frame
         .expect("a frame");
-    // uframe turns by 90 degrees about z, so the x of oframe is y
+    // uframe rotates by 90 degrees about z, so the x of oframe is y
     assert!(
         (frame.translation[0] - 0.1).abs() < 1e-9 && (frame.translation[1] - 0.01).abs() < 1e-9
     );

@@ -1,7 +1,8 @@
 //! Poses as `p[x, y, z, rx, ry, rz]`: metres and a rotation vector.
 //!
-//! The vector's direction is the axis, its length the angle; lengths that differ by whole turns are
-//! the same rotation, and so is the opposite direction with the complement of the angle.
+//! The vector's direction is the axis, its length the angle; lengths that differ by whole
+//! revolutions are the same rotation, and so is the opposite direction with the complement of the
+//! angle.
 
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion, Vector, dot, norm, scale};
@@ -90,7 +91,7 @@ mod tests {
             let gap = super::pose(near, false).separation(&turned);
             assert!(gap.angle_rad < 1e-12 && gap.distance_m < 1e-15);
             let length = norm(old);
-            // next to a whole turn the axis itself turns far
+            // next to a whole revolution the axis itself turns far
             if (length / TAU - (length / TAU).round()).abs() > 0.05 {
                 assert!(
                     far([near[3], near[4], near[5]], old) < 2e-3,

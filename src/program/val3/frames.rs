@@ -9,7 +9,7 @@ use crate::geometry::Pose;
 use crate::program::script::{Expr, Held, NamedFrame, Remark, VariableId};
 use crate::program::{Shift, Source};
 
-/// No tool or frame is turned by more, degrees.
+/// No tool or frame is rotated by more, degrees.
 const MOST_ANGLE: f64 = 720.0;
 /// Frames on frames.
 const LONGEST_CHAIN: u32 = 32;

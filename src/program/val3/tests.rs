@@ -177,7 +177,7 @@ fn approaches_are_displaced_and_others_are_reported() {
     assert_eq!(shifts[1], Some(([0.0; 3], [0.0, -0.0015, 0.0])));
     assert_eq!(shifts[2], None);
     assert_eq!(shifts[3], Some(([0.0, 0.007, 0.0], [0.0; 3])));
-    // y of the world is x of a frame that is turned by a quarter
+    // y of the world is x of a frame that is rotated by a quarter
     let (in_frame, _) = shifts[4].expect("both are known");
     assert!((in_frame[0] - 0.007).abs() < 1e-12 && in_frame[1].abs() < 1e-12);
 }

@@ -14,7 +14,7 @@ pub struct BaseFrame {
     /// `robot_from_base`: origin B1, x to B2, B3 in the xy plane with y > 0.
     pub robot_from_base: Pose,
     /// The residual of each taught point, metres.
-    pub left_m: [Vector; 3],
+    pub residual_m: [Vector; 3],
     /// Root mean square of it, metres.
     pub rms_m: f64,
 }
@@ -62,6 +62,6 @@ pub fn set_base_frame(taught_m: [Vector; 3], base_m: [f64; 3]) -> Result<BaseFra
     Ok(BaseFrame {
         robot_from_base: fit.to_from_from,
         rms_m: fit.rmsd_m(&exact, &taught_m, None),
-        left_m: [left[0], left[1], left[2]],
+        residual_m: [left[0], left[1], left[2]],
     })
 }

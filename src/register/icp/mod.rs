@@ -168,7 +168,7 @@ pub struct PointResidual {
     pub at_m: Vector,
     /// From there to the nearest point of TO or, with [`Metric::PointToPlane`], to the plane
     /// there, metres.
-    pub left_m: Vector,
+    pub residual_m: Vector,
     /// Whether it is among the nearest that are kept.
     pub kept: bool,
 }
@@ -276,7 +276,7 @@ fn left(
     let one = |(pair, index): (&Pairing, &usize)| PointResidual {
         index: *index,
         at_m: pair.at,
-        left_m: match options.metric {
+        residual_m: match options.metric {
             Metric::PointToPoint => gap(pair),
             Metric::PointToPlane => {
                 let normal = surface.normals[pair.partner];

@@ -73,7 +73,7 @@ pub(super) fn judge(
         let open = svd.right.column(5);
         let (turn, shift) = ([open[0], open[1], open[2]], [open[3], open[4], open[5]]);
         let (what, v) = if norm(turn) > norm(shift) {
-            ("turning about", scale(1.0 / norm(turn), turn))
+            ("rotating about", scale(1.0 / norm(turn), turn))
         } else {
             ("sliding along", scale(1.0 / norm(shift), shift))
         };

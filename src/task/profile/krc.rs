@@ -234,7 +234,7 @@ fn track(data: &Data, number: usize, axes: &[usize], read: &mut Read) -> Result<
         let ([min, max], is_linear) = limits(data, *axis)?;
         if !is_linear {
             let kind = data.get(&format!("$AXIS_TYPE[{}]", axis + 6))?;
-            let message = format!("E{axis} turns the base: a turntable under the robot");
+            let message = format!("E{axis} rotates the base: a turntable under the robot");
             let hint = "only linear axes under the robot are compensated";
             return Err(data.refuse(kind, message, hint));
         }

@@ -321,7 +321,7 @@ pub(super) fn read(
         };
         let [min_rad, max_rad] = file.bounds(single)?;
         notes.push(format!(
-            "{own}: SINGLE {} ({}): it turns about z of its base frame (not verified)",
+            "{own}: SINGLE {} ({}): it rotates about z of its base frame (not verified)",
             single.name(),
             from(single)
         ));

@@ -88,6 +88,6 @@ fn finding(concern: &Concern, name: &str) -> Finding {
 fn residual(one: &PointResidual, from: &Points, kept: f64) -> Residual {
     Residual {
         rejected: (!one.kept).then(|| format!("beyond the nearest {:.0} %", 100.0 * kept)),
-        ..Residual::new(&from.rows[one.index].id, one.left_m).at(one.at_m)
+        ..Residual::new(&from.rows[one.index].id, one.residual_m).at(one.at_m)
     }
 }

@@ -69,7 +69,7 @@ fn a_configuration_that_a_straight_move_cannot_reach_is_an_error() {
     let by = [10.0, 15.0, 5.0];
     let same = checked(&(joint_move(from) + &straight_to(from, by, [0, 0, 0, 0])));
     assert!(!same.is_refused(), "{:?}", same.findings);
-    // joints 4 and 6 turned by half, joint 5 to the other side
+    // joints 4 and 6 rotated by half, joint 5 to the other side
     let other = checked(&(joint_move(from) + &straight_to(from, by, [0, -2, -2, 1])));
     assert!(
         ids(&other).contains(&("configuration-change", Severity::Error)),
@@ -145,7 +145,7 @@ fn a_wrist_that_turns_more_than_half_a_turn_is_noted() {
         .find(|f| f.id == "large-turn")
         .expect("it is noted");
     assert!(
-        note.severity == Severity::Note && note.message.contains("joint 6 turns by 300.0"),
+        note.severity == Severity::Note && note.message.contains("joint 6 rotates by 300.0"),
         "{}",
         note.message
     );

@@ -1,4 +1,4 @@
-//! Profiles from URDFs: any chain of six turning joints, and what is refused.
+//! Profiles from URDFs: any chain of six rotating joints, and what is refused.
 
 use super::part;
 use crate::support::{poseshift, scratch};

@@ -183,7 +183,7 @@ fn a_urdf_stands_where_its_controller_counts_from() {
         assert!(gap < 1e-9, "{:?} {xyz:?}", pose.translation);
     };
     let (fanuc, text) = made("a.yaml", &[]);
-    // turned by half a turn and 450 mm up: from the frame `base`
+    // rotated by half a turn and 450 mm up: from the frame `base`
     near(&zero(&fanuc), [-0.89, 0.0, 0.8]);
     assert!(
         text.contains("the world is link `base`") && text.contains("0 0 450 mm"),

@@ -243,7 +243,7 @@ fn what_repeats_at_a_pose_and_no_function_tells_is_missing() {
     let reported = found.reasons.iter();
     let reported = reported.filter(|r| r.contains("the noise that repeated poses show"));
     assert_eq!(reported.count(), 1, "{:?}", found.reasons);
-    assert!(found.left_m > 2.0 * found.noise_m);
+    assert!(found.residual_m > 2.0 * found.noise_m);
     // measured once each there is no telling it from noise
     let once = moved(
         without_sigma(case(group("clean"), 0, 8, SESSION.0)),

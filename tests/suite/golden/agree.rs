@@ -80,7 +80,7 @@ fn a_path_has_the_same_fake_targets_in_every_language() {
 #[test]
 fn val3_counts_from_the_shoulder_wherever_the_profile_begins() {
     let shoulder = text("programs/val3/profile.yaml");
-    // an effect of the base turns about where the profile begins
+    // an effect of the base rotates about where the profile begins
     let lines = shoulder.lines().filter(|line| !line.contains("base_frame"));
     let shoulder: String = lines.map(|line| format!("{line}\n")).collect();
     let foot = shoulder.replacen("z_mm: 0,", "z_mm: -478,", 1).replacen(

@@ -172,7 +172,7 @@ struct Case {
 }
 
 impl Case {
-    /// A random one; turned by 60 to 130 degrees, or by little where joints turn back.
+    /// A random one; rotated by 60 to 130 degrees, or by little where joints turn back.
     fn random(random: &mut impl rand::Rng, peer: &Peer, turned: bool) -> Option<Self> {
         let ranges = [100.0, 50.0, 40.0, 110.0, 80.0, 150.0_f64];
         let start: [f64; 6] =

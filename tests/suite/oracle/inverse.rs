@@ -129,7 +129,7 @@ fn every_solution_of_an_independent_closed_form_is_one_of_the_eight_branches() {
                 numbers_of(&wanted),
                 [t.x * 1e3, t.y * 1e3, t.z * 1e3, r.w, r.x, r.y, r.z],
             );
-            // the flange of the crate is turned about its own z against the maker's
+            // the flange of the crate is rotated about its own z against the maker's
             assert!(distance < 1e-9, "{file} {distance} mm, {angle} rad");
             let ours: Vec<[f64; 6]> = Branch::ALL
                 .iter()

@@ -394,7 +394,7 @@ fn what_cannot_be_distinguished_is_named_and_stays_nominal() {
         .iter()
         .map(|d| found.problem.parameters[d.parameter].key.as_str())
         .collect();
-    // joint 1 turns about the base's own axis, and its offset along it is the base's height
+    // joint 1 rotates about the base's own axis, and its offset along it is the base's height
     for key in [
         "link_geometry link 1 theta_deg",
         "link_geometry link 1 d_mm",

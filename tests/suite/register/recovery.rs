@@ -201,7 +201,7 @@ fn left_is_what_the_pose_leaves(found: &Found, from: &[Vector], to: &[Vector], m
             "{metric:?}: point {}",
             one.index
         );
-        squares += norm(one.left_m).powi(2);
+        squares += norm(one.residual_m).powi(2);
     }
     let kept = found.left.iter().filter(|one| one.kept).count();
     assert!(
@@ -224,7 +224,7 @@ fn left_is_what_the_pose_leaves(found: &Found, from: &[Vector], to: &[Vector], m
                 .map(|p| norm(sub(*p, one.at_m)))
                 .fold(f64::INFINITY, f64::min);
             assert!(
-                (nearest - norm(one.left_m)).abs() < 1e-12,
+                (nearest - norm(one.residual_m)).abs() < 1e-12,
                 "point {}",
                 one.index
             );

@@ -2,7 +2,7 @@
 
 use crate::check::{THESIS, profile, rapid, run};
 use poseshift::check::trace::trace;
-use poseshift::check::{Options, Scene, Subject, Turning};
+use poseshift::check::{Options, Scene, Subject, ToolRotation};
 use poseshift::program::rapid::Rapid;
 
 const MOVES: &str = "    MoveAbsJ [[0,10,-10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,artifact;
@@ -20,7 +20,7 @@ fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 fn samples_stay_within_the_bounds_and_end_where_the_moves_end() {
     let (profile, sources) = (profile(THESIS), rapid(MOVES));
     let scene = Scene::default();
-    for turning in [Turning::Slerp, Turning::Euler] {
+    for turning in [ToolRotation::Slerp, ToolRotation::Euler] {
         let options = Options {
             turning,
             ..Options::default()

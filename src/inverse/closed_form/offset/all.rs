@@ -8,13 +8,13 @@
 //! branch.
 
 use super::{Arm, Circle, LONGEST_RAD, MISSED_RAD, MOST_STEPS, Reached, SETTLED_RAD};
-use crate::geometry::{Pose, Turn, roots};
+use crate::geometry::{AxisRotation, Pose, roots};
 use std::f64::consts::{PI, TAU};
 
-/// Cells in which edges are searched, a whole turn of joint 6 or a stretch of it: waves of the
-/// second order, and a square root's of the shoulder.
+/// Cells in which edges are searched, a whole revolution of joint 6 or a stretch of it: waves of
+/// the second order, and a square root's of the shoulder.
 const EDGE_CELLS: u32 = 16;
-/// Cells in which roots are searched, a whole turn of joint 6 or a stretch of it.
+/// Cells in which roots are searched, a whole revolution of joint 6 or a stretch of it.
 const ROOT_CELLS: u32 = 24;
 /// A minimum of the room within reach below this share of the most counts as an edge.
 const PINCHED: f64 = 0.1;
@@ -75,7 +75,7 @@ impl Stretch {
         }
         let mut ends = edges.clone();
         if let Self::Plain { .. } = self {
-            // a whole turn: the last part goes over into the first
+            // a whole revolution: the last part goes over into the first
             ends.push(edges[0] + TAU);
         } else {
             ends.insert(0, from);
@@ -132,7 +132,7 @@ impl Arm {
         target: &Pose,
         fronts: &[f64],
         befores: &[f64],
-        mut each: impl FnMut([Turn; 6]),
+        mut each: impl FnMut([AxisRotation; 6]),
     ) {
         let circle = self.circle(target);
         let (mut edges, mut found) = (Vec::new(), Vec::new());
@@ -148,7 +148,7 @@ impl Arm {
                         found.clear();
                         self.search(&circle, whole, part, [front, before], &mut found);
                         for &angle in &found {
-                            let sixth = Turn::of(angle);
+                            let sixth = AxisRotation::of(angle);
                             let here = self.reached(&circle.at(sixth), front, before);
                             each(self.rows_at(target, sixth, &here));
                         }
@@ -180,7 +180,7 @@ impl Arm {
     /// Squared distance of the meeting point from the nearest place that the shoulder's offset
     /// allows, m², and its slope.
     fn shoulder_room(&self, circle: &Circle<f64>, angle: f64) -> (f64, f64) {
-        let sixth = Turn::of(angle);
+        let sixth = AxisRotation::of(angle);
         let ([x, y, _], [dx, dy, _]) = (circle.at(sixth).point, circle.slope(sixth).point);
         let room = x * x + y * y - self.lateral_m * self.lateral_m;
         (room, 2.0 * (x * dx + y * dy))
@@ -188,7 +188,7 @@ impl Arm {
 
     /// Squared sine of the elbow, negative out of reach, and its slope.
     fn elbow_room(&self, circle: &Circle<f64>, angle: f64, front: f64) -> (f64, f64) {
-        let sixth = Turn::of(angle);
+        let sixth = AxisRotation::of(angle);
         let (at, moved) = (circle.at(sixth).point, circle.slope(sixth).point);
         let (_, r, _) = self.shoulder(at, front);
         let (dr, _) = self.shoulder_slope([at[0], at[1]], [moved[0], moved[1]], r);
@@ -208,7 +208,7 @@ impl Arm {
         found: &mut Vec<f64>,
     ) {
         let residual = |angle: f64| {
-            let sixth = Turn::of(angle);
+            let sixth = AxisRotation::of(angle);
             let at = circle.at(sixth);
             let here = self.reached(&at, front, before);
             (here.value, self.slope(&here, &at, &circle.slope(sixth)))
@@ -246,9 +246,9 @@ impl Arm {
     pub(in super::super) fn offset_root_near(
         &self,
         target: &Pose,
-        start: Turn,
+        start: AxisRotation,
         [front, before]: ArmSigns,
-    ) -> Option<([Turn; 6], f64)> {
+    ) -> Option<([AxisRotation; 6], f64)> {
         let circle = self.circle(target);
         let (mut sixth, mut turned) = (start, 0.0_f64);
         for _ in 0..MOST_STEPS {
@@ -274,10 +274,11 @@ impl Arm {
         &self,
         target: &Pose,
         [front, before]: ArmSigns,
-    ) -> ([Turn; 6], f64) {
+    ) -> ([AxisRotation; 6], f64) {
         let circle = self.circle(target);
         let missed = |angle: f64| {
-            let here: Reached<f64> = self.reached(&circle.at(Turn::of(angle)), front, before);
+            let here: Reached<f64> =
+                self.reached(&circle.at(AxisRotation::of(angle)), front, before);
             here.beyond + here.value.abs()
         };
         let cell = TAU / f64::from(ROOT_CELLS);
@@ -300,7 +301,7 @@ impl Arm {
             }
             step *= 0.5;
         }
-        let sixth = Turn::of(angle);
+        let sixth = AxisRotation::of(angle);
         let here = self.reached(&circle.at(sixth), front, before);
         (
             self.rows_at(target, sixth, &here),

@@ -22,7 +22,7 @@ pub(super) use all::ArmSigns;
 
 use super::{Arm, Margins, Wrist, arm_rotation};
 use crate::geometry::units::{DEG, MM};
-use crate::geometry::{Jet, Pose, Rotation, Scalar, Turn, Vector, add, scale};
+use crate::geometry::{AxisRotation, Jet, Pose, Rotation, Scalar, Vector, add, scale};
 
 /// What the equation may miss zero by: the error of the orientation, radians.
 const MISSED_RAD: f64 = 1e-12;
@@ -43,7 +43,7 @@ const ONE_SOLUTION: Margins = Margins {
     shoulder_m: 100.0 * MM,
 };
 
-/// What turns as joint 6 does, with the tool held: the point where axes 4 and 5 meet and the
+/// What rotates as joint 6 does, with the tool held: the point where axes 4 and 5 meet and the
 /// direction of axis 5, in the frame that axis 1 turns. Each is `fixed + cosine · across + sine ·
 /// along`.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +76,7 @@ impl<S: Scalar> Circle<S> {
     }
 
     #[inline(always)]
-    fn at(&self, sixth: Turn<S>) -> Meeting<S> {
+    fn at(&self, sixth: AxisRotation<S>) -> Meeting<S> {
         let of = |[fixed, across, along]: &[Vector<S>; 3]| {
             let mut sum = *fixed;
             for i in 0..3 {
@@ -91,7 +91,7 @@ impl<S: Scalar> Circle<S> {
     }
 
     #[inline(always)]
-    fn slope(&self, sixth: Turn<S>) -> Meeting<S> {
+    fn slope(&self, sixth: AxisRotation<S>) -> Meeting<S> {
         let of = |[_, across, along]: &[Vector<S>; 3]| {
             let mut sum = [S::zero(); 3];
             for i in 0..3 {
@@ -109,12 +109,12 @@ impl<S: Scalar> Circle<S> {
 /// The arm in front of the meeting point on one of the four branches, and what the equation leaves.
 #[derive(Clone, Copy, Debug)]
 struct Reached<S> {
-    first: Turn<S>,
-    second: Turn<S>,
-    third: Turn<S>,
+    first: AxisRotation<S>,
+    second: AxisRotation<S>,
+    third: AxisRotation<S>,
     /// Row 2 and, in its sense, row 3.
-    sum: Turn<S>,
-    elbow: Turn<S>,
+    sum: AxisRotation<S>,
+    elbow: AxisRotation<S>,
     /// In the arm's plane: of the meeting point from axis 1, from axis 2, and above it.
     r: S,
     u: S,
@@ -208,16 +208,16 @@ impl Arm {
     fn rows_at<S: Scalar>(
         &self,
         target: &Pose<S>,
-        sixth: Turn<S>,
+        sixth: AxisRotation<S>,
         here: &Reached<S>,
-    ) -> [Turn<S>; 6] {
+    ) -> [AxisRotation<S>; 6] {
         let k = S::constant;
         let third_from_turning =
             arm_rotation(here.first, here.sum, k(self.e2), k(self.s3)).transpose();
         let n = self.link4_from_wrist.cast() * (third_from_turning * target.rotation);
         // axes of row 5 in the last frame: Rz(−6) · Rx(−α6)
         let (sine_6, cosine_6) = (k(self.alpha_6.sine), k(self.alpha_6.cosine));
-        let Turn { sine: s, cosine: c } = sixth;
+        let AxisRotation { sine: s, cosine: c } = sixth;
         let x5 = [c, -s, S::zero()];
         let y5 = [cosine_6 * s, cosine_6 * c, -sine_6];
         let z5 = [sine_6 * s, sine_6 * c, cosine_6];
@@ -227,8 +227,8 @@ impl Arm {
         };
         // Rz(4) · Rx(α5) · Rz(5)
         let side = k(self.alpha_5.sine.signum());
-        let fourth = Turn::toward(side * along(0, z5), -(side * along(1, z5)));
-        let fifth = Turn::toward(side * along(2, x5), side * along(2, y5));
+        let fourth = AxisRotation::toward(side * along(0, z5), -(side * along(1, z5)));
+        let fifth = AxisRotation::toward(side * along(2, x5), side * along(2, y5));
         [here.first, here.second, here.third, fourth, fifth, sixth]
     }
 
@@ -242,10 +242,10 @@ impl Arm {
         target: &Pose<S>,
         [front, before, _]: [S; 3],
         near: &[S; 6],
-    ) -> ([Turn<S>; 6], S) {
+    ) -> ([AxisRotation<S>; 6], S) {
         let k = S::constant;
         let circle = self.circle(target);
-        let mut sixth = self.row(5, Turn::of(self.mechanism.commanded(near)[5]));
+        let mut sixth = self.row(5, AxisRotation::of(self.mechanism.commanded(near)[5]));
         let mut at = circle.at(sixth);
         let mut here = self.reached(&at, front, before);
         for _ in 0..MOST_STEPS {
@@ -253,7 +253,7 @@ impl Arm {
             let step = (-(here.value / slope))
                 .max(k(-LONGEST_RAD))
                 .min(k(LONGEST_RAD));
-            sixth = sixth * Turn::of(step);
+            sixth = sixth * AxisRotation::of(step);
             at = circle.at(sixth);
             here = self.reached(&at, front, before);
             if step.abs().every_below(SETTLED_RAD) {
@@ -271,10 +271,10 @@ impl Arm {
         target: &Pose<Jet>,
         half_width: f64,
         near: &[f64; 6],
-    ) -> ([Turn<Jet>; 6], Jet) {
+    ) -> ([AxisRotation<Jet>; 6], Jet) {
         // a track may have left the branch that it began on
         let [front, before, _] = self.posture(near).0.signs().map(Jet::constant);
-        let given = self.row(5, Turn::of(self.mechanism.commanded(near)[5]));
+        let given = self.row(5, AxisRotation::of(self.mechanism.commanded(near)[5]));
         let middle = Pose {
             rotation: Rotation(target.rotation.0.map(|row| row.map(|x| x.value.middle))),
             translation: target.translation.map(|x| x.value.middle),
@@ -285,7 +285,7 @@ impl Arm {
         // Newton's map with the slope of the middle: what it leaves of a step is small throughout a
         // short interval
         let inverse = Jet::constant(self.slope(&here, &at, &circle.slope(given)).recip());
-        let turned = |fifth: Jet| given.cast() * Turn::of(fifth);
+        let turned = |fifth: Jet| given.cast() * AxisRotation::of(fifth);
         let back = |target: &Pose<Jet>, fifth: Jet| {
             let meeting = self.circle(target).at(turned(fifth));
             fifth - self.reached(&meeting, front, before).value * inverse
@@ -318,7 +318,7 @@ impl Arm {
         let (branch, _) = self.posture(q);
         let [front, before, _] = branch.signs();
         let circle = self.circle(&self.last_row(&self.forward(q)));
-        let sixth = self.row(5, Turn::of(self.mechanism.commanded(q)[5]));
+        let sixth = self.row(5, AxisRotation::of(self.mechanism.commanded(q)[5]));
         let at = circle.at(sixth);
         let here = self.reached(&at, front, before);
         let slope = self.slope(&here, &at, &circle.slope(sixth));
@@ -339,9 +339,9 @@ impl Arm {
     }
 }
 
-/// A direction along the arm's plane, across it and upward, with the plane turned by row 1.
+/// A direction along the arm's plane, across it and upward, with the plane rotated by row 1.
 #[inline(always)]
-fn axis_in_plane<S: Scalar>([x, y, z]: Vector<S>, first: Turn<S>) -> [S; 3] {
+fn axis_in_plane<S: Scalar>([x, y, z]: Vector<S>, first: AxisRotation<S>) -> [S; 3] {
     [
         first.cosine * x + first.sine * y,
         first.cosine * y - first.sine * x,

@@ -117,7 +117,7 @@ fn frames_written_out_have_their_value() {
     );
     let tool = program.tools[0].flange_from_tool.expect("a tool");
     assert_eq!(tool.translation, [0.001, 0.002, 0.003]);
-    // C turns about x
+    // C rotates about x
     assert!((tool.rotation.0[2][1] - 1.0).abs() < 1e-12);
     assert!(program.tools[2].flange_from_tool.is_some());
     assert_eq!(reported(&program), [""; 0]);

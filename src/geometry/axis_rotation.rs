@@ -3,20 +3,20 @@
 use super::Scalar;
 use std::ops::Mul;
 
-/// Angles below this, radians, are turned by a short series.
+/// Angles below this, radians, are rotated by a short series.
 const SMALL_RAD: f64 = 1.0 / 64.0;
 
 /// A plane rotation by its sine and cosine: what a chain needs of a joint's angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn<S = f64> {
+pub struct AxisRotation<S = f64> {
     /// Sine of the angle.
     pub sine: S,
     /// Cosine of the angle.
     pub cosine: S,
 }
 
-impl<S: Scalar> Turn<S> {
-    /// The turn by `angle` radians.
+impl<S: Scalar> AxisRotation<S> {
+    /// The rotation by `angle` radians.
     #[inline(always)]
     #[must_use]
     pub fn of(angle: S) -> Self {
@@ -24,7 +24,7 @@ impl<S: Scalar> Turn<S> {
         Self { sine, cosine }
     }
 
-    /// No turn.
+    /// No rotation.
     #[inline(always)]
     #[must_use]
     pub fn none() -> Self {
@@ -34,7 +34,7 @@ impl<S: Scalar> Turn<S> {
         }
     }
 
-    /// The turns by six angles.
+    /// The rotates by six angles.
     #[inline(always)]
     #[must_use]
     pub fn of_each(angles: &[S; 6]) -> [Self; 6] {
@@ -45,7 +45,7 @@ impl<S: Scalar> Turn<S> {
         turns
     }
 
-    /// The turn that takes the x axis to the direction of (x, y); none at the origin.
+    /// The rotation that takes the x axis to the direction of (x, y); none at the origin.
     #[inline(always)]
     #[must_use]
     pub fn toward(y: S, x: S) -> Self {
@@ -65,7 +65,7 @@ impl<S: Scalar> Turn<S> {
         self.sine.atan2(self.cosine)
     }
 
-    /// The turn back.
+    /// The rotation back.
     #[inline(always)]
     #[must_use]
     pub fn inverse(self) -> Self {
@@ -85,7 +85,7 @@ impl<S: Scalar> Turn<S> {
         }
     }
 
-    /// This turn and `angle` more; cheaper than [`Turn::of`] where the angle is small.
+    /// This rotation and `angle` more; cheaper than [`AxisRotation::of`] where the angle is small.
     #[inline(always)]
     #[must_use]
     pub fn and(self, angle: S) -> Self {
@@ -114,19 +114,19 @@ impl<S: Scalar> Turn<S> {
     }
 }
 
-impl Turn {
+impl AxisRotation {
     /// The same turn as constants of another scalar.
     #[inline(always)]
     #[must_use]
-    pub fn cast<S: Scalar>(&self) -> Turn<S> {
-        Turn {
+    pub fn cast<S: Scalar>(&self) -> AxisRotation<S> {
+        AxisRotation {
             sine: S::constant(self.sine),
             cosine: S::constant(self.cosine),
         }
     }
 }
 
-impl<S: Scalar> Mul for Turn<S> {
+impl<S: Scalar> Mul for AxisRotation<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -144,7 +144,7 @@ mod tests {
 
     const TOLERANCE: f64 = 4.0e-16;
 
-    fn gap(a: Turn, b: Turn) -> f64 {
+    fn gap(a: AxisRotation, b: AxisRotation) -> f64 {
         (a.sine - b.sine).abs().max((a.cosine - b.cosine).abs())
     }
 
@@ -152,15 +152,20 @@ mod tests {
     fn small_and_large_angles_are_added_alike() {
         for k in -4000..4000_i32 {
             let (angle, more) = (0.7 * f64::from(k), 1e-5 * f64::from(k));
-            assert!(gap(Turn::of(angle).and(more), Turn::of(angle + more)) < 5e-13);
-            assert!(gap(Turn::of(0.0).and(more), Turn::of(more)) < TOLERANCE);
+            assert!(
+                gap(
+                    AxisRotation::of(angle).and(more),
+                    AxisRotation::of(angle + more)
+                ) < 5e-13
+            );
+            assert!(gap(AxisRotation::of(0.0).and(more), AxisRotation::of(more)) < TOLERANCE);
         }
     }
 
     #[test]
     fn derivatives_of_a_small_turn_are_those_of_sine_and_cosine() {
-        let by_series = Turn::of(Dual::<1>::constant(0.4)).and(Dual::variable(0.015, 0));
-        let exact = Turn::of(Dual::<1>::variable(0.415, 0));
+        let by_series = AxisRotation::of(Dual::<1>::constant(0.4)).and(Dual::variable(0.015, 0));
+        let exact = AxisRotation::of(Dual::<1>::variable(0.415, 0));
         assert!((by_series.sine.slope[0] - exact.sine.slope[0]).abs() < 1e-14);
         assert!((by_series.cosine.slope[0] - exact.cosine.slope[0]).abs() < 1e-14);
     }
@@ -169,10 +174,10 @@ mod tests {
     fn a_direction_gives_its_angle_and_the_origin_none() {
         assert!(
             gap(
-                Turn::toward(3.0 * 2.4_f64.sin(), 3.0 * 2.4_f64.cos()),
-                Turn::of(2.4)
+                AxisRotation::toward(3.0 * 2.4_f64.sin(), 3.0 * 2.4_f64.cos()),
+                AxisRotation::of(2.4)
             ) < TOLERANCE
         );
-        assert_eq!(Turn::toward(0.0, 0.0), Turn::of(0.0));
+        assert_eq!(AxisRotation::toward(0.0, 0.0), AxisRotation::of(0.0));
     }
 }
