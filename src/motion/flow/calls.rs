@@ -8,7 +8,7 @@ use crate::program::script::{
 };
 use std::rc::Rc;
 
-impl<'a> Flow<'a> {
+impl Flow<'_> {
     /// What a call itself does before it goes anywhere: arguments are given away, what is shared is
     /// uncertain.
     pub(super) fn call(&mut self, instance: u32, call: &Call, site: Site, state: &mut State) {

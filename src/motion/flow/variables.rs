@@ -9,7 +9,7 @@ use crate::program::script::{
 use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
 
-impl<'a> Flow<'a> {
+impl Flow<'_> {
     /// Decides which variables are tracked: those with more than one thing to hold.
     pub(super) fn track(&mut self) {
         let script = self.script;

@@ -96,8 +96,8 @@ fn halves(profile: &Path, text: &str) -> Vec<Option<f64>> {
         let at = |name: &str| scratch.path().join(name);
         let (own, other) = (at("own.csv"), at("other.csv"));
         let (level, better) = (at("level3.yaml"), at("better.yaml"));
-        std::fs::write(&own, half(&text, odd)).expect("scratch");
-        std::fs::write(&other, half(&text, !odd)).expect("scratch");
+        std::fs::write(&own, half(text, odd)).expect("scratch");
+        std::fs::write(&other, half(text, !odd)).expect("scratch");
         let word = Path::new;
         run(
             &[
