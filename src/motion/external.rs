@@ -38,6 +38,8 @@ pub(crate) fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -
         pulses_per_deg: profile.pulses_per_deg,
         accept_absolutely_accurate,
         external: ExternalNames {
+            carries_every_frame: (external.positioners.iter())
+                .any(|positioner| positioner.follows == Follows::Always),
             listed: external
                 .listed()
                 .map(|axis| axis.name().to_owned())

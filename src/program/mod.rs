@@ -139,6 +139,8 @@ pub struct ExternalNames {
     pub ignored: Vec<String>,
     /// Units by their names, with their axes bit by bit by the index in [`ExternalNames::listed`].
     pub units: Vec<(String, u16)>,
+    /// A positioner carries every work frame, also those of which programs do not say so.
+    pub carries_every_frame: bool,
 }
 
 /// What a program does to external axes besides its targets, while a move runs.

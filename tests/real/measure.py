@@ -46,14 +46,14 @@ FIT = re.compile("out-of-reach|joint-limit|not-converged|configuration-unknown|b
 EXTERNAL = re.compile("external-axis-unknown|positioner-unknown|moving-frame|group-without-geometry")
 TRACK = "  track: [{{axis: {}, direction: [{}, {}, 0], up: [0, 0, 1], min_mm: -20000, max_mm: 20000}}]\n"
 STATION = (
-    "  positioners:\n    - name: ST1\n      axes:\n"
-    "        - {axis: EC1, at: {x_mm: 900, y_mm: 0, z_mm: 300, rx_deg: 90, ry_deg: 0, rz_deg: 0}, min_deg: -720, max_deg: 720}\n"
-    "        - {axis: EC2, at: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: -90, ry_deg: 0, rz_deg: 0}, min_deg: -720, max_deg: 720}\n"
+    "  positioners:\n    - name: station\n      follows: always\n      axes:\n"
+    "        - {{axis: {}, at: {{x_mm: 900, y_mm: 0, z_mm: 300, rx_deg: 90, ry_deg: 0, rz_deg: 0}}, min_deg: -720, max_deg: 720}}\n"
+    "        - {{axis: {}, at: {{x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: -90, ry_deg: 0, rz_deg: 0}}, min_deg: -720, max_deg: 720}}\n"
 )
 # what may carry the arm or the part, tried where a refusal asks for it: a rail along x or y of the base, a station, or nothing
 AXES = {
-    "fanuc": [TRACK.format("E1", 1, 0), TRACK.format("E1", 0, 1), "  other: [E1]\n"],
-    "inform": [STATION, TRACK.format("BC1", 1, 0), TRACK.format("BC1", 0, 1)],
+    "fanuc": [TRACK.format("E1", 1, 0), TRACK.format("E1", 0, 1), "  other: [E1]\n", STATION.format("G2J1", "G2J2")],
+    "inform": [STATION.format("EC1", "EC2"), TRACK.format("BC1", 1, 0), TRACK.format("BC1", 0, 1)],
     "rapid": [TRACK.format("eax_a", 1, 0), TRACK.format("eax_a", 0, 1), "  other: [eax_a]\n"],
     "krl": [TRACK.format("E1", 1, 0), TRACK.format("E1", 0, 1), "  other: [E1]\n"],
 }

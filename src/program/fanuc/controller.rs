@@ -97,7 +97,8 @@ impl Why {
             Self::Coordinated => (
                 "group-without-geometry",
                 "the move is coordinated with a positioner (COORD), which moves the work piece",
-                moving,
+                "describe the positioner under `external_axes` of the profile (G2J1…), with \
+                 `follows: always`",
             ),
             Self::LineTracking => ("moving-frame", "the program follows a conveyor", moving),
             Self::Computed => (

@@ -72,6 +72,7 @@ impl Reader<'_> {
         }
         let mut words = Words::of(text, behind);
         words.against[Why::LineTracking as usize] = self.listing.tracks_line;
+        words.against[Why::Coordinated as usize] &= !self.listing.is_carried;
         let is_arc = points.len() == 2;
         let is_row = !is_arc && b"AC".contains(&letter);
         let is_repeatable = words.is_plain && line.is_closed && (is_arc || b"JL".contains(&letter));

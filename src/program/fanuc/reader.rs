@@ -38,6 +38,8 @@ pub(super) struct Listing {
     pub any: Option<Vec<Group>>,
     /// It follows a conveyor.
     pub tracks_line: bool,
+    /// A positioner of the profile carries its frames: `COORD` is relative to these.
+    pub is_carried: bool,
     /// Which tool and frame are selected matters to some of its moves.
     pub uses_active: bool,
     /// It selects by an argument of its call.
@@ -172,6 +174,7 @@ fn listing(
         file,
         lines: sections.lines.clone(),
         tracks_line: tracks_line(&bytes[sections.head.clone()]),
+        is_carried: names.carries_every_frame,
         uses_active: has(b"PR["),
         uses_arguments: has(b"AR["),
         ..Listing::default()

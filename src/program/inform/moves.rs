@@ -21,6 +21,7 @@ const PLAIN: &[&[u8]] = &[
 struct Words<'a> {
     /// First byte.
     start: usize,
+    verb: &'a [u8],
     kind: Kind,
     robot: Option<(Operand, Span)>,
     /// Names of positions of the base and of a station.
@@ -35,6 +36,7 @@ impl<'a> Words<'a> {
     fn of(start: usize, verb: &'a [u8], kind: Kind) -> Self {
         Self {
             start,
+            verb,
             kind,
             robot: None,
             base: None,
@@ -119,9 +121,17 @@ impl<'a> Reader<'a> {
         // axes that go along with the robot
         let base = found.iter().find_map(|words| words.base);
         let station = found.iter().find_map(|words| words.station);
+        let is_alone = found.iter().filter(|words| words.robot.is_some()).count() == 1;
         for (at, mut words) in found.into_iter().enumerate() {
             if searches {
                 words.kind = Kind::Search;
+            } else if words.kind == Kind::Coordinated
+                && is_alone
+                && station.is_some()
+                && self.external_names.carries_every_frame
+            {
+                // relative to what carries the work piece anyway
+                words.kind = Kind::of(&words.verb[1..]);
             }
             // a station or the base moves alone; else it is a form that is not known
             if words.robot.is_some() || (at == 0 && base.is_none() && station.is_none()) {

@@ -108,7 +108,7 @@ pub(super) struct Reader<'a> {
     pub shifts: bool,
     pub here: Here,
     /// External axes that the profile describes.
-    external_names: &'a ExternalNames,
+    pub(super) external_names: &'a ExternalNames,
 }
 
 /// Whether the head of a job says that its user frame turns with a station: `///ATTR SC,RW,RJ` with

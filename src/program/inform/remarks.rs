@@ -52,7 +52,8 @@ impl Cause {
             Self::Coordinated => (
                 "moving-frame",
                 "the path is relative to a station or another robot (SMOV)",
-                "coordinated moves are not compensated",
+                "describe the station under `external_axes` of the profile, with `follows: \
+                 always`; moves relative to another robot are not compensated",
             ),
             Self::Relative => (
                 "moving-frame",

@@ -501,6 +501,24 @@ fn joints(robot: &Robot, wanted: &M4, near: &[f64; 6]) -> [f64; 6] {
     q
 }
 
+/// Straight moves that are coordinated, to the poses.
+fn coordinated_fanuc(text: &str) -> String {
+    let lines = text.lines().map(|line| {
+        let point = line
+            .split("P[")
+            .nth(1)
+            .and_then(|rest| rest.split(']').next());
+        let is_pose = |number: &str| number.parse().is_ok_and(|n: u32| n % 2 == 0);
+        match point.filter(|number| line.contains(":J P[") && is_pose(number)) {
+            Some(_) => line
+                .replace(":J P[", ":L P[")
+                .replace("10% FINE", "50mm/sec FINE COORD"),
+            None => line.to_owned(),
+        }
+    });
+    lines.map(|line| line + "\n").collect()
+}
+
 fn lands(said: Said, cell: &Cell) {
     let (arm_effects, arm_faults) = arm();
     let names = cell.names[said as usize];
@@ -628,6 +646,18 @@ fn lands(said: Said, cell: &Cell) {
         after < LANDS_MM,
         "{said:?}: {after} mm after, {before} before"
     );
+    // moves relative to what carries the part go to the same numbers
+    let coordinated = match said {
+        _ if cell.tables.is_empty() => None,
+        Said::Fanuc => Some(coordinated_fanuc(&text)),
+        Said::Inform => Some(text.replace("MOVL C", "SMOVL C")),
+        Said::Rapid | Said::Krl => None,
+    };
+    if let Some(text) = coordinated {
+        assert!(text.contains("SMOVL") || text.contains("COORD"));
+        let other = written_numbers(said, &written(&profile, &[(name, &text)]));
+        assert_eq!(other, fakes, "{said:?}");
+    }
     // nothing but the six numbers of a pose is another
     for line in &lines {
         for e in &line.e {
