@@ -136,8 +136,8 @@ pub(crate) fn calibrate<'py>(
     let options = options(selection(level, identify, fix, priors)?, loss, base)?;
     let file = &*profile.file;
     let rows = read(py, file, tables)?;
-    let found = long(py, |_| {
-        let found = task::calibrate::calibrate(file, rows, &options)?;
+    let found = long(py, |stop| {
+        let found = task::calibrate::calibrate(file, rows, &options, &mut || stop.here())?;
         let text = found.profile_text(file, date.as_deref())?;
         Ok((found, text))
     })?;
@@ -162,7 +162,7 @@ pub(crate) fn calibrate<'py>(
 
 /// Errors of a profile's models on measurements.
 #[pyfunction]
-#[pyo3(signature = (profile, tables, *, refit_frames=false, folds=None, level=None, priors=false, all_sets=false))]
+#[pyo3(signature = (profile, tables, *, refit_frames=false, folds=None, level=None, priors=false, all_sets=false, as_calibrated=false))]
 pub(crate) fn validate(
     py: Python<'_>,
     profile: &Profile,
@@ -172,6 +172,7 @@ pub(crate) fn validate(
     level: Option<&str>,
     priors: bool,
     all_sets: bool,
+    as_calibrated: bool,
 ) -> PyResult<Document> {
     if folds.is_some_and(|folds| !(2..=1000).contains(&folds)) {
         return Err(PyValueError::new_err("folds must be from 2 to 1000"));
@@ -189,6 +190,7 @@ pub(crate) fn validate(
         refit_frames,
         folds,
         all_sets,
+        as_calibrated,
     };
     let file = &*profile.file;
     let rows = read(py, file, tables)?;
@@ -201,7 +203,7 @@ pub(crate) fn validate(
 /// The effects that a profile lacks: the document, whether it is sure, the better profile where it
 /// is, and the configurations that would tell alternatives apart.
 #[pyfunction]
-#[pyo3(signature = (profile, tables, *, accept="", reject="", quick=false, steps=false))]
+#[pyo3(signature = (profile, tables, *, accept="", reject="", quick=false, steps=false, runs=false))]
 pub(crate) fn diagnose(
     py: Python<'_>,
     profile: &Profile,
@@ -210,6 +212,7 @@ pub(crate) fn diagnose(
     reject: &str,
     quick: bool,
     steps: bool,
+    runs: bool,
 ) -> PyResult<(Document, bool, Option<String>, Option<String>)> {
     let options = engine::Options {
         accept: picks("accept", accept)?,
@@ -220,7 +223,12 @@ pub(crate) fn diagnose(
     let file = &*profile.file;
     let rows = read(py, file, tables)?;
     let found = long(py, |stop| {
-        let found = task::diagnose::diagnose(file, rows, &options, &mut |_| stop.here())?;
+        let hear = &mut |_: &str| stop.here();
+        let found = if runs {
+            task::drift::diagnose_runs(file, rows, &options, hear)?
+        } else {
+            task::diagnose::diagnose(file, rows, &options, hear)?
+        };
         let better = found
             .is_sure()
             .then(|| found.profile_text(file))
@@ -230,6 +238,21 @@ pub(crate) fn diagnose(
     let (found, better) = identified(py, found)?;
     let (is_sure, poses) = (found.is_sure(), found.poses_csv());
     Ok((Document::new(found), is_sure, better, poses))
+}
+
+/// Changes of an error run by run: the first run with each and the one in which it was noticed,
+/// from 0, and the error before and since.
+#[pyfunction]
+pub(crate) fn changes(errors: Numbers<'_>) -> PyResult<Vec<(usize, usize, f64, f64)>> {
+    let errors = column("errors", &errors)?;
+    if let Some(wrong) = errors.iter().find(|e| **e < 0.0) {
+        let message = format!("an error is {wrong}; none is below 0");
+        return Err(PyValueError::new_err(message));
+    }
+    let found = engine::drift::changes(&errors).into_iter();
+    Ok(found
+        .map(|c| (c.since, c.noticed, c.before, c.after))
+        .collect())
 }
 
 /// A box of the world from two corners.

@@ -51,8 +51,9 @@ impl Problem {
         )?;
         let file = &*profile.file;
         let rows = read(py, file, tables)?;
-        let found = long(py, |_| -> Result<_, Failure> {
-            let found = task::calibrate::calibrate(file, rows, &options)?;
+        let found = long(py, |stop| -> Result<_, Failure> {
+            let hear = &mut || stop.here();
+            let found = task::calibrate::calibrate(file, rows, &options, hear)?;
             let residuals = Residuals::of(&found.found);
             let x0 = residuals.start(&file.profile);
             Ok(Self { residuals, x0 })

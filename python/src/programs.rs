@@ -17,7 +17,7 @@ use poseshift::report::{Drawing, check_html, check_junit, check_words, compensat
 use poseshift::task::check as checking;
 use poseshift::task::compensate::{Compensated, DespiteErrors, Header, Prepared, Request, prepare};
 use poseshift::task::programs::{LeftOut, acceptance, language_by_id};
-use poseshift::task::{Document as _, Failure, ProfileFile};
+use poseshift::task::{Document as _, Failure, ProfileFile, reading};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
@@ -434,4 +434,21 @@ pub(crate) fn check(
     let (told, refused, junit) = found.map_err(|failure| Kind::Check.raise(py, &failure))?;
     (all.json, all.words) = told;
     Ok((Document::new(all), refused, junit))
+}
+
+/// What programs say: the document's text.
+#[pyfunction]
+#[pyo3(signature = (files, context, profile, *, language=None))]
+pub(crate) fn read_program(
+    py: Python<'_>,
+    files: Files,
+    context: Files,
+    profile: Option<&Profile>,
+    language: Option<&str>,
+) -> PyResult<String> {
+    let sources = with_context(&files, &context);
+    let language = self::language(py, language)?;
+    let robot = profile.map(|profile| &profile.file.profile);
+    let found = py.detach(|| reading::read(&sources, robot, language).map(|found| found.json()));
+    found.map_err(|failure| Kind::Program.raise(py, &failure))
 }

@@ -12,9 +12,10 @@ from pathlib import Path
 from poseshift.errors import PoseshiftError
 from poseshift.fleet.collect import collect
 from poseshift.fleet.config import keep_off, read
+from poseshift.fleet.drift import drifts, since
 from poseshift.fleet.executors import Ran, missing, run_local, run_ray
 from poseshift.fleet.store import Store
-from poseshift.fleet.units import plan
+from poseshift.fleet.units import Unit, plan
 
 
 def main(words: Sequence[str] | None = None) -> int:
@@ -47,20 +48,28 @@ def _run(given: argparse.Namespace) -> int:
         listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in wanted]
         print(json.dumps({"poseshift": "fleet-plan/1", "units": len(units), "missing": listed}, indent=2))
         return 0
-    ran = Ran()
-    if given.step == "run" and wanted:
-        if given.executor == "ray":
-            import ray  # noqa: PLC0415
-
-            ray.init(address=given.address, log_to_driver=False, logging_level="ERROR")
-            ran = run_ray(units, store)
-        else:
-            ran = run_local(units, store, given.workers)
-    summary = collect(units, store, ran.failed, date)
+    ran = _make(units, store, given)
+    found = drifts(units, store, date)
+    later = since(units, store, found)
+    also = _make(later, store, given)
+    failed = ran.failed | also.failed
+    summary = collect([*units, *later], store, failed, date, found)
     counts = ", ".join(f"{count} {status}" for status, count in summary.by_status.items() if count)
     print(f"{summary.robots} robots: {counts}; {ran.made} of {len(units)} units made, {len(units) - len(wanted)} kept")
     print(f"{given.store / 'fleet.html'}")
     return summary.status
+
+
+def _make(units: Sequence[Unit], store: Store, given: argparse.Namespace) -> Ran:
+    """Makes what is missing of units, where that is asked for."""
+    if given.step != "run" or not missing(units, store):
+        return Ran()
+    if given.executor == "local":
+        return run_local(units, store, given.workers)
+    import ray  # noqa: PLC0415
+
+    ray.init(address=given.address, log_to_driver=False, logging_level="ERROR", ignore_reinit_error=True)
+    return run_ray(units, store)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from poseshift.fleet.work import crashed, work
 # what a worker is given at a time, seconds
 PORTION_S = 2.0
 # what a unit is thought to take where no run says, seconds
-GUESS_S = {"programs": 0.3, "diagnose": 0.3}
+GUESS_S = {"programs": 0.3, "diagnose": 0.3, "since": 0.5}
 # batches that wait for a worker
 IN_FLIGHT = 4
 # how often a unit may end its process, with nobody else in it, before it is to blame
