@@ -23,6 +23,7 @@ use poseshift::task::simulate::{measurements_csv, simulate_at};
 use poseshift::task::{self, Failure, ProfileFile, Rows, Said};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// Tables of measurements and what is said of their columns: files, columns, units, euler, driven
 /// in order, and whether the two files are joints and points to be joined.
@@ -134,11 +135,11 @@ pub(crate) fn calibrate<'py>(
     date: Option<String>,
 ) -> PyResult<(Document, String, Vec<String>, Array<'py>, Array<'py>)> {
     let options = options(selection(level, identify, fix, priors)?, loss, base)?;
-    let file = &*profile.file;
-    let rows = read(py, file, tables)?;
-    let found = long(py, |stop| {
-        let found = task::calibrate::calibrate(file, rows, &options, &mut || stop.here())?;
-        let text = found.profile_text(file, date.as_deref())?;
+    let file = Arc::clone(&profile.file);
+    let rows = read(py, &file, tables)?;
+    let found = long(py, move |stop| {
+        let found = task::calibrate::calibrate(&file, rows, &options, &mut || stop.here())?;
+        let text = found.profile_text(&file, date.as_deref())?;
         Ok((found, text))
     })?;
     let (found, text) = identified(py, found)?;
@@ -192,10 +193,10 @@ pub(crate) fn validate(
         all_sets,
         as_calibrated,
     };
-    let file = &*profile.file;
-    let rows = read(py, file, tables)?;
-    let found = long(py, |stop| {
-        task::validate::validate(file, rows, &options, &mut |_, _| stop.here())
+    let file = Arc::clone(&profile.file);
+    let rows = read(py, &file, tables)?;
+    let found = long(py, move |stop| {
+        task::validate::validate(&file, rows, &options, &mut |_, _| stop.here())
     })?;
     Ok(Document::new(identified(py, found)?))
 }
@@ -220,18 +221,18 @@ pub(crate) fn diagnose(
         quick,
         steps,
     };
-    let file = &*profile.file;
-    let rows = read(py, file, tables)?;
-    let found = long(py, |stop| {
+    let file = Arc::clone(&profile.file);
+    let rows = read(py, &file, tables)?;
+    let found = long(py, move |stop| {
         let hear = &mut |_: &str| stop.here();
         let found = if runs {
-            task::drift::diagnose_runs(file, rows, &options, hear)?
+            task::drift::diagnose_runs(&file, rows, &options, hear)?
         } else {
-            task::diagnose::diagnose(file, rows, &options, hear)?
+            task::diagnose::diagnose(&file, rows, &options, hear)?
         };
         let better = found
             .is_sure()
-            .then(|| found.profile_text(file))
+            .then(|| found.profile_text(&file))
             .transpose()?;
         Ok((found, better))
     })?;
@@ -323,14 +324,18 @@ pub(crate) fn plan<'py>(
         },
     };
     let selection = selection(level, identify, fix, false)?;
-    let wanted = program.map(|name| Wanted { name, language });
-    let file = &*profile.file;
-    let found = long(py, |stop| {
+    let [tool, program, language] = [tool, program, language].map(|text| text.map(str::to_owned));
+    let file = Arc::clone(&profile.file);
+    let found = long(py, move |stop| {
+        let wanted = program.as_deref().map(|name| Wanted {
+            name,
+            language: language.as_deref(),
+        });
         let read = |path: &std::path::Path| std::fs::read(path);
         let tell = &mut |_, _| stop.here();
         task::plan::plan(
-            file,
-            tool,
+            &file,
+            tool.as_deref(),
             &selection,
             &request,
             wanted.as_ref(),

@@ -180,9 +180,11 @@ pub(crate) fn icp<'py>(
         min_overlap,
         sigma_m,
     };
-    let (from, to) = (from.rows(), to.rows());
-    let normals = normals.as_ref().map(|normals| normals.rows());
-    let found = long(py, |_| surfaces::icp(from, to, normals, &options))?;
+    let (from, to) = (from.rows().to_vec(), to.rows().to_vec());
+    let normals = normals.map(|normals| normals.rows().to_vec());
+    let found = long(py, move |_| {
+        surfaces::icp(&from, &to, normals.as_deref(), &options)
+    })?;
     let found = found
         .map_err(|e| Kind::Register.raise(py, &Failure::with_hint(e.to_string(), e.hint())))?;
     let covariance = found.covariance.map(|c| {

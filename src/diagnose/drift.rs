@@ -3,7 +3,8 @@
 //! Logarithms of the errors are compared with those before them by a CUSUM chart that learns mean
 //! and spread as it goes: with `m` and `s` of the `n − 1` runs before, `T = √((n−1)/n)·(x − m)/s` is
 //! Student's with `n − 2` degrees of freedom where nothing has changed, and its normal score `u`
-//! independent of the others. `up = max(0, up + u − k)` and `down` likewise; one beyond `h` is a
+//! independent of the others. Behind a change the mean is learnt anew; the spread within the runs
+//! before stays known; from a run that is too rare nothing is learnt. `up = max(0, up + u − k)` and `down` likewise; one beyond `h` is a
 //! change. When it came is the most likely split of the runs: the one with the largest sum of
 //! squares between its halves.
 //!
@@ -16,11 +17,13 @@ use super::chances::normal_score;
 
 /// Half of the shift that is sought, in standard deviations from run to run: `k`.
 pub const ALLOWANCE: f64 = 0.5;
-/// The sum beyond which something has changed: `h`. In 365 runs without a change it comes to 0.3
-/// false alarms.
+/// The sum beyond which something has changed: `h`. In 365 runs without a change it comes to half a
+/// false alarm.
 pub const LIMIT: f64 = 6.0;
 /// Runs vary by this part of their error at least: less is no change that matters.
 const LEAST_SPREAD: f64 = 0.02;
+/// From a run that is as rare as this nothing is learnt: it may be the first after a change.
+const UNLIKELY: f64 = 4.0;
 /// Runs that a change can be seen in at all.
 pub const LEAST_RUNS: usize = 4;
 
@@ -45,10 +48,11 @@ pub fn changes_beyond(errors: &[f64], h: f64) -> Vec<Change> {
         .map(|e| e.max(f64::MIN_POSITIVE).ln())
         .collect();
     let mut found: Vec<Change> = Vec::new();
-    let mut start = 0;
-    while let Some(noticed) = alarm(&logs[start..], h).map(|n| start + n) {
+    let (mut start, mut known) = (0, Spread::default());
+    while let Some(noticed) = alarm(&logs[start..], known, h).map(|n| start + n) {
         let since = start + split(&logs[start..=noticed]);
         let before = mean(&logs[start..since]).exp();
+        known = known.and(&logs[start..since]);
         if let Some(last) = found.last_mut() {
             last.after = before;
         }
@@ -76,24 +80,47 @@ fn mean(x: &[f64]) -> f64 {
     x.iter().sum::<f64>() / x.len() as f64
 }
 
+/// How runs vary about the means of their parts.
+#[derive(Clone, Copy, Default)]
+struct Spread {
+    /// Sum of squares.
+    squares: f64,
+    /// Its degrees of freedom.
+    freedom: f64,
+}
+
+impl Spread {
+    fn and(self, x: &[f64]) -> Self {
+        let mean = mean(x);
+        Self {
+            squares: self.squares + x.iter().map(|x| (x - mean).powi(2)).sum::<f64>(),
+            freedom: self.freedom + x.len() as f64 - 1.0,
+        }
+    }
+}
+
 /// The run at which the chart leaves its limits.
-fn alarm(x: &[f64], h: f64) -> Option<usize> {
+fn alarm(x: &[f64], known: Spread, h: f64) -> Option<usize> {
     let (mut up, mut down) = (0.0_f64, 0.0_f64);
     // mean and sum of squares about it, brought up to date run by run
-    let (mut mean, mut squares) = (0.0, 0.0);
-    for (before, x) in x.iter().enumerate() {
-        let n = before as f64;
-        if before >= 2 {
-            let spread = (squares / (n - 1.0)).sqrt().max(LEAST_SPREAD);
-            let u = normal_score((n / (n + 1.0)).sqrt() * (x - mean) / spread, n - 1.0);
+    let (mut mean, mut squares, mut n) = (0.0, known.squares, 0.0);
+    for (at, x) in x.iter().enumerate() {
+        let freedom = known.freedom + n - 1.0;
+        if n >= 1.0 && freedom >= 1.0 {
+            let spread = (squares / freedom).sqrt().max(LEAST_SPREAD);
+            let u = normal_score((n / (n + 1.0)).sqrt() * (x - mean) / spread, freedom);
             up = (up + u - ALLOWANCE).max(0.0);
             down = (down - u - ALLOWANCE).max(0.0);
             if up.max(down) > h {
-                return Some(before);
+                return Some(at);
+            }
+            if u.abs() > UNLIKELY {
+                continue;
             }
         }
         let step = x - mean;
-        mean += step / (n + 1.0);
+        n += 1.0;
+        mean += step / n;
         squares += step * (x - mean);
     }
     None
@@ -149,7 +176,7 @@ mod tests {
             for _ in 0..count {
                 // a spread far above the least one
                 let x: Vec<f64> = (0..8000).map(|_| random.normal() + shift).collect();
-                sum += alarm(&x, h).expect("in 8000 runs") as f64 - 1.0;
+                sum += alarm(&x, Spread::default(), h).expect("in 8000 runs") as f64 - 1.0;
             }
             let found = sum / f64::from(count);
             assert!((found / runs - 1.0_f64).abs() < 0.08, "{h}: {found} {runs}");
@@ -166,11 +193,13 @@ mod tests {
             while count < 1500.0 {
                 let quiet = (0..400).map(|_| random.normal());
                 let mut x: Vec<f64> = quiet.collect();
-                if alarm(&x, h).is_some() {
+                if alarm(&x, Spread::default(), h).is_some() {
                     continue;
                 }
                 x.extend((0..300).map(|_| random.normal() + shift));
-                let Some(at) = alarm(&x, h) else { continue };
+                let Some(at) = alarm(&x, Spread::default(), h) else {
+                    continue;
+                };
                 sum += at as f64 - 399.0;
                 count += 1.0;
             }
@@ -241,10 +270,12 @@ mod tests {
         );
         // the same error to the last digit, and none at all
         assert!(changes(&[0.05; 300]).is_empty() && changes(&[0.0; 20]).is_empty());
-        let found = changes(&[
-            0.05, 0.051, 0.049, 0.05, 0.052, 0.5, 0.51, 0.05, 0.05, 0.049, 0.051,
-        ]);
-        assert_eq!(found.iter().map(|c| c.since).collect::<Vec<_>>(), [5, 7]);
+        // two bad runs, and all is well again
+        let mut errors = [0.05, 0.051, 0.049, 0.05, 0.052].repeat(3);
+        errors.extend([0.5, 0.51, 0.05, 0.05, 0.049, 0.051]);
+        let found = changes(&errors);
+        assert_eq!(found.iter().map(|c| c.since).collect::<Vec<_>>(), [15, 17]);
         assert!((found[0].after / found[1].before - 1.0).abs() < 1e-12 && found[0].after > 0.4);
+        assert!((found[1].after / 0.05 - 1.0).abs() < 0.02);
     }
 }

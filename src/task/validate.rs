@@ -137,10 +137,10 @@ pub struct AsCalibrated {
     pub answer: &'static str,
     /// Root mean square of the errors.
     pub rms_mm: f64,
-    /// What is expected of an arm as it was calibrated.
-    pub expected_mm: f64,
+    /// Their mean square over that which is expected of an arm as it was calibrated: one, about.
+    pub ratio: f64,
     /// Beyond this the answer is `measure again`.
-    pub limit_mm: f64,
+    pub limit: f64,
     /// Probability of such an error, or a larger one, of an arm as it was calibrated.
     pub p_value: f64,
     /// Probability that such an arm is measured again.
@@ -162,8 +162,8 @@ impl AsCalibrated {
                 "measure again"
             },
             rms_mm: mm_from_m(found.rms_m),
-            expected_mm: mm_from_m(found.expected_m),
-            limit_mm: mm_from_m(found.limit_m),
+            ratio: found.ratio,
+            limit: found.limit,
             p_value: found.p_value,
             significance: standing::SIGNIFICANCE,
             power: standing::POWER,
@@ -185,12 +185,12 @@ impl AsCalibrated {
         let joints = joints.filter_map(|(k, deg)| Some(format!("J{} {:.3}°", k + 1, (*deg)?)));
         [
             format!(
-                "{}: {:.3} mm rms, {:.3} expected, limit {:.3} ({:.0} % of arms as calibrated exceed it)",
+                "{}: {:.3} mm rms, {:.2} times the mean square expected; {:.0} % of arms as calibrated exceed {:.2}",
                 self.answer,
                 self.rms_mm,
-                self.expected_mm,
-                self.limit_mm,
-                100.0 * self.significance
+                self.ratio,
+                100.0 * self.significance,
+                self.limit
             ),
             format!(
                 "seen with {:.0} % probability: {:.3} mm rms at these poses, or one joint off by {}",

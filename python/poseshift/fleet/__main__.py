@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from poseshift.errors import PoseshiftError
+from poseshift.fleet import demo
 from poseshift.fleet.collect import collect
 from poseshift.fleet.config import keep_off, read
 from poseshift.fleet.drift import drifts, since
@@ -21,14 +22,19 @@ from poseshift.fleet.units import Unit, plan
 def main(words: Sequence[str] | None = None) -> int:
     """Runs the command; 0: every answer is yes, 1: some is no, 2: some robot has no answer."""
     parser = argparse.ArgumentParser(prog="poseshift-fleet", description="Compensates, checks and diagnoses many robots")
-    parser.add_argument("step", choices=("plan", "run", "collect"), help="list what is missing; make it and collect; collect alone")
-    parser.add_argument("fleet", type=Path, help="fleet.yaml")
-    parser.add_argument("--store", type=Path, required=True, help="folder of results, tables and pages")
+    steps = "list what is missing; make it and collect; collect alone; write a plant of simulated robots into a new folder"
+    parser.add_argument("step", choices=("plan", "run", "collect", "demo"), help=steps)
+    parser.add_argument("fleet", type=Path, help="fleet.yaml; of demo the new folder")
+    parser.add_argument("--store", type=Path, help="folder of results, tables and pages")
+    parser.add_argument("--robots", type=int, default=200, help="of demo (default: 200)")
+    parser.add_argument("--seed", type=int, default=1, help="of demo")
     parser.add_argument("--executor", choices=("local", "ray"), default="local")
     parser.add_argument("--address", help="of the Ray cluster; without it, one of this machine")
     parser.add_argument("--workers", type=int, help="processes of this machine (default: one a core)")
     parser.add_argument("--date", help="day of the history, YYYY-MM-DD (default: today)")
     given = parser.parse_args(words)
+    if given.store is None and given.step != "demo":
+        parser.error("--store is missing")
     try:
         return _run(given)
     except (PoseshiftError, OSError) as error:
@@ -37,6 +43,10 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def _run(given: argparse.Namespace) -> int:
+    if given.step == "demo":
+        demo.write(given.fleet, given.robots, given.seed)
+        print(f"{given.robots} robots: {given.fleet / 'fleet.yaml'}")
+        return 0
     store = Store(given.store)
     date = given.date or datetime.date.today().isoformat()
     datetime.date.fromisoformat(date)
