@@ -324,11 +324,14 @@ class Axes(Result):
         return self._table("joints")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Program:
     """What programs say; `document` has the names and units of the command's JSON."""
 
-    document: dict[str, Any] = field(repr=False)
+    document: dict[str, Any]
+
+    def __repr__(self) -> str:
+        return f"<Program {self.language}: {self.targets.rows} targets, {self.moves.rows} moves>"
 
     @property
     def language(self) -> str:

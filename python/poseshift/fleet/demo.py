@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,9 @@ PROGRAMS = 4
 TARGETS = 20
 ROWS = 60
 NOISE_M = 2e-5
+# bows that are drawn, and how far joints turn along one
+TRIES = 200
+FAR_RAD = 0.6
 # every so many arms has a gear that its profile does not know
 HIDDEN_EVERY = 20
 
@@ -64,7 +68,7 @@ def _robot(folder: Path, nominal: ps.Profile, postures: np.ndarray, rng: np.rand
         (folder / name).mkdir(parents=True)
     (folder / "profile.yaml").write_text(text, encoding="utf-8")
     for program in range(PROGRAMS):
-        data = _module(f"M{program}", profile, postures[rng.integers(len(postures))], rng)
+        data = _module(f"M{program}", profile, postures, rng)
         (folder / "programs" / f"M{program}.mod").write_text(data, encoding="utf-8")
     q = postures[rng.choice(len(postures), ROWS, replace=False)]
     measured = ps.simulate(real, q, noise_m=NOISE_M, seed=int(rng.integers(2**31)))
@@ -78,16 +82,31 @@ def _with(text: str, effects: list[str]) -> str:
     return head + "  effects:\n" + "\n".join(f"    - {effect}" for effect in effects) + tail
 
 
-def _module(name: str, profile: ps.Profile, q: np.ndarray, rng: np.random.Generator) -> str:
-    """A RAPID module: joints, then straight lines along a bow about the pose there."""
-    start = profile.arm(model="controller").forward(q)
+def _bow(arms: Sequence[ps.Arm], postures: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """A posture and poses along a bow from there, which every arm reaches without turning far."""
+    angles = np.linspace(0, np.pi, TARGETS)
+    bow = 0.03 * np.stack([np.cos(angles) - 1, np.sin(angles), 0.1 * rng.normal(size=TARGETS)], axis=1)
+    bow[0] = 0
+    for _ in range(TRIES):
+        q: np.ndarray = postures[rng.integers(len(postures))]
+        poses = np.repeat(arms[0].forward(q)[None], TARGETS, axis=0)
+        poses[:, :3, 3] += bow
+        found = [arm.solve(poses, near_rad=np.repeat(q[None], TARGETS, axis=0)) for arm in arms]
+        if all(one.converged.all() and np.abs(one.q_rad - q).max() < FAR_RAD for one in found):
+            return q, poses
+    raise FleetError("no bow of a simulated program is within reach")
+
+
+def _module(name: str, profile: ps.Profile, postures: np.ndarray, rng: np.random.Generator) -> str:
+    """A RAPID module: joints, then straight lines along a bow."""
+    q, poses = _bow([profile.arm(model=model) for model in ("controller", "real")], postures, rng)
+    start = poses[0]
     turn = start[:3, :3]
     w = 0.5 * np.sqrt(max(0.0, 1 + turn.trace()))
     quaternion = np.array([w, *_axial(turn, w)])
     free = "[9E9,9E9,9E9,9E9,9E9,9E9]"
     lines = []
-    for k, angle in enumerate(np.linspace(0, np.pi, TARGETS)):
-        place = 1000 * start[:3, 3] + 30 * np.array([np.cos(angle) - 1, np.sin(angle), 0.1 * rng.normal()]) * min(k, 1)
+    for place in 1000 * poses[:, :3, 3]:
         xyz, wxyz = ",".join(f"{x:.3f}" for x in place), ",".join(f"{x:.8f}" for x in quaternion / np.linalg.norm(quaternion))
         lines.append(f"    MoveL [[{xyz}],[{wxyz}],[0,0,0,0],{free}],v100,z1,tool0;")
     joints = ",".join(f"{x:.4f}" for x in np.rad2deg(q))
