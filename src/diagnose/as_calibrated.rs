@@ -124,7 +124,7 @@ impl Expected {
         let (problem, estimate) = (&found.problem, &found.estimate);
         let by = |subject| {
             slope(problem, estimate, |_, e, step| {
-                *e.value_mut(subject) += step
+                *e.value_mut(subject) += step;
             })
         };
         let known: Vec<(usize, Subject, f64)> = (left.names.iter().enumerate())

@@ -293,9 +293,10 @@ pub fn validate(
         .collect();
     reported.extend(read);
     reported.extend(findings(&found.remarks, &name));
-    let standing = match options.as_calibrated {
-        true => Some(standing_of(file, &found)?),
-        false => None,
+    let standing = if options.as_calibrated {
+        Some(standing_of(file, &found)?)
+    } else {
+        None
     };
     if let Some(standing) = standing.as_ref().filter(|standing| !standing.is_so()) {
         let [message, _] = standing.sentences();
