@@ -11,6 +11,7 @@
     clippy::unnecessary_wraps,
     clippy::too_many_arguments,
     clippy::type_complexity,
+    clippy::fn_params_excessive_bools,
     reason = "what the interpreter calls has these forms"
 )]
 

@@ -212,11 +212,11 @@ fn source((name, bytes): &File) -> Source {
 /// the tool.
 #[pyfunction]
 #[pyo3(signature = (lengths, *, sigma_m=1e-6))]
-pub(crate) fn hexapod<'py>(
-    py: Python<'py>,
+pub(crate) fn hexapod(
+    py: Python<'_>,
     lengths: File,
     sigma_m: f64,
-) -> PyResult<(Document, Array<'py>, Array<'py>)> {
+) -> PyResult<(Document, Array<'_>, Array<'_>)> {
     if !(sigma_m > 0.0 && sigma_m.is_finite()) {
         let message = format!("sigma_m is {sigma_m}; it must be above 0");
         return Err(PyValueError::new_err(message));
